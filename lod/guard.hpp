@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "lod/grouping.hpp"
+#include "model/chain.hpp"
+#include "model/mass_spring.hpp"
+
+namespace springlod {
+
+struct GuardOptions {
+  /// Joined groups nearer than this part of the mean spring length are fused (coincident centroids
+  /// would give k = infinity). Spec 3.
+  double coincident_fraction = 0.25;
+  /// A node with fewer springs is floppy and is fused with its nearest neighbour.
+  std::uint32_t least_springs = 4;
+  /// A node is floppy too if lambda_min / lambda_max of sum k u u^T is below this: its springs lie
+  /// nearly in one plane.
+  double least_rigidity = 1e-3;
+  BorderRule border = BorderRule::none;  ///< strong: only inner nodes are fused
+};
+
+struct GuardedGroups {
+  Groups groups;
+  std::uint32_t fused_coincident = 0;  ///< fusions of near centroids
+  std::uint32_t fused_floppy = 0;      ///< fusions of floppy nodes
+};
+
+/// Fuses groups until the merged model has neither coincident centroids nor floppy nodes (a node
+/// that was as floppy before merging counts too; a part with fewer than 4 nodes is left alone).
+GuardedGroups guard_groups(const MassSpringModel& fine, Groups groups, const GuardOptions& options);
+
+}  // namespace springlod

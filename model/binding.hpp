@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+#include "model/vec.hpp"
+
+namespace springlod {
+
+/// A linear map from node positions (or velocities) to points: point p = sum over its entries of
+/// weight * node. Weights of a point add up to 1 and reproduce the point's rest position, so rigid
+/// and affine motions are carried exactly. Compressed rows, P points.
+struct Binding {
+  std::vector<std::uint32_t> start;  ///< P + 1
+  std::vector<std::uint32_t> node;
+  std::vector<double> weight;
+  std::uint32_t point_count() const {
+    return start.empty() ? 0 : static_cast<std::uint32_t>(start.size() - 1);
+  }
+};
+
+struct BindOptions {
+  /// Nodes per point at most: 8 as in a cell of the lattice; 4 is the least for linear precision.
+  std::uint32_t nodes_per_point = 8;
+};
+
+/// Binds points to the nearest node and the nearest of that node's neighbours up to two springs
+/// away, so that a point never hangs on a limb that is near but not joined. Moving least squares
+/// of first order (Lancaster & Salkauskas 1981); where the nodes lie in a plane or a line the
+/// directions that they do not span are carried by the nearest node alone.
+Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& model,
+                    const BindOptions& options = {});
+
+/// Moving-least-squares weights of one point over the candidate nodes `nodes` of `model`, appended
+/// as a new row. The nearest candidate comes first. The building block of `bind_points` and of the
+/// transfer between levels.
+void append_bound_point(Binding& binding, const Vec3& point, const MassSpringModel& model,
+                        const std::vector<std::uint32_t>& nodes);
+
+/// The map `outer` after `inner`: outer binds to points that inner binds to nodes.
+Binding compose(const Binding& outer, const Binding& inner);
+
+/// Positions (or velocities) of the points.
+std::vector<Vec3> apply(const Binding& binding, const std::vector<Vec3>& nodes);
+
+}  // namespace springlod

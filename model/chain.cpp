@@ -1,0 +1,72 @@
+#include "model/chain.hpp"
+
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
+namespace springlod {
+
+Groups identity_groups(std::uint32_t node_count) {
+  Groups groups{std::vector<std::uint32_t>(node_count), node_count};
+  std::iota(groups.of.begin(), groups.of.end(), 0U);
+  return groups;
+}
+
+Groups compose(const Groups& finer, const Groups& coarser) {
+  if (coarser.of.size() != finer.count)
+    throw InputError(
+        fmt::format("groups: the finer map has {} groups, the coarser one starts from {}",
+                    finer.count, coarser.of.size()));
+  Groups composed{std::vector<std::uint32_t>(finer.of.size()), coarser.count};
+  for (std::size_t i = 0; i < finer.of.size(); ++i) composed.of[i] = coarser.of[finer.of[i]];
+  return composed;
+}
+
+void validate(const Groups& groups) {
+  std::vector<bool> seen(groups.count, false);
+  for (std::size_t i = 0; i < groups.of.size(); ++i) {
+    if (groups.of[i] >= groups.count)
+      throw InputError(fmt::format("groups: node {} is in group {}, but there are only {}", i,
+                                   groups.of[i], groups.count));
+    seen[groups.of[i]] = true;
+  }
+  for (std::uint32_t g = 0; g < groups.count; ++g)
+    if (!seen[g]) throw InputError(fmt::format("groups: group {} is empty", g));
+}
+
+void Provenance::set(const std::string& key, const std::string& value) {
+  for (auto& [k, v] : entries)
+    if (k == key) {
+      v = value;
+      return;
+    }
+  entries.emplace_back(key, value);
+}
+
+void validate(const LodAsset& asset) {
+  if (asset.chain.levels.empty()) throw InputError("asset: the chain has no levels");
+  const std::uint32_t base = asset.chain.levels[0].model.node_count();
+  for (std::size_t n = 0; n < asset.chain.levels.size(); ++n) {
+    const Level& level = asset.chain.levels[n];
+    try {
+      validate(level.model);
+      validate(level.of_base);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("level {}: {}", n, e.what()));
+    }
+    if (level.of_base.of.size() != base || level.of_base.count != level.model.node_count())
+      throw InputError(fmt::format("level {}: its map must go from {} base nodes to its {} nodes",
+                                   n, base, level.model.node_count()));
+  }
+  validate(asset.surface);
+  const std::uint32_t bound = asset.surface_of_base.point_count();
+  if (bound != asset.surface.positions.size())
+    throw InputError(fmt::format("asset: the surface has {} vertices, of which {} are bound",
+                                 asset.surface.positions.size(), bound));
+  for (const std::uint32_t node : asset.surface_of_base.node)
+    if (node >= base) throw InputError("asset: the surface is bound to a node that is not there");
+}
+
+}  // namespace springlod

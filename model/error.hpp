@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace springlod {
+
+/// Base of every error that springlod throws on purpose. The message says what is wrong, where,
+/// and what to do next.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A value, option or model that the caller handed over is wrong.
+class InputError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A file cannot be read, understood or written.
+class IoError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A simulation left the numbers: names the first node that did and when.
+class UnstableError : public Error {
+ public:
+  UnstableError(const std::string& message, std::uint32_t node, double time)
+      : Error(message), node_(node), time_(time) {}
+  std::uint32_t node() const { return node_; }
+  /// Simulated time [s].
+  double time() const { return time_; }
+
+ private:
+  std::uint32_t node_;
+  double time_;
+};
+
+/// The user asked to stop (Ctrl-C).
+class InterruptedError : public Error {
+ public:
+  InterruptedError() : Error("interrupted") {}
+};
+
+}  // namespace springlod

@@ -1,0 +1,147 @@
+#include "model/mass_spring.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
+namespace springlod {
+namespace {
+
+void require_sizes(const MassSpringModel& m) {
+  const std::size_t n = m.rest.size();
+  if (m.mass.size() != n || m.volume.size() != n || m.contact_area.size() != n ||
+      m.border.size() != n || m.material.size() != n)
+    throw InputError(fmt::format("model: every node array must have {} entries", n));
+  const std::size_t s = m.a.size();
+  if (m.b.size() != s || m.rest_length.size() != s || m.stiffness.size() != s ||
+      m.damping.size() != s)
+    throw InputError(fmt::format("model: every spring array must have {} entries", s));
+}
+
+void validate_nodes(const MassSpringModel& m) {
+  for (std::uint32_t i = 0; i < m.node_count(); ++i) {
+    const auto fail = [&](const char* rule) {
+      throw InputError(fmt::format("model: node {}: {}", i, rule));
+    };
+    if (!m.rest[i].allFinite()) fail("its position is not finite");
+    if (!(m.mass[i] > 0) || !std::isfinite(m.mass[i])) fail("its mass must be above 0");
+    if (!(m.volume[i] > 0) || !std::isfinite(m.volume[i])) fail("its volume must be above 0");
+    if (!(m.contact_area[i] >= 0) || !std::isfinite(m.contact_area[i]))
+      fail("its contact area must be 0 or more");
+    if (m.material[i] >= m.materials.size()) fail("its material number is out of range");
+  }
+}
+
+void validate_springs(const MassSpringModel& m) {
+  for (std::uint32_t s = 0; s < m.spring_count(); ++s) {
+    const auto fail = [&](const char* rule) {
+      throw InputError(fmt::format("model: spring {} ({} - {}): {}", s, m.a[s], m.b[s], rule));
+    };
+    if (m.b[s] >= m.node_count()) fail("it names a node that is not there");
+    if (m.a[s] >= m.b[s]) fail("its nodes must be two different ones, the lower first");
+    if (s > 0 && (m.a[s - 1] > m.a[s] || (m.a[s - 1] == m.a[s] && m.b[s - 1] >= m.b[s])))
+      fail("springs must be sorted by their nodes, no pair twice");
+    if (!(m.rest_length[s] > 0) || !std::isfinite(m.rest_length[s]))
+      fail("its rest length must be above 0");
+    if (!(m.stiffness[s] > 0) || !std::isfinite(m.stiffness[s]))
+      fail("its stiffness must be above 0");
+    if (!(m.damping[s] >= 0) || !std::isfinite(m.damping[s])) fail("its damping must be 0 or more");
+  }
+}
+
+}  // namespace
+
+void validate(const MassSpringModel& model) {
+  if (model.rest.empty()) throw InputError("model: it has no nodes");
+  if (model.materials.empty()) throw InputError("model: it has no materials; give at least one");
+  for (const Material& material : model.materials) validate(material);
+  require_sizes(model);
+  validate_nodes(model);
+  validate_springs(model);
+}
+
+State rest_state(const MassSpringModel& model) {
+  return {model.rest, std::vector<Vec3>(model.rest.size(), Vec3::Zero()), 0};
+}
+
+Adjacency adjacency(const MassSpringModel& model) {
+  Adjacency adj;
+  adj.start.assign(model.node_count() + 1, 0);
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    ++adj.start[model.a[s] + 1];
+    ++adj.start[model.b[s] + 1];
+  }
+  std::partial_sum(adj.start.begin(), adj.start.end(), adj.start.begin());
+  adj.neighbour.resize(model.end_count());
+  adj.spring.resize(model.end_count());
+  std::vector<std::uint32_t> next(adj.start.begin(), adj.start.end() - 1);
+  const auto put = [&](std::uint32_t node, std::uint32_t other, std::uint32_t spring) {
+    adj.neighbour[next[node]] = other;
+    adj.spring[next[node]++] = spring;
+  };
+  // Springs are sorted by (a, b): first all lower neighbours of a node, then all higher ones, each
+  // in rising order.
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) put(model.b[s], model.a[s], s);
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) put(model.a[s], model.b[s], s);
+  return adj;
+}
+
+MassProperties mass_properties(const MassSpringModel& model) {
+  MassProperties p;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    p.mass += model.mass[i];
+    p.volume += model.volume[i];
+    p.center += model.mass[i] * model.rest[i];
+  }
+  p.center /= p.mass;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    const Vec3 r = model.rest[i] - p.center;
+    p.inertia += model.mass[i] * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  }
+  return p;
+}
+
+std::uint32_t border_count(const MassSpringModel& model) {
+  return std::accumulate(model.border.begin(), model.border.end(), std::uint32_t{0});
+}
+
+Components connected_components(const MassSpringModel& model) {
+  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+  const Adjacency adj = adjacency(model);
+  Components components{std::vector<std::uint32_t>(model.node_count(), kNone), 0};
+  std::vector<std::uint32_t> stack;
+  for (std::uint32_t seed = 0; seed < model.node_count(); ++seed) {
+    if (components.of_node[seed] != kNone) continue;
+    components.of_node[seed] = components.count;
+    stack.push_back(seed);
+    while (!stack.empty()) {
+      const std::uint32_t i = stack.back();
+      stack.pop_back();
+      for (std::uint32_t e = adj.start[i]; e < adj.start[i + 1]; ++e) {
+        const std::uint32_t j = adj.neighbour[e];
+        if (components.of_node[j] != kNone) continue;
+        components.of_node[j] = components.count;
+        stack.push_back(j);
+      }
+    }
+    ++components.count;
+  }
+  return components;
+}
+
+double spring_work(const MassSpringModel& model) {
+  double work = 0;
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+    work += model.stiffness[s] * model.rest_length[s] * model.rest_length[s];
+  return work;
+}
+
+double estimated_young(const MassSpringModel& model) {
+  return spring_work(model) / (6 * mass_properties(model).volume);
+}
+
+}  // namespace springlod

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "model/material.hpp"
+#include "model/vec.hpp"
+
+namespace springlod {
+
+/// A mass-spring model: N nodes and S springs, struct of arrays. Treat it as immutable once
+/// `validate` has passed; what moves is a State.
+///
+/// The paper counts each spring at both ends: its S is 2 * spring_count() here ("ends").
+struct MassSpringModel {
+  // Nodes, N each.
+  std::vector<Vec3> rest;               ///< rest position [m]
+  std::vector<double> mass;             ///< [kg] > 0
+  std::vector<double> volume;           ///< [m3] > 0; what eq. 2 of the paper sums up
+  std::vector<double> contact_area;     ///< [m2] >= 0; outer surface the node stands for
+  std::vector<std::uint8_t> border;     ///< 1 if the node lies on the surface
+  std::vector<std::uint32_t> material;  ///< index into materials; the one with most of the volume
+
+  // Springs, S each, sorted by (a, b), a < b, no pair twice.
+  std::vector<std::uint32_t> a, b;
+  std::vector<double> rest_length;  ///< L [m] > 0; |rest[b] - rest[a]| in every model built here
+  std::vector<double> stiffness;    ///< k [N/m] > 0
+  std::vector<double> damping;      ///< c [N s/m] >= 0
+
+  std::vector<Material> materials;  ///< at least one
+
+  std::uint32_t node_count() const { return static_cast<std::uint32_t>(rest.size()); }
+  std::uint32_t spring_count() const { return static_cast<std::uint32_t>(a.size()); }
+  std::uint32_t end_count() const { return 2 * spring_count(); }
+};
+
+/// Throws InputError naming the first node or spring that breaks a rule stated above.
+void validate(const MassSpringModel& model);
+
+/// Positions [m] and velocities [m/s] of the N nodes at time t [s].
+struct State {
+  std::vector<Vec3> x;
+  std::vector<Vec3> v;
+  double t = 0;
+};
+
+/// At rest in the rest positions, t = 0.
+State rest_state(const MassSpringModel& model);
+
+/// Springs by node, compressed rows: entries start[i] .. start[i+1]-1 belong to node i, in rising
+/// order of neighbour.
+struct Adjacency {
+  std::vector<std::uint32_t> start;      ///< N + 1
+  std::vector<std::uint32_t> neighbour;  ///< 2 S
+  std::vector<std::uint32_t> spring;     ///< 2 S
+};
+Adjacency adjacency(const MassSpringModel& model);
+
+/// Sums and moments of the rest state.
+struct MassProperties {
+  double mass = 0;              ///< [kg]
+  double volume = 0;            ///< [m3]
+  Vec3 center = Vec3::Zero();   ///< centre of mass [m]
+  Mat3 inertia = Mat3::Zero();  ///< of point masses about the centre of mass [kg m2]
+};
+MassProperties mass_properties(const MassSpringModel& model);
+
+std::uint32_t border_count(const MassSpringModel& model);
+
+/// Connected parts: the number of the part of each node, numbered by their lowest node.
+struct Components {
+  std::vector<std::uint32_t> of_node;  ///< N
+  std::uint32_t count = 0;
+};
+Components connected_components(const MassSpringModel& model);
+
+/// sum of k L^2 over the springs [N m]: W of the paper's eq. 2.
+double spring_work(const MassSpringModel& model);
+/// Young's modulus by the paper's eq. 2, W / (6 V) [Pa]; an affine upper bound.
+double estimated_young(const MassSpringModel& model);
+
+}  // namespace springlod

@@ -1,0 +1,58 @@
+#include "model/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
+namespace springlod {
+
+Box3 bounds(const TriangleMesh& mesh) {
+  Box3 box;
+  for (const Vec3& p : mesh.positions) box.extend(p);
+  return box;
+}
+
+double signed_volume(const TriangleMesh& mesh, const MeshPart& part) {
+  if (part.triangle_count == 0) return 0;
+  // Taken about a vertex of the part: far from the origin the terms would cancel.
+  const Vec3 o = mesh.positions[mesh.triangles[part.first_triangle][0]];
+  double six_volumes = 0;
+  for (std::uint32_t t = 0; t < part.triangle_count; ++t) {
+    const Triangle& tri = mesh.triangles[part.first_triangle + t];
+    six_volumes += (mesh.positions[tri[0]] - o)
+                       .dot((mesh.positions[tri[1]] - o).cross(mesh.positions[tri[2]] - o));
+  }
+  return six_volumes / 6;
+}
+
+double surface_area(const TriangleMesh& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles)
+    area += 0.5 * (mesh.positions[t[1]] - mesh.positions[t[0]])
+                      .cross(mesh.positions[t[2]] - mesh.positions[t[0]])
+                      .norm();
+  return area;
+}
+
+void validate(const TriangleMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    if (!mesh.positions[i].allFinite())
+      throw InputError(fmt::format("mesh: vertex {} is not finite; repair the mesh", i));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t v : mesh.triangles[t])
+      if (v >= mesh.positions.size())
+        throw InputError(fmt::format("mesh: triangle {} names vertex {}, but there are only {}", t,
+                                     v, mesh.positions.size()));
+  std::size_t next = 0;
+  for (const MeshPart& part : mesh.parts) {
+    if (part.first_triangle != next)
+      throw InputError(fmt::format("mesh: part \"{}\" starts at triangle {}, not at {}", part.name,
+                                   part.first_triangle, next));
+    next += part.triangle_count;
+  }
+  if (next != mesh.triangles.size())
+    throw InputError(
+        fmt::format("mesh: the parts cover {} of {} triangles", next, mesh.triangles.size()));
+}
+
+}  // namespace springlod

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/vec.hpp"
+
+namespace springlod {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// A run of triangles that came from one named object of the file.
+struct MeshPart {
+  std::string name;      ///< object name in the file; "part_3" if it had none
+  std::string material;  ///< material name in the file; may be empty
+  std::uint32_t first_triangle = 0;
+  std::uint32_t triangle_count = 0;
+};
+
+/// Triangles in metres, z up, counter-clockwise seen from outside. Parts cover all triangles, in
+/// order, without overlap.
+struct TriangleMesh {
+  std::vector<Vec3> positions;      ///< [m]
+  std::vector<Triangle> triangles;  ///< indices into positions
+  std::vector<MeshPart> parts;
+};
+
+Box3 bounds(const TriangleMesh& mesh);
+/// Volume enclosed by one part by the divergence theorem [m3]; negative if it is inside out.
+double signed_volume(const TriangleMesh& mesh, const MeshPart& part);
+double surface_area(const TriangleMesh& mesh);
+
+/// Throws InputError on an index out of range, a coordinate that is not finite, or parts that do
+/// not cover the triangles.
+void validate(const TriangleMesh& mesh);
+
+}  // namespace springlod

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+
+namespace springlod {
+
+/// Largest angular frequency of the model about rest [rad/s], from above by about 1 part in 1e4.
+struct FrequencyOptions {
+  /// Extra stiffness to ground of each node (contact) [N/m]; empty or N.
+  std::vector<double> ground_stiffness;
+  std::uint64_t seed = 1;  ///< of the start vector
+};
+/// Lanczos iteration (Spectra) on M^-1/2 K M^-1/2 without assembling it.
+double largest_frequency(const MassSpringModel& model, const FrequencyOptions& options = {});
+
+/// Bound without iterating: omega^2 <= 2 max_i lambda_max(A_i) / m_i, A_i = sum_j k_ij u u^T
+/// [rad/s].
+double frequency_bound(const MassSpringModel& model);
+
+/// Largest damping time c/k of the springs [s].
+double largest_damping_time(const MassSpringModel& model);
+
+/// Largest stable step of explicit symplectic Euler with damping evaluated at the old velocity:
+/// dt = -beta + sqrt(beta^2 + 4 / omega_max^2) [s]; exact for one beta = c/k, safe for the largest.
+double stable_step(double omega_max, double damping_time);
+double stable_step(const MassSpringModel& model);
+
+}  // namespace springlod

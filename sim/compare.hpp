@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/chain.hpp"
+#include "model/progress.hpp"
+#include "sim/run.hpp"
+#include "sim/scenario.hpp"
+
+namespace springlod {
+
+struct CompareOptions {
+  std::uint32_t starts = 1;  ///< paired starts: the same jitter for every level
+  double jitter = 0.02;  ///< relative, uniform, on speed and start height; the first start has none
+  std::uint64_t seed = 1;
+  std::uint32_t threads =
+      0;  ///< runs are spread over threads; 0: all cores. Never changes the result
+  RunOptions run;
+  /// Errors are averaged from t = 0 to this long after the base's first contact [s].
+  double error_window = 0.25;
+  Progress* progress = nullptr;
+};
+
+/// What one level did in one start.
+struct StartResult {
+  double distance = 0;  ///< Scenario::measure_from at the end [m]
+  double surface_error =
+      0;                   ///< RMS distance of the level-0 nodes from the base's in the window [m]
+  double shape_error = 0;  ///< the same after the best rigid fit, over the whole run [m]
+  double simulated = 0;    ///< [s]
+  std::uint64_t spring_updates = 0;
+  double wall_seconds = 0;  ///< measured; kept out of results
+  double ledger_error = 0;  ///< largest |total - initial| over the largest kinetic energy
+};
+
+struct LevelRuns {
+  std::string label;  ///< "base", "LOD-hb-1"
+  std::uint32_t level = 0;
+  std::vector<StartResult> starts;
+  /// Of the first start, brought back to level 0 (N0 positions a frame).
+  Trajectory first;
+  std::vector<Frame> base_frames;
+};
+
+struct Comparison {
+  Scenario scenario;
+  std::vector<LevelRuns> levels;
+};
+
+/// Runs every level of the chain from the same starts.
+Comparison compare(const LodChain& chain, const Scenario& scenario,
+                   const CompareOptions& options = {});
+
+}  // namespace springlod

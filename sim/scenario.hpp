@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+#include "model/vec.hpp"
+
+namespace springlod {
+
+/// Half-space obstacle: material is where normal . x < offset.
+struct Plane {
+  Vec3 normal = Vec3::UnitZ();  ///< unit length, out of the obstacle
+  double offset = 0;            ///< [m]
+};
+/// Solid box, may be turned.
+struct SolidBox {
+  Vec3 center = Vec3::Zero();        ///< [m]
+  Vec3 half_size = Vec3::Ones();     ///< [m] > 0
+  Mat3 rotation = Mat3::Identity();  ///< box axes as columns
+};
+
+/// A fixed thing that nodes bump into: a penalty force kappa A d on a node of contact area A at
+/// depth d, Coulomb friction capped so that a step never reverses the slip.
+struct Obstacle {
+  std::variant<Plane, SolidBox> shape;
+  std::string name;        ///< "floor", "wall": for labels and measurements
+  double stiffness = 1e6;  ///< kappa [N/m3] > 0
+  double friction = 0.5;   ///< mu >= 0
+  double damping =
+      0;  ///< contact damping time [s] >= 0: force kappa A (d + damping * rate of d), never pulling
+};
+
+/// How a body is placed and thrown: turned about its centre of mass, then moved.
+struct Throw {
+  Mat3 rotation = Mat3::Identity();
+  Vec3 position = Vec3::Zero();  ///< where the centre of mass goes [m], if `placed`
+  bool placed = false;           ///< false: stays where the model has it
+  Vec3 velocity = Vec3::Zero();  ///< [m/s]
+  Vec3 spin = Vec3::Zero();      ///< angular velocity [rad/s]
+};
+
+/// When a run ends before its duration: the speed of the centre of mass stays below `speed` for
+/// `hold` seconds.
+struct StopRule {
+  double speed = 0.1;  ///< [m/s]
+  double hold = 0.25;  ///< [s]
+};
+
+struct Scenario {
+  std::string name = "scenario";
+  Vec3 gravity{0, 0, -9.81};  ///< [m/s2]
+  std::vector<Obstacle> obstacles;
+  Throw start;
+  double duration = 1;  ///< [s] > 0
+  std::optional<StopRule> stop;
+  /// Distance measured at the end: from this obstacle's surface to the centre of mass; empty: the
+  /// way of the centre of mass in the horizontal plane from the start.
+  std::string measure_from;
+};
+
+/// Throws InputError naming the field.
+void validate(const Scenario& scenario);
+
+State initial_state(const MassSpringModel& model, const Throw& start);
+
+/// Signed distance of a point from the obstacle's surface (negative inside) and the outward normal.
+struct SurfacePoint {
+  double distance = 0;
+  Vec3 normal = Vec3::UnitZ();
+};
+SurfacePoint surface_point(const Obstacle& obstacle, const Vec3& point);
+
+}  // namespace springlod

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "model/mesh.hpp"
+
+namespace springlod {
+
+enum class UpAxis { x, y, z };
+
+struct ImportOptions {
+  std::optional<double> unit;  ///< metres in one unit of the file; left out: the file's, or metres
+  std::optional<UpAxis> up;    ///< left out: the file's, or the format's custom
+};
+
+/// What was read and what had to be assumed.
+struct ImportReport {
+  std::string format;         ///< "OBJ", "glTF", ...
+  double unit = 1;            ///< metres in one unit of the file
+  bool unit_assumed = false;  ///< neither given nor stated by the file
+  UpAxis up = UpAxis::z;
+  bool up_assumed = false;
+  std::string content_hash;  ///< of the file
+};
+
+struct ImportedMesh {
+  TriangleMesh mesh;  ///< metres, z up, node transforms applied
+  ImportReport report;
+};
+
+/// Reads OBJ, STL, PLY, GLB/glTF, FBX, OFF and Collada through assimp. Vertices are welded by
+/// position. Throws IoError (missing, unreadable, empty, not a mesh format: the message lists the
+/// formats) and InputError (NaN or infinite vertices, no triangles).
+ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
+
+/// "assumed 1 unit = 1 m (OBJ does not say; use unit = \"mm\" to change it)", ... one line each.
+std::string describe(const ImportReport& report);
+
+}  // namespace springlod
