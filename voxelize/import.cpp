@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
-#include <regex>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -75,11 +74,20 @@ std::optional<double> collada_unit(const std::string& text) {
   const std::size_t start = text.find("<unit");
   if (start == std::string::npos) return std::nullopt;
   const std::string element = text.substr(start, std::min(text.find('>', start) - start, kLongTag));
-  static const std::regex kMeter(R"(\smeter\s*=\s*["']([^"']*)["'])");
-  std::smatch match;
-  if (!std::regex_search(element, match, kMeter)) return std::nullopt;
-  const double unit = std::strtod(match[1].str().c_str(), nullptr);
-  return std::isfinite(unit) && unit > 0 ? std::optional(unit) : std::nullopt;
+  constexpr std::string_view kSpace = " \t\r\n";
+  constexpr std::string_view kAttribute = "meter";
+  // The name may well be "meter" too: the attribute is the one with an equals sign after it.
+  for (std::size_t at = element.find(kAttribute); at != std::string::npos;
+       at = element.find(kAttribute, at + 1)) {
+    const std::size_t equals = element.find_first_not_of(kSpace, at + kAttribute.size());
+    if (equals == std::string::npos || element[equals] != '=') continue;
+    const std::size_t digits = element.find_first_not_of(" \t\r\n\"'", equals + 1);
+    if (digits == std::string::npos) return std::nullopt;
+    const double unit = std::strtod(element.c_str() + digits, nullptr);
+    if (std::isfinite(unit) && unit > 0) return unit;
+    return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 // assimp multiplies by the unit but does not tell it; a missing unit is a metre, a missing up axis

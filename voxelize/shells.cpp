@@ -58,6 +58,7 @@ std::vector<Shell> split(const TriangleMesh& mesh, const SolidReport& solid,
         6;
   });
   std::vector<Shell> list;
+  list.reserve(shells.size());
   for (auto& [root, shell] : shells) list.push_back(std::move(shell));
   return list;
 }

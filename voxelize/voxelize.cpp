@@ -64,6 +64,7 @@ std::vector<std::size_t> claim_order(const TriangleMesh& mesh,
         }
     if (found) continue;
     std::vector<std::string> names;
+    names.reserve(solids.size());
     for (const SolidReport& solid : solids) names.push_back(solid.part);
     throw InputError(
         fmt::format("voxelize: priority names \"{}\", but the parts are {}", name, quoted(names)));
@@ -197,6 +198,7 @@ class Voxelizer {
         labels.push_back(p);
       }
     std::vector<std::uint32_t> numbers;
+    numbers.reserve(cells.size());
     for (const std::uint32_t c : cells) numbers.push_back(numbers_[c]);
     const std::vector<SurfacePoint> nearest =
         nearest_surface(frame_, numbers, mesh_.positions, triangles, labels);
