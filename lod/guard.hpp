@@ -26,8 +26,10 @@ struct GuardedGroups {
   std::uint32_t fused_floppy = 0;      ///< fusions of floppy nodes
 };
 
-/// Fuses groups until the merged model has neither coincident centroids nor floppy nodes (a node
-/// that was as floppy before merging counts too; a part with fewer than 4 nodes is left alone).
+/// Fuses groups until the merged model has neither coincident centroids nor floppy nodes. Parts
+/// that had no sound node before merging (a rope, a cloth) may stay floppy; a part of at most 4
+/// nodes is sound when all its pairs are joined. The rule is local: see zero_modes for the check of
+/// a whole part.
 GuardedGroups guard_groups(const MassSpringModel& fine, Groups groups, const GuardOptions& options);
 
 }  // namespace springlod
