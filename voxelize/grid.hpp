@@ -26,7 +26,7 @@ struct MaterialGrid {
   Vec3 origin = Vec3::Zero();  ///< [m]
   std::vector<CellIndex> cells;
   std::vector<std::uint16_t> material;  ///< a number into materials for each cell
-  std::vector<float> depth;             ///< of the cell's centre under the surface [m]
+  std::vector<float> depth;  ///< of the cell's centre under the surface [m]; empty: not known
   std::vector<Material> materials;
   std::shared_ptr<const DistanceField>
       distance;  ///< of the whole solid; null for grids from tables

@@ -14,8 +14,10 @@ enum class LatticeStyle {
   /// At the corners of the cells: every filled cell gives rho a^3/8 to each corner, k/4 to each of
   /// its 12 edges, k/2 to each of its 12 face diagonals. No border error.
   corners,
-  /// At the centres (the paper's): one k a spring, across materials the harmonic mean
-  /// 2 k1 k2 / (k1 + k2).
+  /// At the centres (the paper's): one k a spring, across materials that of two half springs in
+  /// series, 2 k1 k2 / (k1 + k2), with the damping of their two half dampers in slow motion,
+  /// c = k (beta1 k2 + beta2 k1) / (k1 + k2). Has no hinges as `corners` has them: diagonal springs
+  /// join cells that touch along an edge, cells that touch at a corner are not joined.
   centers,
 };
 
