@@ -126,6 +126,8 @@ class Guard {
     const std::vector<bool> floppy = floppy_nodes(base, std::vector<bool>(parts.count, true));
     for (std::uint32_t i = 0; i < base.size(); ++i)
       if (!floppy[i]) solid_part_[base.part[i]] = true;
+    for (const double length : fine.rest_length) mean_length_ += length;
+    mean_length_ /= std::max(1U, fine.spring_count());
     result_.groups = groups;
     graph_ = coarsened(base, groups);
   }
@@ -150,17 +152,13 @@ class Guard {
   }
 
   bool fuse_coincident() {
-    if (graph_.edges.empty()) return false;
-    double mean = 0;
-    for (const Graph::Edge& e : graph_.edges) mean += graph_.length(e);
-    mean /= static_cast<double>(graph_.edges.size());
     Clusters clusters(graph_.size());
     std::vector<bool> taken(graph_.size(), false);
     std::uint32_t fused = 0;
     for (const Graph::Edge& e : graph_.edges) {
       // One fusion a node and pass: a fused pair has a new centre, which decides anew.
       if (taken[e.a] || taken[e.b] || !may_fuse(e.a) || !may_fuse(e.b)) continue;
-      if (!(graph_.length(e) < options_.coincident_fraction * mean)) continue;
+      if (!(graph_.length(e) < options_.coincident_fraction * mean_length_)) continue;
       taken[e.a] = taken[e.b] = true;
       fused += clusters.unite(e.a, e.b) ? 1 : 0;
     }
@@ -247,6 +245,7 @@ class Guard {
 
   GuardOptions options_;
   Graph graph_;
+  double mean_length_ = 0;  // of the fine model [m]
   std::vector<bool> solid_part_;
   GuardedGroups result_;
 };

@@ -9,8 +9,8 @@
 namespace springlod {
 
 struct GuardOptions {
-  /// Joined groups nearer than this part of the mean spring length are fused (coincident centroids
-  /// would give k = infinity). Spec 3.
+  /// Joined groups nearer than this part of the fine model's mean spring length are fused
+  /// (coincident centroids would give k = infinity). Spec 3.
   double coincident_fraction = 0.25;
   /// A node with fewer springs is floppy and is fused with its nearest neighbour.
   std::uint32_t least_springs = 4;
