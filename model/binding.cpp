@@ -178,6 +178,24 @@ using NodeTree =
 
 }  // namespace
 
+void validate(const Binding& binding, std::uint32_t node_count) {
+  if (binding.node.size() != binding.weight.size())
+    throw InputError(fmt::format("binding: {} nodes, but {} weights", binding.node.size(),
+                                 binding.weight.size()));
+  if (binding.start.empty()
+          ? !binding.node.empty()
+          : binding.start.front() != 0 || binding.start.back() != binding.node.size() ||
+                !std::is_sorted(binding.start.begin(), binding.start.end()))
+    throw InputError("binding: its rows do not cover its entries");
+  for (std::size_t e = 0; e < binding.node.size(); ++e) {
+    if (binding.node[e] >= node_count)
+      throw InputError(fmt::format("binding: entry {} names node {}, but there are only {}", e,
+                                   binding.node[e], node_count));
+    if (!std::isfinite(binding.weight[e]))
+      throw InputError(fmt::format("binding: the weight of entry {} is not finite", e));
+  }
+}
+
 void append_bound_point(Binding& binding, const Vec3& point, const MassSpringModel& model,
                         const std::vector<std::uint32_t>& nodes) {
   if (nodes.empty()) throw InputError("binding: a point was given no nodes to hang on");

@@ -21,6 +21,10 @@ struct Binding {
   }
 };
 
+/// Throws InputError unless the rows are well formed, the weights finite and the nodes below
+/// `node_count`.
+void validate(const Binding& binding, std::uint32_t node_count);
+
 struct BindOptions {
   /// Nodes per point at most: 8 as in a cell of the lattice; 4 is the least for linear precision.
   std::uint32_t nodes_per_point = 8;
