@@ -1,0 +1,60 @@
+#include "voxelize/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
+namespace springlod {
+namespace {
+
+// Cells in the bounding box: at some 20 bytes a cell 2 GB, and their lattice would have as many
+// nodes and nine times as many springs.
+constexpr double kMostCells = 1e8;
+// Distance from the origin in sizes of the object: beyond it, positions in double precision would
+// keep fewer than 10 digits of it, and those in the file's single precision none.
+constexpr double kFarthest = 1e6;
+
+Vec3 cells_along(const Vec3& sides, double cell) {
+  return (sides / cell).array().round().max(1).matrix();
+}
+
+double smallest_cell(const Vec3& sides, double cell) {
+  constexpr double kStep = 1.01;  // as close as the message needs
+  while (cells_along(sides, cell).prod() > kMostCells) cell *= kStep;
+  return cell;
+}
+
+}  // namespace
+
+CellFrame frame_around(const Box3& box, double cell) {
+  if (!(cell > 0) || !std::isfinite(cell))
+    throw InputError(fmt::format("voxelize: cell = {} m; give a length above 0", cell));
+  const Vec3 sides = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.sizes());
+  if (!(sides.minCoeff() > 0))
+    throw InputError("voxelize: the mesh is flat or empty; it encloses no volume");
+  const double distance =
+      std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  if (distance > kFarthest * sides.maxCoeff())
+    throw InputError(fmt::format(
+        "voxelize: the mesh is {:.3g} m across but lies {:.3g} m from the origin, too far for the "
+        "digits of its coordinates; move it nearer",
+        sides.maxCoeff(), distance));
+  const Vec3 count = cells_along(sides, cell);
+  if (count.prod() > kMostCells)
+    throw InputError(
+        fmt::format("voxelize: cells of {:.4g} m make a grid of {:.3g} cells, the limit is {:.3g}; "
+                    "use a cell of {:.4g} m or more (or look for a stray vertex: the mesh is "
+                    "{:.4g} x {:.4g} x {:.4g} m)",
+                    cell, count.prod(), kMostCells, smallest_cell(sides, cell), sides.x(),
+                    sides.y(), sides.z()));
+  CellFrame frame;
+  frame.cell = cell;
+  frame.origin = box.center() - cell * count / 2;
+  for (int d = 0; d < 3; ++d) frame.size[d] = static_cast<std::int32_t>(count[d]);
+  return frame;
+}
+
+}  // namespace springlod

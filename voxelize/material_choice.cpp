@@ -1,0 +1,92 @@
+#include "voxelize/material_choice.hpp"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
+namespace springlod {
+
+MaterialChoice::MaterialChoice(const VoxelizeOptions& options)
+    : by_key_(options.materials), fallback_(options.fallback) {
+  if (options.core_shell) core_ = options.core_shell->core;
+  std::map<std::string, const Material*> seen;
+  const auto check = [&](const Material& material) {
+    validate(material);
+    const auto [at, is_new] = seen.try_emplace(material.name, &material);
+    if (!is_new && !(*at->second == material))
+      throw InputError(
+          fmt::format("voxelize: two different materials are called \"{}\"; give each its own name",
+                      material.name));
+  };
+  for (auto& [key, material] : by_key_) {
+    if (material.name.empty()) material.name = key;
+    check(material);
+  }
+  check(fallback_);
+  if (core_) check(*core_);
+}
+
+std::uint16_t MaterialChoice::number_of(const Material& material) {
+  for (std::size_t n = 0; n < list_.size(); ++n)
+    if (list_[n].name == material.name) return static_cast<std::uint16_t>(n);
+  if (list_.size() > std::numeric_limits<std::uint16_t>::max())
+    throw InputError("voxelize: more than 65536 materials; let parts share some");
+  list_.push_back(material);
+  return static_cast<std::uint16_t>(list_.size() - 1);
+}
+
+std::uint16_t MaterialChoice::of_part(const MeshPart& part) {
+  for (const std::string& key : {part.name, part.material}) {
+    const auto at = by_key_.find(key);
+    if (at == by_key_.end()) continue;
+    asked_.insert(key);
+    return number_of(at->second);
+  }
+  return number_of(fallback_);
+}
+
+std::uint16_t MaterialChoice::of_core() {
+  return number_of(*core_);
+}
+
+std::uint16_t MaterialChoice::of_name(const std::string& name) {
+  std::string known;
+  for (const auto& [key, material] : by_key_) {
+    if (key == name || material.name == name) {
+      asked_.insert(key);
+      return number_of(material);
+    }
+    known += fmt::format("\"{}\", ", key);
+  }
+  if (core_ && core_->name == name) return of_core();
+  if (fallback_.name == name) return number_of(fallback_);
+  if (core_) known += fmt::format("\"{}\", ", core_->name);
+  throw InputError(
+      fmt::format("voxelize: paint returned \"{}\", which is no material; there are {}\"{}\"", name,
+                  known, fallback_.name));
+}
+
+std::vector<std::string> MaterialChoice::unused() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, material] : by_key_)
+    if (!asked_.contains(key)) keys.push_back(key);
+  return keys;
+}
+
+std::vector<Material> MaterialChoice::finish(std::vector<std::uint16_t>& material_of_cell) const {
+  std::vector<std::uint8_t> used(list_.size(), 0);
+  for (const std::uint16_t number : material_of_cell) used[number] = 1;
+  std::vector<Material> kept;
+  std::vector<std::uint16_t> renumbered(list_.size(), 0);
+  for (std::size_t n = 0; n < list_.size(); ++n) {
+    if (used[n] == 0) continue;
+    renumbered[n] = static_cast<std::uint16_t>(kept.size());
+    kept.push_back(list_[n]);
+  }
+  for (std::uint16_t& number : material_of_cell) number = renumbered[number];
+  return kept;
+}
+
+}  // namespace springlod

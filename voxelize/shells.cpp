@@ -1,0 +1,89 @@
+#include "voxelize/shells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+namespace springlod {
+namespace {
+
+struct Shell {
+  std::vector<Triangle> triangles;
+  double volume = 0;  // signed
+  Box3 box;
+};
+
+// Joins vertices that share a triangle (union-find over the vertices of one solid).
+class VertexSets {
+ public:
+  std::uint32_t find(std::uint32_t v) {
+    parent_.try_emplace(v, v);
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+  void join(std::uint32_t l, std::uint32_t r) {
+    l = find(l);
+    r = find(r);
+    parent_[std::max(l, r)] = std::min(l, r);
+  }
+
+ private:
+  std::unordered_map<std::uint32_t, std::uint32_t> parent_;
+};
+
+template <typename Visit>
+void for_each_triangle(const TriangleMesh& mesh, const SolidReport& solid, Visit visit) {
+  for (const std::uint32_t p : solid.parts)
+    for (std::uint32_t i = 0; i < mesh.parts[p].triangle_count; ++i)
+      visit(mesh.triangles[mesh.parts[p].first_triangle + i]);
+}
+
+std::vector<Shell> split(const TriangleMesh& mesh, const SolidReport& solid,
+                         const std::vector<std::uint32_t>& welded) {
+  VertexSets sets;
+  for_each_triangle(mesh, solid, [&](const Triangle& t) {
+    sets.join(welded[t[0]], welded[t[1]]);
+    sets.join(welded[t[0]], welded[t[2]]);
+  });
+  std::map<std::uint32_t, Shell> shells;
+  for_each_triangle(mesh, solid, [&](const Triangle& t) {
+    const std::uint32_t root = sets.find(welded[t[0]]);
+    Shell& shell = shells[root];
+    shell.triangles.push_back(t);
+    for (const std::uint32_t v : t) shell.box.extend(mesh.positions[v]);
+    const Vec3& o = mesh.positions[root];
+    shell.volume +=
+        (mesh.positions[t[0]] - o).dot((mesh.positions[t[1]] - o).cross(mesh.positions[t[2]] - o)) /
+        6;
+  });
+  std::vector<Shell> list;
+  for (auto& [root, shell] : shells) list.push_back(std::move(shell));
+  return list;
+}
+
+}  // namespace
+
+Shells sort_shells(const TriangleMesh& mesh, const SolidReport& solid,
+                   const std::vector<std::uint32_t>& welded) {
+  std::vector<Shell> all = split(mesh, solid, welded);
+  Shells sorted;
+  const double facing = solid.volume < 0 ? -1 : 1;
+  sorted.turned = facing < 0;
+  const auto is_cavity = [&](const Shell& shell) {
+    return shell.volume * facing < 0 &&
+           std::any_of(all.begin(), all.end(), [&](const Shell& other) {
+             return other.volume * facing > 0 && other.box.contains(shell.box);
+           });
+  };
+  for (const Shell& shell : all) {
+    const bool cavity = is_cavity(shell);
+    if (!cavity && shell.volume * facing < 0) sorted.turned = true;
+    sorted.volume += (cavity ? -1 : 1) * std::abs(shell.volume);
+    auto& into = cavity ? sorted.cavity : sorted.outer;
+    into.insert(into.end(), shell.triangles.begin(), shell.triangles.end());
+  }
+  return sorted;
+}
+
+}  // namespace springlod

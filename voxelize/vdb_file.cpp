@@ -1,0 +1,236 @@
+#include "voxelize/vdb_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/TopologyToLevelSet.h>
+
+#include "model/error.hpp"
+#include "model/file.hpp"
+#include "voxelize/distance_field.hpp"
+#include "voxelize/index_lookup.hpp"
+
+namespace springlod {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of the metadata below; raised when their meaning changes.
+constexpr std::int32_t kFileVersion = 1;
+constexpr const char* kVersion = "springlod_version";
+constexpr const char* kCell = "springlod_cell";
+constexpr const char* kOrigin = "springlod_origin";
+constexpr const char* kMaterialCount = "springlod_material_count";
+constexpr const char* kHasDistance = "springlod_has_distance";
+
+constexpr std::int32_t kOutside = -1;  // in the grid "material"
+constexpr int kBand = 3;               // half width of a level set in cells, as OpenVDB's tools
+
+std::string material_key(std::size_t n, const char* field) {
+  return fmt::format("springlod_material_{}_{}", n, field);
+}
+
+openvdb::math::Transform::Ptr transform_of(const MaterialGrid& grid) {
+  const Vec3 first = grid.origin + Vec3::Constant(grid.cell / 2);
+  auto transform = openvdb::math::Transform::createLinearTransform(grid.cell);
+  transform->postTranslate({first.x(), first.y(), first.z()});
+  return transform;
+}
+
+template <typename Grid, typename Value>
+typename Grid::Ptr cell_grid(const MaterialGrid& grid, const char* name,
+                             typename Grid::ValueType background, Value value_of) {
+  auto out = Grid::create(background);
+  out->setName(name);
+  out->setTransform(transform_of(grid));
+  auto accessor = out->getAccessor();
+  for (std::size_t n = 0; n < grid.cells.size(); ++n) {
+    const CellIndex& c = grid.cells[n];
+    accessor.setValueOn({c[0], c[1], c[2]}, static_cast<typename Grid::ValueType>(value_of(n)));
+  }
+  return out;
+}
+
+openvdb::MetaMap metadata_of(const MaterialGrid& grid) {
+  openvdb::MetaMap meta;
+  meta.insertMeta(kVersion, openvdb::Int32Metadata(kFileVersion));
+  meta.insertMeta(kCell, openvdb::DoubleMetadata(grid.cell));
+  meta.insertMeta(kOrigin,
+                  openvdb::Vec3DMetadata({grid.origin.x(), grid.origin.y(), grid.origin.z()}));
+  meta.insertMeta(kHasDistance, openvdb::BoolMetadata(grid.distance != nullptr));
+  meta.insertMeta(kMaterialCount,
+                  openvdb::Int32Metadata(static_cast<std::int32_t>(grid.materials.size())));
+  for (std::size_t n = 0; n < grid.materials.size(); ++n) {
+    const Material& m = grid.materials[n];
+    meta.insertMeta(material_key(n, "name"), openvdb::StringMetadata(m.name));
+    meta.insertMeta(material_key(n, "young"), openvdb::DoubleMetadata(m.young));
+    meta.insertMeta(material_key(n, "density"), openvdb::DoubleMetadata(m.density));
+    meta.insertMeta(material_key(n, "damping"), openvdb::DoubleMetadata(m.damping));
+    meta.insertMeta(material_key(n, "colour"),
+                    openvdb::Vec3SMetadata({m.colour.r, m.colour.g, m.colour.b}));
+  }
+  return meta;
+}
+
+openvdb::GridCPtrVec grids_of(const MaterialGrid& grid) {
+  const auto material = cell_grid<openvdb::Int32Grid>(grid, "material", kOutside,
+                                                      [&](auto n) { return grid.material[n]; });
+  openvdb::FloatGrid::Ptr distance =
+      grid.distance != nullptr ? grid.distance->grid->deepCopy()
+                               : openvdb::tools::topologyToLevelSet(*material, kBand, 0, 0, 0);
+  distance->setName("distance");
+  distance->setGridClass(openvdb::GRID_LEVEL_SET);
+  openvdb::GridCPtrVec grids{distance, material};
+  const auto add = [&](const char* name, auto value_of) {
+    grids.push_back(cell_grid<openvdb::FloatGrid>(grid, name, 0, value_of));
+  };
+  add("young", [&](auto n) { return grid.materials[grid.material[n]].young; });
+  add("density", [&](auto n) { return grid.materials[grid.material[n]].density; });
+  if (!grid.depth.empty()) add("depth", [&](auto n) { return grid.depth[n]; });
+  return grids;
+}
+
+// OpenVDB may hang on what is no .vdb file, so its first bytes are looked at before.
+void require_magic(const fs::path& path) {
+  if (fs::is_directory(path))
+    throw IoError(fmt::format("{} is a folder; name a .vdb file", path.string()));
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    throw IoError(
+        fmt::format("cannot read {}; there is no such file or it may not be read", path.string()));
+  std::int64_t magic = 0;
+  in.read(reinterpret_cast<char*>(&magic), sizeof magic);
+  if (!in || magic != openvdb::OPENVDB_MAGIC)
+    throw IoError(fmt::format("{} is not a .vdb file", path.string()));
+}
+
+class Reader {
+ public:
+  explicit Reader(const fs::path& path) : path_(path), file_(path.string()) {}
+
+  MaterialGrid read() {
+    file_.open(/*delayLoad=*/false);
+    meta_ = file_.getMetadata();
+    require_ours();
+    MaterialGrid grid;
+    grid.cell = value<double>(kCell);
+    const auto origin = value<openvdb::Vec3d>(kOrigin);
+    grid.origin = {origin.x(), origin.y(), origin.z()};
+    read_materials(grid);
+    read_cells(grid);
+    if (file_.hasGrid("depth")) read_depth(grid);
+    if (value<bool>(kHasDistance))
+      grid.distance = std::make_shared<DistanceField>(read_grid<openvdb::FloatGrid>("distance"));
+    validate(grid);
+    return grid;
+  }
+
+ private:
+  template <typename T>
+  T value(const std::string& key) const {
+    return meta_->metaValue<T>(key);
+  }
+
+  template <typename Grid>
+  typename Grid::Ptr read_grid(const char* name) {
+    auto grid = openvdb::gridPtrCast<Grid>(file_.readGrid(name));
+    if (grid == nullptr)
+      throw IoError(fmt::format("{}: its grid \"{}\" has another type than springlod writes",
+                                path_.string(), name));
+    return grid;
+  }
+
+  void require_ours() const {
+    if ((*meta_)[kVersion] == nullptr || !file_.hasGrid("material"))
+      throw IoError(
+          fmt::format("{} is a .vdb file, but not one that springlod wrote: it has no \"material\" "
+                      "grid with springlod's metadata",
+                      path_.string()));
+    const auto version = value<std::int32_t>(kVersion);
+    if (version > kFileVersion)
+      throw IoError(fmt::format("{} is of version {}, newer than this springlod reads ({})",
+                                path_.string(), version, kFileVersion));
+  }
+
+  void read_materials(MaterialGrid& grid) const {
+    const auto count =
+        static_cast<std::size_t>(std::max<std::int32_t>(0, value<std::int32_t>(kMaterialCount)));
+    for (std::size_t n = 0; n < count; ++n) {
+      Material m;
+      m.name = value<std::string>(material_key(n, "name"));
+      m.young = value<double>(material_key(n, "young"));
+      m.density = value<double>(material_key(n, "density"));
+      m.damping = value<double>(material_key(n, "damping"));
+      const auto colour = value<openvdb::Vec3s>(material_key(n, "colour"));
+      m.colour = {colour.x(), colour.y(), colour.z()};
+      grid.materials.push_back(m);
+    }
+  }
+
+  void read_cells(MaterialGrid& grid) {
+    const auto numbers = read_grid<openvdb::Int32Grid>("material");
+    std::vector<std::pair<CellIndex, std::uint16_t>> cells;
+    // A tile stands for all cells of its box.
+    for (auto at = numbers->cbeginValueOn(); at; ++at) {
+      if (*at < 0 || static_cast<std::size_t>(*at) >= grid.materials.size())
+        throw IoError(fmt::format("{}: it names material {} of {}; the file is damaged",
+                                  path_.string(), *at, grid.materials.size()));
+      const openvdb::CoordBBox box = at.getBoundingBox();
+      for (auto c = box.begin(); c; ++c)
+        cells.push_back({{(*c).x(), (*c).y(), (*c).z()}, static_cast<std::uint16_t>(*at)});
+    }
+    std::sort(cells.begin(), cells.end(),
+              [](const auto& l, const auto& r) { return grid_order(l.first, r.first); });
+    for (const auto& [cell, material] : cells) {
+      grid.cells.push_back(cell);
+      grid.material.push_back(material);
+    }
+  }
+
+  void read_depth(MaterialGrid& grid) {
+    const auto depth = read_grid<openvdb::FloatGrid>("depth");
+    const auto accessor = depth->getConstAccessor();
+    for (const CellIndex& c : grid.cells)
+      grid.depth.push_back(accessor.getValue({c[0], c[1], c[2]}));
+  }
+
+  const fs::path& path_;
+  openvdb::io::File file_;
+  openvdb::MetaMap::Ptr meta_;
+};
+
+}  // namespace
+
+void save_vdb(const MaterialGrid& grid, const fs::path& path) {
+  validate(grid);
+  start_openvdb();
+  write_aside(path, [&](const fs::path& aside) {
+    try {
+      openvdb::io::File file(aside.string());
+      const std::uint32_t method = openvdb::io::Archive::hasBloscCompression()
+                                       ? openvdb::io::COMPRESS_BLOSC
+                                       : openvdb::io::COMPRESS_ZIP;
+      file.setCompression(method | openvdb::io::COMPRESS_ACTIVE_MASK);
+      file.write(grids_of(grid), metadata_of(grid));
+    } catch (const openvdb::Exception& e) {
+      throw IoError(fmt::format("cannot write {}: {}", path.string(), e.what()));
+    }
+  });
+}
+
+MaterialGrid load_vdb(const fs::path& path) {
+  require_magic(path);
+  start_openvdb();
+  try {
+    return Reader(path).read();
+  } catch (const InputError& e) {
+    throw IoError(fmt::format("{} is damaged: {}", path.string(), e.what()));
+  } catch (const openvdb::Exception& e) {
+    throw IoError(fmt::format("cannot read {}: {}", path.string(), e.what()));
+  }
+}
+
+}  // namespace springlod
