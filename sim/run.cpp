@@ -52,9 +52,14 @@ double default_step(const RunOptions& options, double predicted, double duration
 /// Compares the kinetic energy with all that could have become kinetic energy so far.
 class EnergyWatch {
  public:
-  EnergyWatch(const MassSpringModel& model, const LedgerEntry& start)
-      : rounding_(kRoundingStrain * kRoundingStrain * spring_work(model)),
-        available_(start.kinetic + start.elastic + start.contact) {}
+  /// `start`: after the first kick. Its v+ count, not the ledger's v- . v+, which is negative for a
+  /// body released at rest.
+  EnergyWatch(const MassSpringModel& model, const Leapfrog& start)
+      : rounding_(kRoundingStrain * kRoundingStrain * spring_work(model)) {
+    std::uint32_t node = 0;
+    available_ = start.kinetic_after(&node) + elastic_energy(model, start.positions()) +
+                 contact_energy(start.contacts());
+  }
 
   void look(const Leapfrog& body, double gravity_work) {
     std::uint32_t node = 0;
@@ -83,7 +88,7 @@ class EnergyWatch {
   }
 
   double rounding_;
-  double available_;
+  double available_ = 0;
   double most_gravity_work_ = 0;
 };
 
@@ -93,17 +98,13 @@ class StopWatch {
   explicit StopWatch(const std::optional<StopRule>& rule) : rule_(rule) {}
   bool look(const Leapfrog& body) {
     if (!rule_) return false;
-    if (body.center_velocity().norm() >= rule_->speed) {
-      slow_since_.reset();
-      return false;
-    }
-    if (!slow_since_) slow_since_ = body.time();
-    return body.time() - *slow_since_ >= rule_->hold;
+    if (body.center_velocity().norm() >= rule_->speed) last_fast_ = body.time();
+    return body.time() - last_fast_ >= rule_->hold;
   }
 
  private:
   std::optional<StopRule> rule_;
-  std::optional<double> slow_since_;
+  double last_fast_ = 0;
 };
 
 /// Keeps what is asked for at the frame times.
@@ -160,7 +161,7 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Run
   Task task(options.progress, "simulate", last_step);
 
   body.kick<with_ledger>();
-  EnergyWatch watch(model, body.ledger_entry());
+  EnergyWatch watch(model, body);
   const Vec3 weight = scenario.gravity * std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
   const Vec3 first_center = body.center_of_mass();
   for (;;) {
