@@ -17,7 +17,8 @@
 namespace springlod {
 namespace {
 
-// Frames of two runs closer than this are the same instant [s]; frame times only differ by rounding.
+// Frames of two runs closer than this are the same instant [s]; frame times only differ by
+// rounding.
 constexpr double kSameTime = 1e-9;
 
 // Units of progress in one run, whatever its number of steps.
@@ -29,8 +30,8 @@ void validate(const LodChain& chain, const CompareOptions& options) {
   if (!(options.jitter >= 0 && options.jitter < 1))
     throw InputError(fmt::format("compare: jitter = {} must lie in [0, 1)", options.jitter));
   if (!(std::isfinite(options.error_window) && options.error_window >= 0))
-    throw InputError(fmt::format("compare: error_window = {} must be 0 or more seconds",
-                                 options.error_window));
+    throw InputError(
+        fmt::format("compare: error_window = {} must be 0 or more seconds", options.error_window));
 }
 
 std::string label_of(std::uint32_t level, const std::string& variant) {
@@ -154,8 +155,7 @@ class Comparing {
     leave(start, *base);
   }
 
-  void run_coarser(std::uint32_t level, std::uint32_t start,
-                   const std::function<bool()>& stopped) {
+  void run_coarser(std::uint32_t level, std::uint32_t start, const std::function<bool()>& stopped) {
     Trajectory trajectory = run_level(level, start, stopped);
     std::vector<Frame> base_frames = bring_back(level, trajectory.frames);
     const std::shared_ptr<BaseRun> base = slots_[start].base.get();
@@ -187,9 +187,9 @@ class Comparing {
       Trajectory trajectory = run(model, scenario, run_options);
       progress.finish();
       StartResult& result = result_.levels[level].starts[start];
-      result.distance =
-          measured_distance(scenario, scenario.start.placed ? scenario.start.position : base_center_,
-                            center_of_mass(model, trajectory.final.x));
+      result.distance = measured_distance(
+          scenario, scenario.start.placed ? scenario.start.position : base_center_,
+          center_of_mass(model, trajectory.final.x));
       result.simulated = trajectory.simulated;
       result.spring_updates = trajectory.spring_updates;
       result.wall_seconds = trajectory.wall_seconds;

@@ -17,11 +17,11 @@ struct CompareOptions {
   std::uint64_t seed = 1;
   std::uint32_t threads =
       0;  ///< runs are spread over threads; 0: all cores. Never changes the result
-  RunOptions run;
+  RunOptions run = {};
   /// Errors are averaged from t = 0 to this long after the base's first contact [s].
   double error_window = 0.25;
   /// Goes into the labels of the levels: "hb" makes "LOD-hb-1"; empty: "LOD-1".
-  std::string variant;
+  std::string variant = {};
   Progress* progress = nullptr;
 };
 
@@ -52,9 +52,9 @@ struct Comparison {
   std::vector<LevelRuns> levels;
 };
 
-/// The start of run number `index`: speed times 1 + jitter u1, height (z of the centre of mass) times
-/// 1 + jitter u2, with u1, u2 uniform in [-1, 1) from (seed, index) alone; index 0 stays as it is.
-/// `center`: centre of mass of the model, which a start that is not placed keeps.
+/// The start of run number `index`: speed times 1 + jitter u1, height (z of the centre of mass)
+/// times 1 + jitter u2, with u1, u2 uniform in [-1, 1) from (seed, index) alone; index 0 stays as
+/// it is. `center`: centre of mass of the model, which a start that is not placed keeps.
 Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
                std::uint32_t index);
 

@@ -8,7 +8,9 @@
 namespace springlod {
 namespace {
 
-std::int8_t side_of(double coordinate) { return coordinate < 0 ? -1 : 1; }
+std::int8_t side_of(double coordinate) {
+  return coordinate < 0 ? -1 : 1;
+}
 
 Vec3 into_box(const SolidBox& box, const Vec3& point) {
   return box.rotation.transpose() * (point - box.center);

@@ -12,12 +12,12 @@ namespace springlod {
 /// One node pressed into one obstacle at this instant.
 struct Contact {
   std::uint32_t node = 0;
-  double depth = 0;           ///< d [m] > 0
-  double stiffness = 0;       ///< kappa A [N/m]
-  double normal_force = 0;    ///< kappa A (d + damping * rate of d), cut off at 0 [N]
-  double damping_force = 0;   ///< the part of normal_force that is not kappa A d [N]
-  double friction = 0;        ///< mu
-  Vec3 normal = Vec3::UnitZ();  ///< out of the obstacle
+  double depth = 0;                 ///< d [m] > 0
+  double stiffness = 0;             ///< kappa A [N/m]
+  double normal_force = 0;          ///< kappa A (d + damping * rate of d), cut off at 0 [N]
+  double damping_force = 0;         ///< the part of normal_force that is not kappa A d [N]
+  double friction = 0;              ///< mu
+  Vec3 normal = Vec3::UnitZ();      ///< out of the obstacle
   Vec3 slip_change = Vec3::Zero();  ///< what friction took from the node's velocity [m/s]
 };
 

@@ -10,7 +10,8 @@ namespace springlod {
 /// caller, whatever the thread count: later jobs are not started any more, and those under way see
 /// stopped() turn true and should throw InterruptedError. An InterruptedError that no failed job
 /// caused stops the earlier jobs too.
-void run_jobs(std::uint64_t count, std::uint32_t threads,
-              const std::function<void(std::uint64_t job, const std::function<bool()>& stopped)>& body);
+void run_jobs(
+    std::uint64_t count, std::uint32_t threads,
+    const std::function<void(std::uint64_t job, const std::function<bool()>& stopped)>& body);
 
 }  // namespace springlod

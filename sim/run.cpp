@@ -35,8 +35,8 @@ constexpr double kRoundingStrain = 1e-11;
 
 void validate(const RunOptions& options) {
   if (options.step && !(std::isfinite(*options.step) && *options.step > 0))
-    throw InputError(fmt::format("run: step = {} must be a finite number of seconds above 0",
-                                 *options.step));
+    throw InputError(
+        fmt::format("run: step = {} must be a finite number of seconds above 0", *options.step));
   if (!(options.safety > 0 && options.safety <= 1))
     throw InputError(fmt::format("run: safety = {} must lie in (0, 1]", options.safety));
   if (!(std::isfinite(options.frame_rate) && options.frame_rate >= 0))
@@ -69,9 +69,10 @@ class EnergyWatch {
     const double bound = kEnergyMargin * (available_ + most_gravity_work_) + rounding_;
     if (kinetic > bound)
       throw UnstableError(
-          fmt::format("the run became unstable: at t = {:.6g} s the kinetic energy is {:.3g} J, of "
-                      "at most {:.3g} J that were there, most of it in node {}; take a smaller step",
-                      body.time(), kinetic, available_ + most_gravity_work_, node),
+          fmt::format(
+              "the run became unstable: at t = {:.6g} s the kinetic energy is {:.3g} J, of "
+              "at most {:.3g} J that were there, most of it in node {}; take a smaller step",
+              body.time(), kinetic, available_ + most_gravity_work_, node),
           node, body.time());
   }
 
@@ -197,8 +198,8 @@ double predicted_step(const MassSpringModel& model, const Scenario& scenario,
   double damping_time = largest_damping_time(model);
   for (const Obstacle& obstacle : scenario.obstacles)
     damping_time = std::max(damping_time, obstacle.damping);
-  return stable_step(omega, integrator == Integrator::velocity_verlet ? 2 * damping_time
-                                                                      : damping_time);
+  return stable_step(omega,
+                     integrator == Integrator::velocity_verlet ? 2 * damping_time : damping_time);
 }
 
 Trajectory run(const MassSpringModel& model, const Scenario& scenario, const RunOptions& options) {
@@ -208,8 +209,8 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Run
   const auto begin = std::chrono::steady_clock::now();
   Trajectory trajectory;
   trajectory.predicted_step = predicted_step(model, scenario, options.integrator);
-  trajectory.step = options.step.value_or(
-      default_step(options, trajectory.predicted_step, scenario.duration));
+  trajectory.step =
+      options.step.value_or(default_step(options, trajectory.predicted_step, scenario.duration));
   if (options.ledger)
     integrate<true>(model, scenario, options, trajectory);
   else

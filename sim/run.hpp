@@ -17,7 +17,7 @@ enum class Integrator { symplectic_euler, velocity_verlet };
 struct RunOptions {
   Integrator integrator = Integrator::symplectic_euler;
   /// Step [s]; left out: `safety` times the predicted stable step, contact stiffness included.
-  std::optional<double> step;
+  std::optional<double> step = std::nullopt;
   double safety = 0.8;
   /// Frames kept a second of simulated time; 0: only the first and last state.
   double frame_rate = 60;
@@ -52,10 +52,10 @@ double predicted_step(const MassSpringModel& model, const Scenario& scenario,
                       Integrator integrator = Integrator::symplectic_euler);
 
 /// Runs the model under the scenario. The step is `safety` times the predicted one, shortened so
-/// that the duration is a whole number of steps, or exactly the one given. Frames lie exactly at the
-/// frame times, between steps on the straight line that the scheme draws; ledger entries at the last
-/// step before. Throws InputError for a wrong model, scenario or option, UnstableError naming node
-/// and time as soon as a coordinate stops being finite or the energy grows without a source.
+/// that the duration is a whole number of steps, or exactly the one given. Frames lie exactly at
+/// the frame times, between steps on the straight line that the scheme draws; ledger entries at the
+/// last step before. Throws InputError for a wrong model, scenario or option, UnstableError naming
+/// node and time as soon as a coordinate stops being finite or the energy grows without a source.
 Trajectory run(const MassSpringModel& model, const Scenario& scenario,
                const RunOptions& options = {});
 

@@ -90,9 +90,10 @@ void validate(const Scenario& scenario) {
     require(std::isfinite(scenario.stop->hold) && scenario.stop->hold >= 0, "stop.hold",
             "a finite number of seconds, 0 or more");
   }
-  const bool known = scenario.measure_from.empty() ||
-                     std::any_of(scenario.obstacles.begin(), scenario.obstacles.end(),
-                                 [&](const Obstacle& o) { return o.name == scenario.measure_from; });
+  const bool known =
+      scenario.measure_from.empty() ||
+      std::any_of(scenario.obstacles.begin(), scenario.obstacles.end(),
+                  [&](const Obstacle& o) { return o.name == scenario.measure_from; });
   if (!known)
     throw InputError(fmt::format(
         "scenario: measure_from = \"{}\" must be the name of an obstacle, or empty to measure the "
@@ -103,12 +104,14 @@ void validate(const Scenario& scenario) {
 State initial_state(const MassSpringModel& model, const Throw& start) {
   validate(start);
   const Vec3 center = mass_properties(model).center;
-  const Vec3 place = start.placed ? start.position : center;
+  // Written as changes to the rest positions, so that a body left where it is keeps its bits.
+  const Vec3 shift = start.placed ? Vec3(start.position - center) : Vec3(Vec3::Zero());
+  const Mat3 turn = start.rotation - Mat3::Identity();
   State state = rest_state(model);
   for (std::size_t i = 0; i < state.x.size(); ++i) {
-    const Vec3 arm = start.rotation * (model.rest[i] - center);
-    state.x[i] = place + arm;
-    state.v[i] = start.velocity + start.spin.cross(arm);
+    const Vec3 arm = model.rest[i] - center;
+    state.x[i] += shift + turn * arm;
+    state.v[i] = start.velocity + start.spin.cross(start.rotation * arm);
   }
   return state;
 }

@@ -56,8 +56,8 @@ inline MassSpringModel ball() {
   std::vector<std::pair<CellIndex, std::uint16_t>> cells;
   for (std::size_t i = 0; i < 281; ++i)
     cells.push_back({near[i].second, static_cast<std::uint16_t>(near[i].first < 2.3 ? 0 : 1)});
-  const auto grid = grid_of(
-      cells, 0.1, {material("core", 1e6, 1000, 0.004), material("shell", 1e5, 200, 0.004)});
+  const auto grid =
+      grid_of(cells, 0.1, {material("core", 1e6, 1000, 0.004), material("shell", 1e5, 200, 0.004)});
   return build_lattice(grid, {.style = LatticeStyle::centers}).model;
 }
 
