@@ -1,4 +1,4 @@
--- A dense core in a soft shell, thrown flat and rolling:  springlod run samples/ball.lua -- [FOLDER]
+-- A core in a soft shell, thrown flat:  springlod run samples/ball.lua -- [FOLDER]
 local s = require "springlod"
 local folder = arg[1] or "out/ball"
 

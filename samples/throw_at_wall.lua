@@ -1,7 +1,5 @@
 -- The paper's second scene at the size of samples/dumbbell.obj in dm: thrown spinning at a wall two
 -- metres away, it bounces off, falls and comes to rest. Measured: how far from the wall.
-local contact = {stiffness = 2e6, friction = 0.5}
-
 return {
   name = "throw at a wall",
   duration = "5 s",
@@ -12,8 +10,8 @@ return {
     spin = {0, "6 rad/s", 0},
   },
   obstacles = {
-    {name = "floor", plane = {0, 0, 1, 0}, stiffness = contact.stiffness, friction = contact.friction},
-    {name = "wall", plane = {-1, 0, 0, 0}, stiffness = contact.stiffness, friction = contact.friction},
+    {name = "floor", plane = {0, 0, 1, 0}, stiffness = 2e6, friction = 0.5},
+    {name = "wall", plane = {-1, 0, 0, 0}, stiffness = 2e6, friction = 0.5},
   },
   measure_from = "wall",
 }

@@ -2,7 +2,7 @@
 --
 --   springlod run scripts/demo.lua -- [FOLDER]
 --
--- mesh -> cells -> model -> levels -> a throw at a wall -> table, chart and film. ./dev demo runs it.
+-- mesh -> cells -> model -> levels -> a throw at a wall -> table, chart, film. ./dev demo runs it.
 
 local s = require "springlod"
 
