@@ -73,9 +73,14 @@ struct VoxelizedMesh {
   VoxelizeReport report;
 };
 
-/// Fills the cells whose centre is inside, part by part (OpenVDB meshToVolume). Throws InputError:
-/// an open part (names part and hole), a cell too large (nothing filled) or so small that the grid
-/// would not fit (says the smallest that does), NaN, parts too far from the origin.
+/// Fills the cells whose centre is inside or on the surface, solid by solid (check_solid; OpenVDB
+/// meshToVolume), on a grid that is centred on the bounding box. Shells that face inwards within
+/// another are cavities and stay empty. In a solid of several materials each cell takes that of the
+/// nearest triangle. Depths count from the surface of all solids together, not from where they
+/// touch: exact next to the surface, at most 0.2 of a cell too large deep inside. Throws
+/// InputError: an open solid (names part and hole), a cell too large (nothing filled) or so small
+/// that the grid would not fit (says the smallest that does), NaN, a mesh too far from the origin,
+/// a flat one, names in `priority` or from `paint` that do not exist, materials that clash.
 VoxelizedMesh voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options);
 
 }  // namespace springlod

@@ -1,6 +1,5 @@
 #include "voxelize/inside.hpp"
 
-#include <algorithm>
 #include <mutex>
 
 #include <openvdb/openvdb.h>
@@ -81,7 +80,6 @@ std::vector<std::uint32_t> inside_cells(const DistanceField& field, const CellFr
     for (auto c = region.begin(); c; ++c)
       inside.push_back(frame.number({(*c).x(), (*c).y(), (*c).z()}));
   }
-  std::sort(inside.begin(), inside.end());
   return inside;
 }
 

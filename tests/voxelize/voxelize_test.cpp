@@ -87,9 +87,14 @@ TEST_CASE("the depth of a sphere's cells is radius less distance from the middle
   const MaterialGrid grid = voxelize(mesh, with_cell(cell)).grid;
   REQUIRE(grid.depth.size() == grid.cells.size());
   double worst = 0;
-  for (std::size_t n = 0; n < grid.cells.size(); ++n)
-    worst = std::max(worst, std::abs(grid.depth[n] - (1 - center(grid, n).norm())));
-  CHECK(worst < 0.05 * cell);
+  double mean = 0;
+  for (std::size_t n = 0; n < grid.cells.size(); ++n) {
+    const double error = std::abs(grid.depth[n] - (1 - center(grid, n).norm()));
+    worst = std::max(worst, error);
+    mean += error / static_cast<double>(grid.cells.size());
+  }
+  CHECK(worst < 0.2 * cell);  // what grid.hpp promises
+  CHECK(mean < 0.02 * cell);
 }
 
 TEST_CASE("the depth of a box's cells is exact") {
@@ -140,8 +145,9 @@ TEST_CASE("a part's material goes by its name, then the file's material, then th
   add_box(mesh, "b", {2, 0, 0}, {4, 2, 2}, "steel");
   add_box(mesh, "c", {4, 0, 0}, {6, 2, 2}, "wood");
   VoxelizeOptions options = with_cell(1);
-  options.materials = {
-      {"a", {.name = "special"}}, {"steel", {.name = "", .young = 2e11}}, {"glass", {.name = "glass"}}};
+  options.materials = {{"a", {.name = "special"}},
+                       {"steel", {.name = "", .young = 2e11}},
+                       {"glass", {.name = "glass"}}};
   options.fallback = {.name = "rest"};
   const VoxelizedMesh result = voxelize(mesh, options);
   CHECK(count_of(result.grid, "special") == 8);
