@@ -46,6 +46,9 @@ std::vector<Tick> linear_ticks(double low, double high) {
 std::vector<Tick> log_ticks(double low, double high) {
   const double decades = std::log10(high / low);
   // Within a decade: every digit; up to three: 1, 2, 5; wide: whole decades, at most about 8.
+  // Within half a decade round steps serve better.
+  constexpr double kHalfDecade = 0.5;
+  if (decades < kHalfDecade) return linear_ticks(low, high);
   constexpr double kOneDecade = 1;
   constexpr double kNarrow = 3;
   const int stride = std::max(1, static_cast<int>(std::ceil(decades / 8)));
