@@ -75,9 +75,9 @@ std::vector<double> picture_times(const Comparison& comparison, const AnimateOpt
 }
 
 std::string count_text(double count) {
-  for (const auto& [unit, name] : {std::pair{1e9, "G"}, {1e6, "M"}, {1e3, "k"}})
+  for (const auto& [unit, name] : {std::pair{1e9, "billion"}, {1e6, "million"}})
     if (count >= unit) return fmt::format("{:.3g} {}", count / unit, name);
-  return fmt::format("{:.0f} ", count);
+  return fmt::format("{:.0f}", count);
 }
 
 /// Colours of the surface's parts: of the material that most of their vertices hang on.
@@ -106,7 +106,7 @@ Panel panel_frame(const LodAsset& asset, const Comparison& comparison, const Lev
   const auto updates = static_cast<double>(runs.first.spring_updates);
   const auto of_base = static_cast<double>(comparison.levels[0].first.spring_updates);
   if (updates > 0 && &runs == &comparison.levels[0])
-    panel.captions.push_back(count_text(updates) + "spring updates");
+    panel.captions.push_back(count_text(updates) + " spring updates");
   else if (updates > 0 && of_base >= updates)
     panel.captions.push_back(fmt::format("{:.1f}x fewer spring updates", of_base / updates));
   else if (updates > 0 && of_base > 0)

@@ -141,7 +141,8 @@ TEST_CASE("equal panels come out equal side by side") {
   const Image image = renderer.draw({panel, panel, panel});
   REQUIRE(image.width == 3 * kWidth);
   std::size_t unequal = 0;
-  for (std::uint32_t y = 0; y < kHeight; ++y)
+  const std::uint32_t above_scales = kHeight * 9 / 10;  // the grid's scale is written but once
+  for (std::uint32_t y = 0; y < above_scales; ++y)
     for (std::uint32_t x = 1; x + 1 < kWidth; ++x)  // the divider covers the outermost columns
       for (std::uint32_t k = 1; k < 3; ++k)
         unequal += pixel(image, x, y) != pixel(image, x + k * kWidth, y) ? 1 : 0;
@@ -184,6 +185,23 @@ TEST_CASE("title, captions and footer put ink on the picture") {
   CHECK(dark_pixels(labelled, 0, 0, 160, 45) > 100);
   CHECK(dark_pixels(bare, 70, 150, 170, 180) == 0);
   CHECK(dark_pixels(labelled, 70, 150, 170, 180) > 50);
+}
+
+TEST_CASE("panels of one strain range share one colour scale, on the last of them") {
+  const BallScene scene;
+  Panel panel = studio(scene.box);
+  panel.bodies = {scene.body()};
+  panel.bodies[0].style.spring_colour = SpringColour::strain;
+  Renderer renderer(kWidth, kHeight, 2);
+  const Image image = renderer.draw({panel, panel});
+  int strong = 0;  // pixels of the scale's red end, as far right and down as the scale lies
+  for (const std::uint32_t left : {0U, kWidth})
+    for (std::uint32_t y = kHeight * 3 / 4; y < kHeight; ++y)
+      for (std::uint32_t x = left + kWidth / 2; x < left + kWidth; ++x) {
+        const auto [r, g, b] = pixel(image, x, y);
+        if (r - b > 100) strong += left == 0 ? -100000 : 1;
+      }
+  CHECK(strong > 10);
 }
 
 TEST_CASE("a label that is too long is shortened, not written over the next panel") {
