@@ -328,7 +328,7 @@ struct Pipeline::Impl {
     frame.world_up << camera.up.normalized().cast<float>(), 0;
     frame.camera_right << axes.right.cast<float>(), 0;
     frame.shadow_size << light.side, light.depth, light.side / ShadowMap::kSide, 0;
-    frame.pixel << static_cast<float>(2 * view_radius(camera) / distance) / height, height, 0, 0;
+    frame.pixel << static_cast<float>(2 * view_radius(camera) / distance) / height, 0, 0, 0;
     return frame;
   }
 

@@ -12,7 +12,7 @@ layout(std140) uniform Frame {
   vec4 world_up;
   vec4 camera_right;
   vec4 shadow_size;  // x: side of the shadow map [m], y: its depth [m], z: one texel [m]
-  vec4 pixel;        // x: height of a pixel at distance 1, y: picture height [px]
+  vec4 pixel;        // x: height of a pixel at distance 1
 };
 vec3 towards_eye(vec3 p) { return normalize(eye.xyz - eye.w * p); }
 )";

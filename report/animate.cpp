@@ -135,10 +135,14 @@ double surface_margin(const LodAsset& asset) {
       {0., (nodes.min() - surface.min()).maxCoeff(), (surface.max() - nodes.max()).maxCoeff()});
 }
 
-/// Everything that happens, with the floor under it and walls and boxes beside it if they are near.
-Box3 action_bounds(const LodAsset& asset, const Comparison& comparison) {
+/// Everything that is shown, with the floor under it and walls and boxes beside it if they are
+/// near.
+Box3 action_bounds(const LodAsset& asset, const Comparison& comparison,
+                   const std::vector<double>& times) {
   Box3 box;
-  for (const LevelRuns& runs : comparison.levels) box.extend(bounds(runs.base_frames));
+  for (const LevelRuns& runs : comparison.levels)
+    for (const double t : times)
+      for (const Vec3& p : positions_at(runs.base_frames, t)) box.extend(p);
   const Vec3 margin = Vec3::Constant(surface_margin(asset));
   box.min() -= margin;
   box.max() += margin;
@@ -202,8 +206,8 @@ std::vector<Camera> cameras_of(const LodAsset& asset, const Comparison& comparis
   const double aspect = static_cast<double>(options.width) / options.height;
   const double azimuth = azimuth_of(comparison.scenario, options);
   if (options.camera == CameraMode::fixed)
-    return std::vector<Camera>(times.size(), frame_box(action_bounds(asset, comparison), azimuth,
-                                                       options.elevation, aspect));
+    return std::vector<Camera>(times.size(), frame_box(action_bounds(asset, comparison, times),
+                                                       azimuth, options.elevation, aspect));
   const MassSpringModel& base = asset.chain.levels[0].model;
   std::vector<Vec3> path;
   for (const double t : times)

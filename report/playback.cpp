@@ -18,13 +18,6 @@ std::vector<Vec3> positions_at(const std::vector<Frame>& frames, double t) {
   return x;
 }
 
-Box3 bounds(const std::vector<Frame>& frames) {
-  Box3 box;
-  for (const Frame& frame : frames)
-    for (const Vec3& p : frame.x) box.extend(p);
-  return box;
-}
-
 Vec3 center_of_mass(const std::vector<Vec3>& positions, const std::vector<double>& mass) {
   Vec3 sum = Vec3::Zero();
   double total = 0;

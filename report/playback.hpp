@@ -11,9 +11,6 @@ namespace springlod {
 /// `frames` is not empty and in rising order of time.
 std::vector<Vec3> positions_at(const std::vector<Frame>& frames, double t);
 
-/// Around the positions of all frames.
-Box3 bounds(const std::vector<Frame>& frames);
-
 /// Mass-weighted centre of the positions.
 Vec3 center_of_mass(const std::vector<Vec3>& positions, const std::vector<double>& mass);
 
