@@ -18,12 +18,12 @@ std::string told_from(const SimplifyOptions& options) {
 }
 
 Groups next_groups(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
-  Groups groups = options.groups ? options.groups(finer.model, finer.of_base, level)
-                                 : group_nodes(finer.model, options.grouping);
+  const Groups groups = options.groups ? options.groups(finer.model, finer.of_base, level)
+                                       : group_nodes(finer.model, options.grouping);
   if (!options.guards) return groups;
   GuardOptions guard = options.guard;
   guard.border = options.grouping.border;
-  return guard_groups(finer.model, std::move(groups), guard).groups;
+  return guard_groups(finer.model, groups, guard).groups;
 }
 
 Level next_level(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {

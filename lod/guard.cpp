@@ -252,7 +252,7 @@ class Guard {
 
 }  // namespace
 
-GuardedGroups guard_groups(const MassSpringModel& fine, Groups groups,
+GuardedGroups guard_groups(const MassSpringModel& fine, const Groups& groups,
                            const GuardOptions& options) {
   validate(groups);
   return Guard(fine, groups, options).run();

@@ -30,6 +30,7 @@ struct GuardedGroups {
 /// that had no sound node before merging (a rope, a cloth) may stay floppy; a part of at most 4
 /// nodes is sound when all its pairs are joined. The rule is local: see zero_modes for the check of
 /// a whole part.
-GuardedGroups guard_groups(const MassSpringModel& fine, Groups groups, const GuardOptions& options);
+GuardedGroups guard_groups(const MassSpringModel& fine, const Groups& groups,
+                           const GuardOptions& options);
 
 }  // namespace springlod
