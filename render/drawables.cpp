@@ -32,7 +32,7 @@ Eigen::Vector3f relative(const Vec3& p, const Vec3& origin) {
 }
 
 Colour material_colour(const MassSpringModel& model, std::uint32_t node) {
-  return model.materials[model.material[node]].colour;
+  return drawn_colour(model, model.material[node]);
 }
 
 Colour mix(const Colour& a, const Colour& b, float t) {
@@ -40,6 +40,11 @@ Colour mix(const Colour& a, const Colour& b, float t) {
 }
 
 }  // namespace
+
+Colour drawn_colour(const MassSpringModel& model, std::uint32_t material) {
+  const Colour& own = model.materials[material].colour;
+  return own == Colour{} ? palette_colour(material) : own;
+}
 
 double mean_spring_length(const MassSpringModel& model) {
   if (model.spring_count() > 0) {

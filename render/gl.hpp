@@ -1,7 +1,7 @@
 #pragma once
 
-// Inside render/ only: OpenGL as OSMesa exports it (no loader), and owners for its objects.
-#define GL_GLEXT_PROTOTYPES
+// Inside render/ only: OpenGL as OSMesa exports it (no loader; GL_GLEXT_PROTOTYPES is set for the
+// whole folder, whatever the order of includes), and owners for its objects.
 #include <string>
 #include <utility>
 #include <vector>

@@ -33,6 +33,18 @@ PanelLabels labels_of(const Panel& panel) {
   return labels;
 }
 
+/// What all panels share is written once, in the outer corners: the scale of the grid on the first
+/// panel, that of the strain on the last. There the footer never covers it.
+std::vector<PanelLabels> labels_of(const std::vector<Panel>& panels) {
+  std::vector<PanelLabels> labels;
+  for (const Panel& panel : panels) labels.push_back(labels_of(panel));
+  for (std::size_t i = 1; i < labels.size(); ++i)
+    if (labels[i].grid_spacing == labels.front().grid_spacing) labels[i].grid_spacing.reset();
+  for (std::size_t i = 0; i + 1 < labels.size(); ++i)
+    if (labels[i].strain_range == labels.back().strain_range) labels[i].strain_range.reset();
+  return labels;
+}
+
 void copy_into(Image& whole, const Image& part, std::size_t x) {
   const std::size_t row = std::size_t{3} * part.width;
   for (std::size_t y = 0; y < part.height; ++y)
@@ -80,12 +92,13 @@ Image Renderer::draw(const std::vector<Panel>& panels, const std::string& footer
   const std::uint32_t height = im.context.height();
   Image picture{width * im.panel_count, height, {}};
   picture.rgb.resize(std::size_t{3} * picture.width * height);
+  const std::vector<PanelLabels> labels = labels_of(panels);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     im.pipeline.draw(panels[i]);
     copy_into(picture, im.context.finish(), i * width);
     const PixelRect place{static_cast<int>(i * width), 0, static_cast<int>(width),
                           static_cast<int>(height)};
-    im.overlay.draw_panel(picture, place, labels_of(panels[i]));
+    im.overlay.draw_panel(picture, place, labels[i]);
   }
   Overlay::draw_dividers(picture, static_cast<int>(width));
   im.overlay.draw_footer(picture, footer);
