@@ -158,7 +158,8 @@ class Comparing {
   void run_coarser(std::uint32_t level, std::uint32_t start, const std::function<bool()>& stopped) {
     Trajectory trajectory = run_level(level, start, stopped);
     std::vector<Frame> base_frames = bring_back(level, trajectory.frames);
-    const std::shared_ptr<BaseRun> base = slots_[start].base.get();
+    const auto base_run = slots_[start].base;  // a copy: one future is not for several threads
+    const std::shared_ptr<BaseRun> base = base_run.get();
     const Errors errors =
         deviation(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);
     leave(start, *base);

@@ -20,8 +20,8 @@ void add_spring_forces(const MassSpringModel& model, const std::vector<Vec3>& x,
     // Springs are sorted by a: all of one a are summed up before they go to memory, or every spring
     // would wait for the store of the one before.
     const std::uint32_t a = model.a[s];
-    const Vec3 xa = x[a];
-    const Vec3 va = v[a];
+    const Vec3& xa = x[a];
+    const Vec3& va = v[a];
     Vec3 force_a = force[a];
     Vec3 damping_a = with_damping ? damping_force[a] : Vec3::Zero();
     for (; s < spring_count && model.a[s] == a; ++s) {
