@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "model/creases.hpp"
+
 namespace springlod {
 namespace {
 
@@ -36,7 +38,7 @@ class Display {
  public:
   Display(tinygltf::Model& gltf, AssetBuffer& buffer) : gltf_(gltf), buffer_(buffer) {}
 
-  void add(const LodAsset& asset, const SharedViews& shared) {
+  void add(const LodAsset& asset, const std::vector<int>& spring_ends) {
     tinygltf::Node root;
     root.name = "z up";
     // A quarter turn about x, (x, y, z) -> (x, z, -y), as quaternion x, y, z, w.
@@ -49,13 +51,13 @@ class Display {
     const double step = kGap * std::max(box.sizes().x(), 0.1 * box.sizes().norm());
     double shift = 0;
     if (!asset.surface.triangles.empty()) {
-      add_node("surface", surface_mesh(asset, shared), shift);
+      add_node("surface", surface_mesh(asset), shift);
       shift += step;
     }
     for (std::size_t n = 0; n < asset.chain.levels.size(); ++n, shift += step) {
       const MassSpringModel& model = asset.chain.levels[n].model;
       add_node(fmt::format("level {} ({} nodes)", n, model.node_count()),
-               level_mesh(model, shared.spring_ends[n]), shift);
+               level_mesh(model, spring_ends[n]), shift);
     }
     gltf_.scenes.emplace_back();
     gltf_.scenes[0].nodes = {0};
@@ -153,22 +155,15 @@ class Display {
     return mesh;
   }
 
-  /// Area-weighted means of the triangles around each vertex; up where there are none to ask.
-  static std::vector<Float3> vertex_normals(const TriangleMesh& mesh) {
-    std::vector<Vec3> normals(mesh.positions.size(), Vec3::Zero());
-    for (const Triangle& t : mesh.triangles) {
-      const Vec3 area = (mesh.positions[t[1]] - mesh.positions[t[0]])
-                            .cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
-      for (const std::uint32_t v : t) normals[v] += area;
-    }
-    for (Vec3& n : normals) n = n.norm() > 0 ? n.stableNormalized() : Vec3::UnitZ();
-    return single_precision(normals);
-  }
-
-  tinygltf::Mesh surface_mesh(const LodAsset& asset, const SharedViews& shared) {
+  tinygltf::Mesh surface_mesh(const LodAsset& asset) {
     const TriangleMesh& surface = asset.surface;
-    const int positions = add_positions(surface.positions);
-    const int normals = add_vectors(vertex_normals(surface));
+    const ShadedMesh shaded = split_at_creases(surface);
+    std::vector<Vec3> points;
+    points.reserve(shaded.vertex.size());
+    for (const std::uint32_t v : shaded.vertex) points.push_back(surface.positions[v]);
+    const int positions = add_positions(points);
+    const int normals = add_vectors(single_precision(shaded.normals));
+    const int triangles = buffer_.add(shaded.triangles, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     tinygltf::Mesh mesh;
     for (std::size_t p = 0; p < surface.parts.size(); ++p) {
       const MeshPart& part = surface.parts[p];
@@ -176,7 +171,7 @@ class Display {
       tinygltf::Primitive primitive;
       primitive.mode = TINYGLTF_MODE_TRIANGLES;
       primitive.attributes = {{"POSITION", positions}, {"NORMAL", normals}};
-      primitive.indices = add_accessor(shared.triangles, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+      primitive.indices = add_accessor(triangles, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
                                        TINYGLTF_TYPE_SCALAR, std::size_t{3} * part.triangle_count,
                                        sizeof(Triangle) * part.first_triangle);
       primitive.material = part_material(part, asset.chain.levels[0].model.materials, p);
@@ -212,9 +207,9 @@ class Display {
 
 }  // namespace
 
-void add_display(const LodAsset& asset, const SharedViews& shared, tinygltf::Model& gltf,
+void add_display(const LodAsset& asset, const std::vector<int>& spring_ends, tinygltf::Model& gltf,
                  AssetBuffer& buffer) {
-  Display(gltf, buffer).add(asset, shared);
+  Display(gltf, buffer).add(asset, spring_ends);
 }
 
 }  // namespace springlod

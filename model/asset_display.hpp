@@ -9,15 +9,11 @@
 
 namespace springlod {
 
-/// Buffer views of exact arrays that the pictures share; -1 where there is none.
-struct SharedViews {
-  std::vector<int> spring_ends;  ///< of each level: pairs of uint32
-  int triangles = -1;            ///< of the surface: triples of uint32
-};
-
 /// Adds what any glTF viewer shows: the surface and, side by side along x, the nodes and springs of
 /// each level, in single precision under a root node that turns z up into glTF's y up.
-void add_display(const LodAsset& asset, const SharedViews& shared, tinygltf::Model& gltf,
+/// `spring_ends`: of each level the buffer view of its springs' ends, pairs of uint32, which the
+/// lines share; -1 for no springs.
+void add_display(const LodAsset& asset, const std::vector<int>& spring_ends, tinygltf::Model& gltf,
                  AssetBuffer& buffer);
 
 }  // namespace springlod

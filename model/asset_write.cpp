@@ -54,7 +54,8 @@ class ExactWriter {
  public:
   explicit ExactWriter(AssetBuffer& buffer) : buffer_(buffer) {}
 
-  SharedViews shared;
+  /// Buffer view of each level's springs' ends; -1 for none.
+  std::vector<int> spring_ends;
 
   json describe(const LodAsset& asset) {
     json extension{{"version", asset_format::kVersion}};
@@ -107,7 +108,7 @@ class ExactWriter {
       ends.push_back(model.a[s]);
       ends.push_back(model.b[s]);
     }
-    shared.spring_ends.push_back(put(object, "ends", ends, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER));
+    spring_ends.push_back(put(object, "ends", ends, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER));
     put(object, "restLength", model.rest_length);
     put(object, "stiffness", model.stiffness);
     put(object, "damping", model.damping);
@@ -124,8 +125,7 @@ class ExactWriter {
                                  {"firstTriangle", whole_number(part.first_triangle)},
                                  {"triangleCount", whole_number(part.triangle_count)}});
     put(object, "positions", surface.positions);
-    shared.triangles =
-        put(object, "indices", surface.triangles, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    put(object, "indices", surface.triangles);
     put(object, "bindingStart", binding.start);
     put(object, "bindingNode", binding.node);
     put(object, "bindingWeight", binding.weight);
@@ -158,7 +158,7 @@ void save_asset(const LodAsset& asset, const std::filesystem::path& path) {
   ExactWriter exact(buffer);
   gltf.extensions[asset_format::kExtension] = gltf_value(exact.describe(asset));
   gltf.extensionsUsed = {asset_format::kExtension};
-  add_display(asset, exact.shared, gltf, buffer);
+  add_display(asset, exact.spring_ends, gltf, buffer);
 
   // Lengths in a .glb are 32 bits; the JSON wants some of it.
   constexpr std::size_t kLargestBuffer = 0xF0000000;
