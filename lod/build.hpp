@@ -16,11 +16,11 @@ using GroupMaker =
 
 struct SimplifyOptions {
   std::uint32_t levels = 2;
-  GroupingOptions grouping;
+  GroupingOptions grouping{};
   bool guards = true;
-  GuardOptions guard;   ///< its border rule is taken from `grouping`
-  GroupMaker groups;    ///< optional
-  std::string made_by;  ///< left empty: told from the options
+  GuardOptions guard{};   ///< its border rule is taken from `grouping`
+  GroupMaker groups{};    ///< optional
+  std::string made_by{};  ///< left empty: told from the options
   Progress* progress = nullptr;
 };
 

@@ -35,8 +35,8 @@ struct GroupingOptions {
   Grouping grouping = Grouping::standard;
   BorderRule border = BorderRule::none;
   std::uint64_t seed = 1;
-  NodePriority node_priority;  ///< replaces the order in which nodes are visited
-  PairCost pair_cost;          ///< replaces the key by which neighbours are chosen
+  NodePriority node_priority{};  ///< replaces the order in which nodes are visited
+  PairCost pair_cost{};          ///< replaces the key by which neighbours are chosen
 };
 
 /// Puts nodes that are joined by springs into groups of 2 or 3 (each drawn with probability 1/2);

@@ -9,8 +9,8 @@
 namespace springlod {
 
 struct GuardOptions {
-  /// Joined groups nearer than this part of the mean spring length are fused (coincident centroids
-  /// would give k = infinity). Spec 3.
+  /// Joined groups nearer than this part of the fine model's mean spring length are fused
+  /// (coincident centroids would give k = infinity). Spec 3.
   double coincident_fraction = 0.25;
   /// A node with fewer springs is floppy and is fused with its nearest neighbour.
   std::uint32_t least_springs = 4;
@@ -26,8 +26,11 @@ struct GuardedGroups {
   std::uint32_t fused_floppy = 0;      ///< fusions of floppy nodes
 };
 
-/// Fuses groups until the merged model has neither coincident centroids nor floppy nodes (a node
-/// that was as floppy before merging counts too; a part with fewer than 4 nodes is left alone).
-GuardedGroups guard_groups(const MassSpringModel& fine, Groups groups, const GuardOptions& options);
+/// Fuses groups until the merged model has neither coincident centroids nor floppy nodes. Parts
+/// that had no sound node before merging (a rope, a cloth) may stay floppy; a part of at most 4
+/// nodes is sound when all its pairs are joined. The rule is local: see zero_modes for the check of
+/// a whole part.
+GuardedGroups guard_groups(const MassSpringModel& fine, const Groups& groups,
+                           const GuardOptions& options);
 
 }  // namespace springlod

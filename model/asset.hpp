@@ -10,7 +10,8 @@ namespace springlod {
 /// primitive that any viewer shows (single precision; _MASS and the like as custom attributes),
 /// the surface mesh, and, in the extension SPRINGLOD_lod_chain (docs/asset-format.md), everything
 /// exact in doubles with a checksum. Written aside and renamed; the same asset gives the same
-/// bytes. Throws IoError.
+/// bytes. In names that are not UTF-8 the odd bytes are replaced by U+FFFD. Throws IoError, and
+/// InputError for an asset that does not validate.
 void save_asset(const LodAsset& asset, const std::filesystem::path& path);
 
 /// Reads back what save_asset wrote, bit for bit. Throws IoError (no such file, no springlod

@@ -65,8 +65,7 @@ void validate(const LodAsset& asset) {
   if (bound != asset.surface.positions.size())
     throw InputError(fmt::format("asset: the surface has {} vertices, of which {} are bound",
                                  asset.surface.positions.size(), bound));
-  for (const std::uint32_t node : asset.surface_of_base.node)
-    if (node >= base) throw InputError("asset: the surface is bound to a node that is not there");
+  validate(asset.surface_of_base, base);
 }
 
 }  // namespace springlod

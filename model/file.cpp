@@ -48,11 +48,23 @@ void write_text_file(const fs::path& path, std::string_view text) {
 }
 
 std::string read_file(const fs::path& path) {
-  if (fs::is_directory(path))
+  std::error_code error;
+  if (fs::is_directory(path, error))
     throw IoError(fmt::format("{} is a folder; name a file", path.string()));
   std::ifstream in(path, std::ios::binary);
   if (!in) throw IoError(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::string bytes;
+  // At one go where the size is known; pipes and the like have none.
+  const auto size = fs::file_size(path, error);
+  if (!error) {
+    bytes.resize(size);
+    in.read(bytes.data(), static_cast<std::streamsize>(size));
+    bytes.resize(static_cast<std::size_t>(in.gcount()));
+  }
+  bytes.append(std::istreambuf_iterator<char>(in), {});
+  if (in.bad())
+    throw IoError(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
+  return bytes;
 }
 
 std::string content_hash(std::string_view bytes) {

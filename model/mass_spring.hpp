@@ -22,7 +22,7 @@ struct MassSpringModel {
   std::vector<std::uint8_t> border;     ///< 1 if the node lies on the surface
   std::vector<std::uint32_t> material;  ///< index into materials; the one with most of the volume
 
-  // Springs, S each, sorted by (a, b), a < b, no pair twice.
+  // Springs, S each, sorted by (a, b), a < b, no pair twice; the ends lie apart at rest.
   std::vector<std::uint32_t> a, b;
   std::vector<double> rest_length;  ///< L [m] > 0; |rest[b] - rest[a]| in every model built here
   std::vector<double> stiffness;    ///< k [N/m] > 0
@@ -56,6 +56,11 @@ struct Adjacency {
   std::vector<std::uint32_t> spring;     ///< 2 S
 };
 Adjacency adjacency(const MassSpringModel& model);
+
+/// Unit vector from a spring's end a to its end b at rest.
+inline Vec3 spring_direction(const MassSpringModel& model, std::uint32_t spring) {
+  return (model.rest[model.b[spring]] - model.rest[model.a[spring]]).normalized();
+}
 
 /// Sums and moments of the rest state.
 struct MassProperties {

@@ -7,13 +7,16 @@
 
 namespace springlod {
 
-/// Largest angular frequency of the model about rest [rad/s], from above by about 1 part in 1e4.
 struct FrequencyOptions {
   /// Extra stiffness to ground of each node (contact) [N/m]; empty or N.
   std::vector<double> ground_stiffness;
   std::uint64_t seed = 1;  ///< of the start vector
 };
-/// Lanczos iteration (Spectra) on M^-1/2 K M^-1/2 without assembling it.
+/// Largest angular frequency of the model about rest [rad/s], from above by less than 1 part in
+/// 1e4: the converged Ritz value plus its residual. Lanczos iteration (Spectra) on M^-1/2 K M^-1/2
+/// without assembling it; small models by a dense solver. Never above `frequency_bound`, which it
+/// falls back to should Lanczos not converge. 0 for a model without springs and ground stiffness.
+/// Throws InputError for a ground stiffness of another size than N.
 double largest_frequency(const MassSpringModel& model, const FrequencyOptions& options = {});
 
 /// Bound without iterating: omega^2 <= 2 max_i lambda_max(A_i) / m_i, A_i = sum_j k_ij u u^T
@@ -25,6 +28,7 @@ double largest_damping_time(const MassSpringModel& model);
 
 /// Largest stable step of explicit symplectic Euler with damping evaluated at the old velocity:
 /// dt = -beta + sqrt(beta^2 + 4 / omega_max^2) [s]; exact for one beta = c/k, safe for the largest.
+/// Infinite for omega_max = 0.
 double stable_step(double omega_max, double damping_time);
 double stable_step(const MassSpringModel& model);
 

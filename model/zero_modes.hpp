@@ -14,11 +14,17 @@ struct PartModes {
   std::uint32_t zero_modes = 0;
   /// What a sound part of this shape has: 6, a straight line of nodes 5, a single node 3.
   std::uint32_t expected = 6;
-  /// Nodes that take part in a mechanism (a zero mode that is no rigid motion), worst first.
+  /// Nodes that take part in a mechanism (a zero mode that is no rigid motion), worst first: those
+  /// that move while the largest rigid piece of the part rests. Where there is no such piece (no
+  /// four nodes joined each to each), those that move when the rigid motions are taken out.
   std::vector<std::uint32_t> mechanism_nodes;
 };
 
-/// Counts the zero modes of each connected part by block inverse iteration on K + sigma I.
+/// Counts the zero modes of each connected part, to first order about rest; they depend on where
+/// the springs run and not on how stiff they are. Pieces that are rigid beyond doubt are found
+/// first and move as one body each, which leaves few unknowns even of large models; the zero modes
+/// of the rest are counted by Sylvester's law of inertia and their motions found by inverse
+/// iteration.
 std::vector<PartModes> zero_modes(const MassSpringModel& model);
 
 }  // namespace springlod

@@ -48,6 +48,10 @@ struct DrawStyle {
   bool bold_inner_nodes = false;  ///< nodes off the border in bold red (the paper's figure 4)
 };
 
+/// Colour in which a material is drawn: its own, or one of the palette if it was left at the
+/// default grey (a model in grey alone would tell nothing).
+Colour drawn_colour(const MassSpringModel& model, std::uint32_t material);
+
 /// One body in one panel, at one instant. Points into data that the caller keeps alive.
 struct DrawnBody {
   const MassSpringModel* model = nullptr;

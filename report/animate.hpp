@@ -17,12 +17,15 @@ enum class CameraMode { fixed, follow };
 struct AnimateOptions {
   std::uint32_t width = 640;  ///< of one panel [px]
   std::uint32_t height = 480;
-  double frame_rate = 30;    ///< of the pictures, per simulated second / slow
+  double frame_rate = 30;    ///< of the pictures: 1 / frame_rate / slow simulated seconds apart
   double slow = 1;           ///< 4: four times slower than life
-  std::uint32_t frames = 0;  ///< at most; 0: all
+  std::uint32_t frames = 0;  ///< at most, from the start; 0: all
+  /// fixed: one view that holds the whole action; follow: each panel keeps its body in the middle.
   CameraMode camera = CameraMode::fixed;
-  double azimuth = -70;  ///< [deg]
+  double azimuth = -70;  ///< of the eye, from x towards y [deg]
   double elevation = 15;
+  /// Mirror the azimuth where a wall would else stand between the camera and the action.
+  bool avoid_walls = true;
   DrawStyle style;
   Progress* progress = nullptr;
 };
@@ -33,7 +36,11 @@ struct Animation {
 };
 
 /// Draws base and levels side by side on one clock as folder/frame_0000.png ... Each frame is
-/// written while the next is drawn.
+/// written while the next is drawn. Positions between the frames of a trajectory are interpolated
+/// linearly; a run that ended early holds its last frame. A style that asks for nothing that is
+/// there (a surface where the asset has none) draws nodes and springs. frame_*.png of an earlier,
+/// longer animation are removed. Throws InputError (no runs, asset and runs that do not belong
+/// together), IoError.
 Animation animate(const LodAsset& asset, const Comparison& comparison,
                   const std::filesystem::path& folder, const AnimateOptions& options = {});
 

@@ -17,18 +17,21 @@ struct CompareOptions {
   std::uint64_t seed = 1;
   std::uint32_t threads =
       0;  ///< runs are spread over threads; 0: all cores. Never changes the result
-  RunOptions run;
+  RunOptions run = {};
   /// Errors are averaged from t = 0 to this long after the base's first contact [s].
   double error_window = 0.25;
+  /// Goes into the labels of the levels: "hb" makes "LOD-hb-1"; empty: "LOD-1".
+  std::string variant = {};
   Progress* progress = nullptr;
 };
 
 /// What one level did in one start.
 struct StartResult {
   double distance = 0;  ///< Scenario::measure_from at the end [m]
-  double surface_error =
-      0;                   ///< RMS distance of the level-0 nodes from the base's in the window [m]
-  double shape_error = 0;  ///< the same after the best rigid fit, over the whole run [m]
+  /// Mass-weighted RMS distance of the level-0 nodes from the base's, averaged over the frames of
+  /// the window [m].
+  double surface_error = 0;
+  double shape_error = 0;  ///< the same after the best rigid fit, over all common frames [m]
   double simulated = 0;    ///< [s]
   std::uint64_t spring_updates = 0;
   double wall_seconds = 0;  ///< measured; kept out of results
@@ -49,7 +52,16 @@ struct Comparison {
   std::vector<LevelRuns> levels;
 };
 
-/// Runs every level of the chain from the same starts.
+/// The start of run number `index`: speed times 1 + jitter u1, height (z of the centre of mass)
+/// times 1 + jitter u2, with u1, u2 uniform in [-1, 1) from (seed, index) alone; index 0 stays as
+/// it is. `center`: centre of mass of the model, which a start that is not placed keeps.
+Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
+               std::uint32_t index);
+
+/// Runs every level of the chain from the same starts, spread over threads; the result does not
+/// depend on their number. Only the frames of the first start are kept. Without frames between
+/// (frame_rate 0) the errors mean nothing. Throws what the first run that failed threw, naming
+/// level and start; InterruptedError from `progress` stops all runs.
 Comparison compare(const LodChain& chain, const Scenario& scenario,
                    const CompareOptions& options = {});
 

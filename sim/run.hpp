@@ -17,7 +17,7 @@ enum class Integrator { symplectic_euler, velocity_verlet };
 struct RunOptions {
   Integrator integrator = Integrator::symplectic_euler;
   /// Step [s]; left out: `safety` times the predicted stable step, contact stiffness included.
-  std::optional<double> step;
+  std::optional<double> step = std::nullopt;
   double safety = 0.8;
   /// Frames kept a second of simulated time; 0: only the first and last state.
   double frame_rate = 60;
@@ -45,13 +45,25 @@ struct Trajectory {
   State final;
 };
 
-/// Step that `run` takes if none is given, before safety: see stable_step, with the contact
-/// stiffness of the nodes with an area added to the springs.
-double predicted_step(const MassSpringModel& model, const Scenario& scenario);
+/// Stable step of the model under the scenario [s]: see stable_step, with the contact stiffness of
+/// the nodes with an area added to the springs and the largest damping time of springs and
+/// obstacles; velocity Verlet counts damping twice (see Leapfrog). Infinite if nothing is stiff.
+double predicted_step(const MassSpringModel& model, const Scenario& scenario,
+                      Integrator integrator = Integrator::symplectic_euler);
 
-/// Runs the model under the scenario. Throws UnstableError naming node and time as soon as a
-/// coordinate stops being finite or the energy grows without a source.
+/// Runs the model under the scenario. The step is `safety` times the predicted one, shortened so
+/// that the duration is a whole number of steps, or exactly the one given. Frames lie exactly at
+/// the frame times, between steps on the straight line that the scheme draws; ledger entries at the
+/// last step before. Throws InputError for a wrong model, scenario or option, UnstableError naming
+/// node and time as soon as a coordinate stops being finite or the energy grows without a source.
 Trajectory run(const MassSpringModel& model, const Scenario& scenario,
                const RunOptions& options = {});
+
+/// What Scenario::measure_from asks for [m], from the way of the centre of mass.
+double measured_distance(const Scenario& scenario, const Vec3& first_center,
+                         const Vec3& final_center);
+
+/// Centre of mass of the nodes at positions x [m].
+Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x);
 
 }  // namespace springlod

@@ -1,0 +1,183 @@
+#include "app/cli.hpp"
+
+#include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "scripting/suggest.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr int kWrongUse = 2;
+
+// Long flags that suggestions may name.
+const std::vector<std::string> kFlags{"--help",  "--version", "--seed", "--threads",
+                                      "--quiet", "--verbose", "-e",     "-i"};
+
+struct Switches {
+  bool quiet = false;
+  bool verbose = false;
+};
+
+void add_settings(CLI::App& app, Settings& settings, Switches& switches) {
+  app.add_option("--seed", settings.seed, "seed of everything random (default 1)");
+  app.add_option("--threads", settings.threads, "threads at most; 0, the default: all cores");
+  app.add_flag("-q,--quiet", switches.quiet, "no talk on stderr but errors");
+  app.add_flag("-v,--verbose", switches.verbose, "more talk; tracebacks of failed commands");
+}
+
+void settle(const Switches& switches, Settings& settings) {
+  if (switches.quiet) settings.verbosity = Verbosity::quiet;
+  if (switches.verbose) settings.verbosity = Verbosity::verbose;
+}
+
+std::vector<std::string> reversed(std::vector<std::string> words) {
+  std::reverse(words.begin(), words.end());  // what CLI::App::parse wants
+  return words;
+}
+
+std::string usage_text(const std::vector<StockCommand>& commands) {
+  std::string text = fmt::format(
+      "springlod {} - level-of-detail mass-spring models from meshes, scripted in Lua\n\n"
+      "usage: springlod [FLAGS] COMMAND ARGUMENTS...   a stock command, see below\n"
+      "       springlod [FLAGS] run SCRIPT.lua [-- ARGUMENTS...]\n"
+      "       springlod [FLAGS] -e CODE\n"
+      "       springlod [FLAGS]                        a prompt; or a script from a pipe\n\n"
+      "commands (springlod COMMAND --help tells more):\n",
+      version());
+  std::size_t width = 3;
+  for (const StockCommand& command : commands) width = std::max(width, command.name.size());
+  text += fmt::format("  {:<{}}  {}\n", "run", width, "Runs a script of yours.");
+  for (const StockCommand& command : commands)
+    text += fmt::format("  {:<{}}  {}\n", command.name, width, command.summary);
+  return text +
+         "\nflags (--seed, --threads, -q and -v may stand after the command too):\n"
+         "  -e CODE        run CODE\n"
+         "  -i             a prompt afterwards\n"
+         "  --seed N       seed of everything random (default 1)\n"
+         "  --threads N    threads at most; 0, the default: all cores\n"
+         "  -q, --quiet    no talk on stderr but errors\n"
+         "  -v, --verbose  more talk; tracebacks of failed commands\n"
+         "  --version      print the version\n"
+         "  -h, --help     print this\n";
+}
+
+Leave wrong_use(const std::string& message) {
+  return {kWrongUse, fmt::format("springlod: {}\ntry: springlod --help\n", message)};
+}
+
+Leave unknown_flag(const std::string& flag) {
+  return wrong_use(
+      fmt::format("unknown flag {}{}", flag, did_you_mean(flag.substr(0, flag.find('=')), kFlags)));
+}
+
+Leave unknown_command(const std::string& name, const std::vector<StockCommand>& commands) {
+  if (name.ends_with(".lua"))
+    return wrong_use(fmt::format("unknown command '{0}'; did you mean: springlod run {0}?", name));
+  std::vector<std::string> names{"run"};
+  for (const StockCommand& command : commands) names.push_back(command.name);
+  return wrong_use(
+      fmt::format("unknown command '{}'{}", name, name_hint(name, names, "commands are")));
+}
+
+// The flags before the command; what follows stays in `rest`.
+std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
+                                 const std::vector<StockCommand>& commands, CommandLine& line,
+                                 std::vector<std::string>& rest) {
+  CLI::App app;
+  Switches switches;
+  bool help = false;
+  bool show_version = false;
+  app.set_help_flag("");
+  app.prefix_command();
+  app.add_flag("-h,--help", help);
+  app.add_flag("--version", show_version);
+  app.add_option("-e", line.code);
+  app.add_flag("-i", line.prompt_after);
+  add_settings(app, line.settings, switches);
+  try {
+    app.parse(reversed(arguments));
+  } catch (const CLI::ParseError& error) {
+    return wrong_use(error.what());
+  }
+  settle(switches, line.settings);
+  rest = app.remaining();
+  if (help) return Leave{0, usage_text(commands)};
+  if (show_version) return Leave{0, fmt::format("springlod {}\n", version())};
+  if (app.count("-e") > 0) line.action = CommandLine::Action::code;
+  return std::nullopt;
+}
+
+// The settings among the arguments of a command; all others go to its script, in their order.
+std::optional<Leave> parse_back(const std::vector<std::string>& arguments, bool own_script,
+                                CommandLine& line) {
+  // What follows "--" is the script's alone.
+  const auto separator = std::find(arguments.begin(), arguments.end(), "--");
+  CLI::App app;
+  Switches switches;
+  app.set_help_flag("");
+  app.allow_extras();
+  add_settings(app, line.settings, switches);
+  if (own_script) app.add_flag("-i", line.prompt_after);
+  try {
+    app.parse(reversed({arguments.begin(), separator}));
+  } catch (const CLI::ParseError& error) {
+    return wrong_use(error.what());
+  }
+  settle(switches, line.settings);
+  line.arguments = app.remaining();
+  if (separator != arguments.end())
+    line.arguments.insert(line.arguments.end(), separator + (own_script ? 1 : 0), arguments.end());
+  return std::nullopt;
+}
+
+std::optional<Leave> parse_run(const std::vector<std::string>& arguments, CommandLine& line) {
+  line.action = CommandLine::Action::script;
+  if (auto leave = parse_back(arguments, true, line)) return leave;
+  if (line.arguments.empty()) return wrong_use("run needs a script: springlod run SCRIPT.lua");
+  line.script = line.arguments.front();
+  line.arguments.erase(line.arguments.begin());
+  if (line.script.starts_with("-")) return unknown_flag(line.script);
+  return std::nullopt;
+}
+
+std::optional<Leave> parse_rest(const std::vector<std::string>& rest,
+                                const std::vector<StockCommand>& commands, bool stdin_is_terminal,
+                                CommandLine& line) {
+  if (line.action == CommandLine::Action::code) {
+    line.arguments = rest;
+    return std::nullopt;
+  }
+  if (rest.empty()) {
+    const bool talk = stdin_is_terminal || line.prompt_after;
+    line.action = talk ? CommandLine::Action::prompt : CommandLine::Action::standard_input;
+    return std::nullopt;
+  }
+  if (rest.front().starts_with("-")) return unknown_flag(rest.front());
+  const std::vector<std::string> arguments(rest.begin() + 1, rest.end());
+  if (rest.front() == "run") return parse_run(arguments, line);
+  const auto known = std::find_if(commands.begin(), commands.end(), [&](const auto& command) {
+    return command.name == rest.front();
+  });
+  if (known == commands.end()) return unknown_command(rest.front(), commands);
+  line.action = CommandLine::Action::command;
+  line.command = known->name;
+  line.script = known->script.string();
+  return parse_back(arguments, false, line);
+}
+
+}  // namespace
+
+Parsed parse_command_line(const std::vector<std::string>& arguments,
+                          const std::vector<StockCommand>& commands, bool stdin_is_terminal) {
+  Parsed parsed;
+  std::vector<std::string> rest;
+  parsed.leave = parse_front(arguments, commands, parsed.line, rest);
+  if (!parsed.leave) parsed.leave = parse_rest(rest, commands, stdin_is_terminal, parsed.line);
+  return parsed;
+}
+
+}  // namespace springlod

@@ -1,0 +1,71 @@
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "app/cli.hpp"
+#include "model/error.hpp"
+#include "scripting/interrupt.hpp"
+#include "scripting/paths.hpp"
+#include "scripting/repl.hpp"
+#include "scripting/state.hpp"
+
+namespace {
+
+using springlod::CommandLine;
+using springlod::Outcome;
+using springlod::ScriptState;
+
+constexpr int kFailed = 1;
+
+Outcome run_action(ScriptState& state, const CommandLine& line) {
+  switch (line.action) {
+    case CommandLine::Action::code:
+      return state.run_text(line.code, "-e", line.arguments);
+    case CommandLine::Action::script:
+    case CommandLine::Action::command:
+      return state.run_file(line.script, line.arguments);
+    case CommandLine::Action::standard_input:
+      return state.run_text(std::string(std::istreambuf_iterator<char>(std::cin), {}), "stdin", {});
+    case CommandLine::Action::prompt:
+      break;
+  }
+  return {};
+}
+
+int run(const std::vector<std::string>& arguments) {
+  const springlod::Parsed parsed = springlod::parse_command_line(
+      arguments, springlod::stock_commands(), isatty(STDIN_FILENO) != 0);
+  if (parsed.leave) {
+    std::fputs(parsed.leave->text.c_str(), parsed.leave->exit_code == 0 ? stdout : stderr);
+    return parsed.leave->exit_code;
+  }
+  const CommandLine& line = parsed.line;
+  const springlod::InterruptHandler interrupts;
+  ScriptState state(line.settings);
+  const Outcome outcome = run_action(state, line);
+  if (!outcome.done)
+    fmt::print(stderr, "springlod: {}\n{}{}", outcome.message, outcome.traceback,
+               outcome.traceback.empty() ? "" : "\n");
+  if (line.action == CommandLine::Action::prompt || line.prompt_after) springlod::run_prompt(state);
+  return outcome.done ? 0 : kFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int exit_code = kFailed;
+  try {
+    exit_code = run({argv + 1, argv + argc});
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "springlod: {}\n", error.what());
+  }
+  // Results that could not be written are a failure, not a success.
+  if (std::fflush(stdout) != 0) exit_code = kFailed;
+  return exit_code;
+}

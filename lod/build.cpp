@@ -1,0 +1,54 @@
+#include "lod/build.hpp"
+
+#include <fmt/format.h>
+
+#include "lod/merge.hpp"
+#include "model/error.hpp"
+
+namespace springlod {
+namespace {
+
+std::string told_from(const SimplifyOptions& options) {
+  const GroupingOptions& g = options.grouping;
+  std::string grouping = to_string(g.grouping);
+  if (options.groups) grouping = "groups of the script";
+  if (g.pair_cost || g.node_priority) grouping = "function of the script";
+  return fmt::format("{}, border {}, seed {}{}", grouping, to_string(g.border), g.seed,
+                     options.guards ? "" : ", no guards");
+}
+
+Groups next_groups(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
+  const Groups groups = options.groups ? options.groups(finer.model, finer.of_base, level)
+                                       : group_nodes(finer.model, options.grouping);
+  if (!options.guards) return groups;
+  GuardOptions guard = options.guard;
+  guard.border = options.grouping.border;
+  return guard_groups(finer.model, groups, guard).groups;
+}
+
+Level next_level(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
+  const Groups groups = next_groups(finer, options, level);
+  if (groups.count == finer.model.node_count())
+    throw InputError(fmt::format(
+        "simplify: level {} would be the same as level {} ({} nodes): no two nodes may merge any "
+        "more; ask for levels = {}{}",
+        level, level - 1, groups.count, level - 1,
+        options.grouping.border == BorderRule::strong ? " or for border = \"weak\"" : ""));
+  return {merge(finer.model, groups), compose(finer.of_base, groups),
+          options.made_by.empty() ? told_from(options) : options.made_by};
+}
+
+}  // namespace
+
+LodChain simplify(const MassSpringModel& base, const SimplifyOptions& options) {
+  Task task(options.progress, "merging", options.levels);
+  LodChain chain;
+  chain.levels.push_back({base, identity_groups(base.node_count()), "base"});
+  for (std::uint32_t level = 1; level <= options.levels; ++level) {
+    chain.levels.push_back(next_level(chain.levels.back(), options, level));
+    task.advance();
+  }
+  return chain;
+}
+
+}  // namespace springlod

@@ -1,0 +1,60 @@
+#include "lod/transfer.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
+namespace springlod {
+namespace {
+
+// Enough for smooth weights; more neighbours only blur and cost time.
+constexpr std::size_t kMostNodes = 12;
+
+// The group's own node first, then its nearest spring neighbours.
+std::vector<std::uint32_t> nearest_neighbourhood(const MassSpringModel& model, const Adjacency& adj,
+                                                 std::uint32_t node, const Vec3& point) {
+  std::vector<std::uint32_t> nodes(adj.neighbour.begin() + adj.start[node],
+                                   adj.neighbour.begin() + adj.start[node + 1]);
+  const auto nearer = [&](std::uint32_t i, std::uint32_t j) {
+    const double di = (model.rest[i] - point).squaredNorm();
+    const double dj = (model.rest[j] - point).squaredNorm();
+    return di != dj ? di < dj : i < j;
+  };
+  std::sort(nodes.begin(), nodes.end(), nearer);
+  nodes.insert(nodes.begin(), node);
+  if (nodes.size() > kMostNodes) nodes.resize(kMostNodes);
+  return nodes;
+}
+
+Binding identity_binding(std::uint32_t count) {
+  Binding binding;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    binding.start.push_back(i);
+    binding.node.push_back(i);
+    binding.weight.push_back(1);
+  }
+  binding.start.push_back(count);
+  return binding;
+}
+
+}  // namespace
+
+Binding base_from_level(const LodChain& chain, std::uint32_t level) {
+  if (level >= chain.levels.size())
+    throw InputError(fmt::format("there is no level {}; the chain has levels 0 to {}", level,
+                                 chain.levels.size() - 1));
+  const MassSpringModel& base = chain.levels[0].model;
+  if (level == 0) return identity_binding(base.node_count());
+  const MassSpringModel& coarse = chain.levels[level].model;
+  const Groups& groups = chain.levels[level].of_base;
+  const Adjacency adj = adjacency(coarse);
+  Binding binding;
+  for (std::uint32_t i = 0; i < base.node_count(); ++i)
+    append_bound_point(binding, base.rest[i], coarse,
+                       nearest_neighbourhood(coarse, adj, groups.of[i], base.rest[i]));
+  return binding;
+}
+
+}  // namespace springlod

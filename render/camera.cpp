@@ -1,0 +1,119 @@
+#include "render/camera.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "model/error.hpp"
+
+namespace springlod {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+// Depth range in distances eye-target: nothing worth seeing is nearer or farther.
+constexpr double kNear = 0.02;
+constexpr double kFar = 50;
+// Room around the framed box, as a factor: above and below it stay free for labels.
+constexpr double kMarginAcross = 1.06;
+constexpr double kMarginUpright = 1.22;
+
+}  // namespace
+
+CameraAxes camera_axes(const Camera& camera) {
+  const Vec3 back = (camera.eye - camera.target).normalized();
+  Vec3 right = camera.up.cross(back);
+  constexpr double kParallel = 1e-6;
+  if (right.norm() < kParallel) right = Vec3::UnitY().cross(back);
+  if (right.norm() < kParallel) right = Vec3::UnitX().cross(back);
+  right.normalize();
+  return {right, back.cross(right), back};
+}
+
+double view_radius(const Camera& camera) {
+  return (camera.eye - camera.target).norm() * std::tan(camera.fov_degrees * kDegree / 2);
+}
+
+Mat4f view_projection(const Camera& camera, double aspect) {
+  const CameraAxes axes = camera_axes(camera);
+  const double distance = (camera.eye - camera.target).norm();
+  Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
+  view.block<1, 3>(0, 0) = axes.right.transpose();
+  view.block<1, 3>(1, 0) = axes.up.transpose();
+  view.block<1, 3>(2, 0) = axes.back.transpose();
+  view(2, 3) = -distance;
+  const double near = kNear * distance;
+  const double far = kFar * distance;
+  const double cot = 1 / std::tan(camera.fov_degrees * kDegree / 2);
+  Eigen::Matrix4d projection = Eigen::Matrix4d::Zero();
+  projection(0, 0) = cot / aspect;
+  projection(1, 1) = cot;
+  projection(2, 2) = -(far + near) / (far - near);
+  projection(2, 3) = -2 * far * near / (far - near);
+  projection(3, 2) = -1;
+  return (projection * view).cast<float>();
+}
+
+namespace {
+
+std::array<Vec3, 8> corners(const Box3& box) {
+  std::array<Vec3, 8> points;
+  for (std::size_t i = 0; i < 8; ++i) points[i] = box.corner(static_cast<Box3::CornerType>(i));
+  return points;
+}
+
+// Least distance of an eye at `target + distance back` that has all points inside the field.
+double fitting_distance(const std::array<Vec3, 8>& points, const Vec3& target,
+                        const CameraAxes& axes, double tan_x, double tan_y) {
+  double distance = 0;
+  for (const Vec3& p : points) {
+    const Vec3 r = p - target;
+    const double toward = r.dot(axes.back);
+    distance = std::max({distance, toward + std::abs(r.dot(axes.right)) / tan_x,
+                         toward + std::abs(r.dot(axes.up)) / tan_y});
+  }
+  return distance;
+}
+
+}  // namespace
+
+Camera frame_box(const Box3& box, double azimuth, double elevation, double aspect,
+                 double fov_degrees) {
+  if (box.isEmpty() || !box.sizes().allFinite())
+    throw InputError("camera: there is nothing to look at (the box is empty or not finite)");
+  if (!(aspect > 0) || !(fov_degrees > 0 && fov_degrees < 180))
+    throw InputError("camera: the aspect must be above 0, the field of view between 0 and 180 deg");
+  const double az = azimuth * kDegree;
+  const double el = elevation * kDegree;
+  const Vec3 back(std::cos(az) * std::cos(el), std::sin(az) * std::cos(el), std::sin(el));
+  Camera camera;
+  camera.fov_degrees = fov_degrees;
+  camera.target = box.center();
+  camera.eye = camera.target + back;
+  const CameraAxes axes = camera_axes(camera);
+  const double tan_half = std::tan(fov_degrees * kDegree / 2);
+  const double tan_y = tan_half / kMarginUpright;
+  const double tan_x = tan_half * aspect / kMarginAcross;
+  const std::array<Vec3, 8> points = corners(box);
+  // Perspective makes the near side larger: shift the target until left and right, above and below
+  // leave the same room. Converges fast; 8 rounds are far below a pixel.
+  double distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
+  for (int round = 0; round < 8; ++round) {
+    double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
+    for (const Vec3& p : points) {
+      const Vec3 r = p - camera.target;
+      const double depth = distance - r.dot(axes.back);
+      left = std::min(left, r.dot(axes.right) / depth);
+      right = std::max(right, r.dot(axes.right) / depth);
+      low = std::min(low, r.dot(axes.up) / depth);
+      high = std::max(high, r.dot(axes.up) / depth);
+    }
+    camera.target += distance * ((left + right) / 2 * axes.right + (low + high) / 2 * axes.up);
+    distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
+  }
+  constexpr double kLeast = 1e-9;  // a box of one point still gives a camera
+  camera.eye = camera.target + std::max(distance, kLeast) * back;
+  return camera;
+}
+
+}  // namespace springlod

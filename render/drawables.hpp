@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/scene.hpp"
+#include "render/surface.hpp"
+
+namespace springlod {
+
+// What the graphics pipeline eats: plain floats, positions relative to an origin [m].
+
+struct SurfaceVertex {
+  Eigen::Vector3f position;
+  Eigen::Vector3f normal;
+  Colour colour;
+};
+struct SpringInstance {
+  Eigen::Vector3f a, b;
+  Colour colour_a, colour_b;
+  float radius;
+};
+struct NodeInstance {
+  Eigen::Vector3f center;
+  Colour colour;
+  float radius;
+};
+
+/// Mean rest length of the springs; without springs a part of the model's size.
+double mean_spring_length(const MassSpringModel& model);
+
+std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSurface& surface,
+                                            const Vec3& origin);
+std::vector<SpringInstance> spring_instances(const DrawnBody& body, const Vec3& origin);
+std::vector<NodeInstance> node_instances(const DrawnBody& body, const Vec3& origin);
+
+/// A box as a mesh, so that it is drawn and casts shadows like any surface.
+TriangleMesh box_mesh(const DrawnBox& box);
+
+/// All that is drawn of a body.
+Box3 drawn_bounds(const DrawnBody& body);
+
+/// Throws InputError naming what does not fit (counts, positions that are not finite).
+void validate(const DrawnBody& body);
+
+}  // namespace springlod

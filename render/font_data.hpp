@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstddef>
+
+namespace springlod {
+
+/// DejaVu Sans as a TrueType file in memory, put in at build time.
+const unsigned char* font_file();
+std::size_t font_file_size();
+
+}  // namespace springlod

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <memory>
+
+#include "render/scene.hpp"
+
+namespace springlod {
+
+/// Draws one panel into the current target of `context`: shadow map, backdrop, planes, boxes,
+/// opaque bodies, then what is transparent. Keeps shaders, buffers and split surfaces.
+class Pipeline {
+ public:
+  explicit Pipeline(OffscreenContext& context);
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+  void draw(const Panel& panel);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace springlod

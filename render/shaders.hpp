@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+namespace springlod {
+
+/// GLSL 3.30 sources. All share the uniform block `Frame` (render/pipeline.cpp) and work in metres
+/// relative to the camera's target.
+struct ShaderSource {
+  std::string vertex;
+  std::string fragment;
+};
+
+ShaderSource backdrop_shader();  ///< soft vertical gradient behind everything
+ShaderSource surface_shader();   ///< shaded triangles: position, normal, colour
+ShaderSource spring_shader();    ///< one instance a spring: a strip that looks like a rod
+ShaderSource node_shader();      ///< one instance a node: a quad that looks like a ball
+ShaderSource plane_shader();     ///< floor or wall: grid, shadow, fading with distance
+
+// The same shapes seen from the key light: depth only.
+ShaderSource surface_depth_shader();
+ShaderSource spring_depth_shader();
+ShaderSource node_depth_shader();
+
+}  // namespace springlod

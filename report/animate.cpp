@@ -1,0 +1,327 @@
+#include "report/animate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <future>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+#include "model/units.hpp"
+#include "render/frames.hpp"
+#include "report/playback.hpp"
+
+namespace springlod {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPi = 3.14159265358979323846;
+
+void require_matching(const LodAsset& asset, const Comparison& comparison) {
+  if (comparison.levels.empty()) throw InputError("animation: the comparison has no runs");
+  const std::vector<Level>& levels = asset.chain.levels;
+  for (const LevelRuns& runs : comparison.levels) {
+    if (runs.level >= levels.size())
+      throw InputError(fmt::format("animation: \"{}\" is of level {}, but the asset has {} levels",
+                                   runs.label, runs.level, levels.size()));
+    const auto require_frames = [&](const std::vector<Frame>& frames, std::uint32_t nodes) {
+      if (frames.empty())
+        throw InputError(
+            fmt::format("animation: \"{}\" kept no frames; run it with a frame rate", runs.label));
+      for (const Frame& frame : frames)
+        if (frame.x.size() != nodes)
+          throw InputError(
+              fmt::format("animation: \"{}\" has {} positions a frame where the asset "
+                          "has {} nodes; is it from another asset?",
+                          runs.label, frame.x.size(), nodes));
+    };
+    require_frames(runs.first.frames, levels[runs.level].model.node_count());
+    require_frames(runs.base_frames, levels[0].model.node_count());
+  }
+}
+
+void require_sane(const AnimateOptions& options) {
+  if (!(options.frame_rate > 0) || !std::isfinite(options.frame_rate) || !(options.slow > 0) ||
+      !std::isfinite(options.slow))
+    throw InputError(fmt::format("animation: frame_rate = {} and slow = {} must be above 0",
+                                 options.frame_rate, options.slow));
+}
+
+/// The times of the pictures [s].
+std::vector<double> picture_times(const Comparison& comparison, const AnimateOptions& options) {
+  double end = 0;
+  for (const LevelRuns& runs : comparison.levels)
+    end = std::max({end, runs.first.frames.back().time, runs.base_frames.back().time});
+  const double apart = 1 / (options.frame_rate * options.slow);
+  // Rounding in the sum of the time steps must not lose the last picture.
+  constexpr double kSlack = 1e-6;
+  const double count = std::floor(end / apart + kSlack) + 1;
+  constexpr double kMost = 1e6;  // a typing error in the frame rate, not a wish
+  if (options.frames == 0 && count > kMost)
+    throw InputError(
+        fmt::format("animation: {:g} s at {:g} pictures a second makes {:g} pictures; set a lower "
+                    "frame_rate or "
+                    "frames",
+                    end * options.slow, options.frame_rate, count));
+  const double most = options.frames == 0 ? count : std::min<double>(count, options.frames);
+  std::vector<double> times;
+  for (double k = 0; k < most; ++k) times.push_back(k * apart);
+  return times;
+}
+
+std::string count_text(double count) {
+  for (const auto& [unit, name] : {std::pair{1e9, "billion"}, {1e6, "million"}})
+    if (count >= unit) return fmt::format("{:.3g} {}", count / unit, name);
+  return fmt::format("{:.0f}", count);
+}
+
+/// Colours of the surface's parts: of the material that most of their vertices hang on.
+std::vector<Colour> part_colours(const LodAsset& asset) {
+  const MassSpringModel& base = asset.chain.levels[0].model;
+  const Binding& binding = asset.surface_of_base;
+  std::vector<Colour> colours;
+  for (const MeshPart& part : asset.surface.parts) {
+    std::vector<double> share(base.materials.size(), 0);
+    for (std::uint32_t t = 0; t < part.triangle_count; ++t)
+      for (const std::uint32_t v : asset.surface.triangles[part.first_triangle + t])
+        for (std::uint32_t e = binding.start[v]; e < binding.start[v + 1]; ++e)
+          share[base.material[binding.node[e]]] += std::abs(binding.weight[e]);
+    const auto most = std::max_element(share.begin(), share.end()) - share.begin();
+    colours.push_back(drawn_colour(base, static_cast<std::uint32_t>(most)));
+  }
+  return colours;
+}
+
+/// What every picture of one panel has in common.
+Panel panel_frame(const LodAsset& asset, const Comparison& comparison, const LevelRuns& runs) {
+  const MassSpringModel& model = asset.chain.levels[runs.level].model;
+  Panel panel;
+  panel.title =
+      fmt::format("{}: {} nodes, {} springs", runs.label, model.node_count(), model.spring_count());
+  const auto updates = static_cast<double>(runs.first.spring_updates);
+  const auto of_base = static_cast<double>(comparison.levels[0].first.spring_updates);
+  if (updates > 0 && &runs == &comparison.levels[0])
+    panel.captions.push_back(count_text(updates) + " spring updates");
+  else if (updates > 0 && of_base >= updates)
+    panel.captions.push_back(fmt::format("{:.1f}x fewer spring updates", of_base / updates));
+  else if (updates > 0 && of_base > 0)
+    panel.captions.push_back(fmt::format("{:.1f}x more spring updates", updates / of_base));
+  if (&runs != &comparison.levels[0] && !runs.starts.empty() && runs.starts[0].surface_error > 0)
+    panel.captions.push_back(
+        "mean error " +
+        format_quantity(std::stod(fmt::format("{:.2g}", runs.starts[0].surface_error)),
+                        Dimension::length));
+  for (const Obstacle& obstacle : comparison.scenario.obstacles) {
+    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
+      panel.planes.push_back({plane->normal, plane->offset});
+    else if (const auto* box = std::get_if<SolidBox>(&obstacle.shape))
+      panel.boxes.push_back({box->center, box->half_size, box->rotation});
+  }
+  return panel;
+}
+
+/// How far the surface reaches beyond the nodes at rest [m].
+double surface_margin(const LodAsset& asset) {
+  if (asset.surface.positions.empty()) return 0;
+  Box3 nodes;
+  for (const Vec3& p : asset.chain.levels[0].model.rest) nodes.extend(p);
+  const Box3 surface = bounds(asset.surface);
+  return std::max(
+      {0., (nodes.min() - surface.min()).maxCoeff(), (surface.max() - nodes.max()).maxCoeff()});
+}
+
+/// Everything that is shown, with the floor under it and walls and boxes beside it if they are
+/// near.
+Box3 action_bounds(const LodAsset& asset, const Comparison& comparison,
+                   const std::vector<double>& times) {
+  Box3 box;
+  for (const LevelRuns& runs : comparison.levels)
+    for (const double t : times)
+      for (const Vec3& p : positions_at(runs.base_frames, t)) box.extend(p);
+  const Vec3 margin = Vec3::Constant(surface_margin(asset));
+  box.min() -= margin;
+  box.max() += margin;
+  constexpr double kNear = 0.5;  // of the size of the action
+  const double near = kNear * box.diagonal().norm();
+  const Box3 action = box;
+  for (const Obstacle& obstacle : comparison.scenario.obstacles) {
+    if (const auto* plane = std::get_if<Plane>(&obstacle.shape)) {
+      const double height = plane->normal.dot(action.center()) - plane->offset;
+      const Vec3 foot = action.center() - height * plane->normal;
+      if (action.exteriorDistance(foot) <= near) box.extend(foot);
+    } else if (const auto* solid = std::get_if<SolidBox>(&obstacle.shape)) {
+      Box3 around;
+      for (int i = 0; i < 8; ++i) {
+        const Vec3 sign((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+        around.extend(solid->center + solid->rotation * sign.cwiseProduct(solid->half_size));
+      }
+      // Only what is near of a large box: a slab as a floor is not all looked at.
+      const Box3 seen(action.min() - Vec3::Constant(near), action.max() + Vec3::Constant(near));
+      const Box3 part = around.intersection(seen);
+      if (!part.isEmpty()) box.extend(part);
+    }
+  }
+  return box;
+}
+
+double facing(const Obstacle& obstacle, double azimuth) {
+  const auto* plane = std::get_if<Plane>(&obstacle.shape);
+  if (plane == nullptr) return 1;
+  const Vec3 across(plane->normal.x(), plane->normal.y(), 0);
+  constexpr double kWall = 0.7;  // floors and ramps are seen from above anyway
+  if (across.norm() < kWall * plane->normal.norm()) return 1;
+  const double angle = azimuth * kPi / 180;
+  return across.normalized().dot(Vec3(std::cos(angle), std::sin(angle), 0));
+}
+
+/// The azimuth, or one of its mirror images, from which every wall is seen from its free side.
+double azimuth_of(const Scenario& scenario, const AnimateOptions& options) {
+  if (!options.avoid_walls) return options.azimuth;
+  const double az = options.azimuth;
+  double best = az;
+  double best_facing = -2;
+  for (const double candidate : {az, -180 - az, -az, 180 + az}) {
+    double worst = 1;
+    for (const Obstacle& obstacle : scenario.obstacles)
+      worst = std::min(worst, facing(obstacle, candidate));
+    constexpr double kEnough = 0.15;  // not quite edge on
+    if (worst >= kEnough) return candidate;
+    if (worst > best_facing) {
+      best_facing = worst;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+/// The cameras of one panel, one a picture.
+std::vector<Camera> cameras_of(const LodAsset& asset, const Comparison& comparison,
+                               const LevelRuns& runs, const std::vector<double>& times,
+                               const AnimateOptions& options) {
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const double azimuth = azimuth_of(comparison.scenario, options);
+  if (options.camera == CameraMode::fixed)
+    return std::vector<Camera>(times.size(), frame_box(action_bounds(asset, comparison, times),
+                                                       azimuth, options.elevation, aspect));
+  const MassSpringModel& base = asset.chain.levels[0].model;
+  std::vector<Vec3> path;
+  for (const double t : times)
+    path.push_back(center_of_mass(positions_at(runs.base_frames, t), base.mass));
+  constexpr double kSmooth = 0.2;  // to both sides, seconds of the film
+  path = smoothed(path, static_cast<std::uint32_t>(kSmooth * options.frame_rate));
+  // A ball that holds the body however it turns, with room to see where it goes.
+  const Vec3 center = center_of_mass(base.rest, base.mass);
+  double radius = 0;
+  for (const Vec3& p : base.rest) radius = std::max(radius, (p - center).norm());
+  constexpr double kRoom = 1.4;
+  const Vec3 half = Vec3::Constant(kRoom * (radius + surface_margin(asset)) / std::sqrt(3.));
+  std::vector<Camera> cameras;
+  for (const Vec3& p : path)
+    cameras.push_back(frame_box(Box3(p - half, p + half), azimuth, options.elevation, aspect));
+  return cameras;
+}
+
+DrawStyle style_for(const LodAsset& asset, DrawStyle style) {
+  if (asset.surface.triangles.empty()) style.surface = false;
+  if (!style.surface && !style.nodes && !style.springs && !style.bold_inner_nodes)
+    style.nodes = style.springs = true;
+  return style;
+}
+
+/// One panel through the film; keeps what the drawn body points to.
+class PanelPlayer {
+ public:
+  PanelPlayer(const LodAsset& asset, const Comparison& comparison, const LevelRuns& runs,
+              const std::vector<double>& times, const AnimateOptions& options)
+      : asset_(asset),
+        runs_(runs),
+        panel_(panel_frame(asset, comparison, runs)),
+        cameras_(cameras_of(asset, comparison, runs, times, options)) {
+    body_.style = style_for(asset, options.style);
+    body_.model = &asset.chain.levels[runs.level].model;
+    if (!body_.style.surface) return;
+    body_.surface = &asset.surface;
+    body_.part_colours = part_colours(asset);
+  }
+
+  Panel at(std::size_t picture, double t) {
+    nodes_ = positions_at(runs_.first.frames, t);
+    body_.node_positions = &nodes_;
+    if (body_.surface != nullptr) {
+      surface_ = springlod::apply(asset_.surface_of_base, positions_at(runs_.base_frames, t));
+      body_.surface_positions = &surface_;
+    }
+    Panel panel = panel_;
+    panel.camera = cameras_[picture];
+    panel.bodies = {body_};
+    return panel;
+  }
+
+ private:
+  const LodAsset& asset_;
+  const LevelRuns& runs_;
+  Panel panel_;
+  std::vector<Camera> cameras_;
+  DrawnBody body_;
+  std::vector<Vec3> nodes_;
+  std::vector<Vec3> surface_;
+};
+
+/// Removes frame_*.png numbered `count` and up: left over, they would end up in the video.
+void remove_stale_frames(const fs::path& folder, std::size_t count) {
+  constexpr std::string_view kBefore = "frame_";
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    if (entry.path().extension() != ".png" || !stem.starts_with(kBefore)) continue;
+    const std::string digits = stem.substr(kBefore.size());
+    constexpr std::size_t kMostDigits = 9;
+    if (digits.empty() || digits.size() > kMostDigits ||
+        digits.find_first_not_of("0123456789") != std::string::npos)
+      continue;
+    if (std::stoul(digits) < count) continue;
+    std::error_code error;
+    fs::remove(entry.path(), error);
+    if (error)
+      throw IoError(
+          fmt::format("cannot remove the old {}: {}", entry.path().string(), error.message()));
+  }
+}
+
+}  // namespace
+
+Animation animate(const LodAsset& asset, const Comparison& comparison, const fs::path& folder,
+                  const AnimateOptions& options) {
+  require_matching(asset, comparison);
+  require_sane(options);
+  const std::vector<double> times = picture_times(comparison, options);
+  Renderer renderer(options.width, options.height,
+                    static_cast<std::uint32_t>(comparison.levels.size()));
+  std::vector<PanelPlayer> players;
+  for (const LevelRuns& runs : comparison.levels)
+    players.emplace_back(asset, comparison, runs, times, options);
+
+  Task task(options.progress, "drawing frames", times.size());
+  std::future<void> writing;  // its destructor waits, so an exception leaves no thread behind
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    std::vector<Panel> panels;
+    for (PanelPlayer& player : players) panels.push_back(player.at(k, times[k]));
+    Image picture = renderer.draw(panels, fmt::format("t = {:.3f} s", times[k]));
+    if (writing.valid()) writing.get();
+    writing = std::async(
+        std::launch::async,
+        [image = std::move(picture), path = frame_path(folder, static_cast<std::uint32_t>(k))] {
+          save_png(image, path);
+        });
+    task.advance();
+  }
+  writing.get();
+  remove_stale_frames(folder, times.size());
+  return {static_cast<std::uint32_t>(times.size()), folder};
+}
+
+}  // namespace springlod

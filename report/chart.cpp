@@ -1,0 +1,289 @@
+#include "report/chart.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+#include "model/file.hpp"
+#include "report/chart_layout.hpp"
+#include "report/csv.hpp"
+#include "report/subprocess.hpp"
+
+namespace springlod {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Okabe & Ito's palette without its yellow, which is lost on white.
+constexpr std::array<const char*, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                              "#E69F00", "#56B4E9", "#5F6570"};
+// gnuplot's filled shapes: disc, square, triangle, diamond, triangle down, pentagon. Series differ
+// by shape too, for readers without colours.
+constexpr std::array<int, 6> kShapes{7, 5, 9, 13, 11, 15};
+
+const char* colour(std::size_t series) {
+  return kColours[series % kColours.size()];
+}
+int shape(std::size_t series) {
+  return kShapes[series % kShapes.size()];
+}
+
+// In gnuplot's single quotes nothing is special but the quote; a line break would end the command.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') out += '\'';
+    out += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  out += '\'';
+  return out;
+}
+
+bool has_interval(const ChartPoint& p) {
+  return p.y_high > p.y_low;
+}
+
+void require_drawable(const std::vector<ChartSeries>& series, const fs::path& path) {
+  if (path.extension() != ".svg" && path.extension() != ".png")
+    throw InputError(fmt::format("chart: {} must end in .svg or .png", path.string()));
+  std::size_t points = 0;
+  for (const ChartSeries& s : series)
+    for (const ChartPoint& p : s.points) {
+      ++points;
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.y_low) ||
+          !std::isfinite(p.y_high))
+        throw InputError(fmt::format("chart: series \"{}\" has a point ({}, {}) that is not finite",
+                                     s.name, p.x, p.y));
+    }
+  if (points == 0) throw InputError("chart: there are no points to draw");
+}
+
+Table data_table(const std::vector<ChartSeries>& series) {
+  Table table{{"series", "x", "y", "y_low", "y_high", "label"}, {}};
+  for (const ChartSeries& s : series)
+    for (const ChartPoint& p : s.points) {
+      const double low = has_interval(p) ? p.y_low : p.y;
+      const double high = has_interval(p) ? p.y_high : p.y;
+      table.rows.push_back({s.name, number_text(p.x), number_text(p.y), number_text(low),
+                            number_text(high), p.label});
+    }
+  return table;
+}
+
+struct Axes {
+  Axis x, y;
+};
+
+Axes make_axes(const std::vector<ChartSeries>& series, const ChartOptions& options) {
+  std::vector<double> x;
+  std::vector<double> y;
+  for (const ChartSeries& s : series)
+    for (const ChartPoint& p : s.points) {
+      x.push_back(p.x);
+      y.push_back(p.y);
+      if (has_interval(p)) y.insert(y.end(), {p.y_low, p.y_high});
+    }
+  return {make_axis(x, options.log_x), make_axis(y, options.log_y)};
+}
+
+// gnuplot counts letters in pixels for svg, in points (96 a 72nd inch) for png.
+double font_unit(const fs::path& path) {
+  return path.extension() == ".svg" ? 1 : 0.75;
+}
+
+// Where the key goes: in rows between title and plot, so that it never hides a point.
+struct Key {
+  int columns = 0;  // 0: no key
+  double height = 0;
+};
+
+Key plan_key(const std::vector<ChartSeries>& series, const ChartFrame& frame) {
+  constexpr double kSample = 64;  // line sample and gaps [px]
+  double widest = 0;
+  int named = 0;
+  for (const ChartSeries& s : series) {
+    if (s.name.empty()) continue;
+    ++named;
+    widest = std::max(widest, text_width(s.name, frame.font) + kSample);
+  }
+  if (named == 0) return {};
+  const int fit = std::max(1, static_cast<int>((frame.right - frame.left) / widest));
+  const int columns = std::min(fit, named);
+  const int rows = (named + columns - 1) / columns;
+  return {columns, rows * frame.font * 1.5};
+}
+
+std::string axis_lines(const char* letter, const Axis& axis, const std::string& label) {
+  std::string ticks;
+  for (const Tick& tick : axis.ticks)
+    ticks += fmt::format("{}{} {}", ticks.empty() ? "" : ", ", quoted(tick.text),
+                         number_text(tick.value));
+  std::string text = axis.log ? fmt::format("set logscale {}\n", letter)
+                              : fmt::format("unset logscale {}\n", letter);
+  text +=
+      fmt::format("set {}range [{}:{}]\n", letter, number_text(axis.low), number_text(axis.high));
+  text += fmt::format("set {}tics ({})\n", letter, ticks);
+  text += fmt::format("set {}label {}\n", letter, quoted(label));
+  return text;
+}
+
+std::string terminal_lines(const fs::path& path, const ChartFrame& frame) {
+  // noenhanced: "_" and "^" in names stay what they are.
+  const bool svg = path.extension() == ".svg";
+  std::string text = "set encoding utf8\n";
+  if (svg)
+    text += fmt::format(
+        "set terminal svg size {},{} font 'sans-serif,{}' background rgb 'white' noenhanced "
+        "name 'chart'\n",
+        frame.width, frame.height, frame.font);
+  else
+    text += fmt::format("set terminal pngcairo size {},{} font 'DejaVu Sans,{}' noenhanced\n",
+                        frame.width, frame.height, frame.font * font_unit(path));
+  // Whoever draws the chart again may name another file: gnuplot -e "picture='other.svg'" ...
+  text += fmt::format("if (!exists('picture')) picture = {}\nset output picture\n",
+                      quoted(path.filename().string()));
+  return text;
+}
+
+std::string style_lines(const ChartFrame& frame, const ChartOptions& options, const Key& key,
+                        double unit) {
+  std::string text;
+  text += fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n",
+                      frame.left / frame.width, frame.right / frame.width);
+  text += fmt::format("set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
+                      1 - frame.top / frame.height, 1 - frame.bottom / frame.height);
+  text +=
+      "set border 3 lc rgb '#5F6570' lw 1\n"
+      "set tics nomirror scale 0.6 textcolor rgb '#2B2F36'\n"
+      "set grid lc rgb '#DFE3E8' lw 1 lt 1\n";
+  if (!options.title.empty())
+    text += fmt::format(
+        "set label 1 {} at screen 0.5,{:.4f} center font ',{:.4g}' textcolor rgb '#14171B'\n",
+        quoted(options.title), 1 - 1.5 * frame.font / frame.height, frame.font * unit * 1.2);
+  if (key.columns == 0)
+    text += "unset key\n";
+  else
+    text += fmt::format(
+        "set key at graph 0.5,{:.4f} center bottom horizontal maxcols {} Left reverse samplen 2 "
+        "textcolor rgb '#2B2F36'\n",
+        1 + 0.4 * frame.font / (frame.bottom - frame.top), key.columns);
+  return text;
+}
+
+std::string label_lines(const std::vector<PlacedLabel>& labels, double font_size) {
+  static constexpr std::array<const char*, 3> kAnchors{"left", "center", "right"};
+  std::string text;
+  int number = 10;
+  for (const PlacedLabel& label : labels)
+    text += fmt::format(
+        "set label {} {} at graph {:.5f},{:.5f} {} font ',{:.4g}' "
+        "textcolor rgb '{}' front\n",
+        number++, quoted(label.text), label.x, label.y,
+        kAnchors[static_cast<std::size_t>(label.anchor)], font_size, colour(label.series));
+  return text;
+}
+
+// A log axis has no place for 0: such points sit on its lower end, hollow.
+std::string edge_point_lines(const std::vector<ChartSeries>& series, const Axes& axes) {
+  std::string text;
+  int number = 1;
+  for (std::size_t s = 0; s < series.size(); ++s)
+    for (const ChartPoint& p : series[s].points) {
+      const bool off = (axes.x.log && !(p.x > 0)) || (axes.y.log && !(p.y > 0));
+      if (!off) continue;
+      constexpr int kFirst = 1000;  // label numbers of these
+      text += fmt::format("set label {} '' at graph {:.5f},{:.5f} point pt {} ps 1.2 lc rgb '{}'\n",
+                          kFirst + number++, axes.x.place(p.x), axes.y.place(p.y), shape(s) - 1,
+                          colour(s));
+    }
+  return text;
+}
+
+std::string plot_lines(const std::vector<ChartSeries>& series, const std::string& data) {
+  std::string text;
+  std::size_t first = 0;
+  for (std::size_t s = 0; s < series.size(); ++s) {
+    const std::size_t count = series[s].points.size();
+    if (count == 0) continue;
+    const std::string rows =
+        fmt::format("{} skip 1 every ::{}::{}", quoted(data), first, first + count - 1);
+    first += count;
+    const auto separator = [&] { return text.empty() ? "plot " : ", \\\n     "; };
+    if (std::any_of(series[s].points.begin(), series[s].points.end(), has_interval))
+      text += fmt::format("{}{} using 2:3:4:5 with yerrorbars pt 0 lw 1.2 lc rgb '{}' notitle",
+                          separator(), rows, colour(s));
+    const std::string title =
+        series[s].name.empty() ? "notitle" : "title " + quoted(series[s].name);
+    text +=
+        fmt::format("{}{} using 2:3 with {} pt {} ps 1.2 lw 2 lc rgb '{}' {}", separator(), rows,
+                    series[s].joined ? "linespoints" : "points", shape(s), colour(s), title);
+  }
+  return text + "\n";
+}
+
+// Points at zero of a log axis say so in their label.
+std::vector<ChartSeries> with_edge_labels(std::vector<ChartSeries> series,
+                                          const ChartOptions& options) {
+  for (ChartSeries& s : series)
+    for (ChartPoint& p : s.points) {
+      if (options.log_y && !(p.y > 0)) p.label += fmt::format(" (y = {:g})", p.y);
+      if (options.log_x && !(p.x > 0)) p.label += fmt::format(" (x = {:g})", p.x);
+    }
+  return series;
+}
+
+std::string gnuplot_script(const std::vector<ChartSeries>& series, const ChartOptions& options,
+                           const fs::path& path, const std::string& data) {
+  ChartFrame frame;
+  const Key key = plan_key(series, frame);
+  constexpr double kTitleSpace = 2.6;  // in letters
+  frame.top =
+      (options.title.empty() ? 1 : kTitleSpace) * frame.font + key.height + 0.6 * frame.font;
+  const Axes axes = make_axes(series, options);
+  std::string text = "# Made by springlod. Draws " + path.filename().string() + " again: gnuplot " +
+                     path.stem().string() + ".gp\n";
+  text += terminal_lines(path, frame);
+  text += "set datafile separator comma\n";
+  text += style_lines(frame, options, key, font_unit(path));
+  text += axis_lines("x", axes.x, options.x_label);
+  text += axis_lines("y", axes.y, options.y_label);
+  text += label_lines(place_labels(with_edge_labels(series, options), axes.x, axes.y, frame),
+                      kLabelFont * frame.font * font_unit(path));
+  text += edge_point_lines(series, axes);
+  text += plot_lines(series, data);
+  return text;
+}
+
+}  // namespace
+
+ChartFiles draw_chart(const std::vector<ChartSeries>& series, const ChartOptions& options,
+                      const fs::path& path) {
+  require_drawable(series, path);
+  ChartFiles files;
+  files.data = fs::path(path).replace_extension(".csv");
+  files.script = fs::path(path).replace_extension(".gp");
+  save_csv(data_table(series), files.data);
+  write_text_file(files.script,
+                  gnuplot_script(series, options, path, files.data.filename().string()));
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  // The script names its neighbours without a folder, so that all three can be moved together.
+  files.command = "cd " + shell_word(folder.string()) + " && " +
+                  shell_line("gnuplot", {files.script.filename().string()});
+  const auto gnuplot = find_program("gnuplot");
+  if (!gnuplot) return files;
+  write_aside(path, [&](const fs::path& aside) {
+    const std::string output = "picture=" + quoted(aside.filename().string());
+    const ProgramResult run =
+        run_program(*gnuplot, {"-e", output, files.script.filename().string()}, folder);
+    if (run.exit_code != 0)
+      throw IoError(fmt::format("gnuplot failed (exit {}) on {}:\n{}\nThe command was: {}",
+                                run.exit_code, files.script.string(), run.errors, files.command));
+  });
+  files.drawn = true;
+  return files;
+}
+
+}  // namespace springlod

@@ -1,0 +1,231 @@
+#include "report/chart_layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace springlod {
+namespace {
+
+constexpr double kRoom = 0.07;  // free space at the ends of an axis, as a part of it
+
+std::string superscript(int number) {
+  static constexpr std::array<const char*, 10> kDigits{"⁰", "¹", "²", "³", "⁴",
+                                                       "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out;
+  for (const char c : fmt::format("{}", number))
+    out += c == '-' ? "⁻" : kDigits[static_cast<std::size_t>(c - '0')];
+  return out;
+}
+
+// Largest of 1, 2, 5 times a power of ten that is not above `wanted`.
+double round_step(double wanted) {
+  const double power = std::pow(10., std::floor(std::log10(wanted)));
+  for (const double factor : {5., 2.})
+    if (factor * power <= wanted) return factor * power;
+  return power;
+}
+
+std::vector<Tick> linear_ticks(double low, double high) {
+  constexpr double kWanted = 6;
+  const double step = round_step((high - low) / kWanted * 1.5);
+  std::vector<Tick> ticks;
+  constexpr double kSlack = 1e-9;  // a tick that is on the end but for rounding counts
+  const auto first = static_cast<long long>(std::ceil(low / step - kSlack));
+  const auto last = static_cast<long long>(std::floor(high / step + kSlack));
+  for (long long i = first; i <= last; ++i) {
+    const double value = static_cast<double>(i) * step;
+    ticks.push_back({value, tick_text(value)});
+  }
+  return ticks;
+}
+
+std::vector<Tick> log_ticks(double low, double high) {
+  const double decades = std::log10(high / low);
+  // Within a decade: every digit; up to three: 1, 2, 5; wide: whole decades, at most about 8.
+  // Within half a decade round steps serve better.
+  constexpr double kHalfDecade = 0.5;
+  if (decades < kHalfDecade) return linear_ticks(low, high);
+  constexpr double kOneDecade = 1;
+  constexpr double kNarrow = 3;
+  const int stride = std::max(1, static_cast<int>(std::ceil(decades / 8)));
+  std::vector<Tick> ticks;
+  for (int e = static_cast<int>(std::floor(std::log10(low))); std::pow(10., e) <= high; ++e) {
+    for (int digit = 1; digit <= 9; ++digit) {
+      const double value = digit * std::pow(10., e);
+      const bool wanted = digit == 1                 ? decades <= kNarrow || e % stride == 0
+                          : digit == 2 || digit == 5 ? decades <= kNarrow
+                                                     : decades <= kOneDecade;
+      if (wanted && value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9))
+        ticks.push_back({value, tick_text(value)});
+    }
+  }
+  return ticks;
+}
+
+struct Box {
+  double x0, y0, x1, y1;
+};
+
+double overlap(const Box& a, const Box& b) {
+  const double w = std::min(a.x1, b.x1) - std::max(a.x0, b.x0);
+  const double h = std::min(a.y1, b.y1) - std::max(a.y0, b.y0);
+  return w > 0 && h > 0 ? w * h : 0;
+}
+
+// What labels should keep off: markers and, as a string of small boxes, the lines between them.
+std::vector<Box> obstacles(const std::vector<ChartSeries>& series, const Axis& x_axis,
+                           const Axis& y_axis, const ChartFrame& frame) {
+  constexpr double kMarker = 6;
+  constexpr double kLine = 2;
+  constexpr double kEvery = 8;
+  std::vector<Box> boxes;
+  const auto px = [&](const ChartPoint& p) {
+    return frame.left + x_axis.place(p.x) * (frame.right - frame.left);
+  };
+  const auto py = [&](const ChartPoint& p) {
+    return frame.bottom - y_axis.place(p.y) * (frame.bottom - frame.top);
+  };
+  for (const ChartSeries& s : series)
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+      const double x = px(s.points[i]);
+      const double y = py(s.points[i]);
+      boxes.push_back({x - kMarker, y - kMarker, x + kMarker, y + kMarker});
+      if (s.points[i].y_high > s.points[i].y_low) {
+        const double height = frame.bottom - frame.top;
+        boxes.push_back({x - kLine, frame.bottom - y_axis.place(s.points[i].y_high) * height,
+                         x + kLine, frame.bottom - y_axis.place(s.points[i].y_low) * height});
+      }
+      if (!s.joined || i == 0) continue;
+      const double dx = px(s.points[i - 1]) - x;
+      const double dy = py(s.points[i - 1]) - y;
+      const int pieces = static_cast<int>(std::hypot(dx, dy) / kEvery);
+      for (int k = 1; k < pieces; ++k) {
+        const double at = static_cast<double>(k) / pieces;
+        boxes.push_back(
+            {x + at * dx - kLine, y + at * dy - kLine, x + at * dx + kLine, y + at * dy + kLine});
+      }
+    }
+  return boxes;
+}
+
+// Directions to try, the nicest first: x and y in -1, 0, 1, y upwards.
+constexpr std::array<std::array<int, 2>, 8> kDirections{
+    {{1, 0}, {1, 1}, {1, -1}, {-1, 0}, {-1, 1}, {-1, -1}, {0, 1}, {0, -1}}};
+
+Box label_box(double x, double y, double width, double height, const std::array<int, 2>& to) {
+  constexpr double kGapSide = 10;
+  constexpr double kGapUpright = 5;
+  const double x0 = to[0] > 0 ? x + kGapSide : to[0] < 0 ? x - kGapSide - width : x - width / 2;
+  const double y0 = to[1] > 0   ? y - kGapUpright - height
+                    : to[1] < 0 ? y + kGapUpright
+                                : y - height / 2;
+  return {x0, y0, x0 + width, y0 + height};
+}
+
+double cost_of(const Box& box, const std::vector<Box>& taken, const ChartFrame& frame) {
+  constexpr double kOutside = 20;  // worse than hiding something
+  const double area = (box.x1 - box.x0) * (box.y1 - box.y0);
+  double cost =
+      kOutside * (area - overlap(box, {frame.left, frame.top, frame.right, frame.bottom}));
+  for (const Box& other : taken) cost += overlap(box, other);
+  return cost;
+}
+
+}  // namespace
+
+std::string tick_text(double value) {
+  const double size = std::abs(value);
+  if (size == 0) return "0";
+  if (size >= 1e-4 && size < 1e6) return fmt::format("{:.6g}", value);
+  int exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9));
+  const std::string mantissa = fmt::format("{:.3g}", value / std::pow(10., exponent));
+  const std::string power = "10" + superscript(exponent);
+  return mantissa == "1" ? power : mantissa + "·" + power;
+}
+
+double Axis::place(double value) const {
+  if (!log) return (value - low) / (high - low);
+  if (!(value > 0)) return 0;
+  return std::log(value / low) / std::log(high / low);
+}
+
+Axis make_axis(const std::vector<double>& values, bool log) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const double v : values) {
+    if (log && !(v > 0)) continue;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  Axis axis;
+  axis.log = log;
+  if (log) {
+    if (!(low <= high)) low = high = 1;
+    constexpr double kLeastRatio = 1.5;  // one value alone still gets an axis
+    const double ratio = std::max(high / low, kLeastRatio);
+    const double middle = std::sqrt(low) * std::sqrt(high);
+    axis.low = middle / std::pow(ratio, 0.5 + kRoom);
+    axis.high = middle * std::pow(ratio, 0.5 + kRoom);
+    axis.ticks = log_ticks(axis.low, axis.high);
+    return axis;
+  }
+  // Near zero the axis starts at zero: lengths can then be compared by eye.
+  constexpr double kNearZero = 0.5;
+  if (low > 0 && low < kNearZero * high) low = 0;
+  const double size = high > low ? high - low : std::max(std::abs(high), 1.);
+  axis.low = low == 0 ? 0 : low - kRoom * size;
+  axis.high = high + kRoom * size;
+  axis.ticks = linear_ticks(axis.low, axis.high);
+  return axis;
+}
+
+double text_width(const std::string& text, double font_size) {
+  constexpr double kMeanLetter = 0.58;  // width over size, digits and small letters
+  const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80;
+  });
+  return kMeanLetter * font_size * static_cast<double>(letters);
+}
+
+std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, const Axis& x_axis,
+                                      const Axis& y_axis, const ChartFrame& frame) {
+  const double plot_width = frame.right - frame.left;
+  const double plot_height = frame.bottom - frame.top;
+  std::vector<Box> taken = obstacles(series, x_axis, y_axis, frame);
+  std::vector<PlacedLabel> labels;
+  for (std::size_t s = 0; s < series.size(); ++s)
+    for (const ChartPoint& point : series[s].points) {
+      if (point.label.empty()) continue;
+      const double x = frame.left + x_axis.place(point.x) * plot_width;
+      const double y = frame.bottom - y_axis.place(point.y) * plot_height;
+      const double width = text_width(point.label, frame.font * kLabelFont);
+      const double height = frame.font * 1.1;
+      Box best{};
+      std::array<int, 2> direction{};
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t d = 0; d < kDirections.size(); ++d) {
+        const Box box = label_box(x, y, width, height, kDirections[d]);
+        const double cost = cost_of(box, taken, frame) + static_cast<double>(d);
+        if (cost >= least) continue;
+        least = cost;
+        best = box;
+        direction = kDirections[d];
+      }
+      taken.push_back(best);
+      const TextAnchor anchor = direction[0] > 0   ? TextAnchor::left
+                                : direction[0] < 0 ? TextAnchor::right
+                                                   : TextAnchor::center;
+      const double at = anchor == TextAnchor::left    ? best.x0
+                        : anchor == TextAnchor::right ? best.x1
+                                                      : (best.x0 + best.x1) / 2;
+      labels.push_back({point.label, (at - frame.left) / plot_width,
+                        (frame.bottom - (best.y0 + best.y1) / 2) / plot_height, anchor, s});
+    }
+  return labels;
+}
+
+}  // namespace springlod

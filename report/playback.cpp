@@ -1,0 +1,44 @@
+#include "report/playback.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace springlod {
+
+std::vector<Vec3> positions_at(const std::vector<Frame>& frames, double t) {
+  const auto after = std::upper_bound(frames.begin(), frames.end(), t,
+                                      [](double time, const Frame& f) { return time < f.time; });
+  if (after == frames.begin()) return frames.front().x;
+  if (after == frames.end()) return frames.back().x;
+  const Frame& a = *(after - 1);
+  const Frame& b = *after;
+  const double share = (t - a.time) / (b.time - a.time);
+  std::vector<Vec3> x(a.x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = a.x[i] + share * (b.x[i] - a.x[i]);
+  return x;
+}
+
+Vec3 center_of_mass(const std::vector<Vec3>& positions, const std::vector<double>& mass) {
+  Vec3 sum = Vec3::Zero();
+  double total = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    sum += mass[i] * positions[i];
+    total += mass[i];
+  }
+  return sum / total;
+}
+
+std::vector<Vec3> smoothed(const std::vector<Vec3>& path, std::uint32_t reach) {
+  std::vector<Vec3> out;
+  out.reserve(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    // The same reach to both sides, or the ends would be pulled inwards.
+    const std::size_t r = std::min({std::size_t{reach}, i, path.size() - 1 - i});
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t j = i - r; j <= i + r; ++j) sum += path[j];
+    out.push_back(sum / static_cast<double>(2 * r + 1));
+  }
+  return out;
+}
+
+}  // namespace springlod

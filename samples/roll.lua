@@ -1,0 +1,9 @@
+-- The paper's first scene at the size of samples/ball.obj in dm: thrown flat just above the
+-- floor, the ball bounces, rolls and stops. Measured: how far it got.
+return {
+  name = "roll",
+  duration = "12 s",
+  throw = {position = {0, 0, 0.6}, velocity = {"3.2 m/s", 0, 0}},
+  obstacles = {{name = "floor", plane = {0, 0, 1, 0}, stiffness = 1e6, friction = 0.5}},
+  stop = {speed = "0.1 m/s"},
+}

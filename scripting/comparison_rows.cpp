@@ -1,0 +1,135 @@
+#include "scripting/comparison_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace springlod {
+
+namespace {
+
+template <class Get>
+double mean_over(const LevelRuns& runs, Get get) {
+  double sum = 0;
+  for (const StartResult& start : runs.starts) sum += static_cast<double>(get(start));
+  return runs.starts.empty() ? 0 : sum / static_cast<double>(runs.starts.size());
+}
+
+double distance_spread(const LevelRuns& runs) {
+  if (runs.starts.size() < 2) return 0;
+  const double mean = mean_over(runs, [](const StartResult& s) { return s.distance; });
+  const double squares =
+      mean_over(runs, [&](const StartResult& s) { return std::pow(s.distance - mean, 2); });
+  const auto count = static_cast<double>(runs.starts.size());
+  return std::sqrt(squares * count / (count - 1));
+}
+
+double largest_ledger_error(const LevelRuns& runs) {
+  double largest = 0;
+  for (const StartResult& start : runs.starts) largest = std::max(largest, start.ledger_error);
+  return largest;
+}
+
+double cost_per_second(const LevelRuns& runs) {
+  return mean_over(runs, [](const StartResult& s) {
+    return s.simulated > 0 ? static_cast<double>(s.spring_updates) / s.simulated : 0;
+  });
+}
+
+}  // namespace
+
+double base_diagonal(const LodAsset& chain) {
+  Box3 box;
+  for (const Vec3& point : chain.chain.levels.front().model.rest) box.extend(point);
+  return box.diagonal().norm();
+}
+
+std::string comparison_columns_help() {
+  return "level, label, nodes, springs, ends, step [s], spring_updates_per_second (of simulated "
+         "time), cost_ratio (base / level), surface_error [m], surface_error_percent and "
+         "shape_error_percent (of the base's bounding diagonal), shape_error [m], distance [m], "
+         "distance_spread [m] (standard deviation over the starts), simulated [s], ledger_error "
+         "(of the largest kinetic energy)";
+}
+
+Table comparison_table(const ComparisonValue& value) {
+  Table table;
+  table.columns = {"level",
+                   "label",
+                   "nodes",
+                   "springs",
+                   "ends",
+                   "step",
+                   "spring_updates_per_second",
+                   "cost_ratio",
+                   "surface_error",
+                   "surface_error_percent",
+                   "shape_error",
+                   "shape_error_percent",
+                   "distance",
+                   "distance_spread",
+                   "simulated",
+                   "ledger_error"};
+  const auto& levels = value.comparison.levels;
+  const double diagonal = base_diagonal(*value.chain);
+  for (const LevelRuns& runs : levels) {
+    const MassSpringModel& model = value.chain->chain.levels.at(runs.level).model;
+    const double cost = cost_per_second(runs);
+    const double surface = mean_over(runs, [](const StartResult& s) { return s.surface_error; });
+    const double shape = mean_over(runs, [](const StartResult& s) { return s.shape_error; });
+    const double distance = mean_over(runs, [](const StartResult& s) { return s.distance; });
+    const double simulated = mean_over(runs, [](const StartResult& s) { return s.simulated; });
+    table.rows.push_back({fmt::format("{}", runs.level), runs.label,
+                          fmt::format("{}", model.node_count()),
+                          fmt::format("{}", model.spring_count()),
+                          fmt::format("{}", model.end_count()), number_text(runs.first.step),
+                          number_text(cost), number_text(cost_per_second(levels.front()) / cost),
+                          number_text(surface), number_text(100 * surface / diagonal),
+                          number_text(shape), number_text(100 * shape / diagonal),
+                          number_text(distance), number_text(distance_spread(runs)),
+                          number_text(simulated), number_text(largest_ledger_error(runs))});
+  }
+  return table;
+}
+
+Table starts_table(const ComparisonValue& value) {
+  Table table;
+  table.columns = {"level",       "label",     "start",          "distance",    "surface_error",
+                   "shape_error", "simulated", "spring_updates", "ledger_error"};
+  for (const LevelRuns& runs : value.comparison.levels)
+    for (std::size_t i = 0; i < runs.starts.size(); ++i) {
+      const StartResult& start = runs.starts[i];
+      table.rows.push_back({fmt::format("{}", runs.level), runs.label, fmt::format("{}", i + 1),
+                            number_text(start.distance), number_text(start.surface_error),
+                            number_text(start.shape_error), number_text(start.simulated),
+                            fmt::format("{}", start.spring_updates),
+                            number_text(start.ledger_error)});
+    }
+  return table;
+}
+
+Table timings_table(const ComparisonValue& value) {
+  Table table;
+  table.columns = {"level",
+                   "label",
+                   "start",
+                   "wall_seconds",
+                   "simulated",
+                   "spring_updates",
+                   "spring_updates_per_wall_second",
+                   "real_time_factor"};
+  for (const LevelRuns& runs : value.comparison.levels)
+    for (std::size_t i = 0; i < runs.starts.size(); ++i) {
+      const StartResult& start = runs.starts[i];
+      const double wall = std::max(start.wall_seconds, 1e-9);  // a clock may stand still
+      table.rows.push_back({fmt::format("{}", runs.level), runs.label, fmt::format("{}", i + 1),
+                            number_text(wall), number_text(start.simulated),
+                            fmt::format("{}", start.spring_updates),
+                            number_text(static_cast<double>(start.spring_updates) / wall),
+                            number_text(start.simulated / wall)});
+    }
+  return table;
+}
+
+}  // namespace springlod

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/material.hpp"
+#include "scripting/call.hpp"
+
+namespace springlod {
+
+/// The Material table at `index`; `owner` is what messages call it, `name` its name if the table
+/// gives none.
+Material read_material(Call& call, int index, const std::string& owner, const std::string& name);
+void push_material(lua_State* L, const Material& material);
+void push_materials(lua_State* L, const std::vector<Material>& materials);
+
+}  // namespace springlod

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scripting/console.hpp"
+
+struct lua_State;
+
+namespace springlod {
+
+class Api;
+
+/// What the command line settles for a whole run.
+struct Settings {
+  std::uint64_t seed = 1;
+  std::uint32_t threads = 0;  ///< 0: all cores
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// What bindings need besides their arguments.
+class Session {
+ public:
+  Session(Settings settings, const Api& api)
+      : settings_(settings), console_(settings.verbosity), api_(api) {}
+
+  const Settings& settings() const { return settings_; }
+  const Api& api() const { return api_; }
+  Console& console() { return console_; }
+  Progress* progress() { return &console_; }
+
+ private:
+  Settings settings_;
+  Console console_;
+  const Api& api_;
+};
+
+/// The session of a Lua state (every coroutine of it included).
+Session& session_of(lua_State* L);
+void set_session(lua_State* L, Session* session);
+
+/// Version of springlod, "0.1.0".
+std::string version();
+
+}  // namespace springlod

@@ -1,0 +1,75 @@
+-- Runs the levels of an asset side by side: table, chart, frames, video.
+
+local s = require "springlod"
+local command = require "lib.command"
+
+local parser = command.parser("compare", "Runs every level of an asset under one scenario and "
+  .. "writes table.csv, chart.svg and chart.png, frames/frame_0000.png ..., comparison.mp4 and "
+  .. "timings.csv (measured times, which alone differ from run to run).")
+parser:argument("asset", "a .glb that convert or save wrote")
+parser:option("--scenario", "Lua file that returns a table for s.scenario")
+  :argname("<file.lua>"):count(1)
+parser:option("--out", "folder to write to"):argname("<folder>"):count(1)
+parser:option("--starts", "starts, the same for every level")
+  :convert(command.whole("--starts", 1)):default("1")
+parser:option("--jitter", "relative change of speed and height from start to start (default: 0.02)")
+  :convert(command.number("--jitter", 0, true))
+parser:option("--variant", "goes into the labels: hb makes LOD-hb-1")
+parser:option("--frames", "pictures at most; 0: none"):convert(command.whole("--frames", 0)):default("300")
+parser:option("--frame-rate", "pictures a second of the video")
+  :convert(command.number("--frame-rate", 0)):default("30")
+parser:option("--slow", "4: four times slower than life")
+  :convert(command.number("--slow", 0)):default("1")
+parser:option("--width", "pixels of one panel"):convert(command.whole("--width", 1)):default("640")
+parser:option("--height", "pixels of one panel"):convert(command.whole("--height", 1)):default("480")
+parser:option("--camera", "whether the camera follows the body")
+  :choices{"fixed", "follow"}:default("fixed")
+parser:option("--video", "file name of the video, .mp4 or .gif"):default("comparison.mp4")
+parser:flag("--springs", "draw the springs through the surface")
+local args = parser:parse()
+
+local function animate(runs)
+  local folder = args.out .. "/frames"
+  s.animate(folder, runs, {
+    width = args.width, height = args.height, frames = args.frames,
+    frame_rate = args.frame_rate, slow = args.slow, camera = args.camera,
+    springs = args.springs, surface_opacity = args.springs and 0.35 or nil,
+  })
+  s.video(args.out .. "/" .. args.video, folder, {frame_rate = args.frame_rate})
+end
+
+local function compare()
+  local chain = s.load(args.asset)
+  local scene = s.scenario(command.load_table(args.scenario))
+  local runs = s.compare(chain, scene, {
+    starts = args.starts, jitter = args.jitter, seed = s.seed, threads = s.threads,
+    variant = args.variant, frame_rate = args.frame_rate * args.slow,
+  })
+  local rows, columns = runs:table()
+  s.csv(args.out .. "/table.csv", rows, {columns = columns})
+  local starts, start_columns = runs:starts()
+  s.csv(args.out .. "/starts.csv", starts, {columns = start_columns})
+  local times, time_columns = runs:timings()
+  s.csv(args.out .. "/timings.csv", times, {columns = time_columns})
+  s.chart(args.out .. "/chart.svg", runs)
+  s.chart(args.out .. "/chart.png", runs)
+  if args.frames > 0 then animate(runs) end
+  return rows
+end
+
+local function short_rows(rows)
+  local short = {}
+  for i, row in ipairs(rows) do
+    short[i] = {row.label, row.nodes, row.ends, ("%.3g"):format(row.step),
+                ("%.2f"):format(row.cost_ratio), ("%.2f"):format(row.surface_error_percent),
+                ("%.2f"):format(row.shape_error_percent), ("%.4f"):format(row.distance)}
+  end
+  return short
+end
+
+local ok, rows = command.try(compare)
+if not ok then command.fail("cannot compare %s: %s", args.asset, rows) end
+print(s.format_table(short_rows(rows), {columns = {
+  "level", "nodes", "ends", "step [s]", "cost ratio", "surface error [%]", "shape error [%]",
+  "distance [m]"}}))
+s.say("wrote " .. args.out)

@@ -1,0 +1,127 @@
+-- Turns meshes into LOD assets.
+
+local s = require "springlod"
+local command = require "lib.command"
+
+local mesh_endings = {".obj", ".stl", ".ply", ".glb", ".gltf", ".fbx", ".off", ".dae"}
+
+local parser = command.parser("convert", "Turns meshes into LOD assets: one .glb each, with the "
+  .. "base model, its coarser levels and the mesh. Several meshes, or a folder, make a batch that "
+  .. "goes on past a bad file.")
+parser:argument("mesh", "mesh files, or a folder of them"):args("+")
+parser:option("-o", "asset to write, NAME.glb; for a batch a folder")
+  :target("output"):argname("<asset>"):count(1)
+parser:option("--cell", "edge of a cell, such as 2mm (default: longest side / 32)")
+  :convert(command.quantity("--cell", "length"))
+parser:option("--unit", "unit of length of the file (default: the file's, else m)")
+  :choices{"nm", "um", "mm", "cm", "dm", "m", "km", "in", "ft"}
+parser:option("--up", "axis of the file that points up (default: the file's or its format's)")
+  :choices{"x", "y", "z"}
+parser:option("--materials", "Lua file that returns {part = {young = ..., density = ...}}")
+  :argname("<file.lua>")
+parser:option("--lattice", "where the nodes sit"):choices{"corners", "centers"}:default("corners")
+parser:option("--hinges", "what to do where cells touch only along an edge or at a corner")
+  :choices{"report", "fill", "separate"}:default("report")
+parser:option("--levels", "levels besides the base"):convert(command.whole("--levels", 0)):default("2")
+parser:option("--grouping", "which nodes merge")
+  :choices{"standard", "priority", "priority_hard"}:default("standard")
+parser:option("--border", "how border nodes merge")
+  :choices{"none", "weak", "strong"}:default("none")
+local args = parser:parse()
+
+-- Mesh -> cells -> lattice -> levels -> asset. This is all there is to it.
+local function convert(path, asset, materials)
+  local mesh = s.import(path, {unit = args.unit, up = args.up})
+  local grid = s.voxelize(mesh, {cell = args.cell, materials = materials})
+  local base = s.lattice(grid, {style = args.lattice, hinges = args.hinges})
+  local chain = s.simplify(base, {levels = args.levels, grouping = args.grouping,
+                                  border = args.border, seed = s.seed})
+  s.save(asset, chain)
+  return chain
+end
+
+local function level_rows(chain)
+  local rows = {}
+  for i, level in ipairs(chain.levels) do
+    rows[i] = {i - 1, level.node_count, level.spring_count, level.end_count, level.border_count,
+               ("%.4g"):format(s.stable_step(level))}
+  end
+  return rows
+end
+
+local level_columns = {"level", "nodes", "springs", "ends", "border", "stable step [s]"}
+
+local function node_counts(chain)
+  local counts = {}
+  for i, level in ipairs(chain.levels) do counts[i] = tostring(level.node_count) end
+  return table.concat(counts, " -> ")
+end
+
+-- The meshes asked for; a batch if a folder or more than one file was named.
+local function find_meshes()
+  local paths, batch = {}, #args.mesh > 1
+  for _, path in ipairs(args.mesh) do
+    if s.is_folder(path) then
+      batch = true
+      local found = s.files(path, {endings = mesh_endings})
+      if #found == 0 then
+        command.fail("cannot convert %s: the folder holds no meshes (%s)", path,
+                     table.concat(mesh_endings, " "))
+      end
+      table.move(found, 1, #found, #paths + 1, paths)
+    else
+      paths[#paths + 1] = path
+    end
+  end
+  return paths, batch
+end
+
+-- A name for every asset of a batch; meshes that differ only in their ending keep it.
+local function asset_names(paths)
+  local uses, names = {}, {}
+  for _, path in ipairs(paths) do
+    uses[command.stem(path)] = (uses[command.stem(path)] or 0) + 1
+  end
+  local taken = {}
+  for i, path in ipairs(paths) do
+    local name = command.stem(path)
+    if uses[name] > 1 then name = command.base_name(path):gsub("%.", "_") end
+    while taken[name] do name = name .. "_" end
+    taken[name] = true
+    names[i] = args.output:gsub("/*$", "") .. "/" .. name .. ".glb"
+  end
+  return names
+end
+
+local materials
+if args.materials then
+  local ok, result = command.try(command.load_table, args.materials)
+  if not ok then command.fail("cannot read the materials: %s", result) end
+  materials = result
+end
+
+local paths, batch = find_meshes()
+if not batch then
+  if not args.output:lower():find("%.glb$") then
+    parser:error(("-o '%s' must end in .glb"):format(args.output))
+  end
+  local ok, chain = command.try(convert, paths[1], args.output, materials)
+  if not ok then command.fail("cannot convert %s: %s", paths[1], chain) end
+  print(s.format_table(level_rows(chain), {columns = level_columns}))
+  s.say("wrote " .. args.output)
+  return
+end
+
+if args.output:lower():find("%.glb$") then
+  parser:error(("-o '%s' must be a folder for several meshes"):format(args.output))
+end
+local rows, failed, assets = {}, 0, asset_names(paths)
+for i, path in ipairs(paths) do
+  s.say(path)
+  local ok, result = command.try(convert, path, assets[i], materials)
+  if not ok then failed = failed + 1 end
+  rows[i] = {path, ok and "converted" or "failed", ok and node_counts(result) or "",
+             ok and assets[i] or result}
+end
+print(s.format_table(rows, {columns = {"mesh", "result", "nodes", "asset or reason"}}))
+if failed > 0 then command.fail("%d of %d meshes failed", failed, #paths) end

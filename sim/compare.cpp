@@ -1,0 +1,248 @@
+#include "sim/compare.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <memory>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "lod/transfer.hpp"
+#include "model/error.hpp"
+#include "sim/deviation.hpp"
+#include "sim/parallel.hpp"
+
+namespace springlod {
+namespace {
+
+// Frames of two runs closer than this are the same instant [s]; frame times only differ by
+// rounding.
+constexpr double kSameTime = 1e-9;
+
+// Units of progress in one run, whatever its number of steps.
+constexpr std::uint64_t kUnitsPerRun = 1000;
+
+void validate(const LodChain& chain, const CompareOptions& options) {
+  if (chain.levels.empty()) throw InputError("compare: the chain has no levels");
+  if (options.starts == 0) throw InputError("compare: starts = 0 must be 1 or more");
+  if (!(options.jitter >= 0 && options.jitter < 1))
+    throw InputError(fmt::format("compare: jitter = {} must lie in [0, 1)", options.jitter));
+  if (!(std::isfinite(options.error_window) && options.error_window >= 0))
+    throw InputError(
+        fmt::format("compare: error_window = {} must be 0 or more seconds", options.error_window));
+}
+
+std::string label_of(std::uint32_t level, const std::string& variant) {
+  if (level == 0) return "base";
+  return variant.empty() ? fmt::format("LOD-{}", level) : fmt::format("LOD-{}-{}", variant, level);
+}
+
+/// Turns the steps of one run into its share of the whole and stops the run when asked to.
+class RunProgress : public Progress {
+ public:
+  RunProgress(Progress* whole, const std::function<bool()>& stopped)
+      : whole_(whole), stopped_(&stopped) {}
+  void begin(std::string_view /*task*/, std::uint64_t total) override { total_ = total; }
+  void advance(std::uint64_t count) override {
+    if ((*stopped_)()) throw InterruptedError();
+    done_ += count;
+    report(kUnitsPerRun * done_ / total_);
+  }
+  /// What is left when a stop rule ended the run early.
+  void finish() { report(kUnitsPerRun); }
+
+ private:
+  void report(std::uint64_t units) {
+    if (whole_ != nullptr && units > reported_) whole_->advance(units - reported_);
+    reported_ = units;
+  }
+  Progress* whole_;
+  const std::function<bool()>* stopped_;
+  std::uint64_t total_ = 1;
+  std::uint64_t done_ = 0;
+  std::uint64_t reported_ = 0;
+};
+
+/// What the levels of one start need of the base.
+struct BaseRun {
+  std::vector<Frame> frames;
+  std::optional<double> first_contact;
+};
+
+/// Hands the base's run to the levels of the same start and drops it after the last of them.
+struct StartSlot {
+  std::promise<std::shared_ptr<BaseRun>> promise;
+  std::shared_future<std::shared_ptr<BaseRun>> base = promise.get_future().share();
+  std::atomic<std::uint32_t> users{0};
+};
+
+struct Errors {
+  double surface = 0;
+  double shape = 0;
+};
+
+Errors deviation(const std::vector<Frame>& frames, const BaseRun& base,
+                 const std::vector<double>& mass, double window) {
+  const double window_end =
+      base.first_contact ? *base.first_contact + window : base.frames.back().time;
+  Errors sum;
+  std::size_t in_window = 0;
+  std::size_t common = 0;
+  for (std::size_t f = 0; f < std::min(frames.size(), base.frames.size()); ++f) {
+    const double time = frames[f].time;
+    if (std::abs(time - base.frames[f].time) > kSameTime) break;  // one run was stopped here
+    ++common;
+    sum.shape += rms_distance_after_fit(frames[f].x, base.frames[f].x, mass);
+    if (time > window_end + kSameTime) continue;
+    ++in_window;
+    sum.surface += rms_distance(frames[f].x, base.frames[f].x, mass);
+  }
+  // The first frame, t = 0, is always common and in the window.
+  return {sum.surface / static_cast<double>(in_window), sum.shape / static_cast<double>(common)};
+}
+
+/// One call of `compare`.
+class Comparing {
+ public:
+  Comparing(const LodChain& chain, const Scenario& scenario, const CompareOptions& options)
+      : chain_(chain), options_(options), slots_(options.starts) {
+    result_.scenario = scenario;
+    for (StartSlot& slot : slots_) slot.users = static_cast<std::uint32_t>(chain.levels.size());
+    for (std::uint32_t level = 0; level < chain.levels.size(); ++level) {
+      bindings_.push_back(base_from_level(chain, level));
+      LevelRuns& runs = result_.levels.emplace_back();
+      runs.level = level;
+      runs.label = label_of(level, options.variant);
+      runs.starts.resize(options.starts);
+    }
+    const MassSpringModel& base = chain.levels[0].model;
+    base_center_ = center_of_mass(base, base.rest);
+  }
+
+  Comparison run_all() {
+    const std::uint64_t jobs = std::uint64_t{options_.starts} * chain_.levels.size();
+    Task task(options_.progress, "compare", jobs * kUnitsPerRun);
+    // Start by start, the base first: a level that waits for its base waits for a run under way.
+    run_jobs(jobs, options_.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
+      const auto start = static_cast<std::uint32_t>(job / chain_.levels.size());
+      const auto level = static_cast<std::uint32_t>(job % chain_.levels.size());
+      if (level == 0)
+        run_base(start, stopped);
+      else
+        run_coarser(level, start, stopped);
+    });
+    return std::move(result_);
+  }
+
+ private:
+  void run_base(std::uint32_t start, const std::function<bool()>& stopped) {
+    auto base = std::make_shared<BaseRun>();
+    try {
+      Trajectory trajectory = run_level(0, start, stopped);
+      base->frames = start == 0 ? trajectory.frames : std::move(trajectory.frames);
+      base->first_contact = trajectory.first_contact;
+      if (start == 0) {
+        result_.levels[0].base_frames = trajectory.frames;
+        result_.levels[0].first = std::move(trajectory);
+      }
+    } catch (...) {
+      slots_[start].promise.set_exception(std::current_exception());
+      throw;
+    }
+    slots_[start].promise.set_value(base);
+    leave(start, *base);
+  }
+
+  void run_coarser(std::uint32_t level, std::uint32_t start, const std::function<bool()>& stopped) {
+    Trajectory trajectory = run_level(level, start, stopped);
+    std::vector<Frame> base_frames = bring_back(level, trajectory.frames);
+    const auto base_run = slots_[start].base;  // a copy: one future is not for several threads
+    const std::shared_ptr<BaseRun> base = base_run.get();
+    const Errors errors =
+        deviation(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);
+    leave(start, *base);
+    result_.levels[level].starts[start].surface_error = errors.surface;
+    result_.levels[level].starts[start].shape_error = errors.shape;
+    if (start == 0) {
+      result_.levels[level].first = std::move(trajectory);
+      result_.levels[level].base_frames = std::move(base_frames);
+    }
+  }
+
+  void leave(std::uint32_t start, BaseRun& base) {
+    if (--slots_[start].users == 0) base.frames = {};
+  }
+
+  /// Runs one level and keeps what only its own trajectory tells.
+  Trajectory run_level(std::uint32_t level, std::uint32_t start,
+                       const std::function<bool()>& stopped) {
+    const MassSpringModel& model = chain_.levels[level].model;
+    Scenario scenario = result_.scenario;
+    scenario.start = jittered(scenario.start, base_center_, options_.jitter, options_.seed, start);
+    RunProgress progress(options_.progress, stopped);
+    RunOptions run_options = options_.run;
+    run_options.progress = &progress;
+    try {
+      Trajectory trajectory = run(model, scenario, run_options);
+      progress.finish();
+      StartResult& result = result_.levels[level].starts[start];
+      result.distance = measured_distance(
+          scenario, scenario.start.placed ? scenario.start.position : base_center_,
+          center_of_mass(model, trajectory.final.x));
+      result.simulated = trajectory.simulated;
+      result.spring_updates = trajectory.spring_updates;
+      result.wall_seconds = trajectory.wall_seconds;
+      result.ledger_error = closure_error(trajectory.ledger);
+      return trajectory;
+    } catch (const UnstableError& e) {
+      throw UnstableError(
+          fmt::format("{}, start {}: {}", result_.levels[level].label, start, e.what()), e.node(),
+          e.time());
+    }
+  }
+
+  std::vector<Frame> bring_back(std::uint32_t level, const std::vector<Frame>& frames) const {
+    std::vector<Frame> base_frames;
+    base_frames.reserve(frames.size());
+    for (const Frame& frame : frames)
+      base_frames.push_back({frame.time, apply(bindings_[level], frame.x)});
+    return base_frames;
+  }
+
+  const LodChain& chain_;
+  const CompareOptions& options_;
+  std::vector<StartSlot> slots_;
+  std::vector<Binding> bindings_;  // level 0 from each level
+  Vec3 base_center_;
+  Comparison result_;
+};
+
+}  // namespace
+
+Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
+               std::uint32_t index) {
+  if (index == 0) return start;
+  Throw changed = start;
+  changed.position = start.placed ? start.position : center;
+  changed.placed = true;
+  std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U),
+                         index};
+  std::mt19937_64 random(sequence);
+  const auto factor = [&] {
+    const double unit = static_cast<double>(random() >> 11U) * 0x1p-53;  // [0, 1)
+    return 1 + jitter * (2 * unit - 1);
+  };
+  changed.velocity *= factor();
+  changed.position.z() *= factor();
+  return changed;
+}
+
+Comparison compare(const LodChain& chain, const Scenario& scenario, const CompareOptions& options) {
+  validate(chain, options);
+  validate(scenario);
+  return Comparing(chain, scenario, options).run_all();
+}
+
+}  // namespace springlod

@@ -1,0 +1,141 @@
+#include "sim/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace springlod {
+namespace {
+
+std::int8_t side_of(double coordinate) {
+  return coordinate < 0 ? -1 : 1;
+}
+
+Vec3 into_box(const SolidBox& box, const Vec3& point) {
+  return box.rotation.transpose() * (point - box.center);
+}
+
+Contact make_contact(const Obstacle& obstacle, std::uint32_t node, double area, double depth,
+                     const Vec3& normal, const Vec3& velocity) {
+  Contact contact;
+  contact.node = node;
+  contact.depth = depth;
+  contact.stiffness = obstacle.stiffness * area;
+  contact.friction = obstacle.friction;
+  contact.normal = normal;
+  const double elastic = contact.stiffness * depth;
+  const double rate = -normal.dot(velocity);
+  contact.normal_force =
+      std::max(0.0, elastic + contact.stiffness * obstacle.damping * rate);  // never pulling
+  contact.damping_force = contact.normal_force - elastic;
+  return contact;
+}
+
+}  // namespace
+
+ContactFinder::ContactFinder(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
+                             const std::vector<Vec3>& x)
+    : obstacles_(&obstacles), sides_(obstacles.size()) {
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    if (model.contact_area[i] > 0) {
+      node_.push_back(i);
+      area_.push_back(model.contact_area[i]);
+    }
+  for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    const auto* box = std::get_if<SolidBox>(&obstacles[o].shape);
+    if (box == nullptr) continue;
+    for (const std::uint32_t node : node_) {
+      const Vec3 local = into_box(*box, x[node]);
+      sides_[o].push_back({side_of(local[0]), side_of(local[1]), side_of(local[2])});
+    }
+  }
+}
+
+void ContactFinder::find(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                         std::vector<Contact>& contacts) {
+  contacts.clear();
+  for (std::size_t o = 0; o < obstacles_->size(); ++o) {
+    const Obstacle& obstacle = (*obstacles_)[o];
+    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
+      find_plane(obstacle, *plane, x, v, contacts);
+    else
+      find_box(obstacle, std::get<SolidBox>(obstacle.shape), sides_[o], x, v, contacts);
+  }
+}
+
+void ContactFinder::find_plane(const Obstacle& obstacle, const Plane& plane,
+                               const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                               std::vector<Contact>& contacts) const {
+  for (std::size_t n = 0; n < node_.size(); ++n) {
+    const std::uint32_t node = node_[n];
+    const double depth = plane.offset - plane.normal.dot(x[node]);
+    if (depth > 0)
+      contacts.push_back(make_contact(obstacle, node, area_[n], depth, plane.normal, v[node]));
+  }
+}
+
+void ContactFinder::find_box(const Obstacle& obstacle, const SolidBox& box,
+                             std::vector<Sides>& sides, const std::vector<Vec3>& x,
+                             const std::vector<Vec3>& v, std::vector<Contact>& contacts) const {
+  for (std::size_t n = 0; n < node_.size(); ++n) {
+    const std::uint32_t node = node_[n];
+    Sides& side = sides[n];
+    const Vec3 local = into_box(box, x[node]);
+    Eigen::Index axis = 0;
+    const double depth =
+        (box.half_size - Vec3(side[0] * local[0], side[1] * local[1], side[2] * local[2]))
+            .minCoeff(&axis);
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      // Another side may be taken wherever that leaves the depth as it is: outside, and along the
+      // axes that do not decide.
+      const bool free_to_change = depth <= 0 || box.half_size[i] - std::abs(local[i]) >= depth;
+      if (free_to_change) side[static_cast<std::size_t>(i)] = side_of(local[i]);
+    }
+    if (depth > 0) {
+      const Vec3 normal = side[static_cast<std::size_t>(axis)] * box.rotation.col(axis);
+      contacts.push_back(make_contact(obstacle, node, area_[n], depth, normal, v[node]));
+    }
+  }
+}
+
+void add_normal_forces(const std::vector<Contact>& contacts, std::vector<Vec3>& force) {
+  for (const Contact& c : contacts) force[c.node] += c.normal_force * c.normal;
+}
+
+void apply_friction(const MassSpringModel& model, double step, std::vector<Contact>& contacts,
+                    std::vector<Vec3>& v) {
+  for (Contact& c : contacts) {
+    const Vec3 slip = v[c.node] - c.normal.dot(v[c.node]) * c.normal;
+    const double speed = slip.norm();
+    const double most = c.friction * c.normal_force * step / model.mass[c.node];
+    c.slip_change = most < speed ? Vec3(slip * (-most / speed)) : Vec3(-slip);
+    v[c.node] += c.slip_change;
+  }
+}
+
+double contact_energy(const std::vector<Contact>& contacts) {
+  double energy = 0;
+  for (const Contact& c : contacts) energy += 0.5 * c.stiffness * c.depth * c.depth;
+  return energy;
+}
+
+std::vector<double> contact_stiffness(const MassSpringModel& model,
+                                      const std::vector<Obstacle>& obstacles) {
+  Mat3 planes = Mat3::Zero();  // sum of kappa n n^T
+  double boxes = 0;            // a box may push along any of its axes
+  for (const Obstacle& obstacle : obstacles) {
+    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
+      planes += obstacle.stiffness * plane->normal * plane->normal.transpose();
+    else
+      boxes += obstacle.stiffness;
+  }
+  const double kappa =
+      boxes + Eigen::SelfAdjointEigenSolver<Mat3>(planes, Eigen::EigenvaluesOnly).eigenvalues()[2];
+  std::vector<double> stiffness(model.node_count());
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    stiffness[i] = kappa * model.contact_area[i];
+  return stiffness;
+}
+
+}  // namespace springlod

@@ -1,0 +1,135 @@
+#include "sim/integrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/kernel.hpp"
+
+namespace springlod {
+
+Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
+                   Integrator integrator, double step)
+    : model_(&model),
+      gravity_(scenario.gravity),
+      integrator_(integrator),
+      step_(step),
+      x_(start.x),
+      v_minus_(start.v),
+      v_plus_(start.v),
+      v_damping_(start.v),
+      force_(start.x.size()),
+      damping_force_(start.x.size(), Vec3::Zero()),
+      finder_(model, scenario.obstacles, start.x) {
+  for (const double mass : model.mass) total_mass_ += mass;
+  first_center_ = center_of_mass();
+  find_forces(false);
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    v_minus_[i] -= 0.5 * step_ * (force_[i] / model.mass[i] + gravity_);
+}
+
+void Leapfrog::find_forces(bool with_damping) {
+  const std::vector<Vec3>& w =
+      n_ > 0 && integrator_ == Integrator::symplectic_euler ? v_minus_ : v_damping_;
+  std::fill(force_.begin(), force_.end(), Vec3::Zero());
+  if (with_damping) {
+    std::fill(damping_force_.begin(), damping_force_.end(), Vec3::Zero());
+    add_spring_forces<true>(*model_, x_, w, force_, damping_force_);
+  } else {
+    add_spring_forces<false>(*model_, x_, w, force_, damping_force_);
+  }
+  finder_.find(x_, w, contacts_);
+  add_normal_forces(contacts_, force_);
+}
+
+template <bool with_ledger>
+void Leapfrog::kick() {
+  find_forces(with_ledger);
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    v_plus_[i] = v_minus_[i] + step_ * (force_[i] / model_->mass[i] + gravity_);
+  apply_friction(*model_, step_, contacts_, v_plus_);
+  if constexpr (with_ledger)
+    if (n_ > 0) book_half_step(v_minus_, -step_);
+}
+
+template <bool with_ledger>
+void Leapfrog::drift() {
+  if constexpr (with_ledger) book_half_step(v_plus_, step_);
+  for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += step_ * v_plus_[i];
+  if (integrator_ == Integrator::velocity_verlet)
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      v_damping_[i] = v_plus_[i] + 0.5 * (v_plus_[i] - v_minus_[i]);
+  std::swap(v_minus_, v_plus_);
+  ++n_;
+}
+
+template void Leapfrog::kick<true>();
+template void Leapfrog::kick<false>();
+template void Leapfrog::drift<true>();
+template void Leapfrog::drift<false>();
+
+void Leapfrog::book_half_step(const std::vector<Vec3>& v, double to_neighbour) {
+  double damping = 0;
+  for (std::size_t i = 0; i < x_.size(); ++i) damping -= damping_force_[i].dot(v[i]);
+  losses_.lost_damping += 0.5 * step_ * damping;
+  for (const Contact& c : contacts_) {
+    const double speed = c.normal.dot(v[c.node]);
+    losses_.lost_contact -= 0.5 * step_ * c.damping_force * speed;
+    losses_.lost_friction -= 0.5 * model_->mass[c.node] * c.slip_change.dot(v[c.node]);
+    // Free at the neighbouring step: the trapezoid rule cuts the corner of the force there.
+    const double gap = to_neighbour * speed - c.depth;
+    if (gap > 0)
+      losses_.lost_contact -= std::copysign(0.5 * c.stiffness * c.depth * gap, to_neighbour);
+  }
+}
+
+std::vector<Vec3> Leapfrog::positions_at(double time) const {
+  std::vector<Vec3> x = x_;
+  const double ahead = time - this->time();
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += ahead * v_plus_[i];
+  return x;
+}
+
+State Leapfrog::state() const {
+  State state{x_, v_minus_, time()};
+  for (std::size_t i = 0; i < x_.size(); ++i) state.v[i] = 0.5 * (v_minus_[i] + v_plus_[i]);
+  return state;
+}
+
+Vec3 Leapfrog::center_of_mass() const {
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t i = 0; i < x_.size(); ++i) moment += model_->mass[i] * x_[i];
+  return moment / total_mass_;
+}
+
+Vec3 Leapfrog::center_velocity() const {
+  Vec3 momentum = Vec3::Zero();
+  for (std::size_t i = 0; i < x_.size(); ++i) momentum += model_->mass[i] * v_plus_[i];
+  return momentum / total_mass_;
+}
+
+LedgerEntry Leapfrog::ledger_entry() const {
+  LedgerEntry entry = losses_;
+  entry.time = time();
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    entry.kinetic += 0.5 * model_->mass[i] * v_minus_[i].dot(v_plus_[i]);
+  entry.elastic = elastic_energy(*model_, x_);
+  entry.gravity = -total_mass_ * gravity_.dot(center_of_mass() - first_center_);
+  entry.contact = contact_energy(contacts_);
+  return entry;
+}
+
+double Leapfrog::kinetic_after(std::uint32_t* fastest) const {
+  double sum = 0;
+  double most = -1;
+  for (std::uint32_t i = 0; i < x_.size(); ++i) {
+    const double kinetic = 0.5 * model_->mass[i] * v_plus_[i].squaredNorm();
+    sum += kinetic;
+    if (kinetic > most) {
+      most = kinetic;
+      *fastest = i;
+    }
+  }
+  return sum;
+}
+
+}  // namespace springlod

@@ -1,0 +1,245 @@
+#include "sim/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+#include "model/stable_step.hpp"
+#include "sim/contact.hpp"
+#include "sim/integrate.hpp"
+#include "sim/kernel.hpp"
+
+namespace springlod {
+namespace {
+
+// Steps between two looks at the whole body (energy watch, stop rule, progress) [steps]. One look
+// costs about as much as a tenth of a step; a step at ten times the limit multiplies speeds by 400
+// a step, so that 16 of them still stay far from overflow.
+constexpr std::uint64_t kLookEvery = 16;
+
+// A step is not longer than this part of the duration [1], so that a body without any stiffness has
+// a trajectory too.
+constexpr double kLongestStep = 0.01;
+
+// The kinetic energy of the half-step velocities may exceed what is there by
+// 1 / (1 - (omega dt / 2)^2): 50 if all of it were in the top mode at 0.99 of the limit. [1]
+constexpr double kEnergyMargin = 100;
+
+// Strain whose energy counts as rounding [1]: below it nothing is called growth.
+constexpr double kRoundingStrain = 1e-11;
+
+void validate(const RunOptions& options) {
+  if (options.step && !(std::isfinite(*options.step) && *options.step > 0))
+    throw InputError(
+        fmt::format("run: step = {} must be a finite number of seconds above 0", *options.step));
+  if (!(options.safety > 0 && options.safety <= 1))
+    throw InputError(fmt::format("run: safety = {} must lie in (0, 1]", options.safety));
+  if (!(std::isfinite(options.frame_rate) && options.frame_rate >= 0))
+    throw InputError(
+        fmt::format("run: frame_rate = {} must be 0 or more frames a second", options.frame_rate));
+}
+
+double default_step(const RunOptions& options, double predicted, double duration) {
+  const double longest = std::min(options.safety * predicted, kLongestStep * duration);
+  return duration / std::ceil(duration / longest);
+}
+
+/// Compares the kinetic energy with all that could have become kinetic energy so far.
+class EnergyWatch {
+ public:
+  /// `start`: after the first kick. Its v+ count, not the ledger's v- . v+, which is negative for a
+  /// body released at rest.
+  EnergyWatch(const MassSpringModel& model, const Leapfrog& start)
+      : rounding_(kRoundingStrain * kRoundingStrain * spring_work(model)) {
+    std::uint32_t node = 0;
+    available_ = start.kinetic_after(&node) + elastic_energy(model, start.positions()) +
+                 contact_energy(start.contacts());
+  }
+
+  void look(const Leapfrog& body, double gravity_work) {
+    std::uint32_t node = 0;
+    const double kinetic = body.kinetic_after(&node);
+    if (!std::isfinite(kinetic)) throw_not_finite(body);
+    most_gravity_work_ = std::max(most_gravity_work_, gravity_work);
+    const double bound = kEnergyMargin * (available_ + most_gravity_work_) + rounding_;
+    if (kinetic > bound)
+      throw UnstableError(
+          fmt::format(
+              "the run became unstable: at t = {:.6g} s the kinetic energy is {:.3g} J, of "
+              "at most {:.3g} J that were there, most of it in node {}; take a smaller step",
+              body.time(), kinetic, available_ + most_gravity_work_, node),
+          node, body.time());
+  }
+
+ private:
+  [[noreturn]] static void throw_not_finite(const Leapfrog& body) {
+    const State state = body.state();
+    std::uint32_t node = 0;
+    while (node + 1 < state.x.size() && state.x[node].allFinite() && state.v[node].allFinite())
+      ++node;
+    throw UnstableError(fmt::format("the run became unstable: node {} is not finite at t = {:.6g} "
+                                    "s; take a smaller step",
+                                    node, body.time()),
+                        node, body.time());
+  }
+
+  double rounding_;
+  double available_ = 0;
+  double most_gravity_work_ = 0;
+};
+
+/// Whether the centre of mass has been slow for long enough.
+class StopWatch {
+ public:
+  explicit StopWatch(const std::optional<StopRule>& rule) : rule_(rule) {}
+  bool look(const Leapfrog& body) {
+    if (!rule_) return false;
+    if (body.center_velocity().norm() >= rule_->speed) last_fast_ = body.time();
+    return body.time() - last_fast_ >= rule_->hold;
+  }
+
+ private:
+  std::optional<StopRule> rule_;
+  double last_fast_ = 0;
+};
+
+/// Keeps what is asked for at the frame times.
+class Recorder {
+ public:
+  Recorder(double frame_rate, bool ledger, Trajectory& trajectory)
+      : rate_(frame_rate), ledger_(ledger), trajectory_(&trajectory) {}
+
+  /// All frames that fall into the step that `body` is about to take.
+  void record(const Leapfrog& body, double step) {
+    while (next_time() < body.time() + step) {
+      keep(next_time(), body);
+      ++count_;
+    }
+  }
+  /// The last state, unless it is a frame already.
+  void record_end(const Leapfrog& body, double step) {
+    // Steps and frame times are rounded differently: what lies this close is the same instant.
+    const double same = 1e-6 * step;
+    auto& frames = trajectory_->frames;
+    if (!frames.empty() && frames.back().time > body.time() - same) {
+      frames.pop_back();
+      if (ledger_) trajectory_->ledger.pop_back();
+    }
+    keep(body.time(), body);
+  }
+
+ private:
+  double next_time() const {
+    if (count_ == 0) return 0;
+    return rate_ > 0 ? static_cast<double>(count_) / rate_
+                     : std::numeric_limits<double>::infinity();
+  }
+  void keep(double time, const Leapfrog& body) {
+    trajectory_->frames.push_back({time, body.positions_at(time)});
+    if (ledger_) trajectory_->ledger.push_back(body.ledger_entry());
+  }
+
+  double rate_;
+  bool ledger_;
+  Trajectory* trajectory_;
+  std::uint64_t count_ = 0;
+};
+
+template <bool with_ledger>
+void integrate(const MassSpringModel& model, const Scenario& scenario, const RunOptions& options,
+               Trajectory& trajectory) {
+  const double step = trajectory.step;
+  // A duration that is a whole number of steps must not get one more from rounding.
+  const auto last_step = static_cast<std::uint64_t>(std::ceil(scenario.duration / step - 1e-6));
+  Leapfrog body(model, scenario, initial_state(model, scenario.start), options.integrator, step);
+  Recorder recorder(options.frame_rate, with_ledger, trajectory);
+  StopWatch stop(scenario.stop);
+  Task task(options.progress, "simulate", last_step);
+
+  body.kick<with_ledger>();
+  EnergyWatch watch(model, body);
+  const Vec3 weight = scenario.gravity * std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
+  const Vec3 first_center = body.center_of_mass();
+  for (;;) {
+    if (!trajectory.first_contact && !body.contacts().empty())
+      trajectory.first_contact = body.time();
+    if (body.step_number() == last_step) break;
+    if (body.step_number() % kLookEvery == 0) {
+      watch.look(body, weight.dot(body.center_of_mass() - first_center));
+      if (stop.look(body)) break;
+      task.advance(std::min(kLookEvery, last_step - body.step_number()));
+    }
+    recorder.record(body, step);
+    body.drift<with_ledger>();
+    body.kick<with_ledger>();
+  }
+  watch.look(body, weight.dot(body.center_of_mass() - first_center));
+  recorder.record_end(body, step);
+
+  trajectory.final = body.state();
+  trajectory.steps = body.step_number();
+  trajectory.spring_updates = body.step_number() * model.spring_count();
+  trajectory.simulated = body.time();
+}
+
+}  // namespace
+
+double predicted_step(const MassSpringModel& model, const Scenario& scenario,
+                      Integrator integrator) {
+  FrequencyOptions contact;
+  contact.ground_stiffness = contact_stiffness(model, scenario.obstacles);
+  const double omega = largest_frequency(model, contact);
+  if (!(omega > 0)) return std::numeric_limits<double>::infinity();
+  double damping_time = largest_damping_time(model);
+  for (const Obstacle& obstacle : scenario.obstacles)
+    damping_time = std::max(damping_time, obstacle.damping);
+  return stable_step(omega,
+                     integrator == Integrator::velocity_verlet ? 2 * damping_time : damping_time);
+}
+
+Trajectory run(const MassSpringModel& model, const Scenario& scenario, const RunOptions& options) {
+  validate(model);
+  validate(scenario);
+  validate(options);
+  const auto begin = std::chrono::steady_clock::now();
+  Trajectory trajectory;
+  trajectory.predicted_step = predicted_step(model, scenario, options.integrator);
+  trajectory.step =
+      options.step.value_or(default_step(options, trajectory.predicted_step, scenario.duration));
+  if (options.ledger)
+    integrate<true>(model, scenario, options, trajectory);
+  else
+    integrate<false>(model, scenario, options, trajectory);
+  trajectory.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return trajectory;
+}
+
+double measured_distance(const Scenario& scenario, const Vec3& first_center,
+                         const Vec3& final_center) {
+  if (scenario.measure_from.empty()) return (final_center - first_center).head<2>().norm();
+  const auto obstacle =
+      std::find_if(scenario.obstacles.begin(), scenario.obstacles.end(),
+                   [&](const Obstacle& o) { return o.name == scenario.measure_from; });
+  if (obstacle == scenario.obstacles.end())
+    throw InputError(fmt::format("scenario: measure_from = \"{}\" is the name of no obstacle",
+                                 scenario.measure_from));
+  return surface_point(*obstacle, final_center).distance;
+}
+
+Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x) {
+  Vec3 moment = Vec3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    moment += model.mass[i] * x[i];
+    mass += model.mass[i];
+  }
+  return moment / mass;
+}
+
+}  // namespace springlod

@@ -1,0 +1,130 @@
+#include <catch2/catch.hpp>
+
+#include "tests/cli/program.hpp"
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using springlod::test::Ran;
+using springlod::test::Scratch;
+using springlod::test::spit;
+using springlod::test::springlod_interrupted;
+using springlod::test::springlod_run;
+
+TEST_CASE("--version and --help go to stdout and exit 0") {
+  const Ran version = springlod_run({"--version"});
+  CHECK(version.exit_code == 0);
+  CHECK_THAT(version.out, StartsWith("springlod "));
+  CHECK(version.err.empty());
+
+  const Ran help = springlod_run({"--help"});
+  CHECK(help.exit_code == 0);
+  for (const char* command : {"\n  run ", "\n  convert ", "\n  info ", "\n  compare "})
+    CHECK_THAT(help.out, Contains(command));
+  CHECK_THAT(help.out, Contains("Turns meshes into LOD assets."));
+}
+
+TEST_CASE("wrong use exits 2, says why on stderr and names what is near") {
+  const auto wrong = [](const std::vector<std::string>& arguments, const std::string& reason) {
+    const Ran ran = springlod_run(arguments);
+    CAPTURE(ran.out, ran.err);
+    CHECK(ran.exit_code == 2);
+    CHECK(ran.out.empty());
+    CHECK_THAT(ran.err, Contains(reason));
+  };
+  wrong({"conver", "x.obj"}, "did you mean 'convert'?");
+  wrong({"frobnicate"}, "commands are: run, compare, convert");
+  wrong({"thing.lua"}, "springlod run thing.lua");
+  wrong({"--sede", "3"}, "did you mean '--seed'?");
+  wrong({"--seed", "many", "-e", "x = 1"}, "--seed");
+  wrong({"--threads"}, "--threads");
+  wrong({"run"}, "run needs a script");
+  wrong({"info"}, "missing argument 'asset'");
+  wrong({"convert", "a.obj"}, "missing option '-o'");
+  wrong({"convert", "a.obj", "-o", "a.glb", "--leves", "2"}, "unknown option '--leves'");
+  wrong({"convert", "a.obj", "-o", "a.glb", "--grouping", "stndard"}, "'priority_hard'");
+  wrong({"convert", "a.obj", "-o", "a.glb", "--cell", "2kg"}, "--cell: \"2kg\"");
+  wrong({"convert", "a.obj", "-o", "a.glb", "--levels", "-1"}, "--levels");
+  wrong({"convert", "a.obj", "-o", "a.txt"}, "must end in .glb");
+  wrong({"compare", "a.glb", "--out", "x"}, "--scenario");
+}
+
+TEST_CASE("every command explains itself") {
+  for (const char* command : {"convert", "info", "compare"}) {
+    const Ran ran = springlod_run({command, "--help"});
+    CAPTURE(command);
+    CHECK(ran.exit_code == 0);
+    CHECK_THAT(ran.out, StartsWith("Usage: springlod " + std::string(command)));
+    CHECK_THAT(ran.out, Contains("--seed"));
+  }
+}
+
+TEST_CASE("code comes from -e, a script, or a pipe") {
+  CHECK(springlod_run({"-e", "print(1 + 1)"}).out == "2\n");
+  CHECK(springlod_run({"-e", "print(...)", "a", "b"}).out == "a\tb\n");
+  CHECK(springlod_run({}, "print('piped')").out == "piped\n");
+
+  const Scratch scratch;
+  spit(scratch / "helper.lua", "return {word = 'from beside'}");
+  spit(scratch / "main.lua", "print(require('helper').word, arg[0] ~= nil, #arg, ...)");
+  const std::string script = (scratch / "main.lua").string();
+  CHECK(springlod_run({"run", script}).out == "from beside\ttrue\t0\n");
+  CHECK(springlod_run({"run", script, "--", "-x", "--seed", "y"}).out ==
+        "from beside\ttrue\t3\t-x\t--seed\ty\n");
+}
+
+TEST_CASE("global flags stand before the command or after it") {
+  const std::string code = "s = require 'springlod' print(s.seed, s.threads, s.verbosity)";
+  CHECK(springlod_run({"-e", code}).out == "1\t0\t0\n");
+  CHECK(springlod_run({"--seed", "7", "--threads", "2", "-v", "-e", code}).out == "7\t2\t1\n");
+  CHECK(springlod_run({"-q", "-e", code}).out == "1\t0\t-1\n");
+
+  const Scratch scratch;
+  spit(scratch / "seed.lua", code);
+  const std::string script = (scratch / "seed.lua").string();
+  CHECK(springlod_run({"run", script, "--seed", "9", "-q"}).out == "9\t0\t-1\n");
+  CHECK(springlod_run({"--seed", "8", "run", script}).out == "8\t0\t0\n");
+}
+
+TEST_CASE("a failing script exits 1 with its line and a traceback") {
+  const Scratch scratch;
+  spit(scratch / "bad.lua",
+       "local s = require 'springlod'\n"
+       "local function build()\n"
+       "  return s.simplify(s.model{nodes = {{0, 0, 0, mass = 1}}}, {level = 2})\n"
+       "end\n"
+       "build()\n");
+  const Ran ran = springlod_run({"run", (scratch / "bad.lua").string()});
+  CHECK(ran.exit_code == 1);
+  CHECK(ran.out.empty());
+  CHECK_THAT(ran.err, Contains("bad.lua:3: unknown option 'level'; did you mean 'levels'? simplify "
+                               "takes: levels, grouping, border, seed"));
+  CHECK_THAT(ran.err, Contains("stack traceback:"));
+  CHECK_THAT(ran.err, Contains("bad.lua:5: in main chunk"));
+
+  CHECK(springlod_run({"-e", "x = = 1"}).exit_code == 1);
+  CHECK(springlod_run({"-e", "error{}"}).exit_code == 1);
+  CHECK(springlod_run({"-e", "os.exit(7)"}).exit_code == 7);
+  const Ran missing = springlod_run({"run", (scratch / "none.lua").string()});
+  CHECK(missing.exit_code == 1);
+  CHECK_THAT(missing.err, Contains("none.lua"));
+}
+
+TEST_CASE("Ctrl-C stops a Lua loop that catches every error") {
+  const Ran ran = springlod_interrupted(
+      {"-e", "io.stderr:write('going\\n') while true do pcall(function() end) end"}, "going\n");
+  CHECK(ran.exit_code == 1);
+  CHECK_THAT(ran.err, Contains("interrupted"));
+}
+
+TEST_CASE("Ctrl-C stops a long simulation") {
+  const Ran ran = springlod_interrupted(
+      {"-e",
+       "local s = require 'springlod'\n"
+       "local m = s.model{nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 1}},\n"
+       "                  springs = {{1, 2, k = 100}}}\n"
+       "io.stderr:write('going\\n')\n"
+       "s.run(m, {duration = 1e9}, {step = 1e-3, frame_rate = 0})"},
+      "going\n");
+  CHECK(ran.exit_code == 1);
+  CHECK_THAT(ran.err, Contains("interrupted"));
+}

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace springlod::test {
+
+/// How one run of the real program ended.
+struct Ran {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Runs build/app/springlod with `arguments`, `input` on its stdin, in the source folder.
+Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input = "");
+
+/// Runs it, interrupts it (SIGINT) as soon as `mark` shows on its stderr, and waits.
+Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark);
+
+/// The program in a terminal of its own, its keyboard in our hands.
+class Terminal {
+ public:
+  explicit Terminal(const std::vector<std::string>& arguments,
+                    const std::filesystem::path& state_home);
+  ~Terminal();
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  void type(const std::string& keys);
+  /// Waits until `text` shows in what came since the last wait; false if it does not in 20 s.
+  bool shows(const std::string& text);
+  /// All that came on the screen so far.
+  const std::string& screen() const { return screen_; }
+  /// Waits for the program to leave; -1 if it does not in 20 s.
+  int exit_code();
+
+ private:
+  bool read_more(int timeout_ms);
+
+  int terminal_ = -1;
+  int process_ = -1;
+  std::size_t seen_ = 0;
+  std::string screen_;
+};
+
+/// A fresh folder that is removed with everything in it.
+class Scratch {
+ public:
+  Scratch();
+  ~Scratch();
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+std::string slurp(const std::filesystem::path& path);
+void spit(const std::filesystem::path& path, const std::string& text);
+
+/// An OBJ of boxes standing side by side along x, each a part of its own: "o name".
+struct BoxPart {
+  std::string name;
+  double x0 = 0;
+  double x1 = 1;
+};
+std::string obj_of_boxes(const std::vector<BoxPart>& parts, double width = 1);
+/// A unit box without its lid.
+std::string obj_of_open_box();
+
+}  // namespace springlod::test

@@ -1,0 +1,29 @@
+// write_sample_asset FOLDER: writes the assets that the Khronos validator is run on.
+
+#include <exception>
+#include <filesystem>
+#include <iostream>
+
+#include "model/asset.hpp"
+#include "tests/model/sample_assets.hpp"
+
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::cerr << "usage: write_sample_asset FOLDER\n";
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  springlod::LodAsset asset = springlod::test::sample_asset();
+  springlod::save_asset(asset, folder / "chain.glb");
+
+  // No surface, no springs, a single node: every optional piece left out.
+  springlod::LodAsset bare;
+  bare.chain.levels.resize(1);
+  bare.chain.levels[0].model = springlod::test::make_model({{1, 2, 3}}, {});
+  bare.chain.levels[0].of_base = springlod::identity_groups(1);
+  springlod::save_asset(bare, folder / "bare.glb");
+  return 0;
+} catch (const std::exception& e) {
+  std::cerr << e.what() << '\n';
+  return 1;
+}

@@ -1,0 +1,73 @@
+#include "model/chain.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "model/error.hpp"
+#include "tests/model/sample_assets.hpp"
+
+namespace springlod {
+namespace {
+
+using Catch::Matchers::Contains;
+
+TEST_CASE("Maps of merges made level by level compose") {
+  const Groups finer{{0, 0, 1, 2, 2, 3}, 4};
+  const Groups coarser{{1, 0, 0, 1}, 2};
+  const Groups both = compose(finer, coarser);
+  CHECK(both.of == std::vector<std::uint32_t>{1, 1, 0, 0, 0, 1});
+  CHECK(both.count == 2);
+  CHECK(compose(identity_groups(6), finer).of == finer.of);
+  CHECK(compose(finer, identity_groups(4)).of == finer.of);
+  CHECK_THROWS_WITH(compose(coarser, finer), Contains("2 groups") && Contains("starts from 6"));
+}
+
+TEST_CASE("Group numbers must be below the count, and every group has a node") {
+  CHECK_NOTHROW(validate(Groups{{1, 0, 1}, 2}));
+  CHECK_THROWS_WITH(validate(Groups{{0, 2}, 2}), Contains("node 1") && Contains("group 2"));
+  CHECK_THROWS_WITH(validate(Groups{{0, 2}, 3}), Contains("group 1 is empty"));
+}
+
+TEST_CASE("Provenance keeps its order and one value a key") {
+  Provenance p;
+  p.set("seed", "1");
+  p.set("cell", "2 mm");
+  p.set("seed", "3");
+  CHECK(p.entries ==
+        std::vector<std::pair<std::string, std::string>>{{"seed", "3"}, {"cell", "2 mm"}});
+}
+
+TEST_CASE("A broken asset is refused, the level named") {
+  LodAsset asset = test::sample_asset();
+  CHECK_NOTHROW(validate(asset));
+  SECTION("a model") {
+    asset.chain.levels[2].model.stiffness[1] = 0;
+    CHECK_THROWS_WITH(validate(asset), Contains("level 2") && Contains("spring 1"));
+  }
+  SECTION("a map of the wrong length") {
+    asset.chain.levels[1].of_base.of.pop_back();
+    CHECK_THROWS_WITH(validate(asset), Contains("level 1") && Contains("map"));
+  }
+  SECTION("no levels") {
+    asset.chain.levels.clear();
+    CHECK_THROWS_WITH(validate(asset), Contains("no levels"));
+  }
+  SECTION("a vertex that hangs on nothing") {
+    asset.surface_of_base = bind_points({}, asset.chain.levels[0].model);
+    CHECK_THROWS_WITH(validate(asset), Contains("8 vertices"));
+  }
+  SECTION("a vertex that hangs on a node that is not there") {
+    asset.surface_of_base.node[5] = 80;
+    CHECK_THROWS_WITH(validate(asset), Contains("entry 5") && Contains("node 80"));
+  }
+  SECTION("rows of the binding out of order") {
+    std::swap(asset.surface_of_base.start[2], asset.surface_of_base.start[3]);
+    CHECK_THROWS_AS(validate(asset), InputError);
+  }
+  SECTION("a surface triangle out of range") {
+    asset.surface.triangles[3][1] = 8;
+    CHECK_THROWS_WITH(validate(asset), Contains("triangle 3"));
+  }
+}
+
+}  // namespace
+}  // namespace springlod

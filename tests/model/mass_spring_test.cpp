@@ -1,0 +1,149 @@
+#include "model/mass_spring.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "model/error.hpp"
+#include "tests/model/sample_models.hpp"
+
+namespace springlod {
+namespace {
+
+using Catch::Matchers::Contains;
+using test::box_lattice;
+using test::make_model;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST_CASE("A sound model validates") {
+  CHECK_NOTHROW(validate(box_lattice(3, 4, 5)));
+  CHECK_NOTHROW(validate(make_model({{0, 0, 0}}, {})));
+}
+
+TEST_CASE("A broken node or spring is named") {
+  struct Case {
+    const char* named;
+    const char* rule;
+    std::function<void(MassSpringModel&)> damage;
+  };
+  const auto c = GENERATE(values<Case>({
+      {"node 7", "position", [](auto& m) { m.rest[7].y() = kNan; }},
+      {"node 3", "mass", [](auto& m) { m.mass[3] = 0; }},
+      {"node 3", "mass", [](auto& m) { m.mass[3] = kNan; }},
+      {"node 2", "volume", [](auto& m) { m.volume[2] = -1; }},
+      {"node 5", "contact area", [](auto& m) { m.contact_area[5] = -1e-9; }},
+      {"node 6", "material", [](auto& m) { m.material[6] = 1; }},
+      {"spring 4", "rest length", [](auto& m) { m.rest_length[4] = 0; }},
+      {"spring 4", "same place", [](auto& m) { m.rest[m.b[4]] = m.rest[m.a[4]]; }},
+      {"spring 9", "stiffness", [](auto& m) { m.stiffness[9] = -2; }},
+      {"spring 9", "stiffness",
+       [](auto& m) { m.stiffness[9] = std::numeric_limits<double>::infinity(); }},
+      {"spring 1", "damping", [](auto& m) { m.damping[1] = kNan; }},
+      {"spring 8", "not there", [](auto& m) { m.b[8] = 99; }},
+      {"spring 0", "two different", [](auto& m) { m.b[0] = m.a[0]; }},
+      {"spring 6", "sorted", [](auto& m) { m.a[6] = m.a[5], m.b[6] = m.b[5]; }},
+  }));
+  MassSpringModel m = box_lattice(3, 3, 3);
+  c.damage(m);
+  CHECK_THROWS_WITH(validate(m), Contains(c.named) && Contains(c.rule));
+}
+
+TEST_CASE("Arrays of unequal length, no nodes and no materials are refused") {
+  MassSpringModel m = box_lattice(2, 2, 2);
+  SECTION("nodes") {
+    m.volume.pop_back();
+  }
+  SECTION("springs") {
+    m.damping.pop_back();
+  }
+  SECTION("no nodes") {
+    m = MassSpringModel{};
+  }
+  SECTION("no materials") {
+    m.materials.clear();
+  }
+  SECTION("a bad material") {
+    m.materials[0].density = 0;
+  }
+  CHECK_THROWS_AS(validate(m), InputError);
+}
+
+TEST_CASE("Springs by node come in rising order of neighbour, each at both ends") {
+  const MassSpringModel m = box_lattice(4, 3, 5);
+  const Adjacency adj = adjacency(m);
+  REQUIRE(adj.start.size() == m.node_count() + 1);
+  REQUIRE(adj.neighbour.size() == m.end_count());
+  std::vector<int> seen(m.spring_count(), 0);
+  for (std::uint32_t i = 0; i < m.node_count(); ++i)
+    for (std::uint32_t e = adj.start[i]; e < adj.start[i + 1]; ++e) {
+      if (e > adj.start[i]) REQUIRE(adj.neighbour[e - 1] < adj.neighbour[e]);
+      const std::uint32_t s = adj.spring[e];
+      ++seen[s];
+      REQUIRE(m.a[s] + m.b[s] == i + adj.neighbour[e]);
+      REQUIRE((m.a[s] == i || m.b[s] == i));
+    }
+  for (const int times : seen) REQUIRE(times == 2);
+}
+
+TEST_CASE("Connected parts are numbered by their lowest node") {
+  const MassSpringModel m = make_model(
+      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}}, {{0, 4}, {1, 3}, {3, 5}});
+  const Components parts = connected_components(m);
+  CHECK(parts.count == 3);
+  CHECK(parts.of_node == std::vector<std::uint32_t>{0, 1, 2, 1, 0, 1});
+  CHECK(connected_components(box_lattice(3, 3, 3)).count == 1);
+}
+
+TEST_CASE("Mass, centre and inertia are those of the points") {
+  MassSpringModel m = make_model({{0, 0, 0}, {4, 0, 0}}, {});
+  m.mass = {1, 3};
+  m.volume = {0.5, 0.25};
+  m.border = {1, 0};
+  const MassProperties p = mass_properties(m);
+  CHECK(p.mass == 4);
+  CHECK(p.volume == 0.75);
+  CHECK((p.center - Vec3(3, 0, 0)).norm() < 1e-15);
+  // 1 kg at 3 m and 3 kg at 1 m.
+  CHECK((p.inertia - Vec3(0, 12, 12).asDiagonal().toDenseMatrix()).norm() < 1e-13);
+  CHECK(border_count(m) == 1);
+
+  for (Vec3& x : m.rest) x += Vec3(1e3, -2e3, 5e2);
+  CHECK((mass_properties(m).inertia - p.inertia).norm() < 1e-9);
+}
+
+TEST_CASE("Eq. 2 of the paper gives E = 2.5 k / a inside a lattice") {
+  // One inner node, its 18 springs counted half, as its neighbours own the other half.
+  const double a = 0.2;
+  const double k = 300;
+  MassSpringModel m = box_lattice(3, 3, 3, a, k / 2);
+  const std::uint32_t inner = 13;
+  MassSpringModel star = m;
+  star.a.clear(), star.b.clear(), star.rest_length.clear(), star.stiffness.clear();
+  for (std::uint32_t s = 0; s < m.spring_count(); ++s)
+    if (m.a[s] == inner || m.b[s] == inner) {
+      star.a.push_back(m.a[s]);
+      star.b.push_back(m.b[s]);
+      star.rest_length.push_back(m.rest_length[s]);
+      star.stiffness.push_back(m.stiffness[s]);
+    }
+  CHECK(star.spring_count() == 18);
+  star.volume.assign(star.node_count(), 0);
+  star.volume[inner] = a * a * a;
+  CHECK(spring_work(star) == Approx(15 * k * a * a).epsilon(1e-12));
+  CHECK(estimated_young(star) == Approx(2.5 * k / a).epsilon(1e-12));
+}
+
+TEST_CASE("The state at rest is the rest positions without motion") {
+  const MassSpringModel m = box_lattice(2, 2, 2);
+  const State state = rest_state(m);
+  CHECK(state.x == m.rest);
+  CHECK(state.v == std::vector<Vec3>(8, Vec3::Zero()));
+  CHECK(state.t == 0);
+}
+
+}  // namespace
+}  // namespace springlod

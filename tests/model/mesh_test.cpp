@@ -1,0 +1,76 @@
+#include "model/mesh.hpp"
+
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "model/error.hpp"
+#include "model/material.hpp"
+#include "tests/model/sample_assets.hpp"
+
+namespace springlod {
+namespace {
+
+using Catch::Matchers::Contains;
+
+TEST_CASE("A box has its volume, area and bounds wherever it stands") {
+  TriangleMesh box = test::box_mesh({1, 2, 3});
+  box.parts = {{"box", "", 0, 12}};
+  const Vec3 place = GENERATE(Vec3(0, 0, 0), Vec3(-1000, 500, 2000));
+  for (Vec3& p : box.positions) p += place;
+  CHECK(signed_volume(box, box.parts[0]) == Approx(6).epsilon(1e-9));
+  CHECK(surface_area(box) == Approx(22).epsilon(1e-9));
+  CHECK((bounds(box).min() - place).norm() == 0);
+  CHECK((bounds(box).sizes() - Vec3(1, 2, 3)).norm() < 1e-12);
+
+  for (Triangle& t : box.triangles) std::swap(t[0], t[1]);
+  CHECK(signed_volume(box, box.parts[0]) == Approx(-6).epsilon(1e-9));
+  CHECK(bounds(TriangleMesh{}).isEmpty());
+}
+
+TEST_CASE("A broken mesh is refused with the place") {
+  TriangleMesh box = test::box_mesh({1, 2, 3});
+  CHECK_NOTHROW(validate(box));
+  SECTION("vertex") {
+    box.positions[5].x() = std::numeric_limits<double>::infinity();
+    CHECK_THROWS_WITH(validate(box), Contains("vertex 5"));
+  }
+  SECTION("triangle") {
+    box.triangles[7][2] = 8;
+    CHECK_THROWS_WITH(validate(box), Contains("triangle 7") && Contains("vertex 8"));
+  }
+  SECTION("parts that leave a gap") {
+    box.parts[1].first_triangle = 5;
+    CHECK_THROWS_WITH(validate(box), Contains("sides"));
+  }
+  SECTION("parts that end early") {
+    box.parts[1].triangle_count = 7;
+    CHECK_THROWS_WITH(validate(box), Contains("11 of 12"));
+  }
+}
+
+TEST_CASE("A material out of range is refused by name and field") {
+  Material m{.name = "rubber"};
+  CHECK_NOTHROW(validate(m));
+  SECTION("young") {
+    m.young = 0;
+  }
+  SECTION("density") {
+    m.density = -1;
+  }
+  SECTION("damping") {
+    m.damping = std::numeric_limits<double>::quiet_NaN();
+  }
+  CHECK_THROWS_WITH(validate(m), Contains("rubber") && Contains("must be"));
+  m.name.clear();
+  CHECK_THROWS_WITH(validate(m), Contains("no name"));
+}
+
+TEST_CASE("Eight palette colours differ and then repeat") {
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(palette_colour(i) == palette_colour(j));
+  CHECK(palette_colour(8) == palette_colour(0));
+}
+
+}  // namespace
+}  // namespace springlod

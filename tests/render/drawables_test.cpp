@@ -1,0 +1,167 @@
+#include "render/drawables.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "render/plane.hpp"
+#include "render/strain_colour.hpp"
+#include "render/surface.hpp"
+#include "tests/render/bodies.hpp"
+
+using namespace springlod;
+using namespace springlod::test;
+
+TEST_CASE("strain runs from blue over grey to red") {
+  const Colour blue = strain_colour(-1);
+  const Colour grey = strain_colour(0);
+  const Colour red = strain_colour(1);
+  CHECK(blue.b > blue.r + 0.3F);
+  CHECK(grey.r == Approx(grey.b));
+  CHECK(red.r > red.b + 0.3F);
+  CHECK(strain_colour(-9) == blue);
+  CHECK(strain_colour(9) == red);
+}
+
+TEST_CASE("a stretched spring is red, a compressed one blue, one at rest grey") {
+  MassSpringModel model = bar();
+  std::vector<Vec3> x = model.rest;
+  for (Vec3& p : x) p.x() *= 1.05;
+  DrawnBody body;
+  body.model = &model;
+  body.node_positions = &x;
+  body.style.springs = true;
+  body.style.spring_colour = SpringColour::strain;
+  body.style.strain_range = 0.05;
+  const auto springs = spring_instances(body, Vec3::Zero());
+  for (std::size_t s = 0; s < springs.size(); ++s) {
+    const Vec3 along = model.rest[model.b[s]] - model.rest[model.a[s]];
+    const Colour& colour = springs[s].colour_a;
+    if (along.x() == 0)
+      CHECK(colour.r == Approx(colour.b).margin(1e-5));
+    else
+      CHECK(colour.r > colour.b + 0.1F);
+  }
+  for (Vec3& p : x) p.x() *= 0.9;
+  CHECK(spring_instances(body, Vec3::Zero()).back().colour_a.b >
+        strain_colour(0).b - 0.5F);  // still a colour
+  const auto squeezed = spring_instances(body, Vec3::Zero());
+  for (std::size_t s = 0; s < squeezed.size(); ++s)
+    if (model.rest[model.b[s]].x() != model.rest[model.a[s]].x())
+      CHECK(squeezed[s].colour_a.b > squeezed[s].colour_a.r);
+}
+
+TEST_CASE("springs blend the materials of their ends") {
+  const MassSpringModel model = bar();
+  DrawnBody body;
+  body.model = &model;
+  body.style.springs = true;
+  const auto springs = spring_instances(body, Vec3::Zero());
+  for (std::size_t s = 0; s < springs.size(); ++s) {
+    CHECK(springs[s].colour_a == model.materials[model.material[model.a[s]]].colour);
+    CHECK(springs[s].colour_b == model.materials[model.material[model.b[s]]].colour);
+  }
+}
+
+TEST_CASE("materials left grey are drawn in different colours") {
+  MassSpringModel model = bar();
+  for (Material& m : model.materials) m.colour = Colour{};
+  CHECK_FALSE(drawn_colour(model, 0) == drawn_colour(model, 1));
+  model.materials[1].colour = {0.1F, 0.2F, 0.3F};
+  CHECK(drawn_colour(model, 1) == Colour{0.1F, 0.2F, 0.3F});
+}
+
+TEST_CASE("bold inner nodes are larger and red, border nodes smaller") {
+  const MassSpringModel model = ball();
+  DrawnBody body;
+  body.model = &model;
+  body.style.node_radius = 0.01;
+  body.style.bold_inner_nodes = true;
+  const auto nodes = node_instances(body, Vec3::Zero());
+  int inner = 0;
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    if (model.border[i] != 0) {
+      CHECK(nodes[i].radius < 0.01F);
+    } else {
+      ++inner;
+      CHECK(nodes[i].radius > 0.01F);
+      CHECK(nodes[i].colour.r > nodes[i].colour.g + 0.4F);
+    }
+  }
+  CHECK(inner > 50);
+}
+
+TEST_CASE("a cylinder is split at its rims only, and its normals are those of a cylinder") {
+  TriangleMesh mesh;
+  append_cylinder(mesh, "rod", -1, 1, 0.5, 32, 4);
+  const SplitSurface surface = split_at_creases(mesh);
+  CHECK(surface.source.size() == mesh.positions.size() + 2 * 32);  // both rims twice
+  CHECK(surface.closed);
+  const auto normals = vertex_normals(surface, mesh.positions);
+  int flat = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Vec3& p = mesh.positions[surface.source[i]];
+    const Vec3 n = normals[i].cast<double>();
+    const Vec3 outward(0, p.y(), p.z());
+    if (std::abs(n.x()) > 0.5) {
+      ++flat;
+      CHECK(std::abs(n.x()) == Approx(1).margin(1e-5));
+    } else {
+      CHECK(n.dot(outward.normalized()) == Approx(1).margin(1e-2));
+    }
+  }
+  CHECK(flat == 2 * 33);
+}
+
+TEST_CASE("a mesh with a hole or a part turned inside out is drawn from both sides") {
+  TriangleMesh open = sphere_mesh(1, 12, 6);
+  open.triangles.pop_back();
+  open.parts[0].triangle_count -= 1;
+  CHECK_FALSE(split_at_creases(open).closed);
+  TriangleMesh turned = sphere_mesh(1, 12, 6);
+  for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
+  CHECK_FALSE(split_at_creases(turned).closed);
+  CHECK(split_at_creases(sphere_mesh(1, 12, 6)).closed);
+}
+
+TEST_CASE("normals turn with the body") {
+  const TriangleMesh mesh = sphere_mesh(1, 32, 16);
+  const SplitSurface surface = split_at_creases(mesh);
+  CHECK(surface.source.size() == mesh.positions.size());  // no crease anywhere
+  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  std::vector<Vec3> turned;
+  for (const Vec3& p : mesh.positions) turned.emplace_back(turn * p);
+  const auto before = vertex_normals(surface, mesh.positions);
+  const auto after = vertex_normals(surface, turned);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    CHECK((turn.cast<float>() * before[i] - after[i]).norm() < 1e-5F);
+}
+
+TEST_CASE("a box as drawn is closed and has its volume") {
+  DrawnBox box;
+  box.half_size = Vec3(1, 2, 3);
+  box.rotation = Eigen::AngleAxisd(0.7, Vec3::UnitZ()).toRotationMatrix();
+  const TriangleMesh mesh = box_mesh(box);
+  CHECK(signed_volume(mesh, mesh.parts[0]) == Approx(48));
+  const SplitSurface surface = split_at_creases(mesh);
+  CHECK(surface.closed);
+  CHECK(surface.source.size() == 24);
+}
+
+TEST_CASE("the floor's grid has lines a metre apart in views of some metres") {
+  CHECK(grid_spacing(3) == Approx(1));
+  CHECK(grid_spacing(0.3) == Approx(0.1));
+  CHECK(grid_spacing(40) == Approx(10));
+}
+
+TEST_CASE("a plane patch lies in its plane, around the foot of the camera's target") {
+  Camera camera;
+  camera.target = Vec3(10, 20, 5);
+  camera.eye = Vec3(10, 10, 7);
+  const PlanePatch wall = plane_patch({Vec3(-2, 0, 0), -24}, camera, 1);  // x = 12, from its left
+  CHECK(wall.upright);
+  CHECK_FALSE(wall.seen_from_behind);
+  CHECK(wall.center.x() == Approx(2));
+  CHECK(wall.center.dot(wall.normal) == Approx(wall.offset));
+  CHECK(wall.v.z() == Approx(1));
+  CHECK(plane_patch({Vec3(1, 0, 0), 12}, camera, 1).seen_from_behind);
+  CHECK_FALSE(plane_patch({Vec3(0, 0, 1), 0}, camera, 1).upright);
+}

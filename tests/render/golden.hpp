@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "render/frames.hpp"
+
+namespace springlod::test {
+
+/// Compares with tests/golden/<name>.png. SPRINGLOD_BLESS=1 makes the picture the new golden one.
+/// llvmpipe's last bits differ between processors: 3 of 255 are allowed, and 0.5 % of the pixels
+/// (along edges) may differ by more.
+inline void check_golden(const Image& picture, const std::string& name) {
+  const auto golden =
+      std::filesystem::path(SPRINGLOD_SOURCE_DIR) / "tests" / "golden" / (name + ".png");
+  const char* bless = std::getenv("SPRINGLOD_BLESS");
+  if (bless != nullptr && std::string(bless) == "1") {
+    save_png(picture, golden);
+    WARN("blessed " << golden.string());
+    return;
+  }
+  REQUIRE(std::filesystem::exists(golden));
+  const Image wanted = load_png(golden);
+  REQUIRE(picture.width == wanted.width);
+  REQUIRE(picture.height == wanted.height);
+  const ImageDifference found = difference(picture, wanted);
+  const bool same = found.share_beyond <= 0.005;
+  if (!same) {
+    const auto actual =
+        std::filesystem::path(SPRINGLOD_BINARY_DIR) / "golden_failures" / (name + ".png");
+    save_png(picture, actual);
+    FAIL("the picture differs from " << golden.string() << " in " << 100 * found.share_beyond
+                                     << " % of its pixels (by up to " << found.largest
+                                     << "); it was written to " << actual.string()
+                                     << ". If it is right, run again with SPRINGLOD_BLESS=1");
+  }
+  SUCCEED();
+}
+
+/// A fresh folder, removed in the end.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::string& name) {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / ("springlod_" + name + "_XXXXXX")).string();
+    REQUIRE(mkdtemp(pattern.data()) != nullptr);
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace springlod::test

@@ -1,0 +1,197 @@
+#include "report/animate.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "model/error.hpp"
+#include "render/frames.hpp"
+#include "report/playback.hpp"
+#include "tests/render/bodies.hpp"
+#include "tests/render/golden.hpp"
+
+using namespace springlod;
+using namespace springlod::test;
+
+namespace {
+
+// A bar thrown at a wall as the animation gets it: no simulation, the bar just flies and bends.
+struct Film {
+  LodAsset asset;
+  Comparison comparison;
+
+  explicit Film(double duration = 0.5) {
+    Level base{bar(), {}, "base"};
+    base.of_base = identity_groups(base.model.node_count());
+    asset.chain.levels = {base, base};
+    asset.surface = dumbbell_mesh(16);
+    asset.surface_of_base = bind_points(asset.surface.positions, base.model);
+    comparison.scenario.obstacles = {{Plane{Vec3::UnitZ(), 0}, "floor"},
+                                     {Plane{-Vec3::UnitX(), -1.2}, "wall"}};
+    for (std::uint32_t level = 0; level < 2; ++level) {
+      LevelRuns runs;
+      runs.label = level == 0 ? "base" : "LOD-1";
+      runs.level = level;
+      runs.first.spring_updates = level == 0 ? 18600 : 1000;
+      runs.starts.resize(1);
+      runs.starts[0].surface_error = level == 0 ? 0 : 0.0123;
+      for (int k = 0; k <= 10; ++k) {
+        const double t = duration * k / 10;
+        runs.first.frames.push_back(
+            {t, bent(base.model.rest, 0.01 + t, Vec3(t - 0.3, 0, 0.3 - 0.2 * t))});
+      }
+      runs.base_frames = runs.first.frames;
+      comparison.levels.push_back(runs);
+    }
+  }
+};
+
+AnimateOptions small() {
+  AnimateOptions options;
+  options.width = 160;
+  options.height = 120;
+  return options;
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  const std::filesystem::directory_iterator all(folder);
+  return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+}
+
+}  // namespace
+
+TEST_CASE("positions are interpolated between frames and held outside") {
+  const std::vector<Frame> frames{{0, {Vec3(0, 0, 0)}}, {1, {Vec3(2, 0, 0)}}, {3, {Vec3(4, 0, 0)}}};
+  CHECK(positions_at(frames, -1)[0].x() == 0);
+  CHECK(positions_at(frames, 0.25)[0].x() == Approx(0.5));
+  CHECK(positions_at(frames, 1)[0].x() == Approx(2));
+  CHECK(positions_at(frames, 2)[0].x() == Approx(3));
+  CHECK(positions_at(frames, 99)[0].x() == 4);
+}
+
+TEST_CASE("smoothing keeps straight paths and their ends") {
+  std::vector<Vec3> path;
+  for (int i = 0; i < 10; ++i) path.emplace_back(i, 2 * i, 0);
+  const auto smooth = smoothed(path, 3);
+  for (std::size_t i = 0; i < path.size(); ++i) CHECK((smooth[i] - path[i]).norm() < 1e-12);
+  path[5].z() = 7;
+  CHECK(smoothed(path, 3)[5].z() == Approx(1));
+}
+
+TEST_CASE("base and level are drawn side by side on one clock") {
+  const TemporaryFolder folder("animate");
+  const Film film;
+  const Animation animation = animate(film.asset, film.comparison, folder.path(), small());
+  CHECK(animation.frames == 16);  // 0.5 s at 30 a second, first and last included
+  CHECK(files_in(folder.path()) == 16);
+  const Image first = load_png(frame_path(folder.path(), 0));
+  CHECK(first.width == 2 * 160);
+  CHECK(first.height == 120);
+  const Image last = load_png(frame_path(folder.path(), 15));
+  CHECK(difference(first, last).share_beyond > 0.01);
+}
+
+TEST_CASE("a picture of an animation looks as it did") {
+  const TemporaryFolder folder("animate");
+  const Film film;
+  AnimateOptions options = small();
+  options.width = 240;
+  options.height = 180;
+  options.frame_rate = 4;
+  animate(film.asset, film.comparison, folder.path(), options);
+  check_golden(load_png(frame_path(folder.path(), 1)), "animation");
+}
+
+TEST_CASE("slow motion makes more frames, a limit fewer, and stale frames go") {
+  const TemporaryFolder folder("animate");
+  const Film film;
+  AnimateOptions options = small();
+  options.width = 32;
+  options.height = 24;
+  options.slow = 2;
+  CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 31);
+  save_png(Image{1, 1, {0, 0, 0}}, folder.path() / "frame_other.png");
+  options.frames = 5;
+  CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 5);
+  CHECK(files_in(folder.path()) == 6);
+  CHECK(std::filesystem::exists(folder.path() / "frame_other.png"));
+  CHECK_FALSE(std::filesystem::exists(frame_path(folder.path(), 5)));
+}
+
+TEST_CASE("a run that ended early holds its last frame") {
+  const TemporaryFolder folder("animate");
+  Film film;
+  film.comparison.levels[1].first.frames.resize(3);
+  film.comparison.levels[1].base_frames.resize(3);
+  AnimateOptions options = small();
+  animate(film.asset, film.comparison, folder.path(), options);
+  const Image a = load_png(frame_path(folder.path(), 8));
+  const Image b = load_png(frame_path(folder.path(), 14));
+  std::size_t left = 0;
+  std::size_t right = 0;
+  // The upper three quarters: the clock below runs on.
+  for (std::size_t y = 0; y < 90; ++y)
+    for (std::size_t x = 0; x < 320; ++x) {
+      const std::size_t p = 3 * (y * 320 + x);
+      const bool same = std::equal(&a.rgb[p], &a.rgb[p] + 3, &b.rgb[p]);
+      (x < 159 ? left : right) += same ? 0 : 1;
+    }
+  CHECK(left > 100);
+  CHECK(right == 0);
+}
+
+TEST_CASE("the following camera, nodes and springs and an asset without surface can be drawn") {
+  const TemporaryFolder folder("animate");
+  Film film;
+  film.asset.surface = {};
+  film.asset.surface_of_base = {};
+  AnimateOptions options = small();
+  options.camera = CameraMode::follow;
+  options.frames = 2;
+  CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 2);
+  options.style.spring_colour = SpringColour::strain;
+  options.style.springs = true;
+  CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 2);
+}
+
+TEST_CASE("the camera steps round a wall that would hide the action") {
+  const TemporaryFolder folder("animate");
+  const Film film;  // its wall is at +x, facing -x; the default eye is at +x
+  AnimateOptions options = small();
+  options.frames = 1;
+  animate(film.asset, film.comparison, folder.path() / "round", options);
+  options.avoid_walls = false;
+  animate(film.asset, film.comparison, folder.path() / "behind", options);
+  options.azimuth = -110;
+  animate(film.asset, film.comparison, folder.path() / "mirrored", options);
+  const Image round = load_png(frame_path(folder.path() / "round", 0));
+  CHECK(round.rgb == load_png(frame_path(folder.path() / "mirrored", 0)).rgb);
+  CHECK(round.rgb != load_png(frame_path(folder.path() / "behind", 0)).rgb);
+}
+
+TEST_CASE("runs that do not fit the asset are refused") {
+  const TemporaryFolder folder("animate");
+  const Film film;
+  const auto refused = [&](const Comparison& comparison, const char* why) {
+    CHECK_THROWS_WITH(animate(film.asset, comparison, folder.path(), small()),
+                      Catch::Contains(why));
+  };
+  Comparison wrong = film.comparison;
+  wrong.levels.clear();
+  refused(wrong, "no runs");
+  wrong = film.comparison;
+  wrong.levels[1].level = 7;
+  refused(wrong, "level 7");
+  wrong = film.comparison;
+  wrong.levels[1].first.frames[2].x.pop_back();
+  refused(wrong, "another asset");
+  wrong = film.comparison;
+  wrong.levels[0].base_frames.clear();
+  refused(wrong, "no frames");
+  AnimateOptions options = small();
+  options.frame_rate = 0;
+  CHECK_THROWS_AS(animate(film.asset, film.comparison, folder.path(), options), InputError);
+  options.frame_rate = 1e12;
+  CHECK_THROWS_WITH(animate(film.asset, film.comparison, folder.path(), options),
+                    Catch::Contains("frame_rate"));
+}

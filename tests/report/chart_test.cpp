@@ -1,0 +1,150 @@
+#include "report/chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+
+#include "model/error.hpp"
+#include "model/file.hpp"
+#include "render/frames.hpp"
+#include "report/chart_layout.hpp"
+#include "report/subprocess.hpp"
+#include "tests/render/golden.hpp"
+#include "tests/report/programs.hpp"
+
+using namespace springlod;
+using namespace springlod::test;
+
+namespace {
+
+const ChartOptions kOptions{"Cost against error", "spring updates", "error [m]", true, false};
+
+std::vector<ChartSeries> some_series() {
+  return {{"base", {{4.1e9, 0, "base"}}, false},
+          {"LOD_hb", {{1.7e9, 0.021, "it's \"1\"", 0.018, 0.025}, {6.1e8, 0.055, "a, b^2"}}},
+          {"empty", {}}};
+}
+
+}  // namespace
+
+TEST_CASE("a chart is drawn with its labels, and script and data lie beside it") {
+  if (!find_program("gnuplot")) {
+    WARN("gnuplot is not installed: not tested");
+    return;
+  }
+  const TemporaryFolder folder("chart");
+  const auto path = folder.path() / "it's here" / "cost.svg";
+  const ChartFiles files = draw_chart(some_series(), kOptions, path);
+  REQUIRE(files.drawn);
+  const std::string svg = read_file(path);
+  for (const char* text : {"Cost against error", "spring updates", "error [m]", "LOD_hb", "a, b^2"})
+    CHECK(svg.find(text) != std::string::npos);
+  CHECK(std::filesystem::exists(files.data));
+  CHECK(read_file(files.data).find("LOD_hb,1.7e+09,0.021,0.018,0.025") != std::string::npos);
+
+  // The same input gives the same bytes: no date, no process number inside.
+  const auto again = folder.path() / "again" / "cost.svg";
+  draw_chart(some_series(), kOptions, again);
+  CHECK(read_file(again) == svg);
+
+  // The command draws the same picture again.
+  std::filesystem::remove(path);
+  REQUIRE(std::system(files.command.c_str()) == 0);
+  CHECK(read_file(path) == svg);
+}
+
+TEST_CASE("a chart can be a PNG") {
+  if (!find_program("gnuplot")) {
+    WARN("gnuplot is not installed: not tested");
+    return;
+  }
+  const TemporaryFolder folder("chart");
+  REQUIRE(draw_chart(some_series(), kOptions, folder.path() / "cost.png").drawn);
+  const Image image = load_png(folder.path() / "cost.png");
+  CHECK(image.width == 900);
+  CHECK(image.height == 600);
+}
+
+TEST_CASE("without gnuplot a chart leaves script, data and the command") {
+  const TemporaryFolder folder("chart");
+  const PathIs nothing("");
+  const ChartFiles files = draw_chart(some_series(), kOptions, folder.path() / "cost.svg");
+  CHECK_FALSE(files.drawn);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "cost.svg"));
+  CHECK(std::filesystem::exists(files.script));
+  CHECK(std::filesystem::exists(files.data));
+  CHECK(files.command == "cd " + folder.path().string() + " && gnuplot cost.gp");
+}
+
+TEST_CASE("a failing gnuplot is reported with what it said") {
+  const TemporaryFolder folder("chart");
+  const auto fake = folder.path() / "gnuplot";
+  std::ofstream(fake) << "#!/bin/sh\necho no such terminal >&2\nexit 3\n";
+  std::filesystem::permissions(fake, std::filesystem::perms::owner_all);
+  const PathIs only_fake(folder.path().string());
+  CHECK_THROWS_WITH(draw_chart(some_series(), kOptions, folder.path() / "cost.svg"),
+                    Catch::Contains("no such terminal") && Catch::Contains("exit 3"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "cost.svg"));
+}
+
+TEST_CASE("charts of nothing, of NaN or of another ending are refused") {
+  const TemporaryFolder folder("chart");
+  ChartPoint nowhere;
+  nowhere.y = NAN;
+  CHECK_THROWS_AS(draw_chart({}, kOptions, folder.path() / "a.svg"), InputError);
+  CHECK_THROWS_AS(draw_chart({{"a", {}}}, kOptions, folder.path() / "a.svg"), InputError);
+  CHECK_THROWS_AS(draw_chart({{"a", {nowhere}}}, kOptions, folder.path() / "a.svg"), InputError);
+  CHECK_THROWS_WITH(draw_chart(some_series(), kOptions, folder.path() / "a.pdf"),
+                    Catch::Contains(".svg or .png"));
+}
+
+TEST_CASE("axes hold all values and have a handful of round ticks") {
+  struct Case {
+    std::vector<double> values;
+    bool log;
+  };
+  for (const Case& c : {Case{{0.018, 0.062}, false}, Case{{-3, 1e6}, false}, Case{{5}, false},
+                        Case{{0}, false}, Case{{1e9, 4e9}, true}, Case{{1e-3, 1e4}, true},
+                        Case{{1e-12, 1e12}, true}, Case{{7}, true}, Case{{0, 2}, true}}) {
+    const Axis axis = make_axis(c.values, c.log);
+    CHECK(axis.low < axis.high);
+    for (const double v : c.values) {
+      CHECK(axis.place(v) >= 0);
+      CHECK(axis.place(v) <= 1);
+    }
+    CHECK(axis.ticks.size() >= 2);
+    CHECK(axis.ticks.size() <= 12);
+    for (const Tick& tick : axis.ticks) {
+      CHECK(axis.place(tick.value) >= -1e-9);
+      CHECK(axis.place(tick.value) <= 1 + 1e-9);
+    }
+  }
+}
+
+TEST_CASE("ticks are written short") {
+  CHECK(tick_text(0) == "0");
+  CHECK(tick_text(0.05) == "0.05");
+  CHECK(tick_text(2e9) == "2·10⁹");
+  CHECK(tick_text(1e-6) == "10⁻⁶");
+  CHECK(tick_text(-5e7) == "-5·10⁷");
+}
+
+TEST_CASE("labels of neighbouring points do not cover each other") {
+  std::vector<ChartSeries> series{{"a", {}, false}};
+  for (const double x : {1., 1.02, 1.04, 1.5})
+    series[0].points.push_back({x, 2 + x, "point " + std::to_string(x)});
+  const Axis x_axis = make_axis({1, 2}, false);
+  const Axis y_axis = make_axis({3, 4}, false);
+  const ChartFrame frame;
+  const auto labels = place_labels(series, x_axis, y_axis, frame);
+  REQUIRE(labels.size() == 4);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t j = i + 1; j < labels.size(); ++j) {
+      const double dx = std::abs(labels[i].x - labels[j].x) * (frame.right - frame.left);
+      const double dy = std::abs(labels[i].y - labels[j].y) * (frame.bottom - frame.top);
+      const bool beside = labels[i].anchor != labels[j].anchor;
+      CHECK((beside || dy >= frame.font || dx >= text_width(labels[i].text, frame.font * 0.9)));
+    }
+}

@@ -1,0 +1,49 @@
+#include "report/csv.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "model/error.hpp"
+#include "model/file.hpp"
+#include "tests/render/golden.hpp"
+
+using namespace springlod;
+using namespace springlod::test;
+
+TEST_CASE("numbers are written as short as they read back the same") {
+  CHECK(number_text(0.1) == "0.1");
+  CHECK(number_text(-2) == "-2");
+  CHECK(number_text(1e300) == "1e+300");
+  for (const double v :
+       {1. / 3, std::nextafter(1., 2.), 6.02214076e23, std::numeric_limits<double>::denorm_min()})
+    CHECK(std::strtod(number_text(v).c_str(), nullptr) == v);
+}
+
+TEST_CASE("cells with commas, quotes and line breaks are quoted as RFC 4180 says") {
+  const TemporaryFolder folder("csv");
+  const auto path = folder.path() / "table.csv";
+  save_csv({{"name", "value"}, {{"a,b", "1"}, {"say \"hi\"", "2\n3"}, {"plain", ""}}}, path);
+  CHECK(read_file(path) == "name,value\r\n\"a,b\",1\r\n\"say \"\"hi\"\"\",\"2\n3\"\r\nplain,\r\n");
+}
+
+TEST_CASE("a ragged table is refused") {
+  const TemporaryFolder folder("csv");
+  const Table ragged{{"a", "b"}, {{"1", "2"}, {"3"}}};
+  CHECK_THROWS_WITH(save_csv(ragged, folder.path() / "t.csv"), Catch::Contains("row 2"));
+  CHECK_THROWS_AS(format_table(ragged), InputError);
+}
+
+TEST_CASE("a table for the terminal lines numbers up on the right and counts letters, not bytes") {
+  const Table table{{"name", "nodes", "error"},
+                    {{"größe", "368", "12.5 %"}, {"LOD-1", "67", "-"}, {"x", "", "3 %"}}};
+  CHECK(format_table(table) ==
+        "name   nodes   error\n"
+        "─────  ─────  ──────\n"
+        "größe    368  12.5 %\n"
+        "LOD-1     67       -\n"
+        "x                3 %\n");
+}

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdlib>
+#include <string>
+
+namespace springlod::test {
+
+/// PATH has another value as long as this lives.
+class PathIs {
+ public:
+  explicit PathIs(const std::string& value) {
+    const char* old = std::getenv("PATH");
+    old_ = old == nullptr ? "" : old;
+    setenv("PATH", value.c_str(), 1);
+  }
+  ~PathIs() { setenv("PATH", old_.c_str(), 1); }
+  PathIs(const PathIs&) = delete;
+  PathIs& operator=(const PathIs&) = delete;
+
+ private:
+  std::string old_;
+};
+
+}  // namespace springlod::test

@@ -1,0 +1,151 @@
+#include "sim/contact.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "sim/run.hpp"
+#include "tests/sim/bodies.hpp"
+
+using namespace springlod;
+
+namespace {
+
+MassSpringModel one_node(double area) {
+  MassSpringModel m;
+  m.rest = {Vec3::Zero()};
+  m.mass = {1};
+  m.volume = {1};
+  m.contact_area = {area};
+  m.border = {1};
+  m.material = {0};
+  m.materials = {Material{.name = "m"}};
+  return m;
+}
+
+Obstacle box_obstacle(const SolidBox& box) {
+  Obstacle obstacle;
+  obstacle.shape = box;
+  obstacle.name = "box";
+  obstacle.stiffness = 1e5;
+  return obstacle;
+}
+
+}  // namespace
+
+TEST_CASE("A node is pushed out by kappa times area times depth, damping never pulls") {
+  const auto model = one_node(0.02);
+  std::vector<Obstacle> obstacles{bodies::floor(1e5, 0.3)};
+  obstacles[0].damping = 0.01;
+  const std::vector<Vec3> x{Vec3(0, 0, -0.005)};
+  ContactFinder finder(model, obstacles, x);
+  std::vector<Contact> contacts;
+  const auto force_at = [&](double vz) {
+    finder.find(x, {Vec3(1, 2, vz)}, contacts);
+    REQUIRE(contacts.size() == 1);
+    return contacts[0].normal_force;
+  };
+  CHECK(force_at(0) == Approx(10));     // 1e5 * 0.02 * 0.005
+  CHECK(force_at(-0.2) == Approx(14));  // + 2000 * 0.01 * 0.2
+  CHECK(force_at(0.2) == Approx(6));
+  CHECK(force_at(3) == 0);
+  CHECK(contacts[0].damping_force == Approx(-10));
+  CHECK(contact_energy(contacts) == Approx(0.025));  // 1/2 * 2000 * 0.005^2
+  finder.find({Vec3(0, 0, 1e-9)}, {Vec3::Zero()}, contacts);
+  CHECK(contacts.empty());
+}
+
+TEST_CASE("Friction slows a slip by at most mu f dt / m and never turns it round") {
+  const auto model = one_node(1);
+  Contact contact;
+  contact.normal_force = 20;
+  contact.friction = 0.5;
+  std::vector<Contact> contacts{contact};
+  std::vector<Vec3> v{Vec3(3, 4, -7)};
+  apply_friction(model, 0.1, contacts, v);  // takes 0.5 * 20 * 0.1 / 1 = 1 of 5
+  CHECK((v[0] - Vec3(2.4, 3.2, -7)).norm() < 1e-12);
+  apply_friction(model, 1, contacts, v);
+  CHECK((v[0] - Vec3(0, 0, -7)).norm() < 1e-12);
+  apply_friction(model, 1, contacts, v);
+  CHECK((v[0] - Vec3(0, 0, -7)).norm() < 1e-12);
+}
+
+TEST_CASE("Contact stiffness adds up only where obstacles push the same way") {
+  const auto model = one_node(0.5);
+  Obstacle floor = bodies::floor(1e6, 0);
+  Obstacle wall = bodies::floor(3e6, 0);
+  wall.shape = Plane{Vec3::UnitX(), 0};
+  Obstacle ceiling = bodies::floor(1e6, 0);
+  ceiling.shape = Plane{-Vec3::UnitZ(), -5};
+  CHECK(contact_stiffness(model, {floor})[0] == Approx(0.5e6));
+  CHECK(contact_stiffness(model, {floor, wall})[0] == Approx(1.5e6));
+  CHECK(contact_stiffness(model, {floor, ceiling})[0] == Approx(1e6));
+  CHECK(contact_stiffness(model, {floor, box_obstacle({})})[0] == Approx(0.55e6));
+  CHECK(contact_stiffness(model, {})[0] == 0);
+}
+
+TEST_CASE("A node pressed past the middle of a thin box goes back where it came from") {
+  SolidBox plate;
+  plate.half_size = {1, 1, 0.01};
+  plate.rotation = Eigen::AngleAxisd(0.4, Vec3::UnitY()).toRotationMatrix();
+  const auto model = one_node(1);
+  const std::vector<Obstacle> obstacles{box_obstacle(plate)};
+  const Vec3 out = plate.rotation.col(2);
+  ContactFinder finder(model, obstacles, {0.02 * out});
+  std::vector<Contact> contacts;
+  for (const double height : {0.011, 0.009, 0.003, -0.003, -0.009, -0.012}) {
+    finder.find({height * out}, {Vec3::Zero()}, contacts);
+    REQUIRE(contacts.size() == (height < 0.01 ? 1 : 0));
+    if (contacts.empty()) continue;
+    CHECK(contacts[0].depth == Approx(0.01 - height));
+    CHECK((contacts[0].normal - out).norm() < 1e-12);
+  }
+  // Seen from below the same plate pushes down.
+  ContactFinder from_below(model, obstacles, {-0.02 * out});
+  from_below.find({-0.003 * out}, {Vec3::Zero()}, contacts);
+  REQUIRE(contacts.size() == 1);
+  CHECK((contacts[0].normal + out).norm() < 1e-12);
+}
+
+TEST_CASE("The depth in a box never jumps while a node slides across its top and over an edge") {
+  SolidBox box;
+  box.half_size = {0.5, 0.3, 0.2};
+  const auto model = one_node(1);
+  const std::vector<Obstacle> obstacles{box_obstacle(box)};
+  const double step = 1e-3;
+  Vec3 at(-0.45, -0.25, 0.21);
+  ContactFinder finder(model, obstacles, {at});
+  std::vector<Contact> contacts;
+  double before = 0;
+  const auto go_on = [&] {
+    finder.find({at}, {Vec3::Zero()}, contacts);
+    const double depth = contacts.empty() ? 0 : contacts[0].depth;
+    CHECK(std::abs(depth - before) <= 1.5 * step);
+    before = depth;
+  };
+  while (at.z() > 0.15) at.z() -= step, go_on();
+  CHECK(before > 0.04);
+  while (at.x() < 0.6) at += Vec3(step, 0.4 * step, 0), go_on();
+  CHECK(before == 0);
+}
+
+TEST_CASE("A ball bounces off a thin turned plate and keeps its energy account") {
+  SolidBox plate;
+  plate.half_size = {0.05, 2, 2};
+  plate.center = {1.2, 0, 0};
+  plate.rotation = Eigen::AngleAxisd(0.2, Vec3::UnitZ()).toRotationMatrix();
+  Scenario scene;
+  scene.gravity = Vec3::Zero();
+  scene.obstacles = {box_obstacle(plate)};
+  scene.obstacles[0].stiffness = 1e6;
+  scene.start.velocity = {4, 0, 0};
+  scene.duration = 1;
+  const auto model = bodies::ball();
+  const auto t = run(model, scene);
+  CHECK(t.first_contact.has_value());
+  Vec3 v = Vec3::Zero();
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) v += model.mass[i] * t.final.v[i];
+  CHECK(v.x() < 0);
+  for (const Vec3& x : t.final.x) CHECK(surface_point(scene.obstacles[0], x).distance > 0);
+  CHECK(closure_error(t.ledger) < 0.01);
+}
