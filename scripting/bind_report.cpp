@@ -77,7 +77,7 @@ int chart_binding(Call& call) {
 
 int csv_binding(Call& call) {
   TableReader reader = call.options(3);
-  const Table table = table_from_rows(call, call.index(2), reader);
+  const Table table = table_from_rows(call, call.index(2), reader, NumberStyle::exact);
   reader.finish();
   save_csv(table, call.path(1));
   return 0;
@@ -85,7 +85,7 @@ int csv_binding(Call& call) {
 
 int format_table_binding(Call& call) {
   TableReader reader = call.options(2);
-  const Table table = table_from_rows(call, call.index(1), reader);
+  const Table table = table_from_rows(call, call.index(1), reader, NumberStyle::four_digits);
   reader.finish();
   std::string text = format_table(table);
   if (text.ends_with('\n')) text.pop_back();  // print adds one
@@ -185,7 +185,7 @@ void describe_tables(Api& api) {
   api.add(
       FunctionEntry{.name = "format_table",
                     .group = kGroup,
-                    .summary = "Lays rows out as text for a terminal.",
+                    .summary = "Lays rows out as text for a terminal, numbers with four digits.",
                     .arguments = {rows},
                     .options = options,
                     .returns = "string",

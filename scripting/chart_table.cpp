@@ -58,11 +58,12 @@ ChartSeries read_series(Call& call, int table, const std::string& owner) {
   return series;
 }
 
-std::string cell_text(lua_State* L, int index) {
+std::string cell_text(lua_State* L, int index, NumberStyle numbers) {
   switch (lua_type(L, index)) {
     case LUA_TNUMBER:
-      return lua_isinteger(L, index) != 0 ? fmt::format("{}", lua_tointeger(L, index))
-                                          : number_text(lua_tonumber(L, index));
+      if (lua_isinteger(L, index) != 0) return fmt::format("{}", lua_tointeger(L, index));
+      return numbers == NumberStyle::exact ? number_text(lua_tonumber(L, index))
+                                           : fmt::format("{:.4g}", lua_tonumber(L, index));
     case LUA_TNIL:
       return "";
     default: {
@@ -191,7 +192,7 @@ void describe_series(Api& api) {
       .example = "{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}"});
 }
 
-Table table_from_rows(Call& call, int index, TableReader& reader) {
+Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers) {
   lua_State* L = call.lua();
   if (!lua_istable(L, index)) throw InputError(reader.owner() + ": rows must be a list of tables");
   Table table;
@@ -211,7 +212,7 @@ Table table_from_rows(Call& call, int index, TableReader& reader) {
       } else {
         lua_getfield(L, row, table.columns[c].c_str());
       }
-      texts.push_back(cell_text(L, -1));
+      texts.push_back(cell_text(L, -1, numbers));
       lua_pop(L, 1);
     }
     lua_pop(L, 1);

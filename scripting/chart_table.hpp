@@ -21,7 +21,10 @@ std::vector<Parameter> chart_parameters();
 /// The records Series and Point.
 void describe_series(Api& api);
 
+/// How numbers that are not whole are written: so that they read back the same, or to be looked at.
+enum class NumberStyle { exact, four_digits };
+
 /// Rows at `index` with the option `columns`.
-Table table_from_rows(Call& call, int index, TableReader& reader);
+Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers);
 
 }  // namespace springlod

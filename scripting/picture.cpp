@@ -93,6 +93,9 @@ Panel Picture::panel(const PictureOptions& options, const Camera& camera,
   body.style = options.style;
   if (mesh_) {
     body.surface = &mesh_->mesh;
+    body.style.surface = true;  // all that a mesh has
+    body.style.nodes = false;
+    body.style.springs = false;
   } else {
     body.model = model_->model.get();
     body.node_positions = &positions_;

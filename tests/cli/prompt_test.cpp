@@ -20,6 +20,8 @@ TEST_CASE("the prompt prints the value of an expression and leaves on Ctrl-D") {
   CHECK(terminal.shows("{a = {1, \"two\"}, b = 2}"));
   terminal.type("s.scenario{duration = 2}\n");
   CHECK(terminal.shows("Scenario scenario: 2 s, 0 obstacles"));
+  // Between two prompts the terminal is in line mode and would take Ctrl-D for itself.
+  REQUIRE(terminal.shows("> "));
   terminal.type("\x04");
   CHECK(terminal.exit_code() == 0);
 }
@@ -93,7 +95,8 @@ TEST_CASE("the prompt remembers its lines for the next session") {
     Terminal terminal({}, scratch.folder());
     REQUIRE(terminal.shows("> "));
     terminal.type("'first ' .. 'session'\n");
-    REQUIRE(terminal.shows("first session"));
+    REQUIRE(terminal.shows("\nfirst session"));
+    REQUIRE(terminal.shows("> "));
     terminal.type("\x04");
     REQUIRE(terminal.exit_code() == 0);
   }

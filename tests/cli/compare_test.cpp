@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <map>
+
+#include <catch2/catch.hpp>
+
+#include "render/frames.hpp"
+#include "tests/cli/program.hpp"
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using springlod::test::obj_of_boxes;
+using springlod::test::Ran;
+using springlod::test::Scratch;
+using springlod::test::slurp;
+using springlod::test::spit;
+using springlod::test::springlod_run;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const kScenario =
+    "return {name = 'drop', duration = 0.2, throw = {velocity = {1, 0, 0}},\n"
+    "        obstacles = {{plane = {0, 0, 1, -0.05}, name = 'floor', friction = 0.4}}}\n";
+
+void make_asset(const Scratch& scratch) {
+  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
+  spit(scratch / "drop.lua", kScenario);
+  REQUIRE(springlod_run({"convert", (scratch / "bar.obj").string(), "-o",
+                         (scratch / "bar.glb").string(), "--cell", "0.25", "--lattice", "centers",
+                         "-q"})
+              .exit_code == 0);
+}
+
+std::vector<std::string> compare_arguments(const Scratch& scratch, const std::string& out) {
+  return {"compare",   (scratch / "bar.glb").string(),
+          "--scenario", (scratch / "drop.lua").string(),
+          "--out",     (scratch / out).string(),
+          "--starts",  "2",
+          "--frames",  "3",
+          "--width",   "160",
+          "--height",  "120",
+          "--variant", "x"};
+}
+
+// Every file below a folder by its name there.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      files[fs::relative(entry.path(), folder).string()] = slurp(entry.path());
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("compare writes table, chart, frames and timings, the same bits in every run") {
+  const Scratch scratch;
+  make_asset(scratch);
+  const Ran ran = springlod_run(compare_arguments(scratch, "one"));
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("LOD-x-1") && Contains("LOD-x-2"));
+
+  auto one = contents(scratch / "one");
+  for (const char* name : {"table.csv", "starts.csv", "timings.csv", "frames/frame_0000.png"})
+    CHECK(one.count(name) == 1);
+  CHECK_THAT(one["table.csv"], StartsWith("level,label,nodes,springs,ends,step,"));
+  CHECK(std::count(one["table.csv"].begin(), one["table.csv"].end(), '\n') == 4);
+  CHECK(std::count(one["timings.csv"].begin(), one["timings.csv"].end(), '\n') == 1 + 3 * 2);
+  CHECK(one["table.csv"].find("wall") == std::string::npos);
+  CHECK(springlod::load_png(scratch / "one/frames/frame_0000.png").width == 3 * 160);
+  // The chart by gnuplot and the video by ffmpeg, or what to run for them.
+  CHECK((one.count("chart.svg") == 1 || ran.err.find("gnuplot") != std::string::npos));
+  CHECK((one.count("chart.png") == 1 || ran.err.find("gnuplot") != std::string::npos));
+  CHECK((one.count("comparison.mp4") == 1 || ran.err.find("ffmpeg") != std::string::npos));
+
+  std::vector<std::string> arguments = compare_arguments(scratch, "two");
+  arguments.insert(arguments.begin(), {"--threads", "1"});
+  REQUIRE(springlod_run(arguments).exit_code == 0);
+  auto two = contents(scratch / "two");
+  one.erase("timings.csv");
+  two.erase("timings.csv");
+  REQUIRE(one.size() == two.size());
+  for (const auto& [name, bytes] : one) {
+    CAPTURE(name);
+    CHECK(two[name] == bytes);
+  }
+}
+
+TEST_CASE("compare says in one line what is wrong with asset or scenario") {
+  const Scratch scratch;
+  make_asset(scratch);
+  const auto refused = [&](const std::string& scenario, const std::string& reason) {
+    spit(scratch / "drop.lua", scenario);
+    const Ran ran = springlod_run(compare_arguments(scratch, "out"));
+    CAPTURE(ran.err);
+    CHECK(ran.exit_code == 1);
+    CHECK_THAT(ran.err, Contains("springlod: cannot compare"));
+    CHECK_THAT(ran.err, Contains(reason));
+    CHECK_THAT(ran.err, !Contains("traceback"));
+  };
+  refused("return {duratoin = 1}", "did you mean 'duration'?");
+  refused("return {obstacles = {{plane = {0, 0, 1}}}}", "obstacles[1].plane");
+  refused("return {obstacles = {{plane = {0, 0, 1, 0}, fiction = 1}}}", "did you mean 'friction'?");
+  refused("return {measure_from = 'wall'}", "wall");
+  refused("return 3", "must return a table");
+  refused("return {", "drop.lua");
+}
+
+TEST_CASE("a simulation that leaves the numbers fails with node and time") {
+  const Scratch scratch;
+  const Ran ran = springlod_run({"-e", R"(
+    local s = require "springlod"
+    local m = s.model{nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 1}},
+                      springs = {{1, 2, k = 1e4, length = 1.2}}}
+    local ok, failure = pcall(s.run, m, {duration = 10, gravity = {0, 0, 0}}, {step = 0.1})
+    print(ok, failure.kind, math.type(failure.node), failure.node <= 2, failure.time > 0))"});
+  CAPTURE(ran.err);
+  CHECK(ran.out == "false\tunstable\tinteger\ttrue\ttrue\n");
+}

@@ -1,0 +1,169 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+using springlod::test::obj_of_boxes;
+using springlod::test::obj_of_open_box;
+using springlod::test::Ran;
+using springlod::test::Scratch;
+using springlod::test::slurp;
+using springlod::test::spit;
+using springlod::test::springlod_run;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const kMaterials =
+    "return {rod = {young = '10 MPa', density = 1200, damping = '1 ms', colour = '#ff0000'},\n"
+    "        joint = {young = '0.2 MPa', density = 1000}}\n";
+
+// Rod, joint, rod: 12 x 4 x 4 cells of 1 cm.
+std::string small_dumbbell() {
+  return obj_of_boxes({{"rod", 0, 5}, {"joint", 5, 7}, {"rod_2", 7, 12}}, 4);
+}
+
+}  // namespace
+
+TEST_CASE("convert makes an asset and prints its levels; info tells what is in it") {
+  const Scratch scratch;
+  spit(scratch / "bar.obj", small_dumbbell());
+  spit(scratch / "materials.lua", kMaterials);
+  const std::string asset = (scratch / "out/bar.glb").string();
+  const Ran ran = springlod_run({"convert", (scratch / "bar.obj").string(), "-o", asset, "--cell",
+                                 "1cm", "--unit", "cm", "--up", "z", "--materials",
+                                 (scratch / "materials.lua").string(), "--lattice", "centers",
+                                 "--levels", "2", "--grouping", "priority", "--border", "weak",
+                                 "--seed", "3"});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("stable step [s]"));
+  CHECK_THAT(ran.out, Contains("192"));
+
+  const Ran info = springlod_run({"info", asset, "--json"});
+  REQUIRE(info.exit_code == 0);
+  const json parsed = json::parse(info.out);
+  const json& levels = parsed.at("levels");
+  REQUIRE(levels.size() == 3);
+  for (const json& level : levels)
+    for (const char* key : {"nodes", "springs", "ends", "border_nodes", "mass", "center_of_mass",
+                            "inertia", "stable_dt", "materials"})
+      CHECK(level.contains(key));
+  const json& base = levels.at(0);
+  CHECK(base.at("nodes") == 12 * 4 * 4);
+  CHECK(base.at("ends") == 2 * base.at("springs").get<int>());
+  CHECK(base.at("mass").get<double>() == Approx(80e-6 * 1200 + 32e-6 * 1000 + 80e-6 * 1000));
+  CHECK(base.at("center_of_mass").size() == 3);
+  CHECK(base.at("inertia").at(2).size() == 3);
+  CHECK(base.at("stable_dt").get<double>() > 0);
+  CHECK(base.at("materials").at(0).at("young").get<double>() == 10e6);
+  CHECK(levels.at(1).at("nodes").get<int>() < base.at("nodes").get<int>());
+  CHECK(levels.at(2).at("mass").get<double>() == Approx(base.at("mass").get<double>()));
+  CHECK_THAT(parsed.at("provenance").at("simplify").get<std::string>(), Contains("seed 3"));
+  CHECK(parsed.at("provenance").at("mesh") == "bar.obj");
+
+  const Ran text = springlod_run({"info", asset});
+  CHECK(text.exit_code == 0);
+  CHECK_THAT(text.out, Contains("LodChain: 192 -> "));
+}
+
+TEST_CASE("convert gives the same bytes every time, whatever the number of threads") {
+  const Scratch scratch;
+  spit(scratch / "bar.obj", small_dumbbell());
+  const auto convert = [&](const std::string& name, const std::string& threads) {
+    const Ran ran =
+        springlod_run({"--threads", threads, "convert", (scratch / "bar.obj").string(), "-o",
+                       (scratch / name).string(), "--cell", "1cm", "--unit", "cm", "-q"});
+    CHECK(ran.exit_code == 0);
+    CHECK(ran.err.empty());
+    return slurp(scratch / name);
+  };
+  const std::string first = convert("one.glb", "1");
+  CHECK(first == convert("two.glb", "1"));
+  CHECK(first == convert("three.glb", "2"));
+}
+
+TEST_CASE("convert says what it had to choose: cell and unit") {
+  const Scratch scratch;
+  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));
+  const Ran ran = springlod_run({"convert", (scratch / "bar.obj").string(), "-o",
+                                 (scratch / "bar.glb").string(), "--levels", "1"});
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.err, Contains("62.5 mm"));
+  CHECK_THAT(ran.err, Contains("1 unit = 1 m"));
+}
+
+TEST_CASE("convert says in one line why it refuses a mesh") {
+  const Scratch scratch;
+  spit(scratch / "empty.obj", "");
+  spit(scratch / "picture.png", "\x89PNG\r\n\x1a\n nothing");
+  spit(scratch / "open.obj", obj_of_open_box());
+  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));
+  const auto refused = [&](const std::string& name, const std::vector<std::string>& more,
+                           const std::string& reason) {
+    std::vector<std::string> arguments{"convert", (scratch / name).string(), "-o",
+                                       (scratch / "x.glb").string(), "-q"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ran ran = springlod_run(arguments);
+    CAPTURE(ran.err);
+    CHECK(ran.exit_code == 1);
+    CHECK(ran.out.empty());
+    CHECK_THAT(ran.err, Contains("springlod: cannot "));
+    CHECK_THAT(ran.err, Contains(reason));
+    CHECK_THAT(ran.err, !Contains("traceback"));
+    CHECK_FALSE(fs::exists(scratch / "x.glb"));
+  };
+  refused("none.obj", {}, "none.obj");
+  refused("empty.obj", {}, "empty.obj");
+  refused("picture.png", {}, "picture.png");
+  refused("open.obj", {}, "hole");
+  refused("bar.obj", {"--cell", "100 m"}, "cell");
+  refused("bar.obj", {"--materials", (scratch / "none.lua").string()}, "none.lua");
+
+  spit(scratch / "wrong.lua", "return {bar = {yuong = 1}}");
+  refused("bar.obj", {"--materials", (scratch / "wrong.lua").string()}, "did you mean 'young'?");
+
+  const Ran verbose = springlod_run({"convert", (scratch / "open.obj").string(), "-o",
+                                     (scratch / "x.glb").string(), "-v"});
+  CHECK_THAT(verbose.err, Contains("traceback"));
+}
+
+TEST_CASE("a batch goes on past a bad mesh and ends with a table") {
+  const Scratch scratch;
+  spit(scratch / "meshes/a.obj", obj_of_boxes({{"a", 0, 2}}));
+  spit(scratch / "meshes/b.obj", "this is no mesh\n");
+  spit(scratch / "meshes/c.obj", obj_of_boxes({{"c", 0, 1}}));
+  spit(scratch / "meshes/notes.txt", "not a mesh, not looked at");
+  const std::string out = (scratch / "assets").string();
+  const Ran ran = springlod_run({"convert", (scratch / "meshes").string(), "-o", out, "--cell",
+                                 "0.25", "--levels", "1", "-q"});
+  CAPTURE(ran.out, ran.err);
+  CHECK(ran.exit_code == 1);
+  CHECK(fs::exists(scratch / "assets/a.glb"));
+  CHECK_FALSE(fs::exists(scratch / "assets/b.glb"));
+  CHECK(fs::exists(scratch / "assets/c.glb"));
+  CHECK_THAT(ran.out, Contains("a.obj") && Contains("b.obj") && Contains("c.obj"));
+  CHECK_THAT(ran.out, Contains("failed") && Contains("converted") && !Contains("notes.txt"));
+  CHECK_THAT(ran.err, Contains("1 of 3 meshes failed"));
+
+  const Ran good = springlod_run({"convert", (scratch / "meshes/a.obj").string(),
+                                  (scratch / "meshes/c.obj").string(), "-o", out, "--cell", "0.25",
+                                  "--levels", "1", "-q"});
+  CHECK(good.exit_code == 0);
+  CHECK(springlod_run({"convert", (scratch / "meshes").string(), "-o", out + ".glb"}).exit_code ==
+        2);
+}
+
+TEST_CASE("info refuses what is no asset") {
+  const Scratch scratch;
+  spit(scratch / "x.glb", "not an asset");
+  for (const char* name : {"x.glb", "none.glb"}) {
+    const Ran ran = springlod_run({"info", (scratch / name).string()});
+    CHECK(ran.exit_code == 1);
+    CHECK(ran.out.empty());
+    CHECK_THAT(ran.err, Contains("springlod: cannot read") && Contains(name));
+  }
+}
