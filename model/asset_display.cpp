@@ -34,6 +34,16 @@ std::vector<Float3> single_precision(const std::vector<Vec3>& points) {
   return floats;
 }
 
+/// glTF wants unit length even where all triangles are degenerate: up there.
+std::vector<Float3> normals_for_gltf(const SplitSurface& surface,
+                                     const std::vector<Vec3>& positions) {
+  std::vector<Float3> normals;
+  normals.reserve(surface.source.size());
+  for (const Eigen::Vector3f& n : vertex_normals(surface, positions))
+    normals.push_back(n.isZero(0) ? Float3{0, 0, 1} : Float3{n.x(), n.y(), n.z()});
+  return normals;
+}
+
 class Display {
  public:
   Display(tinygltf::Model& gltf, AssetBuffer& buffer) : gltf_(gltf), buffer_(buffer) {}
@@ -157,12 +167,12 @@ class Display {
 
   tinygltf::Mesh surface_mesh(const LodAsset& asset) {
     const TriangleMesh& surface = asset.surface;
-    const ShadedMesh shaded = split_at_creases(surface);
+    const SplitSurface shaded = split_at_creases(surface);
     std::vector<Vec3> points;
-    points.reserve(shaded.vertex.size());
-    for (const std::uint32_t v : shaded.vertex) points.push_back(surface.positions[v]);
+    points.reserve(shaded.source.size());
+    for (const std::uint32_t v : shaded.source) points.push_back(surface.positions[v]);
     const int positions = add_positions(points);
-    const int normals = add_vectors(single_precision(shaded.normals));
+    const int normals = add_vectors(normals_for_gltf(shaded, surface.positions));
     const int triangles = buffer_.add(shaded.triangles, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
     tinygltf::Mesh mesh;
     for (std::size_t p = 0; p < surface.parts.size(); ++p) {

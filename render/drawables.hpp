@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/scene.hpp"
-#include "render/surface.hpp"
+#include "model/creases.hpp"
 
 namespace springlod {
 

@@ -1,48 +1,94 @@
 #include "model/creases.hpp"
 
-#include <cmath>
+#include <utility>
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "tests/model/sample_assets.hpp"
+#include "tests/support/meshes.hpp"
 
-namespace springlod {
-namespace {
+using namespace springlod;
+using namespace springlod::test;
 
-TEST_CASE("A box has a vertex a side at each corner, with the normal of the side") {
+TEST_CASE("a box has a drawn vertex a side at each corner, with the normal of the side") {
   const TriangleMesh box = test::box_mesh({1, 2, 3});
-  const ShadedMesh shaded = split_at_creases(box);
-  CHECK(shaded.vertex.size() == 24);
+  const SplitSurface surface = split_at_creases(box);
+  CHECK(surface.source.size() == 24);
+  const auto normals = vertex_normals(surface, box.positions);
   for (std::size_t t = 0; t < box.triangles.size(); ++t) {
-    const Triangle& tri = box.triangles[t];
-    const Vec3 normal = (box.positions[tri[1]] - box.positions[tri[0]])
-                            .cross(box.positions[tri[2]] - box.positions[tri[0]])
-                            .normalized();
+    const auto& [a, b, c] = box.triangles[t];
+    const Vec3 o = box.positions[a];
+    const Vec3 normal = (box.positions[b] - o).cross(box.positions[c] - o).normalized();
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      const std::uint32_t v = shaded.triangles[t][corner];
-      CHECK(shaded.vertex[v] == tri[corner]);
-      CHECK((shaded.normals[v] - normal).norm() < 1e-12);
+      const std::uint32_t v = surface.triangles[t][corner];
+      CHECK(surface.source[v] == box.triangles[t][corner]);
+      CHECK((normals[v].cast<double>() - normal).norm() < 1e-6);
     }
   }
 }
 
-TEST_CASE("Below the crease angle vertices stay whole and normals are means") {
-  const ShadedMesh shaded = split_at_creases(test::box_mesh({1, 1, 1}), 100);
-  CHECK(shaded.vertex.size() == 8);
-  for (const Vec3& n : shaded.normals) CHECK(n.cwiseAbs().minCoeff() > 0.3);
+TEST_CASE("below the crease angle vertices stay whole and normals are means") {
+  TriangleMesh box = test::box_mesh({1, 1, 1});
+  box.parts = {{"all", "", 0, 12}};  // parts are never shaded together
+  const SplitSurface surface = split_at_creases(box, 100);
+  CHECK(surface.source.size() == 8);
+  for (const auto& n : vertex_normals(surface, box.positions)) CHECK(n.cwiseAbs().minCoeff() > 0.3);
 }
 
-TEST_CASE("Triangles without area get a normal of unit length too") {
+TEST_CASE("triangles without area have zero normals, and lose no vertex") {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 9, 9}};
   mesh.triangles = {{0, 1, 2}, {1, 1, 1}};
   mesh.parts = {{"sliver", "", 0, 2}};
-  const ShadedMesh shaded = split_at_creases(mesh);
-  REQUIRE(shaded.normals.size() == shaded.vertex.size());
-  for (const Vec3& n : shaded.normals) CHECK(n.norm() == Approx(1));
-  for (const Triangle& t : shaded.triangles)
-    for (const std::uint32_t v : t) CHECK(v < shaded.vertex.size());
+  const SplitSurface surface = split_at_creases(mesh);
+  for (const auto& n : vertex_normals(surface, mesh.positions)) CHECK(n.norm() == 0);
+  for (const Triangle& t : surface.triangles)
+    for (const std::uint32_t v : t) CHECK(v < surface.source.size());
 }
 
-}  // namespace
-}  // namespace springlod
+TEST_CASE("a cylinder is split at its rims only, and its normals are those of a cylinder") {
+  TriangleMesh mesh;
+  append_cylinder(mesh, "rod", -1, 1, 0.5, 32, 4);
+  const SplitSurface surface = split_at_creases(mesh);
+  CHECK(surface.source.size() == mesh.positions.size() + 2 * 32);  // both rims twice
+  CHECK(surface.closed);
+  const auto normals = vertex_normals(surface, mesh.positions);
+  int flat = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Vec3& p = mesh.positions[surface.source[i]];
+    const Vec3 n = normals[i].cast<double>();
+    const Vec3 outward(0, p.y(), p.z());
+    if (std::abs(n.x()) > 0.5) {
+      ++flat;
+      CHECK(std::abs(n.x()) == Approx(1).margin(1e-5));
+    } else {
+      CHECK(n.dot(outward.normalized()) == Approx(1).margin(1e-2));
+    }
+  }
+  CHECK(flat == 2 * 33);
+}
+
+TEST_CASE("a mesh with a hole or a part turned inside out is drawn from both sides") {
+  TriangleMesh open = sphere_mesh(1, 12, 6);
+  open.triangles.pop_back();
+  open.parts[0].triangle_count -= 1;
+  CHECK_FALSE(split_at_creases(open).closed);
+  TriangleMesh turned = sphere_mesh(1, 12, 6);
+  for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
+  CHECK_FALSE(split_at_creases(turned).closed);
+  CHECK(split_at_creases(sphere_mesh(1, 12, 6)).closed);
+}
+
+TEST_CASE("normals turn with the body") {
+  const TriangleMesh mesh = sphere_mesh(1, 32, 16);
+  const SplitSurface surface = split_at_creases(mesh);
+  CHECK(surface.source.size() == mesh.positions.size());  // no crease anywhere
+  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  std::vector<Vec3> turned;
+  for (const Vec3& p : mesh.positions) turned.emplace_back(turn * p);
+  const auto before = vertex_normals(surface, mesh.positions);
+  const auto after = vertex_normals(surface, turned);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    CHECK((turn.cast<float>() * before[i] - after[i]).norm() < 1e-5F);
+}

@@ -2,9 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "model/creases.hpp"
 #include "render/plane.hpp"
 #include "render/strain_colour.hpp"
-#include "render/surface.hpp"
 #include "tests/render/bodies.hpp"
 
 using namespace springlod;
@@ -87,52 +87,6 @@ TEST_CASE("bold inner nodes are larger and red, border nodes smaller") {
     }
   }
   CHECK(inner > 50);
-}
-
-TEST_CASE("a cylinder is split at its rims only, and its normals are those of a cylinder") {
-  TriangleMesh mesh;
-  append_cylinder(mesh, "rod", -1, 1, 0.5, 32, 4);
-  const SplitSurface surface = split_at_creases(mesh);
-  CHECK(surface.source.size() == mesh.positions.size() + 2 * 32);  // both rims twice
-  CHECK(surface.closed);
-  const auto normals = vertex_normals(surface, mesh.positions);
-  int flat = 0;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    const Vec3& p = mesh.positions[surface.source[i]];
-    const Vec3 n = normals[i].cast<double>();
-    const Vec3 outward(0, p.y(), p.z());
-    if (std::abs(n.x()) > 0.5) {
-      ++flat;
-      CHECK(std::abs(n.x()) == Approx(1).margin(1e-5));
-    } else {
-      CHECK(n.dot(outward.normalized()) == Approx(1).margin(1e-2));
-    }
-  }
-  CHECK(flat == 2 * 33);
-}
-
-TEST_CASE("a mesh with a hole or a part turned inside out is drawn from both sides") {
-  TriangleMesh open = sphere_mesh(1, 12, 6);
-  open.triangles.pop_back();
-  open.parts[0].triangle_count -= 1;
-  CHECK_FALSE(split_at_creases(open).closed);
-  TriangleMesh turned = sphere_mesh(1, 12, 6);
-  for (Triangle& t : turned.triangles) std::swap(t[1], t[2]);
-  CHECK_FALSE(split_at_creases(turned).closed);
-  CHECK(split_at_creases(sphere_mesh(1, 12, 6)).closed);
-}
-
-TEST_CASE("normals turn with the body") {
-  const TriangleMesh mesh = sphere_mesh(1, 32, 16);
-  const SplitSurface surface = split_at_creases(mesh);
-  CHECK(surface.source.size() == mesh.positions.size());  // no crease anywhere
-  const Mat3 turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-  std::vector<Vec3> turned;
-  for (const Vec3& p : mesh.positions) turned.emplace_back(turn * p);
-  const auto before = vertex_normals(surface, mesh.positions);
-  const auto after = vertex_normals(surface, turned);
-  for (std::size_t i = 0; i < before.size(); ++i)
-    CHECK((turn.cast<float>() * before[i] - after[i]).norm() < 1e-5F);
 }
 
 TEST_CASE("a box as drawn is closed and has its volume") {
