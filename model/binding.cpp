@@ -256,7 +256,7 @@ Binding compose(const Binding& outer, const Binding& inner) {
   return composed;
 }
 
-std::vector<Vec3> apply(const Binding& binding, const std::vector<Vec3>& nodes) {
+std::vector<Vec3> carry(const Binding& binding, const std::vector<Vec3>& nodes) {
   std::vector<Vec3> points(binding.point_count(), Vec3::Zero());
   for (std::uint32_t p = 0; p < binding.point_count(); ++p)
     for (std::uint32_t e = binding.start[p]; e < binding.start[p + 1]; ++e)

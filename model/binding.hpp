@@ -50,8 +50,7 @@ void append_bound_point(Binding& binding, const Vec3& point, const MassSpringMod
 /// row in rising order of node.
 Binding compose(const Binding& outer, const Binding& inner);
 
-/// Positions (or velocities) of the points. Write springlod::apply: the bare name also finds
-/// std::apply.
-std::vector<Vec3> apply(const Binding& binding, const std::vector<Vec3>& nodes);
+/// Positions (or velocities) of the points, carried by the nodes.
+std::vector<Vec3> carry(const Binding& binding, const std::vector<Vec3>& nodes);
 
 }  // namespace springlod

@@ -7,8 +7,8 @@
 #include <lua.hpp>
 
 #include "model/error.hpp"
+#include "report/comparison_tables.hpp"
 #include "scripting/call.hpp"
-#include "scripting/comparison_rows.hpp"
 #include "scripting/scenario_table.hpp"
 #include "scripting/values.hpp"
 #include "sim/compare.hpp"
@@ -201,7 +201,7 @@ void push_rows(lua_State* L, const Table& table) {
 
 int table_method(Call& call) {
   const auto self = call.self<ComparisonValue>();
-  const Table table = comparison_table(*self);
+  const Table table = comparison_table(self->comparison, self->chain->chain);
   push_rows(call.lua(), table);
   push(call.lua(), table.columns);
   return 2;
@@ -209,7 +209,7 @@ int table_method(Call& call) {
 
 int timings_method(Call& call) {
   const auto self = call.self<ComparisonValue>();
-  const Table table = timings_table(*self);
+  const Table table = timings_table(self->comparison);
   push_rows(call.lua(), table);
   push(call.lua(), table.columns);
   return 2;
@@ -217,7 +217,7 @@ int timings_method(Call& call) {
 
 int starts_method(Call& call) {
   const auto self = call.self<ComparisonValue>();
-  const Table table = starts_table(*self);
+  const Table table = starts_table(self->comparison);
   push_rows(call.lua(), table);
   push(call.lua(), table.columns);
   return 2;

@@ -6,7 +6,7 @@
 #include <lua.hpp>
 
 #include "model/error.hpp"
-#include "scripting/comparison_rows.hpp"
+#include "report/comparison_tables.hpp"
 
 namespace springlod {
 
@@ -90,7 +90,7 @@ std::vector<std::string> sorted_keys(lua_State* L, int table) {
 ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader) {
   ErrorKind kind = ErrorKind::surface;
   reader.choose("error", kind, {{"surface", ErrorKind::surface}, {"shape", ErrorKind::shape}});
-  const Table table = comparison_table(comparison);
+  const Table table = comparison_table(comparison.comparison, comparison.chain->chain);
   const auto column = [&](const char* name) {
     return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
                                     table.columns.begin());

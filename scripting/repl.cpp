@@ -61,6 +61,8 @@ class LineEditor {
     prompt_ = prompt;
     int count = 0;
     errno = 0;
+    // libedit prints the prompt before it takes the terminal over; a Ctrl-D between is lost.
+    el_set(edit_, EL_PREP_TERM, 1);
     const char* text = el_gets(edit_, &count);
     if (interrupt_requested()) return Input::interrupted;
     if (text == nullptr || count <= 0) return Input::closed;

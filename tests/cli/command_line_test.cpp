@@ -10,7 +10,7 @@ using springlod::test::spit;
 using springlod::test::springlod_interrupted;
 using springlod::test::springlod_run;
 
-TEST_CASE("--version and --help go to stdout and exit 0") {
+TEST_CASE("the options --version and --help go to stdout and exit 0") {
   const Ran version = springlod_run({"--version"});
   CHECK(version.exit_code == 0);
   CHECK_THAT(version.out, StartsWith("springlod "));

@@ -107,7 +107,7 @@ TEST_CASE("A level carries the base nodes through any affine motion exactly") {
     for (std::uint32_t n = 0; n < 3; ++n) {
       std::vector<Vec3> moved;
       for (const Vec3& x : chain.levels[n].model.rest) moved.push_back(f * x + shift);
-      const std::vector<Vec3> carried = springlod::apply(base_from_level(chain, n), moved);
+      const std::vector<Vec3> carried = carry(base_from_level(chain, n), moved);
       double worst = 0;
       for (std::uint32_t i = 0; i < base.node_count(); ++i)
         worst = std::max(worst, (carried[i] - (f * base.rest[i] + shift)).norm());

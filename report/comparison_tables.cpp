@@ -1,4 +1,4 @@
-#include "scripting/comparison_rows.hpp"
+#include "report/comparison_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,13 +37,13 @@ double cost_per_second(const LevelRuns& runs) {
   });
 }
 
-}  // namespace
-
-double base_diagonal(const LodAsset& chain) {
+double base_diagonal(const LodChain& chain) {
   Box3 box;
-  for (const Vec3& point : chain.chain.levels.front().model.rest) box.extend(point);
+  for (const Vec3& point : chain.levels.front().model.rest) box.extend(point);
   return box.diagonal().norm();
 }
+
+}  // namespace
 
 std::string comparison_columns_help() {
   return "level, label, nodes, springs, ends, step [s], spring_updates_per_second (of simulated "
@@ -53,7 +53,7 @@ std::string comparison_columns_help() {
          "(of the largest kinetic energy)";
 }
 
-Table comparison_table(const ComparisonValue& value) {
+Table comparison_table(const Comparison& comparison, const LodChain& chain) {
   Table table;
   table.columns = {"level",
                    "label",
@@ -71,10 +71,10 @@ Table comparison_table(const ComparisonValue& value) {
                    "distance_spread",
                    "simulated",
                    "ledger_error"};
-  const auto& levels = value.comparison.levels;
-  const double diagonal = base_diagonal(*value.chain);
+  const auto& levels = comparison.levels;
+  const double diagonal = base_diagonal(chain);
   for (const LevelRuns& runs : levels) {
-    const MassSpringModel& model = value.chain->chain.levels.at(runs.level).model;
+    const MassSpringModel& model = chain.levels.at(runs.level).model;
     const double cost = cost_per_second(runs);
     const double surface = mean_over(runs, [](const StartResult& s) { return s.surface_error; });
     const double shape = mean_over(runs, [](const StartResult& s) { return s.shape_error; });
@@ -93,11 +93,11 @@ Table comparison_table(const ComparisonValue& value) {
   return table;
 }
 
-Table starts_table(const ComparisonValue& value) {
+Table starts_table(const Comparison& comparison) {
   Table table;
   table.columns = {"level",       "label",     "start",          "distance",    "surface_error",
                    "shape_error", "simulated", "spring_updates", "ledger_error"};
-  for (const LevelRuns& runs : value.comparison.levels)
+  for (const LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
       const StartResult& start = runs.starts[i];
       table.rows.push_back({fmt::format("{}", runs.level), runs.label, fmt::format("{}", i + 1),
@@ -109,7 +109,7 @@ Table starts_table(const ComparisonValue& value) {
   return table;
 }
 
-Table timings_table(const ComparisonValue& value) {
+Table timings_table(const Comparison& comparison) {
   Table table;
   table.columns = {"level",
                    "label",
@@ -119,7 +119,7 @@ Table timings_table(const ComparisonValue& value) {
                    "spring_updates",
                    "spring_updates_per_wall_second",
                    "real_time_factor"};
-  for (const LevelRuns& runs : value.comparison.levels)
+  for (const LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
       const StartResult& start = runs.starts[i];
       const double wall = std::max(start.wall_seconds, 1e-9);  // a clock may stand still

@@ -1,0 +1,84 @@
+#include "report/comparison_tables.hpp"
+
+#include <cstdlib>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/models.hpp"
+
+using namespace springlod;
+
+namespace {
+
+// Two levels of a 3-4-0 triangle (diagonal 5 m), two starts each.
+LodChain two_levels() {
+  LodChain chain;
+  for (const double stiffness : {2.0, 1.0}) {
+    Level level;
+    level.model = test::table_model({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {1, 1, 1},
+                                    {{0, 1, stiffness}, {0, 2, stiffness}, {1, 2, stiffness}});
+    chain.levels.push_back(level);
+  }
+  return chain;
+}
+
+Comparison comparison() {
+  Comparison c;
+  for (std::uint32_t level = 0; level < 2; ++level) {
+    LevelRuns runs;
+    runs.label = level == 0 ? "base" : "LOD-1";
+    runs.level = level;
+    for (const double distance : {1.0, 3.0}) {
+      StartResult start;
+      start.distance = distance;
+      start.surface_error = level * 0.05 * distance;
+      start.shape_error = level * 0.5;
+      start.simulated = 2;
+      start.spring_updates = level == 0 ? 1000 : 250;
+      start.wall_seconds = 0.5;
+      start.ledger_error = level * 1e-3 * distance;
+      runs.starts.push_back(start);
+    }
+    c.levels.push_back(runs);
+  }
+  return c;
+}
+
+double number(const Table& table, std::size_t row, const std::string& column) {
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    if (table.columns[c] == column) return std::strtod(table.rows.at(row).at(c).c_str(), nullptr);
+  FAIL("no column " + column);
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("a level's row has means over its starts, and what it saves against the base") {
+  const Table table = comparison_table(comparison(), two_levels());
+  REQUIRE(table.rows.size() == 2);
+  CHECK(number(table, 0, "nodes") == 3);
+  CHECK(number(table, 0, "ends") == 6);
+  CHECK(number(table, 0, "spring_updates_per_second") == 500);
+  CHECK(number(table, 0, "cost_ratio") == 1);
+  CHECK(number(table, 1, "cost_ratio") == 4);
+  CHECK(number(table, 1, "surface_error") == Approx(0.1));
+  CHECK(number(table, 1, "surface_error_percent") == Approx(2));
+  CHECK(number(table, 1, "shape_error_percent") == Approx(10));
+  CHECK(number(table, 1, "distance") == 2);
+  CHECK(number(table, 1, "distance_spread") == Approx(std::sqrt(2)));
+  CHECK(number(table, 1, "ledger_error") == Approx(3e-3));  // the largest, not the mean
+}
+
+TEST_CASE("measured times are in a table of their own") {
+  const Table starts = starts_table(comparison());
+  REQUIRE(starts.rows.size() == 4);
+  CHECK(number(starts, 3, "start") == 2);
+  CHECK(number(starts, 3, "distance") == 3);
+  for (const Table& table : {starts, comparison_table(comparison(), two_levels())})
+    for (const std::string& column : table.columns) CHECK(column.find("wall") == std::string::npos);
+  const Table timings = timings_table(comparison());
+  REQUIRE(timings.rows.size() == 4);
+  CHECK(number(timings, 0, "spring_updates_per_wall_second") == 2000);
+  CHECK(number(timings, 0, "real_time_factor") == 4);
+}
