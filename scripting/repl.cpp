@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <histedit.h>
 #include <lua.hpp>
+#include <poll.h>
 #include <unistd.h>
 
 #include "scripting/interrupt.hpp"
@@ -24,6 +25,9 @@ namespace springlod {
 namespace {
 
 constexpr int kHistoryLines = 2000;
+// A Ctrl-C that comes just before the wait for a key, or on another thread, does not end the wait:
+// it is noticed after this long [ms].
+constexpr int kInterruptWait = 100;
 
 enum class Input { line, interrupted, closed };
 
@@ -89,13 +93,14 @@ class LineEditor {
   static int read_key(EditLine* /*edit*/, wchar_t* key) {
     std::mbstate_t partial{};
     while (true) {
+      if (interrupt_requested()) return -1;
+      pollfd terminal{STDIN_FILENO, POLLIN, 0};
+      const int ready = poll(&terminal, 1, kInterruptWait);
+      if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
       char byte = 0;
       const ssize_t count = ::read(STDIN_FILENO, &byte, 1);
       if (count == 0) return 0;
-      if (count < 0) {
-        if (errno == EINTR && !interrupt_requested()) continue;
-        return -1;
-      }
+      if (count < 0) return -1;
       const std::size_t length = std::mbrtowc(key, &byte, 1, &partial);
       if (length == static_cast<std::size_t>(-2)) continue;  // more bytes of the character follow
       if (length == static_cast<std::size_t>(-1)) {          // not of this encoding: drop it
