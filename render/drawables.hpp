@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/scene.hpp"
 #include "model/creases.hpp"
+#include "render/scene.hpp"
 
 namespace springlod {
 

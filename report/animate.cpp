@@ -214,11 +214,12 @@ std::vector<Camera> cameras_of(const LodAsset& asset, const Comparison& comparis
     path.push_back(center_of_mass(positions_at(runs.base_frames, t), base.mass));
   constexpr double kSmooth = 0.2;  // to both sides, seconds of the film
   path = smoothed(path, static_cast<std::uint32_t>(kSmooth * options.frame_rate));
-  // A ball that holds the body however it turns, with room to see where it goes.
+  // A ball that holds the body however it turns, with room for the labels above and to see where
+  // it goes.
   const Vec3 center = center_of_mass(base.rest, base.mass);
   double radius = 0;
   for (const Vec3& p : base.rest) radius = std::max(radius, (p - center).norm());
-  constexpr double kRoom = 1.4;
+  constexpr double kRoom = 1.9;
   const Vec3 half = Vec3::Constant(kRoom * (radius + surface_margin(asset)) / std::sqrt(3.));
   std::vector<Camera> cameras;
   for (const Vec3& p : path)

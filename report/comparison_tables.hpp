@@ -8,8 +8,8 @@
 
 namespace springlod {
 
-/// One row a level of `chain`: what it costs and how far it is off, means over the starts. Errors also in
-/// percent of the base's bounding diagonal. No measured times: the same bits every time.
+/// One row a level of `chain`: what it costs and how far it is off, means over the starts. Errors
+/// also in percent of the base's bounding diagonal. No measured times: the same bits every time.
 Table comparison_table(const Comparison& comparison, const LodChain& chain);
 /// Columns of comparison_table with their units, for help.
 std::string comparison_columns_help();

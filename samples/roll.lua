@@ -1,5 +1,5 @@
 -- The paper's first scene at the size of samples/ball.obj in dm: thrown flat just above the
--- floor, the ball bounces, rolls and stops. Measured: how far it got.
+-- floor, the ball bounces and rolls until it stops or time is up. Measured: how far it got.
 return {
   name = "roll",
   duration = "12 s",

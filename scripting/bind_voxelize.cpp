@@ -167,9 +167,9 @@ void say_hinges(Call& call, const LatticeModel& lattice, HingePolicy policy) {
   if (policy == HingePolicy::report)
     call.session().console().say(what + "; hinges = \"fill\" or \"separate\" mends them");
   if (policy == HingePolicy::fill)
-    call.session().console().say(
-        fmt::format("{}: mended by {} more cell{}", what, lattice.filled_cells,
-                    lattice.filled_cells == 1 ? "" : "s"));
+    call.session().console().say(fmt::format("{}: mended by {} more cell{}", what,
+                                             lattice.filled_cells,
+                                             lattice.filled_cells == 1 ? "" : "s"));
   if (policy == HingePolicy::separate)
     call.session().console().say(
         fmt::format("{}: the cells were taken apart, {} parts", what, lattice.parts));

@@ -36,10 +36,11 @@ CellFrame frame_around(const Box3& box, double cell) {
   if (!(sides.minCoeff() > 0))
     throw InputError("voxelize: the mesh is flat or empty; it encloses no volume");
   if (std::round(sides.maxCoeff() / cell) < 1)
-    throw InputError(fmt::format(
-        "voxelize: a cell of {:.4g} m is more than twice as long as the whole mesh, {:.4g} m; use a "
-        "smaller cell (or look at the unit of the file)",
-        cell, sides.maxCoeff()));
+    throw InputError(
+        fmt::format("voxelize: a cell of {:.4g} m is more than twice as long as the whole mesh, "
+                    "{:.4g} m; use a "
+                    "smaller cell (or look at the unit of the file)",
+                    cell, sides.maxCoeff()));
   const double distance =
       std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   if (distance > kFarthest * sides.maxCoeff())

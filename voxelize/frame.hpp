@@ -42,7 +42,8 @@ struct CellFrame {
 /// Cells laid around the middle of a bounding box: along each axis the whole number of them that is
 /// nearest to its length, so that a box of n cells gives n cells and no face of the box runs
 /// through cell centres. Throws InputError: a flat or empty box, a cell that is no length
-/// or longer than twice the box, a box too far from the origin for its size, too many cells (says the smallest cell that does).
+/// or longer than twice the box, a box too far from the origin for its size, too many cells (says
+/// the smallest cell that does).
 CellFrame frame_around(const Box3& box, double cell);
 
 }  // namespace springlod

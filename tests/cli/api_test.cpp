@@ -54,8 +54,7 @@ TEST_CASE("every function of the module has help, and help knows no other") {
   CHECK(ran.exit_code == 0);
   const auto api = make_api();
   CHECK(ran.err == std::to_string(api->functions().size()));
-  for (const auto& entry : api->functions())
-    CHECK_THAT(ran.out, Contains("s." + entry.name + "("));
+  for (const auto& entry : api->functions()) CHECK_THAT(ran.out, Contains("s." + entry.name + "("));
 }
 
 TEST_CASE("help explains functions, values, types, tables and refuses the rest with near names") {

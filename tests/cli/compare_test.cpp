@@ -33,14 +33,14 @@ void make_asset(const Scratch& scratch) {
 }
 
 std::vector<std::string> compare_arguments(const Scratch& scratch, const std::string& out) {
-  return {"compare",   (scratch / "bar.glb").string(),
+  return {"compare",    (scratch / "bar.glb").string(),
           "--scenario", (scratch / "drop.lua").string(),
-          "--out",     (scratch / out).string(),
-          "--starts",  "2",
-          "--frames",  "3",
-          "--width",   "160",
-          "--height",  "120",
-          "--variant", "x"};
+          "--out",      (scratch / out).string(),
+          "--starts",   "2",
+          "--frames",   "3",
+          "--width",    "160",
+          "--height",   "120",
+          "--variant",  "x"};
 }
 
 // Every file below a folder by its name there.

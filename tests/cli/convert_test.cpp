@@ -33,11 +33,17 @@ TEST_CASE("convert makes an asset and prints its levels; info tells what is in i
   spit(scratch / "bar.obj", small_dumbbell());
   spit(scratch / "materials.lua", kMaterials);
   const std::string asset = (scratch / "out/bar.glb").string();
-  const Ran ran = springlod_run({"convert", (scratch / "bar.obj").string(), "-o", asset, "--cell",
-                                 "1cm", "--unit", "cm", "--up", "z", "--materials",
-                                 (scratch / "materials.lua").string(), "--lattice", "centers",
-                                 "--levels", "2", "--grouping", "priority", "--border", "weak",
-                                 "--seed", "3"});
+  const Ran ran = springlod_run({"convert",     (scratch / "bar.obj").string(),
+                                 "-o",          asset,
+                                 "--cell",      "1cm",
+                                 "--unit",      "cm",
+                                 "--up",        "z",
+                                 "--materials", (scratch / "materials.lua").string(),
+                                 "--lattice",   "centers",
+                                 "--levels",    "2",
+                                 "--grouping",  "priority",
+                                 "--border",    "weak",
+                                 "--seed",      "3"});
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
   CHECK_THAT(ran.out, Contains("stable step [s]"));
@@ -126,8 +132,8 @@ TEST_CASE("convert says in one line why it refuses a mesh") {
   spit(scratch / "wrong.lua", "return {bar = {yuong = 1}}");
   refused("bar.obj", {"--materials", (scratch / "wrong.lua").string()}, "did you mean 'young'?");
 
-  const Ran verbose = springlod_run({"convert", (scratch / "open.obj").string(), "-o",
-                                     (scratch / "x.glb").string(), "-v"});
+  const Ran verbose = springlod_run(
+      {"convert", (scratch / "open.obj").string(), "-o", (scratch / "x.glb").string(), "-v"});
   CHECK_THAT(verbose.err, Contains("traceback"));
 }
 

@@ -70,7 +70,8 @@ int exit_code_of(int process) {
 // A program with pipes for its three streams.
 class Child {
  public:
-  explicit Child(const std::vector<std::string>& arguments) {
+  explicit Child(const std::vector<std::string>& arguments,
+                 const fs::path& folder = SPRINGLOD_SOURCE_DIR) {
     std::vector<std::string> words{kProgram};
     words.insert(words.end(), arguments.begin(), arguments.end());
     posix_spawn_file_actions_t actions;
@@ -78,7 +79,7 @@ class Child {
     posix_spawn_file_actions_adddup2(&actions, in_.read_end, STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, out_.write_end, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, err_.write_end, STDERR_FILENO);
-    posix_spawn_file_actions_addchdir_np(&actions, SPRINGLOD_SOURCE_DIR);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
     const int failed = posix_spawn(&process_, kProgram.c_str(), &actions, nullptr,
                                    pointers(words).data(), environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -138,9 +139,10 @@ class Child {
 
 }  // namespace
 
-Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input) {
+Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input,
+                  const fs::path& folder) {
   std::signal(SIGPIPE, SIG_IGN);
-  Child child(arguments);
+  Child child(arguments, folder);
   child.give(input);
   return child.finish();
 }

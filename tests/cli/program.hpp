@@ -13,8 +13,9 @@ struct Ran {
   std::string err;
 };
 
-/// Runs build/app/springlod with `arguments`, `input` on its stdin, in the source folder.
-Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input = "");
+/// Runs build/app/springlod with `arguments`, `input` on its stdin, in `folder`.
+Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input = "",
+                  const std::filesystem::path& folder = SPRINGLOD_SOURCE_DIR);
 
 /// Runs it, interrupts it (SIGINT) as soon as `mark` shows on its stderr, and waits.
 Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark);

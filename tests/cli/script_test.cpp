@@ -96,7 +96,8 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
   CHECK_THAT(ran.out, Contains("Mesh: 16 vertices, 36 triangles, 3 parts, 230 mm x 40 mm x 40 mm"));
   CHECK_THAT(ran.out, Contains("Grid: 368 cells of 10 mm"));
   CHECK_THAT(ran.out, Contains("Model: 368 nodes (") && Contains("2374 springs, 4748 ends"));
-  CHECK_THAT(ran.out, Contains("LodChain: 368 -> ") && Contains("2374 -> ") && Contains("(4748 -> "));
+  CHECK_THAT(ran.out,
+             Contains("LodChain: 368 -> ") && Contains("2374 -> ") && Contains("(4748 -> "));
 }
 
 TEST_CASE("a model from tables reads back node by node and spring by spring") {
@@ -145,7 +146,8 @@ TEST_CASE("groups come by hand, by node priority and by pair cost") {
     print(pcall(s.simplify, m, {levels = 1, grouping = {{1, 2}, {2, 3}}})))");
   CAPTURE(ran.err);
   CHECK_THAT(ran.out, Contains("2\t50.0\t2.0\t{1, 1, 2, 2}\n"));
-  CHECK_THAT(ran.out, Contains("LodChain: 4 -> 3 -> 2 nodes, 3 -> 2 -> 1 springs (6 -> 4 -> 2 ends)"));
+  CHECK_THAT(ran.out,
+             Contains("LodChain: 4 -> 3 -> 2 nodes, 3 -> 2 -> 1 springs (6 -> 4 -> 2 ends)"));
   CHECK_THAT(ran.out, Contains("{1, 2, 2, 3}"));
   CHECK_THAT(ran.out, Contains("false\t") && Contains(": mine"));
 }
@@ -199,10 +201,12 @@ TEST_CASE("messages say which option of which function must be what") {
     CHECK(ran.exit_code == 1);
     CHECK_THAT(ran.err, Contains(part));
   };
-  message("s.simplify(m, {levels = 'two'})", "simplify: levels must be a whole number, got \"two\"");
+  message("s.simplify(m, {levels = 'two'})",
+          "simplify: levels must be a whole number, got \"two\"");
   message("s.simplify(m, {levels = -1})", "levels must be a whole number of 0 to");
   message("s.simplify(m, {guards = 1})", "simplify: guards must be true or false, got 1");
-  message("s.simplify(m, {border = 'week'})", "must be one of none, weak, strong, got \"week\"; did");
+  message("s.simplify(m, {border = 'week'})",
+          "must be one of none, weak, strong, got \"week\"; did");
   message("s.simplify(m, {guard = {least = 3}})", "simplify: guard takes: coincident_fraction");
   message("s.simplify(m, 3)", "simplify: expected a table of options");
   message("s.simplify(m, {3})", "options have names");
@@ -223,5 +227,6 @@ TEST_CASE("JSON is written with sorted keys and refuses what it cannot write") {
     local loop = {}
     loop.loop = loop
     print((pcall(s.json, loop)), (pcall(s.json, print)), (pcall(s.json, {[1.5] = 2}))))");
-  CHECK(ran.out == "{\"a\":\"x\\\"y\",\"b\":[1,2.5,true],\"c\":[],\"d\":null}\nfalse\tfalse\tfalse\n");
+  CHECK(ran.out ==
+        "{\"a\":\"x\\\"y\",\"b\":[1,2.5,true],\"c\":[],\"d\":null}\nfalse\tfalse\tfalse\n");
 }

@@ -29,8 +29,7 @@ std::vector<double> mean_counts(const MassSpringModel& base, GroupingOptions gro
     grouping.seed = seed;
     const LodChain chain =
         simplify(base, {.levels = levels, .grouping = grouping, .guards = false});
-    for (std::uint32_t n = 0; n <= levels; ++n)
-      counts[n] += chain.levels[n].model.node_count();
+    for (std::uint32_t n = 0; n <= levels; ++n) counts[n] += chain.levels[n].model.node_count();
   }
   for (double& count : counts) count /= static_cast<double>(seeds);
   return counts;

@@ -175,8 +175,7 @@ TEST_CASE("Composed bindings act like one after the other") {
   const Binding both = compose(outer, inner);
   std::vector<Vec3> moved = coarse.rest;
   for (Vec3& x : moved) x += Vec3(std::sin(x.y()), x.x() * x.z(), std::cos(x.x()));
-  CHECK(largest_distance(carry(both, moved),
-                         carry(outer, carry(inner, moved))) < 1e-12);
+  CHECK(largest_distance(carry(both, moved), carry(outer, carry(inner, moved))) < 1e-12);
   for (std::uint32_t p = 0; p < both.point_count(); ++p)
     for (std::uint32_t e = both.start[p] + 1; e < both.start[p + 1]; ++e)
       REQUIRE(both.node[e - 1] < both.node[e]);

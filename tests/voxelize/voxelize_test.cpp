@@ -281,7 +281,8 @@ TEST_CASE("cells too large, too small or no length are refused with what would d
   CHECK_THROWS_AS(voxelize(mesh, with_cell(std::nan(""))), InputError);
   CHECK_THROWS_WITH(voxelize(mesh, with_cell(1e-4)), Contains("use a cell of 0.004"));
   CHECK_THROWS_WITH(voxelize(mesh, with_cell(1e-300)), Contains("use a cell of"));
-  CHECK_THROWS_WITH(voxelize(mesh, with_cell(4.1)), Contains("twice as long as the whole mesh, 2 m"));
+  CHECK_THROWS_WITH(voxelize(mesh, with_cell(4.1)),
+                    Contains("twice as long as the whole mesh, 2 m"));
   TriangleMesh frame;  // two bars, far apart: the middle cell of the box is empty
   add_box(frame, "a", {0, 0, 0}, {10, 0.1, 0.1});
   add_box(frame, "b", {0, 9.9, 9.9}, {10, 10, 10});

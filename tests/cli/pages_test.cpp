@@ -1,0 +1,130 @@
+// What the pages and samples show a reader works as it stands there.
+
+#include <algorithm>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/program.hpp"
+
+using Catch::Matchers::Contains;
+using namespace springlod::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path kSource = SPRINGLOD_SOURCE_DIR;
+
+// The ```lua blocks of a page, in order: later ones go on where earlier ones ended. Blocks that are
+// files of their own ("return {...}") are left out.
+std::string script_of(const fs::path& page) {
+  std::istringstream lines(slurp(page));
+  std::string script;
+  std::string block;
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "```lua") {
+      inside = true;
+      block.clear();
+    } else if (inside && line == "```") {
+      inside = false;
+      if (!block.starts_with("return")) script += block;
+    } else if (inside) {
+      block += line + "\n";
+    }
+  }
+  return script;
+}
+
+// The ```sh lines of a page that call the program, continued lines joined, without the name.
+std::vector<std::vector<std::string>> commands_of(const fs::path& page) {
+  std::istringstream lines(slurp(page));
+  std::vector<std::vector<std::string>> commands;
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) inside = line == "```sh";
+    for (std::string more; inside && line.ends_with("\\") && std::getline(lines, more);)
+      line = line.substr(0, line.size() - 1) + more;
+    std::istringstream words(line);
+    std::string program;
+    words >> program;
+    if (!inside || (program != "springlod" && !program.ends_with("/springlod"))) continue;
+    commands.emplace_back();
+    for (std::string word; words >> word && word[0] != '#';) commands.back().push_back(word);
+  }
+  return commands;
+}
+
+// A folder as the root of a clone looks to a script that reads samples and writes to out.
+void lay_out(const Scratch& scratch) {
+  fs::create_directory_symlink(kSource / "samples", scratch / "samples");
+}
+
+}  // namespace
+
+TEST_CASE("the Lua of every page runs") {
+  std::vector<fs::path> pages{kSource / "README.md"};
+  for (const auto& entry : fs::directory_iterator(kSource / "docs"))
+    if (entry.path().extension() == ".md" && entry.path().filename() != "api.md")
+      pages.push_back(entry.path());
+  int scripts = 0;
+  for (const fs::path& page : pages) {
+    const std::string script = script_of(page);
+    if (script.empty()) continue;
+    ++scripts;
+    const Scratch scratch;
+    lay_out(scratch);
+    spit(scratch / "page.lua", script);
+    const Ran ran = springlod_run({"-q", "run", "page.lua"}, "", scratch.folder());
+    CAPTURE(page.filename().string(), ran.err);
+    CHECK(ran.exit_code == 0);
+  }
+  CHECK(scripts >= 6);
+}
+
+TEST_CASE("every option that a page gives to a stock command is one of its options") {
+  int options = 0;
+  for (const char* name : {"README.md", "docs/convert.md", "docs/simulate.md", "docs/pictures.md"})
+    for (const auto& command : commands_of(kSource / name)) {
+      if (command.empty()) continue;
+      const Ran help = springlod_run({command[0], "--help"});
+      for (const std::string& word : command) {
+        if (!word.starts_with("--") || word == "--") continue;
+        CAPTURE(name, command[0]);
+        CHECK_THAT(help.out, Contains(word + " ") || Contains(word + "]"));
+        ++options;
+      }
+    }
+  CHECK(options >= 5);
+}
+
+TEST_CASE("the sample scripts run and write what they promise") {
+  const Scratch scratch;
+  const auto wrote = [&](const std::string& sample, const std::vector<std::string>& files) {
+    const std::string folder = (scratch / sample).string();
+    const Ran ran = springlod_run({"-q", "run", "samples/" + sample + ".lua", "--", folder});
+    CAPTURE(sample, ran.err);
+    CHECK(ran.exit_code == 0);
+    for (const std::string& file : files) CHECK(fs::file_size(fs::path(folder) / file) > 0);
+  };
+  wrote("dumbbell", {"dumbbell.glb", "levels.png", "frames/frame_0029.png"});
+  wrote("ball", {"ball.glb", "ledger.csv", "levels.png"});
+  wrote("beast", {"beast.glb", "cost-error.svg", "frames/frame_0023.png"});
+}
+
+TEST_CASE("the demo counts nodes as its base has them and writes table, chart, film and assets") {
+  const Scratch scratch;
+  const fs::path folder = scratch / "demo";
+  const Ran ran = springlod_run({"-q", "run", "scripts/demo.lua", "--", folder.string(), "1", "2"});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  const std::string counts = slurp(folder / "counts.csv");
+  CHECK_THAT(counts, Contains("base,368,4748,368,4724"));
+  CHECK_THAT(counts, Contains("LOD-hb-2,"));
+  for (const char* file :
+       {"table.csv", "timings.csv", "chart.svg", "chart.png", "lod-chain.glb", "lod-b-chain.glb",
+        "lod-h-chain.glb", "lod-hb-chain.glb", "frames/frame_0001.png"})
+    CHECK(fs::file_size(folder / file) > 0);
+  const std::string table = slurp(folder / "table.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 1 + 1 + 8);  // head, base, 4 x 2 levels
+}
