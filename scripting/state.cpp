@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "model/error.hpp"
 #include "scripting/call.hpp"
 #include "scripting/interrupt.hpp"
 #include "scripting/paths.hpp"
 #include "scripting/script_error.hpp"
+#include "scripting/suggest.hpp"
 
 namespace springlod {
 
@@ -33,6 +35,19 @@ int keep_traceback(lua_State* L) {
   return 1;
 }
 
+// A wrong name says so where it is read, not "attempt to call a nil value".
+int refuse_name(lua_State* L) {
+  return protect(L, [L]() -> int {
+    const std::string name = luaL_tolstring(L, 2, nullptr);
+    lua_pop(L, 1);
+    std::vector<std::string> names;
+    for (const FunctionEntry& entry : session_of(L).api().functions()) names.push_back(entry.name);
+    const std::string question = did_you_mean(name, names);
+    throw InputError(fmt::format("springlod has no '{}'{} help() lists what it has", name,
+                                 question.empty() ? ";" : question));
+  });
+}
+
 int open_module(lua_State* L) {
   const Api& api = session_of(L).api();
   lua_newtable(L);
@@ -44,6 +59,10 @@ int open_module(lua_State* L) {
     constant.push(L);
     lua_setfield(L, -2, constant.parameter.name.c_str());
   }
+  lua_createtable(L, 0, 1);
+  lua_pushcfunction(L, refuse_name);
+  lua_setfield(L, -2, "__index");
+  lua_setmetatable(L, -2);
   return 1;
 }
 

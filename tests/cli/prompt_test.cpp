@@ -44,7 +44,7 @@ TEST_CASE("the prompt goes on after an error") {
   Terminal terminal({}, scratch.folder());
   REQUIRE(terminal.shows("> "));
   terminal.type("s.simplfy()\n");
-  CHECK(terminal.shows("attempt to call a nil value (field 'simplfy')"));
+  CHECK(terminal.shows("springlod has no 'simplfy'; did you mean 'simplify'?"));
   terminal.type("help('simplfy')\n");
   CHECK(terminal.shows("did you mean 'simplify'?"));
   terminal.type("'still ' .. 'here'\n");
