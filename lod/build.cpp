@@ -18,8 +18,8 @@ std::string told_from(const SimplifyOptions& options) {
 }
 
 Groups next_groups(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
-  const Groups groups = options.groups ? options.groups(finer.model, finer.of_base, level)
-                                       : group_nodes(finer.model, options.grouping);
+  Groups groups = options.groups ? options.groups(finer.model, finer.of_base, level)
+                                 : group_nodes(finer.model, options.grouping);
   if (!options.guards) return groups;
   GuardOptions guard = options.guard;
   guard.border = options.grouping.border;

@@ -138,7 +138,7 @@ class ExactWriter {
 
 /// About what the buffer will hold: 112 B a node and 32 B a spring, and so on, rounded up.
 std::size_t expected_bytes(const LodAsset& asset) {
-  std::size_t bytes = 64 * 1024;
+  std::size_t bytes = std::size_t{64} * 1024;
   for (const Level& level : asset.chain.levels)
     bytes +=
         128 * level.model.rest.size() + 32 * level.model.a.size() + 4 * level.of_base.of.size();

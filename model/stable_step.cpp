@@ -42,8 +42,8 @@ class MassWeightedStiffness {
     end_b_.reserve(a_.size());
     for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
       const Vec3 row = std::sqrt(model.stiffness[s]) * spring_direction(model, s);
-      end_a_.push_back(weight[a_[s]] * row);
-      end_b_.push_back(weight[b_[s]] * row);
+      end_a_.emplace_back(weight[a_[s]] * row);
+      end_b_.emplace_back(weight[b_[s]] * row);
     }
   }
 

@@ -177,8 +177,8 @@ class ZeroModes {
     Factor factor;
     factor.analyzePattern(stiffness);
     // A pivot that vanishes exactly is bad luck, which another shift does not have.
-    for (double shift = kZero; shift < 10 * kZero; shift *= 1.37) {
-      factor.setShift(-shift);
+    for (const double shift : {1.0, 1.37, 1.88, 2.57, 3.52, 4.83}) {
+      factor.setShift(-shift * kZero);
       factor.factorize(stiffness);
       if (factor.info() == Eigen::Success)
         return static_cast<std::uint32_t>((factor.vectorD().array() < 0).count());

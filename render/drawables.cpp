@@ -119,7 +119,7 @@ TriangleMesh box_mesh(const DrawnBox& box) {
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 local((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
                      (corner & 4) != 0 ? 1 : -1);
-    mesh.positions.push_back(box.center + box.rotation * local.cwiseProduct(box.half_size));
+    mesh.positions.emplace_back(box.center + box.rotation * local.cwiseProduct(box.half_size));
   }
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};

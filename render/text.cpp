@@ -114,7 +114,7 @@ std::string TextPainter::fitted(std::string_view text, double size, double room)
   for (std::size_t keep = text.size(); keep > 0; --keep) {
     // Only between letters: a byte 10xxxxxx goes on with the one before.
     if (keep < text.size() && (static_cast<unsigned char>(text[keep]) & 0xC0U) == 0x80) continue;
-    const std::string shorter = std::string(text.substr(0, keep)) + "\u2026";
+    std::string shorter = std::string(text.substr(0, keep)) + "\u2026";
     if (width(shorter, size) <= room) return shorter;
   }
   return "";
@@ -136,7 +136,9 @@ void TextPainter::draw(Image& image, const PixelRect& clip, double x, double bas
         const int py = y0 + l.top + row;
         if (px < clip.x || px >= clip.x + clip.width || py < clip.y || py >= clip.y + clip.height)
           continue;
-        const auto cover = l.cover[static_cast<std::size_t>(row * l.width + column)];
+        const auto cover =
+            l.cover[static_cast<std::size_t>(row) * static_cast<std::size_t>(l.width) +
+                    static_cast<std::size_t>(column)];
         if (cover != 0) blend_pixel(image, px, py, colour, cover / 255.);
       }
   }

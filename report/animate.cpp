@@ -68,9 +68,9 @@ std::vector<double> picture_times(const Comparison& comparison, const AnimateOpt
                     "frame_rate or "
                     "frames",
                     end * options.slow, options.frame_rate, count));
-  const double most = options.frames == 0 ? count : std::min<double>(count, options.frames);
-  std::vector<double> times;
-  for (double k = 0; k < most; ++k) times.push_back(k * apart);
+  std::vector<double> times(static_cast<std::size_t>(
+      options.frames == 0 ? count : std::min<double>(count, options.frames)));
+  for (std::size_t k = 0; k < times.size(); ++k) times[k] = static_cast<double>(k) * apart;
   return times;
 }
 

@@ -36,7 +36,7 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& path, std::uint32_t reach) {
     const std::size_t r = std::min({std::size_t{reach}, i, path.size() - 1 - i});
     Vec3 sum = Vec3::Zero();
     for (std::size_t j = i - r; j <= i + r; ++j) sum += path[j];
-    out.push_back(sum / static_cast<double>(2 * r + 1));
+    out.emplace_back(sum / static_cast<double>(2 * r + 1));
   }
   return out;
 }

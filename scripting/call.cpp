@@ -236,7 +236,7 @@ std::string TableReader::chosen_word(std::string_view name, const std::vector<st
     throw std::logic_error(
         fmt::format("{}: the registry lists other words for '{}'", owner_, name));
   if (!get(name)) return "";
-  const std::string word = lua_type(lua_, -1) == LUA_TSTRING ? lua_tostring(lua_, -1) : "";
+  std::string word = lua_type(lua_, -1) == LUA_TSTRING ? lua_tostring(lua_, -1) : "";
   if (std::find(words.begin(), words.end(), word) == words.end())
     refuse(name, fmt::format("one of {}, got {}{}", comma_list(words), shown(lua_, -1),
                              did_you_mean(word, words)));

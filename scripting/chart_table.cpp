@@ -67,7 +67,7 @@ std::string cell_text(lua_State* L, int index, NumberStyle numbers) {
     case LUA_TNIL:
       return "";
     default: {
-      const std::string text = luaL_tolstring(L, index, nullptr);
+      std::string text = luaL_tolstring(L, index, nullptr);
       lua_pop(L, 1);
       return text;
     }
@@ -208,7 +208,7 @@ Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle nu
     std::vector<std::string>& texts = table.rows.emplace_back();
     for (std::size_t c = 0; c < cells; ++c) {
       if (list) {
-        lua_rawgeti(L, row, static_cast<lua_Integer>(c + 1));
+        lua_rawgeti(L, row, static_cast<lua_Integer>(c) + 1);
       } else {
         lua_getfield(L, row, table.columns[c].c_str());
       }

@@ -38,6 +38,12 @@ std::string rate_text(double rate) {
   return fmt::format("{:.1f} /s", rate);
 }
 
+// An empty variable counts as not set (no-color.org).
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != 0;
+}
+
 }  // namespace
 
 std::string progress_line(std::string_view task, std::uint64_t done, std::uint64_t total,
@@ -60,7 +66,7 @@ std::string progress_line(std::string_view task, std::uint64_t done, std::uint64
 Console::Console(Verbosity verbosity)
     : verbosity_(verbosity),
       terminal_(isatty(STDERR_FILENO) != 0),
-      colour_(terminal_ && (std::getenv("NO_COLOR") == nullptr || *std::getenv("NO_COLOR") == 0)) {}
+      colour_(terminal_ && !is_set("NO_COLOR")) {}
 
 void Console::say(std::string_view text) {
   if (verbosity_ == Verbosity::quiet) return;

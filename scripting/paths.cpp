@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 fs::path stock_script_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / "share/springlod/scripts";
+  fs::path installed = program.parent_path().parent_path() / "share/springlod/scripts";
   if (!error && fs::is_directory(installed, error)) return installed;
-  const fs::path source = SPRINGLOD_SCRIPT_FOLDER;
+  fs::path source = SPRINGLOD_SCRIPT_FOLDER;
   if (fs::is_directory(source, error)) return source;
   throw IoError(
       fmt::format("the stock scripts are neither in {} nor in {}; install springlod again",

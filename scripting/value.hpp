@@ -91,29 +91,31 @@ class TypeBuilder {
   }
   /// `get` returns something that `push` takes.
   template <class Get>
-  TypeBuilder& field(std::string name, std::string type, std::string help, Get get) {
-    entry_.fields.push_back(
-        {{.name = std::move(name), .type = std::move(type), .help = std::move(help)},
-         [get](lua_State* L, const std::shared_ptr<const void>& value) {
-           push(L, get(*static_cast<const T*>(value.get())));
-         }});
+  TypeBuilder& field(const std::string& name, const std::string& type, const std::string& help,
+                     Get get) {
+    entry_.fields.push_back({{.name = name, .type = type, .help = help},
+                             [get](lua_State* L, const std::shared_ptr<const void>& value) {
+                               push(L, get(*static_cast<const T*>(value.get())));
+                             }});
     return *this;
   }
   /// `fill` pushes exactly one value itself.
-  TypeBuilder& table_field(std::string name, std::string type, std::string help,
+  TypeBuilder& table_field(const std::string& name, const std::string& type,
+                           const std::string& help,
                            std::function<void(lua_State*, const T&)> fill) {
     entry_.fields.push_back(
-        {{.name = std::move(name), .type = std::move(type), .help = std::move(help)},
+        {{.name = name, .type = type, .help = help},
          [fill = std::move(fill)](lua_State* L, const std::shared_ptr<const void>& value) {
            fill(L, *static_cast<const T*>(value.get()));
          }});
     return *this;
   }
   /// Likewise, for what has to keep the value alive.
-  TypeBuilder& shared_field(std::string name, std::string type, std::string help,
+  TypeBuilder& shared_field(const std::string& name, const std::string& type,
+                            const std::string& help,
                             std::function<void(lua_State*, std::shared_ptr<const T>)> fill) {
     entry_.fields.push_back(
-        {{.name = std::move(name), .type = std::move(type), .help = std::move(help)},
+        {{.name = name, .type = type, .help = help},
          [fill = std::move(fill)](lua_State* L, const std::shared_ptr<const void>& value) {
            fill(L, std::static_pointer_cast<const T>(value));
          }});

@@ -81,7 +81,8 @@ for _, variant in ipairs(variants) do
       1 / row.cost_ratio, row.surface_error_percent, label = row.level > 0 and row.label or nil,
     }
   end
-  series[#series + 1] = {name = variant.name == "" and "LOD" or "LOD-" .. variant.name, points = points}
+  local name = variant.name == "" and "LOD" or "LOD-" .. variant.name
+  series[#series + 1] = {name = name, points = points}
   local measured
   measured, timing_columns = runs:timings()
   for _, row in ipairs(measured) do timings[#timings + 1] = row end

@@ -159,7 +159,7 @@ class Comparing {
     Trajectory trajectory = run_level(level, start, stopped);
     std::vector<Frame> base_frames = bring_back(level, trajectory.frames);
     const auto base_run = slots_[start].base;  // a copy: one future is not for several threads
-    const std::shared_ptr<BaseRun> base = base_run.get();
+    const std::shared_ptr<BaseRun>& base = base_run.get();
     const Errors errors =
         deviation(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);
     leave(start, *base);

@@ -77,7 +77,7 @@ struct VoxelizedMesh {
 /// meshToVolume), on a grid that is centred on the bounding box. Shells that face inwards within
 /// another are cavities and stay empty. In a solid of several materials each cell takes that of the
 /// nearest triangle. Depths count from the surface of all solids together, not from where they
-/// touch: exact next to the surface, at most 0.2 of a cell too large deep inside. Throws
+/// touch: exact next to the surface, about 0.2 of a cell at most too large deep inside. Throws
 /// InputError: an open solid (names part and hole), a cell too large (nothing filled) or so small
 /// that the grid would not fit (says the smallest that does), NaN, a mesh too far from the origin,
 /// a flat one, names in `priority` or from `paint` that do not exist, materials that clash.
