@@ -95,7 +95,7 @@ void animate_60_frames(benchmark::State& state) {
   scene.obstacles = {{.shape = Plane{.offset = -0.2}, .name = "floor", .stiffness = 1e7}};
   const Comparison runs = compare(asset.chain, scene, {.run = {.frame_rate = 30}});
   for (auto _ : state) {
-    animate(asset, runs, folder, {.frame_rate = 30, .frames = 60});
+    benchmark::DoNotOptimize(animate(asset, runs, folder, {.frame_rate = 30, .frames = 60}));
     encode_video(folder, 30, folder / "bench.mp4");
   }
   std::filesystem::remove_all(folder);
