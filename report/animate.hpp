@@ -26,7 +26,7 @@ struct AnimateOptions {
   double elevation = 15;
   /// Mirror the azimuth where a wall would else stand between the camera and the action.
   bool avoid_walls = true;
-  DrawStyle style;
+  DrawStyle style = {};
   Progress* progress = nullptr;
 };
 

@@ -134,7 +134,7 @@ int voxelize_binding(Call& call) {
   for (const std::string& warning : result.report.warnings) call.session().console().say(warning);
   if (result.report.cell_chosen)
     call.session().console().say(
-        fmt::format("cells of {} (longest side / 32; use cell = \"...\" to change it)",
+        fmt::format("cells of {} (longest side / 32; the option cell changes it)",
                     format_quantity(result.report.cell, Dimension::length)));
   auto value = std::make_shared<GridValue>();
   value->grid = std::move(result.grid);
@@ -314,7 +314,7 @@ void describe_voxelize_function(Api& api) {
             .help = "by the name of the part, else by the name of its material in the file"},
            {.name = "fallback",
             .type = "Material",
-            .fallback = "{young = 1e6, density = 1000, damping = 0.002}",
+            .fallback = "{young = 1e6, density = 1000, damping = 0.0002}",
             .help = "for parts that materials does not name"},
            {.name = "priority",
             .type = "list of strings",

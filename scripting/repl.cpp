@@ -48,7 +48,8 @@ class LineEditor {
     el_set(edit_, EL_SIGNAL, 0);
     el_set(edit_, EL_GETCFN, &LineEditor::read_key);
     el_set(edit_, EL_HIST, history, history_);
-    el_set(edit_, EL_ADDFN, "complete-name", "completes a name", &LineEditor::complete);
+    // The narrow form of this one loses two copies of its strings.
+    el_wset(edit_, EL_ADDFN, L"complete-name", L"completes a name", &LineEditor::complete);
     el_set(edit_, EL_BIND, "^I", "complete-name", nullptr);
     el_set(edit_, EL_BIND, "^R", "em-inc-search-prev", nullptr);
     load_history();

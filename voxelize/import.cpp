@@ -347,12 +347,12 @@ std::string describe(const ImportReport& report) {
   std::string text;
   if (report.unit_assumed)
     text +=
-        fmt::format("assumed 1 unit = {:g} m ({} does not say; use unit = \"mm\" to change it)\n",
+        fmt::format("assumed 1 unit = {:g} m ({} does not say; the option unit changes it)\n",
                     report.unit, report.format);
   else
     text += fmt::format("1 unit = {:g} m\n", report.unit);
   if (report.up_assumed)
-    text += fmt::format("assumed {} is up ({} does not say; use up = \"y\" to change it)\n", up,
+    text += fmt::format("assumed {} is up ({} does not say; the option up changes it)\n", up,
                         report.format);
   else
     text += fmt::format("{} is up\n", up);

@@ -35,7 +35,7 @@ struct ImportedMesh {
 /// formats) and InputError (NaN or infinite vertices, no triangles).
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
-/// "assumed 1 unit = 1 m (OBJ does not say; use unit = \"mm\" to change it)", ... one line each.
+/// "assumed 1 unit = 1 m (OBJ does not say; the option unit changes it)", ... one line each.
 std::string describe(const ImportReport& report);
 
 }  // namespace springlod
