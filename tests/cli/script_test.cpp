@@ -171,9 +171,11 @@ TEST_CASE("values cannot be forged, changed or mixed up") {
     local meta = debug.getmetatable(m)
     debug.setmetatable(io.stdout, meta)
     fails(s.stable_step, io.stdout)
+    local meta_of_scene = debug.getmetatable(scene)
     debug.setmetatable(scene, meta)
     fails(s.stable_step, scene)
     fails(function() return scene.mass end)
+    debug.setmetatable(scene, meta_of_scene)
     local kept = s.model{nodes = {{0, 0, 0, mass = 1}}}
     meta.__gc(kept)
     meta.__gc(kept)
