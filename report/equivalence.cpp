@@ -47,9 +47,10 @@ Influence by_start(const Influence& values, std::uint32_t seeds) {
   return means;
 }
 Influence by_seed(const Influence& values, std::uint32_t seeds) {
-  const auto starts = static_cast<double>(values.size() / seeds);
+  const std::size_t starts = values.size() / seeds;
   Influence means(seeds, 0);
-  for (std::size_t i = 0; i < values.size(); ++i) means[i % seeds] += values[i] / starts;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    means[i % seeds] += values[i] / static_cast<double>(starts);
   return means;
 }
 

@@ -26,7 +26,10 @@ double solve(double low, double high, double target, Rising rising) {
 double log_gamma(double x) {
   constexpr double kFar = 12;  // where five terms of the series leave less than 1e-14
   double shift = 0;
-  for (; x < kFar; x += 1) shift += std::log(x);
+  while (x < kFar) {
+    shift += std::log(x);
+    x += 1;
+  }
   const double r = 1 / (x * x);
   const double series =
       (1.0 / 12 - r * (1.0 / 360 - r * (1.0 / 1260 - r * (1.0 / 1680 - r / 1188)))) / x;
