@@ -37,7 +37,7 @@ double difference_over_spread(const std::vector<double>& base, const std::vector
 double wasserstein_distance(std::vector<double> base, std::vector<double> other);
 
 /// Energy distance 2 E|X - Y| - E|X - X'| - E|Y - Y'|, the form *without* a square root (Szekely
-/// and Rizzo 2013, "Energy statistics: a class of statistics based on distances", eq. 5), so that
+/// and Rizzo 2013, "Energy statistics: a class of statistics based on distances"), so that
 /// its unit is that of the values. Of the samples as they stand (pairs of a value with itself
 /// count), thus never below 0, and 0 only for equal distribution functions. In one dimension it is
 /// 2 times the integral of (F - G)^2, which is how it is computed.

@@ -83,6 +83,13 @@ TEST_CASE("BCa follows the skew that percentiles miss") {
           Approx(0.5 + 0.5 * confidence).margin(0.003));
 }
 
+TEST_CASE("a large sample is left out in blocks, to the same acceleration") {
+  ChanceStream chance(9);
+  const Bootstrap result = bootstrap({exponential_sample(chance, 20000)}, mean, {.resamples = 100});
+  // Skewness 2 over 6 sqrt(n); by chance of 500 blocks some sqrt(6 / 500) / (6 sqrt(500)) off.
+  CHECK(result.acceleration == Approx(2 / (6 * std::sqrt(20000))).margin(4 * 0.0008));
+}
+
 TEST_CASE("pairs that go together give a shorter interval than the same values apart") {
   ChanceStream chance(4);
   const Values base = normal_sample(chance, 24);
