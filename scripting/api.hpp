@@ -118,5 +118,6 @@ void describe_lod(Api& api);
 void describe_sim(Api& api);
 void describe_render(Api& api);
 void describe_report(Api& api);
+void describe_statistics(Api& api);
 
 }  // namespace springlod

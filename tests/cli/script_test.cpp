@@ -82,6 +82,9 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     s.model{nodes = {{0, 0, 0, mass = 1}}}
     s.say("quiet")
     s.inspect(s.info(chain))
+    s.statistics({1, 2, 3, 4, 5})
+    s.compare_samples({1, 2, 3, 4, 5}, {2, 3, 4, 5, 6})
+    print(s.noise_floor({1, 2, 3, 4, 5}))
     s.format_table({{a = 1.5}})
     s.help("simplify")
     s.api_markdown()
