@@ -146,10 +146,11 @@ TEST_CASE("A free bar bends at Timoshenko's frequency as its cells get smaller")
     found.push_back(modes.modes[0].frequency());
   }
   INFO("expected " << expected << " found " << found[0] << ' ' << found[1] << ' ' << found[2]);
-  // Errors go with the square of the cell, so each halving takes away three quarters.
-  CHECK((found[1] - found[0]) / (found[2] - found[1]) == Approx(4).epsilon(0.1));
+  // Errors go with the square of the cell, so each halving takes away three quarters; with two
+  // cells across, terms of fourth order still show.
+  CHECK((found[1] - found[0]) / (found[2] - found[1]) == Approx(4).epsilon(0.2));
   // The limit by Richardson; the formula is good to some 0.1 % at a thickness of an eighth.
-  CHECK(found[2] + (found[2] - found[1]) / 3 == Approx(expected).epsilon(2e-3));
+  CHECK(found[2] + (found[2] - found[1]) / 3 == Approx(expected).epsilon(1e-3));
   CHECK(found[2] == Approx(expected).epsilon(0.01));
 }
 
