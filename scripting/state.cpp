@@ -101,6 +101,7 @@ std::unique_ptr<Api> make_api() {
   describe_session(*api);
   describe_voxelize(*api);
   describe_model(*api);
+  describe_elastic(*api);
   describe_lod(*api);
   describe_sim(*api);
   describe_render(*api);

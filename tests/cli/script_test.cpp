@@ -77,6 +77,11 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.stretch(base, {axis = "x"}).young > 0)
     assert(s.zero_modes(chain[1])[1].zero_modes == 6)
     assert(s.stable_step(chain[0]) > 0)
+    local modes = s.modes(chain[1], {count = 3, seed = 2})
+    assert(#modes == 3 and modes[1].frequency > 0 and #modes[1].shape == chain[1].node_count)
+    local loads = s.static_loads(chain[1])
+    assert(#loads == 9 and loads[9].name == "twist x" and loads[9].compliance > 0)
+    assert(#loads[1].force == chain[1].node_count and #loads[1].displacement[1] == 3)
     assert(s.quantity("5 mm", "length") == 0.005)
     assert(s.is_folder(folder) and #s.files(folder, {endings = {".obj"}}) == 1)
     s.model{nodes = {{0, 0, 0, mass = 1}}}
