@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -22,6 +23,8 @@ constexpr Eigen::Index kBlock = 8;
 constexpr Eigen::Index kDenseUnknowns = 240;
 /// Where the iteration runs out of room the dense solver takes over up to here (a minute).
 constexpr Eigen::Index kMostDenseUnknowns = 4000;
+/// Eigenvalues over the shift that rounding in the matrix still leaves something of.
+constexpr double kLeastOfShift = 1e-3;
 
 /// Modes of one part in its mass-weighted unknowns.
 struct PartSpectrum {
@@ -36,7 +39,7 @@ PartSpectrum solve_dense(const ElasticPart& part, Eigen::Index count) {
   const Eigen::Index zeros = part.zero_modes.cols();
   const Eigen::Index found = std::min(count, part.unknowns() - zeros);
   PartSpectrum spectrum;
-  spectrum.squared_frequency = solver.eigenvalues().segment(zeros, found);
+  spectrum.squared_frequency = solver.eigenvalues().segment(zeros, found).cwiseMax(0);
   spectrum.shapes = solver.eigenvectors().middleCols(zeros, found);
   const Eigen::MatrixXd rest =
       part.stiffness * spectrum.shapes - spectrum.shapes * spectrum.squared_frequency.asDiagonal();
@@ -107,8 +110,12 @@ class BlockLanczos {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(projected_);
     theta_ = solver.eigenvalues().tail(count_).reverse();
     ritz_ = solver.eigenvectors().rightCols(count_).rowwise().reverse();
-    residual_ =
-        (coupling_ * ritz_.bottomRows(kBlock)).colwise().norm().transpose().cwiseQuotient(theta_);
+    const Eigen::VectorXd rest =
+        (coupling_ * ritz_.bottomRows(kBlock)).colwise().norm().transpose();
+    // What theta misses by counts for more in a lambda that is smaller than sigma.
+    const Eigen::VectorXd amplified =
+        (1 - part_.shift * theta_.array()).max(kLeastOfShift).inverse();
+    residual_ = rest.cwiseQuotient(theta_).cwiseProduct(amplified);
     const auto done = (residual_.array() <= accuracy_).count();
     if (done > reported_)
       task_.advance(static_cast<std::uint64_t>(done - reported_));
@@ -120,7 +127,7 @@ class BlockLanczos {
 
   PartSpectrum spectrum() const {
     PartSpectrum spectrum;
-    spectrum.squared_frequency = theta_.cwiseInverse().array() - part_.shift;
+    spectrum.squared_frequency = (theta_.cwiseInverse().array() - part_.shift).max(0.0);
     spectrum.residual = residual_;
     // One more product damps what is left of high frequencies, which weigh much in strains.
     spectrum.shapes = part_.solve_shifted(basis_.leftCols(vectors_) * ritz_);

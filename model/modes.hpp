@@ -20,7 +20,7 @@ struct ModeOptions {
 
 /// One way in which a body that nothing holds swings about rest.
 struct Mode {
-  double angular_frequency = 0;  ///< omega [rad/s] > 0
+  double angular_frequency = 0;  ///< omega [rad/s]
   /// A bound of the relative error of omega^2: the residual of the shifted inverse,
   /// |(D + sigma)^-1 y - theta y| / theta for the shape y in mass-weighted unknowns (of small
   /// parts, solved for densely, |D y - omega^2 y| / omega^2).
