@@ -46,7 +46,7 @@ struct ElasticBody {
 /// of the largest frequency, which the bends of a bar a hundred times as long as thick still exceed
 /// a hundred times.
 ///
-/// 20k nodes as a cube: 4 s and 0.4 GB; time goes with N^2, storage with N^4/3.
+/// 20k nodes as a cube: 4 s and 0.7 GB; time goes with N^2, storage with N^4/3.
 /// Throws InputError for a model with more mechanisms than can be stored (hundreds, in a large
 /// part) and for stiffnesses so uneven that no small shift makes the matrix positive.
 ElasticBody elastic_body(const MassSpringModel& model, Progress* progress = nullptr);

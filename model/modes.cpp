@@ -55,10 +55,10 @@ class BlockLanczos {
       : part_(part),
         count_(count),
         accuracy_(options.accuracy),
-        // Smooth bodies need two to five vectors a mode; where the spectrum is dense, more.
-        most_vectors_(
-            std::min(20 * count + 200, part.unknowns() - part.zero_modes.cols() - kBlock)),
-        task_(options.progress, "iterating for modes", static_cast<std::uint64_t>(count)) {
+        // Most bodies need two to five vectors a mode.
+        most_vectors_(std::min(8 * count + 300, part.unknowns() - part.zero_modes.cols() - kBlock)),
+        task_(options.progress, "iterating for modes", static_cast<std::uint64_t>(count)),
+        next_look_(count) {
     next_ = random_block(part.unknowns(), kBlock, options.seed);
     part_.remove_zero_modes(next_);
     orthonormalise(next_);
@@ -68,7 +68,8 @@ class BlockLanczos {
   std::optional<PartSpectrum> run() {
     while (vectors_ + kBlock <= most_vectors_) {
       expand();
-      if (converged()) return spectrum();
+      task_.advance(0);  // lets the user interrupt
+      if (vectors_ >= next_look_ && converged()) return spectrum();
     }
     return std::nullopt;
   }
@@ -103,10 +104,16 @@ class BlockLanczos {
     projected_.conservativeResize(vectors_, vectors_);
     projected_.bottomRows(kBlock) = along.transpose();  // the solver reads the lower half alone
     coupling_ = orthonormalise(next_);
+    // Where the space is exhausted (bodies with many equal frequencies) that made vectors of mere
+    // rounding; they are as good a new start as any once they are orthogonal.
+    next_.noalias() -= basis * (basis.transpose() * next_).eval();
+    part_.remove_zero_modes(next_);
+    coupling_ = orthonormalise(next_) * coupling_;
   }
 
   bool converged() {
-    if (vectors_ < count_) return false;
+    // Looking costs the cube of the vectors: do so when there are a tenth more.
+    next_look_ = vectors_ + vectors_ / 10;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(projected_);
     theta_ = solver.eigenvalues().tail(count_).reverse();
     ritz_ = solver.eigenvectors().rightCols(count_).rowwise().reverse();
@@ -117,10 +124,7 @@ class BlockLanczos {
         (1 - part_.shift * theta_.array()).max(kLeastOfShift).inverse();
     residual_ = rest.cwiseQuotient(theta_).cwiseProduct(amplified);
     const auto done = (residual_.array() <= accuracy_).count();
-    if (done > reported_)
-      task_.advance(static_cast<std::uint64_t>(done - reported_));
-    else
-      task_.advance(0);  // lets the user interrupt
+    if (done > reported_) task_.advance(static_cast<std::uint64_t>(done - reported_));
     reported_ = std::max(reported_, done);
     return done == count_;
   }
@@ -140,6 +144,7 @@ class BlockLanczos {
   double accuracy_;
   Eigen::Index most_vectors_;
   Task task_;
+  Eigen::Index next_look_;
   Eigen::Index vectors_ = 0;
   Eigen::Index reported_ = 0;
   Eigen::MatrixXd basis_;      // orthonormal, the first vectors_ columns

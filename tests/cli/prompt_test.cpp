@@ -86,7 +86,8 @@ TEST_CASE("Tab completes names of the API, of values and of globals") {
   terminal.type("m.node_c\t\n");
   CHECK(terminal.shows("\n1"));
   terminal.type("s.s\t\t");
-  CHECK(terminal.shows("save  save_vdb  say  scenario  seed  simplify  stable_step  static_loads  stretch"));
+  CHECK(terminal.shows(
+      "save  save_vdb  say  scenario  seed  simplify  stable_step  static_loads  stretch"));
 }
 
 TEST_CASE("the prompt remembers its lines for the next session") {
