@@ -19,7 +19,7 @@ namespace {
 
 /// Shift over the bound of the largest squared frequency: far above rounding in the factors (1e-15)
 /// and below the softest modes.
-constexpr double kShift = 1e-11;
+constexpr double kShift = 1e-12;
 /// What the shift is raised by if a pivot is lost to rounding, and how often.
 constexpr double kRaise = 30;
 constexpr int kRaises = 3;

@@ -42,10 +42,11 @@ struct ElasticBody {
   std::uint32_t zero_mode_count() const;
 };
 
-/// Finds the zero modes of each part and factorises it with a shift too small to matter: 1e-11 of
-/// the square of the largest frequency, which bends of bars of a hundred nodes exceed 1e4 times.
+/// Finds the zero modes of each part and factorises it with a small shift: 1e-12 of the square
+/// of the largest frequency, which the bends of a bar a hundred times as long as thick still exceed
+/// a hundred times.
 ///
-/// 20k nodes as a cube: 4 s and 0.4 GB; time goes with N^2, storage with N^4/3.
+/// 20k nodes as a cube: 4 s and 0.7 GB; time goes with N^2, storage with N^4/3.
 /// Throws InputError for a model with more mechanisms than can be stored (hundreds, in a large
 /// part) and for stiffnesses so uneven that no small shift makes the matrix positive.
 ElasticBody elastic_body(const MassSpringModel& model, Progress* progress = nullptr);

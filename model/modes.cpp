@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -22,6 +23,8 @@ constexpr Eigen::Index kBlock = 8;
 constexpr Eigen::Index kDenseUnknowns = 240;
 /// Where the iteration runs out of room the dense solver takes over up to here (a minute).
 constexpr Eigen::Index kMostDenseUnknowns = 4000;
+/// Eigenvalues over the shift that rounding in the matrix still leaves something of.
+constexpr double kLeastOfShift = 1e-3;
 
 /// Modes of one part in its mass-weighted unknowns.
 struct PartSpectrum {
@@ -36,7 +39,7 @@ PartSpectrum solve_dense(const ElasticPart& part, Eigen::Index count) {
   const Eigen::Index zeros = part.zero_modes.cols();
   const Eigen::Index found = std::min(count, part.unknowns() - zeros);
   PartSpectrum spectrum;
-  spectrum.squared_frequency = solver.eigenvalues().segment(zeros, found);
+  spectrum.squared_frequency = solver.eigenvalues().segment(zeros, found).cwiseMax(0);
   spectrum.shapes = solver.eigenvectors().middleCols(zeros, found);
   const Eigen::MatrixXd rest =
       part.stiffness * spectrum.shapes - spectrum.shapes * spectrum.squared_frequency.asDiagonal();
@@ -52,10 +55,10 @@ class BlockLanczos {
       : part_(part),
         count_(count),
         accuracy_(options.accuracy),
-        // Smooth bodies need two to five vectors a mode; where the spectrum is dense, more.
-        most_vectors_(
-            std::min(20 * count + 200, part.unknowns() - part.zero_modes.cols() - kBlock)),
-        task_(options.progress, "iterating for modes", static_cast<std::uint64_t>(count)) {
+        // Most bodies need two to five vectors a mode.
+        most_vectors_(std::min(8 * count + 300, part.unknowns() - part.zero_modes.cols() - kBlock)),
+        task_(options.progress, "iterating for modes", static_cast<std::uint64_t>(count)),
+        next_look_(count) {
     next_ = random_block(part.unknowns(), kBlock, options.seed);
     part_.remove_zero_modes(next_);
     orthonormalise(next_);
@@ -65,7 +68,8 @@ class BlockLanczos {
   std::optional<PartSpectrum> run() {
     while (vectors_ + kBlock <= most_vectors_) {
       expand();
-      if (converged()) return spectrum();
+      task_.advance(0);  // lets the user interrupt
+      if (vectors_ >= next_look_ && converged()) return spectrum();
     }
     return std::nullopt;
   }
@@ -100,27 +104,34 @@ class BlockLanczos {
     projected_.conservativeResize(vectors_, vectors_);
     projected_.bottomRows(kBlock) = along.transpose();  // the solver reads the lower half alone
     coupling_ = orthonormalise(next_);
+    // Where the space is exhausted (bodies with many equal frequencies) that made vectors of mere
+    // rounding; they are as good a new start as any once they are orthogonal.
+    next_.noalias() -= basis * (basis.transpose() * next_).eval();
+    part_.remove_zero_modes(next_);
+    coupling_ = orthonormalise(next_) * coupling_;
   }
 
   bool converged() {
-    if (vectors_ < count_) return false;
+    // Looking costs the cube of the vectors: do so when there are a tenth more.
+    next_look_ = vectors_ + vectors_ / 10;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(projected_);
     theta_ = solver.eigenvalues().tail(count_).reverse();
     ritz_ = solver.eigenvectors().rightCols(count_).rowwise().reverse();
-    residual_ =
-        (coupling_ * ritz_.bottomRows(kBlock)).colwise().norm().transpose().cwiseQuotient(theta_);
+    const Eigen::VectorXd rest =
+        (coupling_ * ritz_.bottomRows(kBlock)).colwise().norm().transpose();
+    // What theta misses by counts for more in a lambda that is smaller than sigma.
+    const Eigen::VectorXd amplified =
+        (1 - part_.shift * theta_.array()).max(kLeastOfShift).inverse();
+    residual_ = rest.cwiseQuotient(theta_).cwiseProduct(amplified);
     const auto done = (residual_.array() <= accuracy_).count();
-    if (done > reported_)
-      task_.advance(static_cast<std::uint64_t>(done - reported_));
-    else
-      task_.advance(0);  // lets the user interrupt
+    if (done > reported_) task_.advance(static_cast<std::uint64_t>(done - reported_));
     reported_ = std::max(reported_, done);
     return done == count_;
   }
 
   PartSpectrum spectrum() const {
     PartSpectrum spectrum;
-    spectrum.squared_frequency = theta_.cwiseInverse().array() - part_.shift;
+    spectrum.squared_frequency = (theta_.cwiseInverse().array() - part_.shift).max(0.0);
     spectrum.residual = residual_;
     // One more product damps what is left of high frequencies, which weigh much in strains.
     spectrum.shapes = part_.solve_shifted(basis_.leftCols(vectors_) * ritz_);
@@ -133,6 +144,7 @@ class BlockLanczos {
   double accuracy_;
   Eigen::Index most_vectors_;
   Task task_;
+  Eigen::Index next_look_;
   Eigen::Index vectors_ = 0;
   Eigen::Index reported_ = 0;
   Eigen::MatrixXd basis_;      // orthonormal, the first vectors_ columns

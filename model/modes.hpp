@@ -20,7 +20,7 @@ struct ModeOptions {
 
 /// One way in which a body that nothing holds swings about rest.
 struct Mode {
-  double angular_frequency = 0;  ///< omega [rad/s] > 0
+  double angular_frequency = 0;  ///< omega [rad/s]
   /// A bound of the relative error of omega^2: the residual of the shifted inverse,
   /// |(D + sigma)^-1 y - theta y| / theta for the shape y in mass-weighted unknowns (of small
   /// parts, solved for densely, |D y - omega^2 y| / omega^2).
@@ -42,7 +42,7 @@ struct Modes {
 /// part by part; small parts by a dense solver. A frequency that more than 8 modes of one connected
 /// part share may be found too seldom.
 ///
-/// 20k nodes, 20 modes: some 7 s, of which 4 are the factorisation.
+/// 20k nodes, 20 modes: some 8 s, of which 4.5 are the factorisation.
 /// Throws InputError for a count of 0, an accuracy outside 1e-12..0.1, should the iteration not
 /// converge, and where elastic_body does.
 Modes lowest_modes(const MassSpringModel& model, const ModeOptions& options = {});

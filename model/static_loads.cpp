@@ -1,6 +1,8 @@
 #include "model/static_loads.hpp"
 
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,9 +11,12 @@
 namespace springlod {
 namespace {
 
-/// Rounds of refinement, each of which takes out what the shift (sigma / lambda of the error) and
-/// rounding did: two bring slender bars down to rounding as well.
-constexpr int kRefinements = 2;
+/// The shifted factors precondition conjugate gradients so well (eigenvalues lambda / (lambda +
+/// sigma)) that the second step only corrects rounding; bars a thousand times as long as thick,
+/// whose bends are as soft as the shift, take some more.
+constexpr int kMostSteps = 30;
+/// Step over solution at which a load is solved.
+constexpr double kSolved = 1e-12;
 
 void check(const ElasticBody& body, const StaticLoad& load) {
   if (load.force.size() != body.node_count)
@@ -23,26 +28,59 @@ void check(const ElasticBody& body, const StaticLoad& load) {
           fmt::format("static load {}: the force on node {} is not finite", load.name, i));
 }
 
+struct Solved {
+  Eigen::MatrixXd y;
+  Eigen::MatrixXd last_step;
+};
+
+/// D y = force by conjugate gradients, each column by itself but preconditioned together.
+Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force) {
+  Solved solved{Eigen::MatrixXd::Zero(force.rows(), force.cols()), force};
+  Eigen::MatrixXd rest = force;
+  Eigen::MatrixXd direction = part.solve_shifted(rest);
+  Eigen::VectorXd work = rest.cwiseProduct(direction).colwise().sum();
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::MatrixXd product = part.stiffness * direction;
+    bool done = true;
+    for (Eigen::Index c = 0; c < force.cols(); ++c) {
+      const double energy = direction.col(c).dot(product.col(c));
+      const double length = energy > 0 ? work[c] / energy : 0;
+      solved.last_step.col(c) = length * direction.col(c);
+      solved.y.col(c) += solved.last_step.col(c);
+      rest.col(c) -= length * product.col(c);
+      done = done && solved.last_step.col(c).norm() <= kSolved * solved.y.col(c).norm();
+    }
+    if (done) break;
+    const Eigen::MatrixXd preconditioned = part.solve_shifted(rest);
+    const Eigen::VectorXd next = rest.cwiseProduct(preconditioned).colwise().sum();
+    for (Eigen::Index c = 0; c < force.cols(); ++c)
+      direction.col(c) =
+          preconditioned.col(c) + (work[c] > 0 ? next[c] / work[c] : 0) * direction.col(c);
+    work = next;
+  }
+  return solved;
+}
+
+/// Sums of squares over the parts, for each load.
+struct Sizes {
+  Eigen::VectorXd solution, last_step;
+};
+
 void solve_part(const ElasticPart& part, const std::vector<StaticLoad>& loads,
-                std::vector<StaticSolution>& solutions, Eigen::VectorXd& squared_force,
-                Eigen::VectorXd& squared_rest) {
+                std::vector<StaticSolution>& solutions, Sizes& sizes) {
   const auto count = static_cast<Eigen::Index>(loads.size());
   Eigen::MatrixXd force(part.unknowns(), count);
   for (Eigen::Index c = 0; c < count; ++c)
     force.col(c) =
         part.gather(loads[static_cast<std::size_t>(c)].force).cwiseQuotient(part.root_mass);
   part.remove_zero_modes(force);
-  Eigen::MatrixXd y = part.solve_shifted(force);
-  for (int round = 0; round < kRefinements; ++round)
-    y += part.solve_shifted(force - part.stiffness * y);
-  Eigen::MatrixXd rest = force - part.stiffness * y;
-  part.remove_zero_modes(rest);
+  const auto [y, last_step] = solve_balanced(part, force);
+  sizes.solution += y.colwise().squaredNorm().transpose();
+  sizes.last_step += last_step.colwise().squaredNorm().transpose();
   for (Eigen::Index c = 0; c < count; ++c) {
     StaticSolution& solution = solutions[static_cast<std::size_t>(c)];
     part.scatter(y.col(c).cwiseQuotient(part.root_mass), solution.displacement);
     solution.compliance += force.col(c).dot(y.col(c));
-    squared_force[c] += force.col(c).squaredNorm();
-    squared_rest[c] += rest.col(c).squaredNorm();
   }
 }
 
@@ -105,18 +143,18 @@ std::vector<StaticLoad> smooth_loads(const MassSpringModel& model) {
 
 std::vector<StaticSolution> solve_static(const ElasticBody& body,
                                          const std::vector<StaticLoad>& loads) {
-  std::vector<StaticSolution> solutions(loads.size());
   for (const StaticLoad& load : loads) check(body, load);
+  std::vector<StaticSolution> solutions(loads.size());
+  if (loads.empty()) return solutions;
   for (StaticSolution& solution : solutions)
     solution.displacement.assign(body.node_count, Vec3::Zero());
-  Eigen::VectorXd squared_force = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(loads.size()));
-  Eigen::VectorXd squared_rest = squared_force;
-  for (const ElasticPart& part : body.parts)
-    solve_part(part, loads, solutions, squared_force, squared_rest);
-  for (std::size_t i = 0; i < loads.size(); ++i) {
-    const auto c = static_cast<Eigen::Index>(i);
-    if (squared_force[c] > 0) solutions[i].residual = std::sqrt(squared_rest[c] / squared_force[c]);
-  }
+  const auto count = static_cast<Eigen::Index>(loads.size());
+  Sizes sizes{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
+  for (const ElasticPart& part : body.parts) solve_part(part, loads, solutions, sizes);
+  for (Eigen::Index c = 0; c < count; ++c)
+    if (sizes.solution[c] > 0)
+      solutions[static_cast<std::size_t>(c)].residual =
+          std::sqrt(sizes.last_step[c] / sizes.solution[c]);
   return solutions;
 }
 

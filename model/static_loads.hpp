@@ -21,7 +21,9 @@ struct StaticSolution {
   std::vector<Vec3> displacement;
   /// Work of the balanced forces along the displacement, f.u [J]: twice the elastic energy.
   double compliance = 0;
-  double residual = 0;  ///< |f - K u| / |f|, mass-weighted, of the balanced forces
+  /// Size of the iteration's last step over that of the displacement, both weighted by mass: what
+  /// iterating on would change.
+  double residual = 0;
 };
 
 /// Nine smooth loads: "stretch x", "stretch y", "stretch z", "shear yz", "shear xz", "shear xy",
@@ -32,7 +34,8 @@ struct StaticSolution {
 std::vector<StaticLoad> smooth_loads(const MassSpringModel& model);
 
 /// K u = f for each load, with the rigid motions projected out: of the forces as the inertia of the
-/// accelerated body would balance them (f - M Z Z^T f), of the displacements by mass.
+/// accelerated body would balance them (f - M Z Z^T f), of the displacements by mass. Conjugate
+/// gradients, preconditioned by the factors of the body.
 /// Throws InputError for a load of another size than N or with forces that are not finite.
 std::vector<StaticSolution> solve_static(const ElasticBody& body,
                                          const std::vector<StaticLoad>& loads);

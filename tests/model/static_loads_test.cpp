@@ -61,6 +61,30 @@ TEST_CASE("Patch test: uniform stress on a corners bar strains it as the materia
   }
 }
 
+/// Work of unit moments that bend a bar of one cell across and `cells` along.
+StaticSolution bend_by_moments(int cells) {
+  const double a = 0.01;
+  const MassSpringModel bar = test::corners_box(1, 1, cells, a, 1e7, 1000);
+  StaticLoad load{"moments", std::vector<Vec3>(bar.node_count(), Vec3::Zero())};
+  for (std::uint32_t i = 0; i < bar.node_count(); ++i) {
+    const double side = bar.rest[i].x() > a / 2 ? 1 : -1;
+    if (bar.rest[i].z() < a / 2) load.force[i].z() = -side;
+    if (bar.rest[i].z() > (cells - 0.5) * a) load.force[i].z() = side;
+  }
+  return solve_static(elastic_body(bar), {load}).at(0);
+}
+
+TEST_CASE("A bar a thousand times as long as thick bends as its pieces do") {
+  // Its bends are about as soft as the shift of the factors, which alone would make it too stiff.
+  const StaticSolution bar = bend_by_moments(1000);
+  CHECK(bar.residual < 1e-12);
+  // Under a constant moment each cell adds the same; the ends are the same for all lengths.
+  const double end = bend_by_moments(20).compliance;
+  const double cell = (bend_by_moments(40).compliance - end) / 20;
+  // The matrix itself is known to 1e-16 of stiffnesses that are some 1e12 times those of bending.
+  CHECK(bar.compliance == Approx(end + 980 * cell).epsilon(1e-3));
+}
+
 std::vector<StaticLoad> random_loads(std::uint32_t nodes, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::vector<StaticLoad> loads(3);
