@@ -85,14 +85,8 @@ TEST_CASE("Tab completes names of the API, of values and of globals") {
   REQUIRE(terminal.shows("> "));
   terminal.type("m.node_c\t\n");
   CHECK(terminal.shows("\n1"));
-<<<<<<< HEAD
   terminal.type("s.st\t\t");
   CHECK(terminal.shows("stable_step  static_loads  statistics  stretch"));
-=======
-  terminal.type("s.s\t\t");
-  CHECK(terminal.shows(
-      "save  save_vdb  say  scenario  seed  simplify  stable_step  static_loads  stretch"));
->>>>>>> modes
 }
 
 TEST_CASE("the prompt remembers its lines for the next session") {
