@@ -47,6 +47,10 @@ class FactorSolver final : public BackwardEuler::LinearSolver {
   bool analysed_ = false;
 };
 
+Eigen::Index row_of(std::uint32_t node) {
+  return 3 * static_cast<Eigen::Index>(node);
+}
+
 }  // namespace
 
 BackwardEuler::BackwardEuler(const MassSpringModel& model, const Scenario& scenario,
@@ -74,7 +78,7 @@ void BackwardEuler::make_pattern() {
   std::vector<int> per_column(static_cast<std::size_t>(size));
   for (std::size_t i = 0; i < per_column.size(); ++i) per_column[i] = static_cast<int>(3 - i % 3);
   for (const std::uint32_t a : model_->a)
-    for (std::size_t d = 0; d < 3; ++d) per_column[3 * a + d] += 3;
+    for (std::size_t d = 0; d < 3; ++d) per_column[std::size_t{3} * a + d] += 3;
   matrix_.resize(size, size);
   matrix_.reserve(per_column);
   for (Eigen::Index i = 0; i < size; ++i)
@@ -89,8 +93,7 @@ void BackwardEuler::make_pattern() {
 
 void BackwardEuler::add_to_diagonal(std::uint32_t node, const Mat3& block) {
   for (int d = 0; d < 3; ++d) {
-    double* column =
-        matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * node + static_cast<unsigned>(d)];
+    double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[row_of(node) + d];
     for (int row = d; row < 3; ++row) column[row - d] += block(row, d);
   }
 }
@@ -113,10 +116,10 @@ void BackwardEuler::linearise(const std::vector<Vec3>& x) {
   std::fill(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros(), 0.0);
   for (std::uint32_t i = 0; i < model_->node_count(); ++i) {
     const double inertia = model_->mass[i] / (step_ * step_);
-    gradient_.segment<3>(3 * i) = inertia * (x[i] - free_[i]);
+    gradient_.segment<3>(row_of(i)) = inertia * (x[i] - free_[i]);
     add_to_diagonal(i, inertia * Mat3::Identity());
   }
-  std::uint32_t place = 0;  // of the spring among those of its a
+  std::ptrdiff_t place = 0;  // of the spring among those of its a
   for (std::uint32_t s = 0; s < model_->spring_count(); ++s) {
     const std::uint32_t a = model_->a[s];
     const std::uint32_t b = model_->b[s];
@@ -126,18 +129,18 @@ void BackwardEuler::linearise(const std::vector<Vec3>& x) {
     const double stretch = length - springs_.rest_length(s);
     const double across = stretch > 0 ? k * stretch / length : 0;
     const Mat3 block = (k - across) * unit * unit.transpose() + across * Mat3::Identity();
-    gradient_.segment<3>(3 * a) -= k * stretch * unit;
-    gradient_.segment<3>(3 * b) += k * stretch * unit;
+    gradient_.segment<3>(row_of(a)) -= k * stretch * unit;
+    gradient_.segment<3>(row_of(b)) += k * stretch * unit;
     add_to_diagonal(a, block);
     add_to_diagonal(b, block);
-    for (unsigned d = 0; d < 3; ++d) {
+    for (int d = 0; d < 3; ++d) {
       double* column =
-          matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * a + d] + (3 - d) + 3 * place;
-      for (int row = 0; row < 3; ++row) column[row] -= block(row, static_cast<int>(d));
+          matrix_.valuePtr() + matrix_.outerIndexPtr()[row_of(a) + d] + (3 - d) + 3 * place;
+      for (int row = 0; row < 3; ++row) column[row] -= block(row, d);
     }
   }
   for (const Contact& c : trial_contacts_) {
-    gradient_.segment<3>(3 * c.node) -= c.normal_force * c.normal;
+    gradient_.segment<3>(row_of(c.node)) -= c.normal_force * c.normal;
     if (c.normal_force > 0)
       add_to_diagonal(c.node, c.implicit_stiffness(step_) * c.normal * c.normal.transpose());
   }
@@ -145,14 +148,15 @@ void BackwardEuler::linearise(const std::vector<Vec3>& x) {
 
 bool BackwardEuler::descend() {
   constexpr double kSufficient = 1e-4;  // Armijo's part of the slope
-  constexpr double kShortest = 1e-6;    // of Newton's way: below it rounding decides
+  constexpr int kHalvings = 20;         // of Newton's way: below that rounding decides
   const Eigen::VectorXd way = solver_->solve(matrix_, -gradient_);
   spring_updates_ += solver_->passes() * model_->spring_count();
   const double slope = gradient_.dot(way);
   if (!(slope < 0)) return false;
-  for (double part = 1; part > kShortest; part /= 2) {
+  double part = 1;
+  for (int halving = 0; halving < kHalvings; ++halving, part /= 2) {
     for (std::uint32_t i = 0; i < model_->node_count(); ++i)
-      trial_[i] = x_next_[i] + part * way.segment<3>(3 * i);
+      trial_[i] = x_next_[i] + part * way.segment<3>(row_of(i));
     const double reached = energy(trial_);
     if (reached <= energy_ + kSufficient * part * slope) {
       energy_ = reached;
