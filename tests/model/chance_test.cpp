@@ -32,7 +32,7 @@ TEST_CASE("a stream repeats by seed and differs by stream") {
   CHECK(equal == 0);
 }
 
-TEST_CASE("numbers below a count are equally frequent, and units fill [0, 1)") {
+TEST_CASE("numbers below a count are equally frequent, and units fill 0 up to 1") {
   ChanceStream chance(1);
   constexpr int kDraws = 70000;
   std::array<int, 7> hits{};
