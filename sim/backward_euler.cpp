@@ -183,8 +183,7 @@ void BackwardEuler::solve() {
     if (iteration == 0) scale = std::max(std::sqrt(scale), gradient_.norm());
     if (gradient_.norm() <= tolerance_ * scale || !descend()) break;
   }
-  for (std::size_t i = 0; i < x_.size(); ++i) v_next_[i] = (x_next_[i] - x_[i]) / step_;
-  if (with_ledger_) lost_damping_ += springs_.damping_loss(x_next_);
+  finish_implicit(springs_);
 }
 
 }  // namespace springlod

@@ -202,9 +202,9 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Run
 
 double predicted_step(const MassSpringModel& model, const Scenario& scenario,
                       Integrator integrator) {
+  if (is_implicit(integrator)) return std::numeric_limits<double>::infinity();
   FrequencyOptions contact;
   contact.ground_stiffness = contact_stiffness(model, scenario.obstacles);
-  if (is_implicit(integrator)) return std::numeric_limits<double>::infinity();
   const double omega = largest_frequency(model, contact);
   if (!(omega > 0)) return std::numeric_limits<double>::infinity();
   double damping_time = largest_damping_time(model);

@@ -26,6 +26,11 @@ void WholeStep::prepare() {
     next_losses_.lost_contact -= step_ * c.damping_force * c.normal.dot(v_next_[c.node]);
 }
 
+void WholeStep::finish_implicit(const ImplicitSprings& springs) {
+  for (std::size_t i = 0; i < x_.size(); ++i) v_next_[i] = (x_next_[i] - x_[i]) / step_;
+  if (with_ledger_) lost_damping_ += springs.damping_loss(x_next_);
+}
+
 void WholeStep::add_friction() {
   apply_friction(*model_, step_, next_contacts_, v_next_);
   for (const Contact& c : next_contacts_) {

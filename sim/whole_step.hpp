@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/implicit_springs.hpp"
 #include "sim/stepper.hpp"
 
 namespace springlod {
@@ -32,6 +33,9 @@ class WholeStep : public Stepper {
   /// From x_ and v_ to x_next_ and v_next_, without friction. Adds to spring_updates_ and, with a
   /// ledger, to lost_damping_.
   virtual void solve() = 0;
+  /// How every implicit scheme ends its solve(): v_next_ is that of the way to x_next_, on which
+  /// damping takes its part.
+  void finish_implicit(const ImplicitSprings& springs);
 
   bool with_ledger_;
   std::vector<Vec3> v_;                // at x_

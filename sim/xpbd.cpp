@@ -67,8 +67,7 @@ void Xpbd::solve() {
     sweep_springs();
     sweep_contacts();
   }
-  for (std::size_t i = 0; i < x_.size(); ++i) v_next_[i] = (x_next_[i] - x_[i]) / step_;
-  if (with_ledger_) lost_damping_ += springs_.damping_loss(x_next_);
+  finish_implicit(springs_);
 }
 
 }  // namespace springlod
