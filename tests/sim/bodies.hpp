@@ -73,6 +73,14 @@ inline MassSpringModel rods() {
   return build_lattice(grid, {.style = LatticeStyle::centers}).model;
 }
 
+/// Neither gravity nor obstacles.
+inline Scenario weightless(double duration) {
+  Scenario scene;
+  scene.gravity = Vec3::Zero();
+  scene.duration = duration;
+  return scene;
+}
+
 inline Obstacle floor(double kappa, double friction) {
   Obstacle obstacle;
   obstacle.shape = Plane{Vec3::UnitZ(), 0};

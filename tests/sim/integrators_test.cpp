@@ -26,15 +26,8 @@ MassSpringModel stretched_pair(double beta) {
   return m;
 }
 
-Scenario weightless(double duration) {
-  Scenario scene;
-  scene.gravity = Vec3::Zero();
-  scene.duration = duration;
-  return scene;
-}
-
 double stretch_after(const RunOptions& options, double beta, double duration) {
-  const Trajectory t = run(stretched_pair(beta), weightless(duration), options);
+  const Trajectory t = run(stretched_pair(beta), bodies::weightless(duration), options);
   return (t.final.x[1] - t.final.x[0]).norm() - 1;
 }
 
@@ -124,7 +117,7 @@ TEST_CASE("Backward Euler gives the same by conjugate gradients and by factoriza
 TEST_CASE("Swept to convergence, XPBD and projective dynamics are backward Euler") {
   MassSpringModel model = test::random_model(3, 3);
   for (double& k : model.stiffness) k *= 1e4;  // k dt^2 / m of some 25: work for the iterations
-  Scenario scene = weightless(0.05);
+  Scenario scene = bodies::weightless(0.05);
   scene.start.spin = {3, 1, 2};
   RunOptions options = with(Integrator::backward_euler_direct, 0.005);
   options.solver.tolerance = 1e-12;
@@ -146,7 +139,7 @@ TEST_CASE("Swept to convergence, XPBD and projective dynamics are backward Euler
 
 TEST_CASE("Implicit schemes stay bounded at any step, and lose energy") {
   const MassSpringModel model = bodies::rods();
-  Scenario scene = weightless(1);
+  Scenario scene = bodies::weightless(1);
   scene.start.spin = {4, 2, 1};
   const double explicit_limit = predicted_step(model, scene);
   for (const Integrator integrator :
@@ -174,7 +167,7 @@ TEST_CASE("Runge-Kutta is stable below its predicted step and diverges above it"
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
     model.damping[s] = beta * model.stiffness[s];
   model.rest[0].x() += 1e-4;  // something to swing
-  Scenario scene = weightless(1);
+  Scenario scene = bodies::weightless(1);
   const double limit = predicted_step(model, scene, Integrator::runge_kutta_4);
   scene.duration = 10000 * limit;
   CHECK_NOTHROW(run(model, scene, with(Integrator::runge_kutta_4, 0.97 * limit)));

@@ -37,13 +37,6 @@ MassSpringModel pair_of_nodes(double damping_time, double area = 0) {
 }
 
 /// Stretched by 1 % and let go: half of the amplitude at either end.
-Scenario weightless(double duration) {
-  Scenario scene;
-  scene.gravity = Vec3::Zero();
-  scene.duration = duration;
-  return scene;
-}
-
 MassSpringModel stretched(MassSpringModel m, double by) {
   m.rest[1].x() += by;
   return m;
@@ -92,7 +85,7 @@ TEST_CASE("In free flight the centre of mass lies on the parabola to rounding") 
 
 TEST_CASE("Momentum and angular momentum are kept to rounding without gravity and contact") {
   const auto model = bodies::rods();
-  Scenario scene = weightless(1);
+  Scenario scene = bodies::weightless(1);
   scene.start.velocity = {3, 1, 4};
   scene.start.spin = {10, 50, 20};  // hard enough to bend the joint far
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::velocity_verlet);
@@ -111,7 +104,7 @@ TEST_CASE("Two nodes on a spring swing at the frequency of theory") {
   const double period = 2 * std::numbers::pi / kOmega;
   const double step = period / 200;
   const auto model = stretched(pair_of_nodes(0), 0.01);
-  const auto t = run(model, weightless(20 * period),
+  const auto t = run(model, bodies::weightless(20 * period),
                      {.integrator = integrator, .step = step, .frame_rate = 1 / step});
   // Leapfrog swings a little fast: omega' = (2/dt) asin(omega dt / 2), exactly.
   const double omega = 2 / step * std::asin(kOmega * step / 2);
@@ -134,7 +127,7 @@ TEST_CASE("A damped spring loses its swing at the rate of theory") {
   const double damped_omega = std::sqrt(kOmega * kOmega - decay * decay);
   const auto model = stretched(pair_of_nodes(damping_time), 0.01);
   const auto deviation = [&](Integrator integrator, double step) {
-    const auto t = run(model, weightless(5 * period),
+    const auto t = run(model, bodies::weightless(5 * period),
                        {.integrator = integrator, .step = step, .frame_rate = 20 / period});
     double worst = 0;
     for (const Frame& frame : t.frames) {
@@ -216,7 +209,7 @@ TEST_CASE("The ledger of a coarsely stepped bounce closes to rounding, with and 
 TEST_CASE("Without damping a bounce on the floor gives the speed back") {
   // Both nodes hit at once, so the spring stays out of it: 1/2 m v^2 against 1/2 kappa A d^2.
   auto model = pair_of_nodes(0, 0.01);
-  Scenario scene = weightless(0.2);
+  Scenario scene = bodies::weightless(0.2);
   scene.obstacles = {bodies::floor(1e6, 0)};
   scene.start.placed = true;
   scene.start.position = {0, 0, 0.1};
