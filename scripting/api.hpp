@@ -114,6 +114,7 @@ std::vector<std::string> undocumented(const Api& api);
 void describe_session(Api& api);
 void describe_model(Api& api);
 void describe_voxelize(Api& api);
+void describe_random(Api& api);  // of voxelize too; called by describe_voxelize
 void describe_lod(Api& api);
 void describe_sim(Api& api);
 void describe_render(Api& api);

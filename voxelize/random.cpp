@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "model/error.hpp"
+#include "model/point_bins.hpp"
 #include "model/stiffness.hpp"
 #include "model/surface_stretch.hpp"
-#include "voxelize/point_bins.hpp"
 #include "voxelize/random_nodes.hpp"
 #include "voxelize/random_springs.hpp"
 #include "voxelize/random_stiffness.hpp"

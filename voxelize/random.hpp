@@ -14,10 +14,10 @@ inline constexpr std::uint32_t kLeastRandomEnds = 14;
 
 struct RandomOptions {
   /// Nodes to place; left out: as many as `spacing` asks for.
-  std::optional<std::uint32_t> nodes;
+  std::optional<std::uint32_t> nodes{};
   /// Edge of the cube that a node stands for [m]: volume / spacing^3 nodes. Both left out: the edge
   /// of a cell.
-  std::optional<double> spacing;
+  std::optional<double> spacing{};
   /// Spring ends a node on average (18: as many as a node inside a lattice has), at least 14. As
   /// nodes of the surface must have 14 too, the mean of a model that is mostly surface comes out
   /// higher than 14.

@@ -9,8 +9,8 @@
 
 #include "model/chance.hpp"
 #include "model/error.hpp"
+#include "model/point_bins.hpp"
 #include "voxelize/index_lookup.hpp"
-#include "voxelize/point_bins.hpp"
 
 namespace springlod {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "model/chance.hpp"
 #include "model/error.hpp"
-#include "voxelize/point_bins.hpp"
+#include "model/point_bins.hpp"
 #include "voxelize/random_springs.hpp"
 #include "voxelize/random_stiffness.hpp"
 

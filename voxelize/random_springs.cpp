@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "model/point_bins.hpp"
 #include "voxelize/index_lookup.hpp"
-#include "voxelize/point_bins.hpp"
 
 namespace springlod {
 namespace {

@@ -1,4 +1,4 @@
-#include "voxelize/point_bins.hpp"
+#include "model/point_bins.hpp"
 
 #include <limits>
 #include <numeric>

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "model/vec.hpp"
-#include "voxelize/index_lookup.hpp"
 
 namespace springlod {
 
@@ -16,13 +16,14 @@ namespace springlod {
 /// then those of the nearest image.
 class PointBins {
  public:
+  static constexpr auto kNoPoint = std::numeric_limits<std::uint32_t>::max();
   enum class Edges { closed, periodic };
   /// `bin` is the edge of a bin aimed at [m]: about the distance of neighbouring points is best.
   PointBins(const std::vector<Vec3>& points, const Box3& box, double bin,
             Edges edges = Edges::closed);
 
   struct Near {
-    std::uint32_t point = kNoIndex;  ///< kNoIndex if there are no points
+    std::uint32_t point = kNoPoint;  ///< kNoPoint if there are none
     Vec3 offset = Vec3::Zero();      ///< from the point to the place asked for [m]
   };
   /// Of points equally near the lower number counts.
