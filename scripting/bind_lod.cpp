@@ -217,6 +217,7 @@ void describe_lod(Api& api) {
                  "local soft_first = s.simplify(base, {grouping = function(a, b)\n"
                  "  return a.material == b.material and 0 or math.huge\nend})",
       .call = simplify_binding});
+  describe_refill(api);
 }
 
 }  // namespace springlod

@@ -112,20 +112,26 @@ int refill_binding(Call& call) {
   return call.give(std::shared_ptr<const LodAsset>(asset));
 }
 
+Parameter ends_option() {
+  return {.name = "ends",
+          .type = "number",
+          .fallback = fmt::format("{}", RandomOptions{}.ends),
+          .help =
+              "ends of springs a node on average, at least 14; every node of a random model has "
+              "14"};
+}
+
+Parameter seed_option() {
+  return {.name = "seed",
+          .type = "integer",
+          .fallback = "s.seed",
+          .help = "of the random places; the same seed gives the same bits"};
+}
+
 }  // namespace
 
 void describe_random(Api& api) {
   const RandomOptions usual;
-  const Parameter ends{.name = "ends",
-                       .type = "number",
-                       .fallback = fmt::format("{}", usual.ends),
-                       .help =
-                           "ends of springs a node on average, at least 14; every node of a "
-                           "random model has 14"};
-  const Parameter seed{.name = "seed",
-                       .type = "integer",
-                       .fallback = "s.seed",
-                       .help = "of the random places; the same seed gives the same bits"};
   api.add(FunctionEntry{
       .name = "random",
       .group = "From mesh to model",
@@ -140,8 +146,8 @@ void describe_random(Api& api) {
                    .dimension = Dimension::length,
                    .fallback = "the grid's cell",
                    .help = "edge of the cube that a node stands for"},
-                  ends,
-                  seed,
+                  ends_option(),
+                  seed_option(),
                   {.name = "rescale",
                    .type = "boolean",
                    .fallback = usual.rescale ? "true" : "false",
@@ -152,6 +158,9 @@ void describe_random(Api& api) {
       .errors = "An empty grid, fewer than 15 nodes or 14 ends, more nodes than there is room for.",
       .example = "local base = s.random(grid, {nodes = 1000, seed = 1})",
       .call = random_binding});
+}
+
+void describe_refill(Api& api) {
   api.add(FunctionEntry{
       .name = "refill",
       .group = "Levels of detail",
@@ -171,8 +180,8 @@ void describe_random(Api& api) {
                    .fallback = "\"corners\"",
                    .help = "where the nodes of a lattice sit, as in s.lattice",
                    .choices = {"corners", "centers"}},
-                  ends,
-                  seed},
+                  ends_option(),
+                  seed_option()},
       .returns = "LodChain: each base node belongs to the nearest node of a level",
       .errors = "A level that would be no coarser than the one before.",
       .example = "local chain = s.refill(base, grid, {nodes = {161, 78}, style = \"random\"})",

@@ -18,8 +18,8 @@ namespace {
 // Cells tried, as parts of the edge of the cube that a node would stand for: `corners` has more
 // nodes than cells, so its cells are larger. Steps of 1 % miss no count of a small body.
 constexpr double kSmallestTried = 0.6;
-constexpr double kLargestTried = 2.5;
 constexpr double kStep = 1.01;
+constexpr int kTries = 144;  // up to 2.5
 
 struct GridSums {
   double volume = 0;
@@ -158,8 +158,9 @@ MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes,
   const double even = std::cbrt(target.volume / nodes);
   MaterialGrid best;
   std::size_t least_off = std::numeric_limits<std::size_t>::max();
-  for (double part = kSmallestTried; part < kLargestTried; part *= kStep) {
-    MaterialGrid tried = resampled(grid, lookup, target.box, part * even);
+  for (int i = 0; i < kTries; ++i) {
+    const double cell = kSmallestTried * even * std::pow(kStep, i);
+    MaterialGrid tried = resampled(grid, lookup, target.box, cell);
     if (tried.cells.empty()) continue;
     const std::size_t count = node_count(tried, style);
     const std::size_t off = count > nodes ? count - nodes : nodes - count;
