@@ -88,9 +88,9 @@ class Darts {
   std::vector<std::uint32_t> next_;  // dart before it in the bin
 };
 
-std::vector<std::uint32_t> shuffled(std::size_t count, const Chance& chance, std::uint64_t what) {
+std::vector<std::uint32_t> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t what) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(count);
-  for (std::uint32_t i = 0; i < count; ++i) keys[i] = {chance.bits(what, i), i};
+  for (std::uint32_t i = 0; i < count; ++i) keys[i] = {mix(mix(mix(seed) ^ what) ^ i), i};
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint32_t> order(count);
   for (std::size_t i = 0; i < count; ++i) order[i] = keys[i].second;
@@ -105,8 +105,8 @@ class Placing {
         samples_(samples),
         lookup_(grid.cells),
         nodes_(nodes),
-        outer_order_(shuffled(samples.outer.size(), Chance(seed), 1)),
-        inner_order_(shuffled(samples.inner.size(), Chance(seed), 2)) {}
+        outer_order_(shuffled(samples.outer.size(), seed, 1)),
+        inner_order_(shuffled(samples.inner.size(), seed, 2)) {}
 
   RandomNodes run(Progress* progress) {
     Task task(progress, "placing nodes", kHalvings + kRelaxations);

@@ -26,14 +26,14 @@ Vec3 shortest(Vec3 offset) {
 }
 
 std::vector<Vec3> best_candidates(std::uint32_t count, std::uint64_t seed) {
-  const Chance chance(seed);
+  ChanceStream chance(seed);
   std::vector<Vec3> nodes;
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::uint32_t i = 0; i < count; ++i) {
     Vec3 best = Vec3::Zero();
     double most = -1;
-    for (std::uint64_t c = 0; c < kCandidates; ++c) {
-      const std::uint64_t draw = 3 * (kCandidates * i + c);
-      const Vec3 place(chance.uniform(draw), chance.uniform(draw + 1), chance.uniform(draw + 2));
+    for (std::uint32_t c = 0; c < kCandidates; ++c) {
+      Vec3 place;
+      for (double& x : place) x = chance.unit();
       double nearest = 3;
       for (const Vec3& node : nodes)
         nearest = std::min(nearest, shortest(node - place).squaredNorm());

@@ -77,6 +77,9 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.stretch(base, {axis = "x"}).young > 0)
     assert(s.zero_modes(chain[1])[1].zero_modes == 6)
     assert(s.stable_step(chain[0]) > 0)
+    assert(s.estimate(base).young > 0)
+    assert(s.random(grid, {nodes = 120}).node_count == 120)
+    assert(s.refill(base, grid, {nodes = 60, style = "random"})[1].node_count == 60)
     assert(s.quantity("5 mm", "length") == 0.005)
     assert(s.is_folder(folder) and #s.files(folder, {endings = {".obj"}}) == 1)
     s.model{nodes = {{0, 0, 0, mass = 1}}}
