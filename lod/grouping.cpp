@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "model/chance.hpp"
 #include "model/error.hpp"
 
 namespace springlod {
@@ -22,17 +23,10 @@ constexpr double kGradientWeight = 4;
 // equal lengths differ in their last bits, and rounding must not choose the groups.
 constexpr double kTieFraction = 1e-9;
 
-// SplitMix64 finalizer (Steele et al. 2014): a random number that depends on nothing but what is
-// asked, so that no order of evaluation can change it.
-std::uint64_t mix(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
 enum class Draw : std::uint64_t { order = 1, size = 2, tie = 3 };
 
+// A random number that depends on nothing but what is asked, so that no order of evaluation can
+// change it.
 class Chance {
  public:
   explicit Chance(std::uint64_t seed) : seed_(mix(seed)) {}

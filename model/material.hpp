@@ -19,8 +19,9 @@ struct Material {
   std::string name;
   double young = 1e6;     ///< Young's modulus E [Pa] > 0
   double density = 1000;  ///< rho [kg/m3] > 0
-  /// Damping time beta = c/k [s] >= 0. A mode of angular frequency w has the damping ratio beta w / 2:
-  /// by default 6 % at 100 Hz, where a soft body that fits a hand moves. Explicit steps pay for more.
+  /// Damping time beta = c/k [s] >= 0. A mode of angular frequency w has the damping ratio beta w /
+  /// 2: by default 6 % at 100 Hz, where a soft body that fits a hand moves. Explicit steps pay for
+  /// more.
   double damping = 0.0002;
   Colour colour{};
   bool operator==(const Material&) const = default;

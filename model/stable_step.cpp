@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include <Eigen/Eigenvalues>
 #include <Spectra/SymEigsSolver.h>
 #include <fmt/format.h>
 
 #include "model/error.hpp"
+#include "model/random_block.hpp"
 
 namespace springlod {
 namespace {
@@ -71,14 +71,6 @@ class MassWeightedStiffness {
   std::vector<double> ground_;       // [1/s2]
 };
 
-Eigen::VectorXd seeded_vector(Eigen::Index size, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  Eigen::VectorXd v(size);
-  // Halves of the range of integers: the same numbers with every standard library.
-  for (double& x : v) x = static_cast<double>(random() >> 11) * 0x1p-53 - 0.5;
-  return v;
-}
-
 double largest_eigenvalue_dense(const MassWeightedStiffness& op) {
   Eigen::MatrixXd matrix(op.rows(), op.rows());
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(op.rows());
@@ -96,7 +88,7 @@ double largest_eigenvalue_dense(const MassWeightedStiffness& op) {
 double largest_eigenvalue_lanczos(const MassWeightedStiffness& op, std::uint64_t seed) {
   MassWeightedStiffness copy = op;  // Spectra takes a mutable reference
   Spectra::SymEigsSolver<MassWeightedStiffness> solver(copy, 1, kKrylovVectors);
-  solver.init(seeded_vector(op.rows(), seed).eval().data());
+  solver.init(random_block(op.rows(), 1, seed).data());
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (solver.compute(Spectra::SortRule::LargestAlge, kMaxRestarts, kResidualTolerance) < 1)
     return kInfinity;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -10,6 +9,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "model/error.hpp"
+#include "model/random_block.hpp"
 #include "model/rigid_pieces.hpp"
 
 namespace springlod {
@@ -191,11 +191,7 @@ class ZeroModes {
   /// Random motions with all but the zero modes, and of these the rigid ones, filtered out.
   static Eigen::MatrixXd mechanism_motions(const Eigen::SparseMatrix<double>& stiffness,
                                            const Eigen::MatrixXd& rigid) {
-    std::mt19937_64 random(1);
-    Eigen::MatrixXd motion(stiffness.rows(), kProbes);
-    for (Eigen::Index c = 0; c < motion.cols(); ++c)
-      for (Eigen::Index r = 0; r < motion.rows(); ++r)
-        motion(r, c) = static_cast<double>(random() >> 11) * 0x1p-53 - 0.5;
+    Eigen::MatrixXd motion = random_block(stiffness.rows(), kProbes, 1);
     Factor factor;
     factor.setShift(kZero);
     factor.compute(stiffness);

@@ -1,9 +1,11 @@
 #include "report/comparison_tables.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
+
+#include "report/statistics.hpp"
 
 namespace springlod {
 
@@ -18,11 +20,9 @@ double mean_over(const LevelRuns& runs, Get get) {
 
 double distance_spread(const LevelRuns& runs) {
   if (runs.starts.size() < 2) return 0;
-  const double mean = mean_over(runs, [](const StartResult& s) { return s.distance; });
-  const double squares =
-      mean_over(runs, [&](const StartResult& s) { return std::pow(s.distance - mean, 2); });
-  const auto count = static_cast<double>(runs.starts.size());
-  return std::sqrt(squares * count / (count - 1));
+  std::vector<double> distances;
+  for (const StartResult& start : runs.starts) distances.push_back(start.distance);
+  return standard_deviation(distances);
 }
 
 double largest_ledger_error(const LevelRuns& runs) {

@@ -113,6 +113,7 @@ std::vector<std::string> undocumented(const Api& api);
 // One a bind_*.cpp: adds what scripts can do with that folder.
 void describe_session(Api& api);
 void describe_model(Api& api);
+void describe_elastic(Api& api);
 void describe_voxelize(Api& api);
 void describe_random(Api& api);  // of voxelize too, called by describe_voxelize
 void describe_refill(Api& api);  // likewise, called by describe_lod: it makes levels
@@ -120,5 +121,6 @@ void describe_lod(Api& api);
 void describe_sim(Api& api);
 void describe_render(Api& api);
 void describe_report(Api& api);
+void describe_statistics(Api& api);
 
 }  // namespace springlod

@@ -25,12 +25,21 @@ std::vector<Parameter> run_parameters() {
   return {{.name = "integrator",
            .type = "one of",
            .fallback = "\"symplectic_euler\"",
-           .help = "explicit scheme",
-           .choices = {"symplectic_euler", "velocity_verlet"}},
+           .help = "how a step is made; the first three are explicit, the others go on at any step",
+           .choices = {"symplectic_euler", "velocity_verlet", "runge_kutta_4", "backward_euler_cg",
+                       "backward_euler_direct", "xpbd", "projective_dynamics"}},
+          {.name = "iterations",
+           .type = "integer",
+           .fallback = "20 of Newton, 1 sweep of xpbd, 10 of projective_dynamics",
+           .help = "of the implicit schemes, a step"},
+          {.name = "tolerance",
+           .type = "number",
+           .fallback = fmt::format("{}", usual.solver.tolerance),
+           .help = "part of the forces at which backward Euler stops iterating"},
           {.name = "step",
            .type = "quantity",
            .dimension = Dimension::time,
-           .fallback = "safety times the predicted stable step",
+           .fallback = "safety times the predicted stable step; 1 ms for the implicit schemes",
            .help = "time step"},
           {.name = "safety",
            .type = "number",
@@ -49,7 +58,14 @@ std::vector<Parameter> run_parameters() {
 void read_run_options(Call& call, TableReader& reader, RunOptions& options) {
   reader.choose("integrator", options.integrator,
                 {{"symplectic_euler", Integrator::symplectic_euler},
-                 {"velocity_verlet", Integrator::velocity_verlet}});
+                 {"velocity_verlet", Integrator::velocity_verlet},
+                 {"runge_kutta_4", Integrator::runge_kutta_4},
+                 {"backward_euler_cg", Integrator::backward_euler_cg},
+                 {"backward_euler_direct", Integrator::backward_euler_direct},
+                 {"xpbd", Integrator::xpbd},
+                 {"projective_dynamics", Integrator::projective_dynamics}});
+  reader.read("iterations", options.solver.iterations);
+  reader.read("tolerance", options.solver.tolerance);
   reader.read("step", options.step);
   reader.read("safety", options.safety);
   reader.read("frame_rate", options.frame_rate);

@@ -101,10 +101,12 @@ std::unique_ptr<Api> make_api() {
   describe_session(*api);
   describe_voxelize(*api);
   describe_model(*api);
+  describe_elastic(*api);
   describe_lod(*api);
   describe_sim(*api);
   describe_render(*api);
   describe_report(*api);
+  describe_statistics(*api);
   describe_errors(*api);
   return api;
 }

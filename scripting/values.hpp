@@ -7,6 +7,7 @@
 #include "model/binding.hpp"
 #include "model/chain.hpp"
 #include "model/mesh.hpp"
+#include "report/noise_floor.hpp"
 #include "scripting/value.hpp"
 #include "sim/compare.hpp"
 #include "sim/run.hpp"
@@ -67,6 +68,9 @@ struct ComparisonValue {
 };
 template <>
 inline constexpr const char* kValueName<ComparisonValue> = "Comparison";
+
+template <>
+inline constexpr const char* kValueName<NoiseFloor> = "NoiseFloor";
 
 /// Level `level` of a chain as a model.
 std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const LodAsset>& chain,

@@ -22,6 +22,7 @@ Contact make_contact(const Obstacle& obstacle, std::uint32_t node, double area, 
   contact.node = node;
   contact.depth = depth;
   contact.stiffness = obstacle.stiffness * area;
+  contact.damping = obstacle.damping;
   contact.friction = obstacle.friction;
   contact.normal = normal;
   const double elastic = contact.stiffness * depth;

@@ -16,9 +16,13 @@ struct Contact {
   double stiffness = 0;             ///< kappa A [N/m]
   double normal_force = 0;          ///< kappa A (d + damping * rate of d), cut off at 0 [N]
   double damping_force = 0;         ///< the part of normal_force that is not kappa A d [N]
+  double damping = 0;               ///< contact damping time [s]
   double friction = 0;              ///< mu
   Vec3 normal = Vec3::UnitZ();      ///< out of the obstacle
   Vec3 slip_change = Vec3::Zero();  ///< what friction took from the node's velocity [m/s]
+
+  /// Change of normal_force with depth where the rate is that of a step of length dt [N/m].
+  double implicit_stiffness(double step) const { return stiffness * (1 + damping / step); }
 };
 
 /// Finds which nodes touch the obstacles. It keeps, for every node and box, from which side of each

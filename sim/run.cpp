@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -11,8 +12,9 @@
 #include "model/error.hpp"
 #include "model/stable_step.hpp"
 #include "sim/contact.hpp"
-#include "sim/integrate.hpp"
 #include "sim/kernel.hpp"
+#include "sim/runge_kutta.hpp"
+#include "sim/stepper.hpp"
 
 namespace springlod {
 namespace {
@@ -25,6 +27,9 @@ constexpr std::uint64_t kLookEvery = 16;
 // A step is not longer than this part of the duration [1], so that a body without any stiffness has
 // a trajectory too.
 constexpr double kLongestStep = 0.01;
+
+// Schemes without a limit take steps that follow contacts and the swing of whole bodies [s].
+constexpr double kImplicitStep = 1e-3;
 
 // The kinetic energy of the half-step velocities may exceed what is there by
 // 1 / (1 - (omega dt / 2)^2): 50 if all of it were in the top mode at 0.99 of the limit. [1]
@@ -39,13 +44,17 @@ void validate(const RunOptions& options) {
         fmt::format("run: step = {} must be a finite number of seconds above 0", *options.step));
   if (!(options.safety > 0 && options.safety <= 1))
     throw InputError(fmt::format("run: safety = {} must lie in (0, 1]", options.safety));
+  if (!(options.solver.tolerance > 0 && options.solver.tolerance < 1))
+    throw InputError(
+        fmt::format("run: tolerance = {} must lie in (0, 1)", options.solver.tolerance));
   if (!(std::isfinite(options.frame_rate) && options.frame_rate >= 0))
     throw InputError(
         fmt::format("run: frame_rate = {} must be 0 or more frames a second", options.frame_rate));
 }
 
 double default_step(const RunOptions& options, double predicted, double duration) {
-  const double longest = std::min(options.safety * predicted, kLongestStep * duration);
+  double longest = std::min(options.safety * predicted, kLongestStep * duration);
+  if (is_implicit(options.integrator)) longest = std::min(longest, kImplicitStep);
   return duration / std::ceil(duration / longest);
 }
 
@@ -54,14 +63,14 @@ class EnergyWatch {
  public:
   /// `start`: after the first kick. Its v+ count, not the ledger's v- . v+, which is negative for a
   /// body released at rest.
-  EnergyWatch(const MassSpringModel& model, const Leapfrog& start)
+  EnergyWatch(const MassSpringModel& model, const Stepper& start)
       : rounding_(kRoundingStrain * kRoundingStrain * spring_work(model)) {
     std::uint32_t node = 0;
     available_ = start.kinetic_after(&node) + elastic_energy(model, start.positions()) +
                  contact_energy(start.contacts());
   }
 
-  void look(const Leapfrog& body, double gravity_work) {
+  void look(const Stepper& body, double gravity_work) {
     std::uint32_t node = 0;
     const double kinetic = body.kinetic_after(&node);
     if (!std::isfinite(kinetic)) throw_not_finite(body);
@@ -77,7 +86,7 @@ class EnergyWatch {
   }
 
  private:
-  [[noreturn]] static void throw_not_finite(const Leapfrog& body) {
+  [[noreturn]] static void throw_not_finite(const Stepper& body) {
     const State state = body.state();
     std::uint32_t node = 0;
     while (node + 1 < state.x.size() && state.x[node].allFinite() && state.v[node].allFinite())
@@ -97,7 +106,7 @@ class EnergyWatch {
 class StopWatch {
  public:
   explicit StopWatch(const std::optional<StopRule>& rule) : rule_(rule) {}
-  bool look(const Leapfrog& body) {
+  bool look(const Stepper& body) {
     if (!rule_) return false;
     if (body.center_velocity().norm() >= rule_->speed) last_fast_ = body.time();
     return body.time() - last_fast_ >= rule_->hold;
@@ -115,14 +124,14 @@ class Recorder {
       : rate_(frame_rate), ledger_(ledger), trajectory_(&trajectory) {}
 
   /// All frames that fall into the step that `body` is about to take.
-  void record(const Leapfrog& body, double step) {
+  void record(const Stepper& body, double step) {
     while (next_time() < body.time() + step) {
       keep(next_time(), body);
       ++count_;
     }
   }
   /// The last state, unless it is a frame already.
-  void record_end(const Leapfrog& body, double step) {
+  void record_end(const Stepper& body, double step) {
     // Steps and frame times are rounded differently: what lies this close is the same instant.
     const double same = 1e-6 * step;
     auto& frames = trajectory_->frames;
@@ -139,7 +148,7 @@ class Recorder {
     return rate_ > 0 ? static_cast<double>(count_) / rate_
                      : std::numeric_limits<double>::infinity();
   }
-  void keep(double time, const Leapfrog& body) {
+  void keep(double time, const Stepper& body) {
     trajectory_->frames.push_back({time, body.positions_at(time)});
     if (ledger_) trajectory_->ledger.push_back(body.ledger_entry());
   }
@@ -150,18 +159,20 @@ class Recorder {
   std::uint64_t count_ = 0;
 };
 
-template <bool with_ledger>
 void integrate(const MassSpringModel& model, const Scenario& scenario, const RunOptions& options,
                Trajectory& trajectory) {
   const double step = trajectory.step;
   // A duration that is a whole number of steps must not get one more from rounding.
   const auto last_step = static_cast<std::uint64_t>(std::ceil(scenario.duration / step - 1e-6));
-  Leapfrog body(model, scenario, initial_state(model, scenario.start), options.integrator, step);
-  Recorder recorder(options.frame_rate, with_ledger, trajectory);
+  const std::unique_ptr<Stepper> stepper = make_stepper(
+      model, scenario, initial_state(model, scenario.start), step,
+      {.integrator = options.integrator, .solver = options.solver, .ledger = options.ledger});
+  Stepper& body = *stepper;
+  Recorder recorder(options.frame_rate, options.ledger, trajectory);
   StopWatch stop(scenario.stop);
   Task task(options.progress, "simulate", last_step);
 
-  body.kick<with_ledger>();
+  body.prepare();
   EnergyWatch watch(model, body);
   const Vec3 weight = scenario.gravity * std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
   const Vec3 first_center = body.center_of_mass();
@@ -175,15 +186,15 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Run
       task.advance(std::min(kLookEvery, last_step - body.step_number()));
     }
     recorder.record(body, step);
-    body.drift<with_ledger>();
-    body.kick<with_ledger>();
+    body.commit();
+    body.prepare();
   }
   watch.look(body, weight.dot(body.center_of_mass() - first_center));
   recorder.record_end(body, step);
 
   trajectory.final = body.state();
   trajectory.steps = body.step_number();
-  trajectory.spring_updates = body.step_number() * model.spring_count();
+  trajectory.spring_updates = body.spring_updates();
   trajectory.simulated = body.time();
 }
 
@@ -193,11 +204,13 @@ double predicted_step(const MassSpringModel& model, const Scenario& scenario,
                       Integrator integrator) {
   FrequencyOptions contact;
   contact.ground_stiffness = contact_stiffness(model, scenario.obstacles);
+  if (is_implicit(integrator)) return std::numeric_limits<double>::infinity();
   const double omega = largest_frequency(model, contact);
   if (!(omega > 0)) return std::numeric_limits<double>::infinity();
   double damping_time = largest_damping_time(model);
   for (const Obstacle& obstacle : scenario.obstacles)
     damping_time = std::max(damping_time, obstacle.damping);
+  if (integrator == Integrator::runge_kutta_4) return runge_kutta_stable_step(omega, damping_time);
   return stable_step(omega,
                      integrator == Integrator::velocity_verlet ? 2 * damping_time : damping_time);
 }
@@ -211,10 +224,7 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Run
   trajectory.predicted_step = predicted_step(model, scenario, options.integrator);
   trajectory.step =
       options.step.value_or(default_step(options, trajectory.predicted_step, scenario.duration));
-  if (options.ledger)
-    integrate<true>(model, scenario, options, trajectory);
-  else
-    integrate<false>(model, scenario, options, trajectory);
+  integrate(model, scenario, options, trajectory);
   trajectory.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return trajectory;

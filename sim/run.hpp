@@ -7,16 +7,17 @@
 
 #include "model/mass_spring.hpp"
 #include "model/progress.hpp"
+#include "sim/integrator.hpp"
 #include "sim/ledger.hpp"
 #include "sim/scenario.hpp"
 
 namespace springlod {
 
-enum class Integrator { symplectic_euler, velocity_verlet };
-
 struct RunOptions {
   Integrator integrator = Integrator::symplectic_euler;
-  /// Step [s]; left out: `safety` times the predicted stable step, contact stiffness included.
+  SolverOptions solver = {};  ///< for the implicit schemes
+  /// Step [s]; left out: 1 ms for the implicit schemes, for the others `safety` times the predicted
+  /// stable step, contact stiffness included.
   std::optional<double> step = std::nullopt;
   double safety = 0.8;
   /// Frames kept a second of simulated time; 0: only the first and last state.
@@ -36,7 +37,9 @@ struct Trajectory {
   double step = 0;            ///< [s]
   double predicted_step = 0;  ///< stable step predicted for the model and its contacts [s]
   std::uint64_t steps = 0;
-  std::uint64_t spring_updates = 0;     ///< steps x springs: the deterministic measure of cost
+  /// Springs evaluated, in every step and iteration: the deterministic measure of cost. (A sparse
+  /// factorization, of which it knows nothing, counts as one pass.)
+  std::uint64_t spring_updates = 0;
   double simulated = 0;                 ///< [s]; below the duration if a stop rule ended the run
   double wall_seconds = 0;              ///< measured; never part of a result that must repeat
   std::vector<Frame> frames;            ///< at the frame times, first and last included
@@ -47,7 +50,8 @@ struct Trajectory {
 
 /// Stable step of the model under the scenario [s]: see stable_step, with the contact stiffness of
 /// the nodes with an area added to the springs and the largest damping time of springs and
-/// obstacles; velocity Verlet counts damping twice (see Leapfrog). Infinite if nothing is stiff.
+/// obstacles; velocity Verlet counts damping twice (see Leapfrog), Runge-Kutta has its own limit.
+/// Infinite for the implicit schemes and if nothing is stiff.
 double predicted_step(const MassSpringModel& model, const Scenario& scenario,
                       Integrator integrator = Integrator::symplectic_euler);
 

@@ -346,9 +346,8 @@ std::string describe(const ImportReport& report) {
   const char* up = kAxes[static_cast<std::size_t>(report.up)];
   std::string text;
   if (report.unit_assumed)
-    text +=
-        fmt::format("assumed 1 unit = {:g} m ({} does not say; the option unit changes it)\n",
-                    report.unit, report.format);
+    text += fmt::format("assumed 1 unit = {:g} m ({} does not say; the option unit changes it)\n",
+                        report.unit, report.format);
   else
     text += fmt::format("1 unit = {:g} m\n", report.unit);
   if (report.up_assumed)

@@ -271,7 +271,8 @@ TEST_CASE("vertices that are not finite and meshes without faces are refused") {
 TEST_CASE("the report says in words what was assumed") {
   const Folder folder;
   const std::string assumed = describe(import_mesh(write_box(folder)).report);
-  CHECK_THAT(assumed, Contains("assumed 1 unit = 1 m (OBJ does not say; use unit = \"mm\""));
+  CHECK_THAT(assumed,
+             Contains("assumed 1 unit = 1 m (OBJ does not say; the option unit changes it)"));
   CHECK_THAT(assumed, Contains("assumed z is up"));
   const std::string given =
       describe(import_mesh(write_box(folder), {.unit = 0.001, .up = UpAxis::y}).report);

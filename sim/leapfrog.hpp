@@ -3,10 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/mass_spring.hpp"
-#include "sim/contact.hpp"
-#include "sim/ledger.hpp"
-#include "sim/run.hpp"
+#include "sim/stepper.hpp"
 
 namespace springlod {
 
@@ -26,52 +23,35 @@ namespace springlod {
 ///   d = beta omega^2 dt; the Jury conditions for the other roots are weaker).
 /// Without damping the two are the same. The start v_{-1/2} = v_0 - dt/2 F(x_0, v_0)/m makes both
 /// second order in the elastic forces and puts x_n of a free flight exactly on the parabola.
-class Leapfrog {
+class Leapfrog final : public Stepper {
  public:
-  Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
-           Integrator integrator, double step);
+  Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
+           const StepperOptions& options);
 
-  /// Takes v- to v+ at x_n and, with a ledger, books the first half of the step's losses.
-  template <bool with_ledger>
-  void kick();
-  /// Takes x_n to x_{n+1} and books the second half.
-  template <bool with_ledger>
-  void drift();
+  /// Kick: takes v- to v+ at x_n and books the first half of the step's losses.
+  void prepare() override;
+  /// Drift: takes x_n to x_{n+1} and books the second half.
+  void commit() override;
 
-  std::uint64_t step_number() const { return n_; }
-  double time() const { return static_cast<double>(n_) * step_; }
-
-  // Valid between kick and drift.
-  const std::vector<Vec3>& positions() const { return x_; }
-  const std::vector<Contact>& contacts() const { return contacts_; }
+  std::uint64_t spring_updates() const override { return n_ * model_->spring_count(); }
   /// x_n + (t - t_n) v+
-  std::vector<Vec3> positions_at(double time) const;
+  std::vector<Vec3> positions_at(double time) const override;
   /// x_n and the mean of v- and v+.
-  State state() const;
-  Vec3 center_of_mass() const;
-  Vec3 center_velocity() const;  ///< from v+
+  State state() const override;
   /// The energies of this instant and the losses so far; see ledger.hpp for what is exact.
-  LedgerEntry ledger_entry() const;
-  /// Sum of m v+ . v+ / 2 [J], and the node that has most of it.
-  double kinetic_after(std::uint32_t* fastest) const;
+  LedgerEntry ledger_entry() const override;
 
  private:
+  const std::vector<Vec3>& velocities_after() const override { return v_plus_; }
   void find_forces(bool with_damping);
   /// Half of a step's losses, with the velocity v- (to_neighbour = -dt) or v+ (dt).
   void book_half_step(const std::vector<Vec3>& v, double to_neighbour);
 
-  const MassSpringModel* model_;
-  Vec3 gravity_;
   Integrator integrator_;
-  double step_;
-  std::uint64_t n_ = 0;
-  double total_mass_ = 0;
-  Vec3 first_center_;
-  std::vector<Vec3> x_, v_minus_, v_plus_;
+  bool with_ledger_;
+  std::vector<Vec3> v_minus_, v_plus_;
   std::vector<Vec3> v_damping_;  // w_n; unused by symplectic Euler
   std::vector<Vec3> force_, damping_force_;
-  ContactFinder finder_;
-  std::vector<Contact> contacts_;
   LedgerEntry losses_;
 };
 

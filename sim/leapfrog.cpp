@@ -1,4 +1,4 @@
-#include "sim/integrate.hpp"
+#include "sim/leapfrog.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,20 +8,15 @@
 namespace springlod {
 
 Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
-                   Integrator integrator, double step)
-    : model_(&model),
-      gravity_(scenario.gravity),
-      integrator_(integrator),
-      step_(step),
-      x_(start.x),
+                   double step, const StepperOptions& options)
+    : Stepper(model, scenario, start, step),
+      integrator_(options.integrator),
+      with_ledger_(options.ledger),
       v_minus_(start.v),
       v_plus_(start.v),
       v_damping_(start.v),
       force_(start.x.size()),
-      damping_force_(start.x.size(), Vec3::Zero()),
-      finder_(model, scenario.obstacles, start.x) {
-  for (const double mass : model.mass) total_mass_ += mass;
-  first_center_ = center_of_mass();
+      damping_force_(start.x.size(), Vec3::Zero()) {
   find_forces(false);
   for (std::size_t i = 0; i < x_.size(); ++i)
     v_minus_[i] -= 0.5 * step_ * (force_[i] / model.mass[i] + gravity_);
@@ -41,19 +36,16 @@ void Leapfrog::find_forces(bool with_damping) {
   add_normal_forces(contacts_, force_);
 }
 
-template <bool with_ledger>
-void Leapfrog::kick() {
-  find_forces(with_ledger);
+void Leapfrog::prepare() {
+  find_forces(with_ledger_);
   for (std::size_t i = 0; i < x_.size(); ++i)
     v_plus_[i] = v_minus_[i] + step_ * (force_[i] / model_->mass[i] + gravity_);
   apply_friction(*model_, step_, contacts_, v_plus_);
-  if constexpr (with_ledger)
-    if (n_ > 0) book_half_step(v_minus_, -step_);
+  if (with_ledger_ && n_ > 0) book_half_step(v_minus_, -step_);
 }
 
-template <bool with_ledger>
-void Leapfrog::drift() {
-  if constexpr (with_ledger) book_half_step(v_plus_, step_);
+void Leapfrog::commit() {
+  if (with_ledger_) book_half_step(v_plus_, step_);
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += step_ * v_plus_[i];
   if (integrator_ == Integrator::velocity_verlet)
     for (std::size_t i = 0; i < x_.size(); ++i)
@@ -61,11 +53,6 @@ void Leapfrog::drift() {
   std::swap(v_minus_, v_plus_);
   ++n_;
 }
-
-template void Leapfrog::kick<true>();
-template void Leapfrog::kick<false>();
-template void Leapfrog::drift<true>();
-template void Leapfrog::drift<false>();
 
 void Leapfrog::book_half_step(const std::vector<Vec3>& v, double to_neighbour) {
   double damping = 0;
@@ -95,41 +82,15 @@ State Leapfrog::state() const {
   return state;
 }
 
-Vec3 Leapfrog::center_of_mass() const {
-  Vec3 moment = Vec3::Zero();
-  for (std::size_t i = 0; i < x_.size(); ++i) moment += model_->mass[i] * x_[i];
-  return moment / total_mass_;
-}
-
-Vec3 Leapfrog::center_velocity() const {
-  Vec3 momentum = Vec3::Zero();
-  for (std::size_t i = 0; i < x_.size(); ++i) momentum += model_->mass[i] * v_plus_[i];
-  return momentum / total_mass_;
-}
-
 LedgerEntry Leapfrog::ledger_entry() const {
   LedgerEntry entry = losses_;
   entry.time = time();
   for (std::size_t i = 0; i < x_.size(); ++i)
     entry.kinetic += 0.5 * model_->mass[i] * v_minus_[i].dot(v_plus_[i]);
   entry.elastic = elastic_energy(*model_, x_);
-  entry.gravity = -total_mass_ * gravity_.dot(center_of_mass() - first_center_);
+  entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);
   return entry;
-}
-
-double Leapfrog::kinetic_after(std::uint32_t* fastest) const {
-  double sum = 0;
-  double most = -1;
-  for (std::uint32_t i = 0; i < x_.size(); ++i) {
-    const double kinetic = 0.5 * model_->mass[i] * v_plus_[i].squaredNorm();
-    sum += kinetic;
-    if (kinetic > most) {
-      most = kinetic;
-      *fastest = i;
-    }
-  }
-  return sum;
 }
 
 }  // namespace springlod

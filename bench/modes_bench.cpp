@@ -1,0 +1,62 @@
+// How long the elastic analysis of 20k nodes takes on one core. Run by ./dev bench.
+
+#include <benchmark/benchmark.h>
+
+#include "model/elastic_body.hpp"
+#include "model/modes.hpp"
+#include "model/static_loads.hpp"
+#include "voxelize/lattice.hpp"
+
+namespace {
+
+using namespace springlod;
+
+/// A block of three materials, layer upon layer, soft between stiff.
+MassSpringModel block(int nx, int ny, int nz) {
+  MaterialGrid grid;
+  grid.cell = 0.01;
+  grid.materials = {Material{.name = "steel", .young = 1e7, .density = 2000},
+                    Material{.name = "rubber", .young = 2e5}, Material{.name = "wood"}};
+  for (int z = 0; z < nz; ++z)
+    for (int y = 0; y < ny; ++y)
+      for (int x = 0; x < nx; ++x) {
+        grid.cells.push_back({x, y, z});
+        grid.material.push_back(static_cast<std::uint16_t>(3 * z / nz));
+      }
+  grid.depth.assign(grid.cells.size(), 0);
+  return build_lattice(grid).model;
+}
+
+// A cube, which fills in most of all bodies, and a plate: 19,683 and 20,412 nodes.
+MassSpringModel cube() {
+  return block(26, 26, 26);
+}
+MassSpringModel plate() {
+  return block(80, 41, 5);
+}
+
+void factorise(benchmark::State& state, const MassSpringModel& model) {
+  for (auto _ : state) benchmark::DoNotOptimize(elastic_body(model).parts.size());
+  state.counters["nodes"] = model.node_count();
+}
+
+void twenty_modes(benchmark::State& state, const MassSpringModel& model) {
+  for (auto _ : state) benchmark::DoNotOptimize(lowest_modes(model).modes.size());
+  state.counters["nodes"] = model.node_count();
+}
+
+void nine_loads(benchmark::State& state, const MassSpringModel& model) {
+  const ElasticBody body = elastic_body(model);
+  const std::vector<StaticLoad> loads = smooth_loads(model);
+  for (auto _ : state) benchmark::DoNotOptimize(solve_static(body, loads).size());
+  state.counters["nodes"] = model.node_count();
+}
+
+BENCHMARK_CAPTURE(factorise, cube_20k, cube())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(twenty_modes, cube_20k, cube())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(twenty_modes, plate_20k, plate())->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(nine_loads, cube_20k, cube())->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,174 @@
+#include "model/elastic_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+#include "model/random_block.hpp"
+#include "model/stable_step.hpp"
+#include "model/stiffness.hpp"
+#include "model/zero_modes.hpp"
+
+namespace springlod {
+namespace {
+
+/// Shift over the bound of the largest squared frequency: far above rounding in the factors (1e-15)
+/// and below the softest modes.
+constexpr double kShift = 1e-12;
+/// What the shift is raised by if a pivot is lost to rounding, and how often.
+constexpr double kRaise = 30;
+constexpr int kRaises = 3;
+/// Numbers in the zero modes of one part that are still stored [8 bytes each].
+constexpr double kMostStored = 5e7;
+
+/// The part as a model of its own, as far as stiffness and mass go.
+MassSpringModel part_model(const MassSpringModel& model, const std::vector<std::uint32_t>& nodes,
+                           const std::vector<std::uint32_t>& springs,
+                           const std::vector<std::uint32_t>& place) {
+  MassSpringModel part;
+  for (const std::uint32_t i : nodes) {
+    part.rest.push_back(model.rest[i]);
+    part.mass.push_back(model.mass[i]);
+    part.volume.push_back(model.volume[i]);
+  }
+  for (const std::uint32_t s : springs) {
+    part.a.push_back(place[model.a[s]]);
+    part.b.push_back(place[model.b[s]]);
+    part.stiffness.push_back(model.stiffness[s]);
+  }
+  return part;
+}
+
+/// Orthonormal rigid motions in mass-weighted unknowns: three translations and the `rotations`
+/// turns about principal axes that move the part (2 for a straight line, 0 for a single node).
+Eigen::MatrixXd rigid_motions(const MassSpringModel& part, const Eigen::VectorXd& root_mass,
+                              Eigen::Index rotations) {
+  const MassProperties whole = mass_properties(part);
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(whole.inertia);  // moments in rising order
+  Eigen::MatrixXd motions(root_mass.size(), 3 + rotations);
+  for (std::uint32_t i = 0; i < part.node_count(); ++i) {
+    const auto row = 3 * static_cast<Eigen::Index>(i);
+    motions.block<3, 3>(row, 0) = Mat3::Identity() * root_mass[row] / std::sqrt(whole.mass);
+    for (Eigen::Index d = 0; d < rotations; ++d) {
+      const Vec3 axis = principal.eigenvectors().col(2 - d);
+      const double moment = principal.eigenvalues()[2 - d];
+      motions.block<3, 1>(row, 3 + d) =
+          axis.cross(part.rest[i] - whole.center) * root_mass[row] / std::sqrt(moment);
+    }
+  }
+  return motions;
+}
+
+void factorise(ElasticPart& part, const MassSpringModel& model, Progress* progress) {
+  const double bound = frequency_bound(model);
+  part.shift = bound > 0 ? kShift * bound * bound : 1;
+  for (int attempt = 0; attempt <= kRaises; ++attempt, part.shift *= kRaise) {
+    Eigen::SparseMatrix<double> shifted = part.stiffness;
+    for (Eigen::Index i = 0; i < part.unknowns(); ++i) shifted.coeffRef(i, i) += part.shift;
+    part.factor = std::make_shared<const SparseCholesky>(shifted, model.rest, progress);
+    if (part.factor->positive()) return;
+  }
+  throw InputError(
+      fmt::format("elastic analysis: the stiffness of the part at node {} cannot be factorised; "
+                  "its springs or masses differ too much",
+                  part.nodes.front()));
+}
+
+/// Inverse iteration: what the springs do not resist outgrows all else by lambda / sigma a pass.
+void find_mechanisms(ElasticPart& part, Eigen::Index count) {
+  constexpr int kPasses = 3;
+  constexpr std::uint64_t kSeed = 1;  // any start finds the same space
+  Eigen::MatrixXd motions = random_block(part.unknowns(), count, kSeed);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    motions = part.solve_shifted(motions);
+    motions = Eigen::HouseholderQR<Eigen::MatrixXd>(motions).householderQ() *
+              Eigen::MatrixXd::Identity(part.unknowns(), count);
+  }
+  part.remove_zero_modes(motions);
+  part.zero_modes.conservativeResize(Eigen::NoChange, part.zero_modes.cols() + count);
+  part.zero_modes.rightCols(count) = motions;
+}
+
+ElasticPart make_part(const MassSpringModel& model, std::vector<std::uint32_t> nodes,
+                      const PartModes& found, Progress* progress) {
+  ElasticPart part;
+  part.nodes = std::move(nodes);
+  part.root_mass.resize(3 * static_cast<Eigen::Index>(model.node_count()));
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    part.root_mass.segment<3>(3 * static_cast<Eigen::Index>(i))
+        .setConstant(std::sqrt(model.mass[i]));
+  if (static_cast<double>(found.zero_modes) * static_cast<double>(part.unknowns()) > kMostStored)
+    throw InputError(
+        fmt::format("elastic analysis: the part at node {} has {} zero modes, too many to store; "
+                    "zero_modes tells which nodes hang loose",
+                    part.nodes.front(), found.zero_modes));
+  const Eigen::VectorXd weight = part.root_mass.cwiseInverse();
+  part.stiffness = weight.asDiagonal() * stiffness_matrix(model) * weight.asDiagonal();
+  part.zero_modes =
+      rigid_motions(model, part.root_mass, static_cast<Eigen::Index>(found.expected) - 3);
+  factorise(part, model, progress);
+  if (found.zero_modes > found.expected)
+    find_mechanisms(part, static_cast<Eigen::Index>(found.zero_modes - found.expected));
+  return part;
+}
+
+}  // namespace
+
+void ElasticPart::remove_zero_modes(Eigen::MatrixXd& y) const {
+  // Twice is enough to take them out to rounding.
+  for (int pass = 0; pass < 2; ++pass) y -= zero_modes * (zero_modes.transpose() * y).eval();
+}
+
+Eigen::MatrixXd ElasticPart::solve_shifted(const Eigen::MatrixXd& b) const {
+  Eigen::MatrixXd y = b;
+  remove_zero_modes(y);
+  y = factor->solve(y);
+  remove_zero_modes(y);
+  return y;
+}
+
+Eigen::VectorXd ElasticPart::gather(const std::vector<Vec3>& of_model) const {
+  Eigen::VectorXd y(unknowns());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    y.segment<3>(3 * static_cast<Eigen::Index>(i)) = of_model[nodes[i]];
+  return y;
+}
+
+void ElasticPart::scatter(const Eigen::VectorXd& of_part, std::vector<Vec3>& of_model) const {
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    of_model[nodes[i]] = of_part.segment<3>(3 * static_cast<Eigen::Index>(i));
+}
+
+std::uint32_t ElasticBody::zero_mode_count() const {
+  std::uint32_t count = 0;
+  for (const ElasticPart& part : parts) count += static_cast<std::uint32_t>(part.zero_modes.cols());
+  return count;
+}
+
+ElasticBody elastic_body(const MassSpringModel& model, Progress* progress) {
+  const Components components = connected_components(model);
+  const std::vector<PartModes> found = zero_modes(model);
+  std::vector<std::vector<std::uint32_t>> nodes(components.count), springs(components.count);
+  std::vector<std::uint32_t> place(model.node_count());
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    std::vector<std::uint32_t>& of_part = nodes[components.of_node[i]];
+    place[i] = static_cast<std::uint32_t>(of_part.size());
+    of_part.push_back(i);
+  }
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+    springs[components.of_node[model.a[s]]].push_back(s);
+
+  ElasticBody body;
+  body.node_count = model.node_count();
+  for (std::uint32_t p = 0; p < components.count; ++p)
+    body.parts.push_back(
+        make_part(part_model(model, nodes[p], springs[p], place), nodes[p], found[p], progress));
+  return body;
+}
+
+}  // namespace springlod

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "model/mass_spring.hpp"
+#include "model/progress.hpp"
+#include "model/sparse_cholesky.hpp"
+
+namespace springlod {
+
+/// One connected part of a model that nothing holds, ready to be solved with: n nodes, 3n unknowns
+/// y = M^1/2 u, in which the stiffness is D = M^-1/2 K M^-1/2 [1/s2] and modes are orthonormal.
+struct ElasticPart {
+  std::vector<std::uint32_t> nodes;              ///< n, rising
+  Eigen::VectorXd root_mass;                     ///< sqrt(m) of each unknown [kg^1/2], 3n
+  Eigen::SparseMatrix<double> stiffness;         ///< D, 3n x 3n, both halves
+  Eigen::MatrixXd zero_modes;                    ///< 3n x z, orthonormal: rigid motions, mechanisms
+  double shift = 0;                              ///< sigma [1/s2] > 0
+  std::shared_ptr<const SparseCholesky> factor;  ///< of D + sigma I
+
+  Eigen::Index unknowns() const { return root_mass.size(); }
+  /// Takes the zero modes out of each column of y.
+  void remove_zero_modes(Eigen::MatrixXd& y) const;
+  /// (D + sigma I)^-1 b without zero modes, for each column of b.
+  Eigen::MatrixXd solve_shifted(const Eigen::MatrixXd& b) const;
+  /// The 3n numbers of this part's nodes, out of N vectors of the model.
+  Eigen::VectorXd gather(const std::vector<Vec3>& of_model) const;
+  /// The other way; leaves the nodes of other parts alone.
+  void scatter(const Eigen::VectorXd& of_part, std::vector<Vec3>& of_model) const;
+};
+
+/// A model factorised once for all that is asked about its elasticity: modes, static loads.
+/// Treat as immutable.
+struct ElasticBody {
+  std::uint32_t node_count = 0;
+  std::vector<ElasticPart> parts;  ///< by their lowest node
+  std::uint32_t zero_mode_count() const;
+};
+
+/// Finds the zero modes of each part and factorises it with a small shift: 1e-12 of the square
+/// of the largest frequency, which the bends of a bar a hundred times as long as thick still exceed
+/// a hundred times.
+///
+/// 20k nodes as a cube: 4 s and 0.7 GB; time goes with N^2, storage with N^4/3.
+/// Throws InputError for a model with more mechanisms than can be stored (hundreds, in a large
+/// part) and for stiffnesses so uneven that no small shift makes the matrix positive.
+ElasticBody elastic_body(const MassSpringModel& model, Progress* progress = nullptr);
+
+}  // namespace springlod

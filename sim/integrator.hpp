@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+namespace springlod {
+
+/// How a run goes from one step to the next.
+enum class Integrator {
+  symplectic_euler,       ///< explicit; first order in damping
+  velocity_verlet,        ///< explicit; second order, limit of twice the damping time
+  runge_kutta_4,          ///< explicit, classical; four force evaluations a step
+  backward_euler_cg,      ///< implicit; Newton's systems by conjugate gradients
+  backward_euler_direct,  ///< implicit; Newton's systems by sparse factorization
+  xpbd,                   ///< extended position based dynamics (Macklin, Mueller, Chentanez 2016)
+  projective_dynamics,    ///< Bouaziz, Martin, Liu, Kavan, Pauly 2014
+};
+
+/// Whether the step is not bound by the model's highest frequency.
+bool is_implicit(Integrator integrator);
+
+/// For the schemes that iterate.
+struct SolverOptions {
+  /// Newton iterations at most (backward Euler), sweeps over all springs (XPBD), local-global
+  /// iterations (projective dynamics); 0: 20, 1 (small steps rather than sweeps: Macklin et al.
+  /// 2019) and 10.
+  std::uint32_t iterations = 0;
+  /// Backward Euler stops once the forces left are this part of those at the start of the step [1].
+  double tolerance = 1e-6;
+};
+
+}  // namespace springlod

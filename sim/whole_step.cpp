@@ -1,0 +1,65 @@
+#include "sim/whole_step.hpp"
+
+#include <utility>
+
+#include "sim/kernel.hpp"
+
+namespace springlod {
+
+WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, const State& start,
+                     double step, const StepperOptions& options)
+    : Stepper(model, scenario, start, step),
+      with_ledger_(options.ledger),
+      v_(start.v),
+      x_next_(start.x),
+      v_next_(start.v),
+      friction_moves_(is_implicit(options.integrator)) {
+  finder_.find(x_, v_, contacts_);
+}
+
+void WholeStep::prepare() {
+  solve();
+  finder_.find(x_next_, v_next_, next_contacts_);
+  add_friction();
+  next_losses_.lost_damping = lost_damping_;
+  for (const Contact& c : next_contacts_)
+    next_losses_.lost_contact -= step_ * c.damping_force * c.normal.dot(v_next_[c.node]);
+}
+
+void WholeStep::add_friction() {
+  apply_friction(*model_, step_, next_contacts_, v_next_);
+  for (const Contact& c : next_contacts_) {
+    if (friction_moves_) x_next_[c.node] += step_ * c.slip_change;
+    // The kinetic energy before less that after.
+    next_losses_.lost_friction -=
+        model_->mass[c.node] * c.slip_change.dot(v_next_[c.node] - 0.5 * c.slip_change);
+  }
+}
+
+void WholeStep::commit() {
+  std::swap(x_, x_next_);
+  std::swap(v_, v_next_);
+  std::swap(contacts_, next_contacts_);
+  losses_ = next_losses_;
+  ++n_;
+}
+
+std::vector<Vec3> WholeStep::positions_at(double time) const {
+  const double part = (time - this->time()) / step_;
+  std::vector<Vec3> x = x_;
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += part * (x_next_[i] - x_[i]);
+  return x;
+}
+
+LedgerEntry WholeStep::ledger_entry() const {
+  LedgerEntry entry = losses_;
+  entry.time = time();
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    entry.kinetic += 0.5 * model_->mass[i] * v_[i].squaredNorm();
+  entry.elastic = elastic_energy(*model_, x_);
+  entry.gravity = gravity_energy();
+  entry.contact = contact_energy(contacts_);
+  return entry;
+}
+
+}  // namespace springlod
