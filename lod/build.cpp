@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "lod/merge.hpp"
 #include "model/error.hpp"
 
 namespace springlod {
@@ -13,7 +12,8 @@ std::string told_from(const SimplifyOptions& options) {
   std::string grouping = to_string(g.grouping);
   if (options.groups) grouping = "groups of the script";
   if (g.pair_cost || g.node_priority) grouping = "function of the script";
-  return fmt::format("{}, border {}, seed {}{}", grouping, to_string(g.border), g.seed,
+  return fmt::format("{}, border {}, seed {}{}{}", grouping, to_string(g.border), g.seed,
+                     options.mass == MassRule::proximity ? ", mass by proximity" : "",
                      options.guards ? "" : ", no guards");
 }
 
@@ -46,6 +46,7 @@ LodChain simplify(const MassSpringModel& base, const SimplifyOptions& options) {
   chain.levels.push_back({base, identity_groups(base.node_count()), "base"});
   for (std::uint32_t level = 1; level <= options.levels; ++level) {
     chain.levels.push_back(next_level(chain.levels.back(), options, level));
+    if (options.mass == MassRule::proximity) share_by_proximity(base, chain.levels.back().model);
     task.advance();
   }
   return chain;

@@ -5,6 +5,7 @@
 
 #include "lod/grouping.hpp"
 #include "lod/guard.hpp"
+#include "lod/merge.hpp"
 #include "model/chain.hpp"
 #include "model/progress.hpp"
 
@@ -17,6 +18,7 @@ using GroupMaker =
 struct SimplifyOptions {
   std::uint32_t levels = 2;
   GroupingOptions grouping{};
+  MassRule mass = MassRule::proportional;
   bool guards = true;
   GuardOptions guard{};   ///< its border rule is taken from `grouping`
   GroupMaker groups{};    ///< optional

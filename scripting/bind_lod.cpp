@@ -39,6 +39,8 @@ int simplify_binding(Call& call) {
       {{"none", BorderRule::none}, {"weak", BorderRule::weak}, {"strong", BorderRule::strong}});
   options.grouping.seed = call.session().settings().seed;
   reader.read("seed", options.grouping.seed);
+  reader.choose("mass", options.mass,
+                {{"proportional", MassRule::proportional}, {"proximity", MassRule::proximity}});
   reader.read("guards", options.guards);
   read_guard(call, reader, options.guard);
   read_grouping(reader, options);
@@ -163,6 +165,12 @@ std::vector<Parameter> simplify_options() {
            .fallback = "none",
            .help = "which neighbour merges first, low first; a and b are Node tables joined by a "
                    "spring; math.huge forbids the pair"},
+          {.name = "mass",
+           .type = "one of",
+           .fallback = "\"proportional\"",
+           .help = "a node has the masses of its group, or each piece of the base goes to the "
+                   "nearest node",
+           .choices = {"proportional", "proximity"}},
           {.name = "guards",
            .type = "boolean",
            .fallback = usual.guards ? "true" : "false",
@@ -209,6 +217,7 @@ void describe_lod(Api& api) {
                  "local soft_first = s.simplify(base, {grouping = function(a, b)\n"
                  "  return a.material == b.material and 0 or math.huge\nend})",
       .call = simplify_binding});
+  describe_refill(api);
 }
 
 }  // namespace springlod

@@ -7,6 +7,7 @@
 
 #include "model/asset.hpp"
 #include "model/error.hpp"
+#include "model/estimate.hpp"
 #include "model/stable_step.hpp"
 #include "model/stiffness.hpp"
 #include "model/units.hpp"
@@ -82,6 +83,34 @@ int stretch_binding(Call& call) {
   set_field(call.lua(), "young", result.young);
   set_field(call.lua(), "poisson", result.poisson);
   set_field(call.lua(), "reaction", result.reaction);
+  return 1;
+}
+
+void push_estimate(lua_State* L, const Eq2Estimate& e) {
+  begin_table(L);
+  set_field(L, "nodes", e.nodes);
+  set_field(L, "mass", e.mass);
+  set_field(L, "volume", e.volume);
+  set_field(L, "density", e.density);
+  set_field(L, "young", e.young);
+  set_field(L, "shear", e.shear);
+  set_field(L, "bulk", e.bulk);
+}
+
+int estimate_binding(Call& call) {
+  const auto value = call.value<ModelValue>(1);
+  const ModelEstimate result = estimate(*value->model);
+  lua_State* L = call.lua();
+  push_estimate(L, result.whole);
+  begin_list(L, result.materials.size());
+  for (std::size_t m = 0; m < result.materials.size(); ++m) {
+    push_estimate(L, result.materials[m]);
+    set_field(L, "name", value->model->materials[m].name);
+    end_list_entry(L, m + 1);
+  }
+  end_field(L, "materials");
+  set_field(L, "node_young", result.young);
+  set_field(L, "node_density", result.density);
   return 1;
 }
 
@@ -215,6 +244,9 @@ void describe_model_type(Api& api) {
              [](const ModelValue& value) { return value.level; });
   type.field("made_by", "string", "how it was made",
              [](const ModelValue& value) { return value.made_by; });
+  type.table_field(
+      "provenance", "table of strings", "where it came from",
+      [](lua_State* L, const ModelValue& value) { push_provenance(L, value.provenance); });
   type.method(element_method("node", "node", "Node", node_method));
   type.method(element_method("spring", "spring", "Spring", spring_method));
   type.method(list_method("nodes", "nodes", "Node", nodes_method));
@@ -274,6 +306,16 @@ void describe_tests(Api& api) {
       .errors = "Fewer than two planes of nodes along the axis.",
       .example = "print(s.stretch(base, {axis = \"z\"}).young)",
       .call = stretch_binding});
+  api.add(FunctionEntry{
+      .name = "estimate",
+      .group = kGroup,
+      .summary = "What eq. 2 of the paper says of a model, its materials and its nodes.",
+      .arguments = {model},
+      .returns = "table: nodes, mass [kg], volume [m3], density [kg/m3], young, shear, bulk [Pa]; "
+                 "materials, a list of the same with name; node_young and node_density, lists",
+      .errors = "None for a valid model. An upper bound: s.stretch measures.",
+      .example = "print(s.estimate(base).materials[1].young)",
+      .call = estimate_binding});
   api.add(FunctionEntry{
       .name = "zero_modes",
       .group = kGroup,

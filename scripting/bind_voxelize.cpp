@@ -378,6 +378,7 @@ void describe_voxelize(Api& api) {
       .errors = "An empty grid.",
       .example = "local base = s.lattice(grid, {style = \"centers\"})",
       .call = lattice_binding});
+  describe_random(api);
   api.add(FunctionEntry{
       .name = "save_vdb",
       .group = kGroup,

@@ -77,6 +77,9 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.stretch(base, {axis = "x"}).young > 0)
     assert(s.zero_modes(chain[1])[1].zero_modes == 6)
     assert(s.stable_step(chain[0]) > 0)
+    assert(s.estimate(base).young > 0)
+    assert(s.random(grid, {nodes = 120}).node_count == 120)
+    assert(s.refill(base, grid, {nodes = 60, style = "random"})[1].node_count == 60)
     local modes = s.modes(chain[1], {count = 3, seed = 2})
     assert(#modes == 3 and modes[1].frequency > 0 and #modes[1].shape == chain[1].node_count)
     local loads = s.static_loads(chain[1])
@@ -196,7 +199,8 @@ TEST_CASE("values cannot be forged, changed or mixed up") {
         "false\texpected a Model\n"
         "false\t a Model cannot be changed; make a new one\n"
         "false\t node_count, spring_count, end_count, border_count, part_count, mass, volume, "
-        "center, inertia, young, materials, level, made_by, node, spring, nodes, springs\n"
+        "center, inertia, young, materials, level, made_by, provenance, node, spring, nodes, "
+        "springs\n"
         "false\tbad argument #1 to 'setmetatable' (table expected, got Model)\n"
         "Model\ttrue\ttrue\n"
         "false\texpected a Model\n"

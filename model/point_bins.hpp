@@ -1,0 +1,79 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "model/vec.hpp"
+
+namespace springlod {
+
+/// Points sorted into the bins of a box, to find those near a place. Refers to the points, which
+/// must outlive it and lie in the box. A periodic box repeats itself along every axis; offsets are
+/// then those of the nearest image.
+class PointBins {
+ public:
+  static constexpr auto kNoPoint = std::numeric_limits<std::uint32_t>::max();
+  enum class Edges { closed, periodic };
+  /// `bin` is the edge of a bin aimed at [m]: about the distance of neighbouring points is best.
+  PointBins(const std::vector<Vec3>& points, const Box3& box, double bin,
+            Edges edges = Edges::closed);
+
+  struct Near {
+    std::uint32_t point = kNoPoint;  ///< kNoPoint if there are none
+    Vec3 offset = Vec3::Zero();      ///< from the point to the place asked for [m]
+  };
+  /// Of points equally near the lower number counts.
+  Near nearest(const Vec3& place) const;
+
+  /// Calls visit(point, offset from `place` to the point) for every point within `radius`; in a
+  /// periodic box `radius` must be below half its edges.
+  template <class Visit>
+  void within(const Vec3& place, double radius, const Visit& visit) const {
+    const std::array<int, 3> reach{steps(0, radius), steps(1, radius), steps(2, radius)};
+    const std::array<int, 3> at = bin_of(place);
+    std::array<int, 3> low{};
+    std::array<int, 3> high{};
+    for (int d = 0; d < 3; ++d) {
+      low[d] = at[d] - reach[d];
+      high[d] = at[d] + reach[d];
+      if (edges_ == Edges::closed || high[d] - low[d] >= count_[d]) {
+        low[d] = edges_ == Edges::closed ? std::max(0, low[d]) : 0;
+        high[d] = edges_ == Edges::closed ? std::min(count_[d] - 1, high[d]) : count_[d] - 1;
+      }
+    }
+    for (int z = low[2]; z <= high[2]; ++z)
+      for (int y = low[1]; y <= high[1]; ++y)
+        for (int x = low[0]; x <= high[0]; ++x)
+          for_bin({x, y, z}, [&](std::uint32_t point) {
+            const Vec3 offset = shortest(points_[point] - place);
+            if (offset.squaredNorm() <= radius * radius) visit(point, offset);
+          });
+  }
+
+ private:
+  int steps(int d, double radius) const {
+    return static_cast<int>(std::min(radius / size_[d], 1e6)) + 1;
+  }
+  std::array<int, 3> bin_of(const Vec3& place) const;
+  Vec3 shortest(Vec3 offset) const;
+  std::size_t number(std::array<int, 3> bin) const;
+  template <class Visit>
+  void for_bin(std::array<int, 3> bin, const Visit& visit) const {
+    const std::size_t n = number(bin);
+    for (std::uint32_t i = start_[n]; i < start_[n + 1]; ++i) visit(sorted_[i]);
+  }
+
+  const std::vector<Vec3>& points_;
+  Box3 box_;
+  Edges edges_;
+  std::array<int, 3> count_{};
+  Vec3 size_ = Vec3::Zero();           // of a bin [m]
+  std::vector<std::uint32_t> start_;   // of each bin in sorted_, and the end
+  std::vector<std::uint32_t> sorted_;  // points by bin, rising within each
+};
+
+}  // namespace springlod

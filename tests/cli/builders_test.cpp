@@ -1,0 +1,65 @@
+// Random models, refilled levels and eq. 2, as a script sees them.
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/program.hpp"
+
+using Catch::Matchers::Contains;
+using springlod::test::Ran;
+using springlod::test::springlod_run;
+
+namespace {
+
+const std::string kGrid = std::string("local s = require 'springlod'\nlocal mesh = s.import('") +
+                          SPRINGLOD_SOURCE_DIR +
+                          "/samples/dumbbell.obj', {unit = 'dm'})\n"
+                          "local grid = s.voxelize(mesh, {cell = '10 cm'})\n";
+
+Ran with_grid(const std::string& script) {
+  return springlod_run({"-e", kGrid + script});
+}
+
+}  // namespace
+
+TEST_CASE("a script builds a random model, simplifies it and reads what was measured") {
+  const Ran ran = with_grid(R"(
+    local model = s.random(grid, {nodes = 300, seed = 2})
+    assert(model.node_count == 300 and model.spring_count == 2700)
+    assert(math.abs(model.volume - grid.volume) < 1e-9)
+    assert(tonumber(model.provenance.rescaled) > 1)
+    assert(math.abs(tonumber(model.provenance.measured_poisson) - 0.25) < 0.03)
+    local chain = s.simplify(model, {levels = 1, mass = "proximity"})
+    assert(math.abs(chain[1].mass - model.mass) < 1e-9 * model.mass)
+    print(model.made_by, chain.provenance.random))");
+  CHECK(ran.err.find("error") == std::string::npos);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("random, 300 nodes, 18 ends, seed 2"));
+}
+
+TEST_CASE("a script refills a grid and is told how near a lattice came") {
+  const Ran ran = with_grid(R"(
+    local base = s.lattice(grid)
+    local chain = s.refill(base, grid, {nodes = {200, 70}, style = "random", seed = 1})
+    assert(chain[1].node_count == 200 and chain[2].node_count == 70)
+    for _, node in ipairs(chain:group_map(2)) do assert(node >= 1 and node <= 70) end
+    assert(math.abs(s.refill(base, grid, {nodes = 211})[1].mass - base.mass) < 1e-9 * base.mass)
+    print(chain[1].made_by))");
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out + ran.err, Contains("refill random, 200 nodes"));
+  CHECK_THAT(ran.out + ran.err, Contains("the nearest to 211 that a lattice has"));
+  const Ran wrong = with_grid("s.refill(s.lattice(grid), grid, {nodes = {'many'}})");
+  CHECK(wrong.exit_code == 1);
+  CHECK_THAT(wrong.err, Contains("a whole number of nodes, or a list of them"));
+  CHECK_THAT(with_grid("s.refill(s.lattice(grid), grid)").err, Contains("refill: nodes must be"));
+}
+
+TEST_CASE("a script reads eq. 2 of the whole, of each material and of each node") {
+  const Ran ran = with_grid(R"(
+    local model = s.lattice(grid)
+    local e = s.estimate(model)
+    assert(#e.node_young == model.node_count and #e.node_density == model.node_count)
+    assert(math.abs(e.young - model.young) < 1e-6 and e.materials[1].nodes == model.node_count)
+    print(e.materials[1].name, math.floor(e.young + 0.5), math.floor(e.density + 0.5)))");
+  CHECK(ran.exit_code == 0);
+  CHECK(ran.out == "default\t1000000\t1000\n");
+}

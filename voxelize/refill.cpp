@@ -1,0 +1,200 @@
+#include "voxelize/refill.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+#include "model/point_bins.hpp"
+#include "voxelize/corner_nodes.hpp"
+#include "voxelize/index_lookup.hpp"
+#include "voxelize/random.hpp"
+
+namespace springlod {
+namespace {
+
+// Cells tried, as parts of the edge of the cube that a node would stand for: `corners` has more
+// nodes than cells, so its cells are larger. Steps of 1 % miss no count of a small body.
+constexpr double kSmallestTried = 0.6;
+constexpr double kStep = 1.01;
+constexpr int kTries = 144;  // up to 2.5
+
+struct GridSums {
+  double volume = 0;
+  double mass = 0;
+  Vec3 center = Vec3::Zero();  // of mass
+  Box3 box;
+};
+
+GridSums sums_of(const MaterialGrid& grid) {
+  GridSums sums;
+  const double cell_volume = std::pow(grid.cell, 3);
+  for (std::size_t n = 0; n < grid.cells.size(); ++n) {
+    const CellIndex& c = grid.cells[n];
+    const Vec3 low = grid.origin + grid.cell * Vec3(c[0], c[1], c[2]);
+    const double mass = cell_volume * grid.materials[grid.material[n]].density;
+    sums.volume += cell_volume;
+    sums.mass += mass;
+    sums.center += mass * (low + Vec3::Constant(grid.cell / 2));
+    sums.box.extend(low);
+    sums.box.extend(low + Vec3::Constant(grid.cell));
+  }
+  sums.center /= sums.mass;
+  return sums;
+}
+
+/// The same body in cells of edge `cell`, each of the material at its centre.
+MaterialGrid resampled(const MaterialGrid& grid, const IndexLookup& lookup, const Box3& box,
+                       double cell) {
+  MaterialGrid coarse;
+  coarse.cell = cell;
+  coarse.materials = grid.materials;
+  CellIndex size{};
+  for (int d = 0; d < 3; ++d)
+    size[d] = std::max(1, static_cast<std::int32_t>(std::lround(box.sizes()[d] / cell)));
+  coarse.origin = box.center() - cell / 2 * Vec3(size[0], size[1], size[2]);
+  for (std::int32_t z = 0; z < size[2]; ++z)
+    for (std::int32_t y = 0; y < size[1]; ++y)
+      for (std::int32_t x = 0; x < size[0]; ++x) {
+        const Vec3 at =
+            (coarse.origin + cell * Vec3(x + 0.5, y + 0.5, z + 0.5) - grid.origin) / grid.cell;
+        const std::uint32_t fine = lookup.find({static_cast<std::int32_t>(std::floor(at.x())),
+                                                static_cast<std::int32_t>(std::floor(at.y())),
+                                                static_cast<std::int32_t>(std::floor(at.z()))});
+        if (fine == kNoIndex) continue;
+        coarse.cells.push_back({x, y, z});
+        coarse.material.push_back(grid.material[fine]);
+      }
+  return coarse;
+}
+
+std::size_t node_count(const MaterialGrid& grid, LatticeStyle style) {
+  return style == LatticeStyle::centers ? grid.cells.size() : corner_nodes(grid.cells).at.size();
+}
+
+/// Gives a model the volume, mass and centre of mass of the grid: a body of one material only grows
+/// or shrinks a little, k and c with its lengths, so that E by eq. 2 stays.
+void fit(MassSpringModel& model, const GridSums& target) {
+  const MassProperties now = mass_properties(model);
+  const double length = std::cbrt(target.volume / now.volume);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    model.rest[i] = target.center + length * (model.rest[i] - now.center);
+    model.mass[i] *= target.mass / now.mass;
+    model.volume[i] *= target.volume / now.volume;
+    model.contact_area[i] *= length * length;
+  }
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    model.rest_length[s] = (model.rest[model.b[s]] - model.rest[model.a[s]]).norm();
+    model.stiffness[s] *= length;
+    model.damping[s] *= length;
+  }
+}
+
+/// Every node of the base to the nearest of `nodes`.
+Groups nearest_groups(const MassSpringModel& base, const std::vector<Vec3>& nodes) {
+  Box3 box;
+  for (const auto* points : {&base.rest, &nodes})
+    for (const Vec3& p : *points) box.extend(p);
+  const auto count = static_cast<std::uint32_t>(nodes.size());
+  const double spacing = box.sizes().norm() / std::cbrt(count);
+  const PointBins bins(nodes, box, spacing);
+  Groups groups{std::vector<std::uint32_t>(base.rest.size()), count};
+  std::vector<std::uint32_t> size(count, 0);
+  for (std::size_t i = 0; i < base.rest.size(); ++i) {
+    groups.of[i] = bins.nearest(base.rest[i]).point;
+    ++size[groups.of[i]];
+  }
+  for (std::uint32_t g = 0; g < count; ++g) {
+    if (size[g] > 0) continue;
+    std::size_t best = base.rest.size();
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < base.rest.size(); ++i) {
+      const double squared = (base.rest[i] - nodes[g]).squaredNorm();
+      if (size[groups.of[i]] < 2 || squared >= least) continue;
+      best = i;
+      least = squared;
+    }
+    // There are fewer groups than nodes, so one has two.
+    --size[groups.of[best]];
+    groups.of[best] = g;
+    size[g] = 1;
+  }
+  return groups;
+}
+
+Level refilled_level(const MassSpringModel& base, const MaterialGrid& grid, std::uint32_t nodes,
+                     const RefillOptions& options) {
+  Level level;
+  if (options.style == RefillStyle::random) {
+    level.model = build_random(grid, {.nodes = nodes,
+                                      .ends = options.ends,
+                                      .seed = options.seed,
+                                      .progress = options.progress})
+                      .model;
+    level.made_by =
+        fmt::format("refill random, {} nodes, {} ends, seed {}", nodes, options.ends, options.seed);
+  } else {
+    level.model = lattice_of_about(grid, nodes, options.lattice);
+    level.made_by = fmt::format("refill {}, {} nodes of {} wanted",
+                                options.lattice == LatticeStyle::corners ? "corners" : "centers",
+                                level.model.node_count(), nodes);
+  }
+  if (level.model.node_count() < base.node_count())
+    level.of_base = nearest_groups(base, level.model.rest);
+  return level;
+}
+
+}  // namespace
+
+MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes,
+                                 LatticeStyle style) {
+  validate(grid);
+  if (grid.cells.empty() || nodes == 0)
+    throw InputError("refill: there must be filled cells in the grid and nodes to fill them with");
+  const GridSums target = sums_of(grid);
+  const IndexLookup lookup(grid.cells);
+  const double even = std::cbrt(target.volume / nodes);
+  MaterialGrid best;
+  std::size_t least_off = std::numeric_limits<std::size_t>::max();
+  for (int i = 0; i < kTries; ++i) {
+    const double cell = kSmallestTried * even * std::pow(kStep, i);
+    MaterialGrid tried = resampled(grid, lookup, target.box, cell);
+    if (tried.cells.empty()) continue;
+    const std::size_t count = node_count(tried, style);
+    const std::size_t off = count > nodes ? count - nodes : nodes - count;
+    if (off >= least_off) continue;
+    least_off = off;
+    best = std::move(tried);
+  }
+  if (best.cells.empty())
+    throw InputError(fmt::format(
+        "refill: no lattice of about {} nodes meets the body; ask for more nodes", nodes));
+  MassSpringModel model = build_lattice(best, {.style = style, .hinges = HingePolicy::fill}).model;
+  fit(model, target);
+  return model;
+}
+
+LodChain refill(const MassSpringModel& base, const MaterialGrid& grid,
+                const RefillOptions& options) {
+  if (options.nodes.empty())
+    throw InputError("refill: say how many nodes each level shall have, as in nodes = {161, 78}");
+  Task task(options.progress, "refilling", options.nodes.size());
+  LodChain chain;
+  chain.levels.push_back({base, identity_groups(base.node_count()), "base"});
+  for (const std::uint32_t nodes : options.nodes) {
+    Level level = refilled_level(base, grid, nodes, options);
+    const std::uint32_t before = chain.levels.back().model.node_count();
+    if (level.model.node_count() >= before)
+      throw InputError(
+          fmt::format("refill: level {} would have {} nodes and the level before has {}; ask for "
+                      "fewer",
+                      chain.levels.size(), level.model.node_count(), before));
+    chain.levels.push_back(std::move(level));
+    task.advance();
+  }
+  return chain;
+}
+
+}  // namespace springlod
