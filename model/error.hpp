@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace springlod {
 
@@ -36,6 +37,23 @@ class UnstableError : public Error {
 
  private:
   std::uint32_t node_;
+  double time_;
+};
+
+/// A node went through an obstacle that is thinner than its way in one step, or too soft to hold
+/// it: what the run would go on with has nothing to do with the scenario any more.
+class TunnelError : public Error {
+ public:
+  TunnelError(const std::string& message, std::uint32_t node, std::string obstacle, double time)
+      : Error(message), node_(node), obstacle_(std::move(obstacle)), time_(time) {}
+  std::uint32_t node() const { return node_; }
+  const std::string& obstacle() const { return obstacle_; }
+  /// Simulated time at the end of the step that did it [s].
+  double time() const { return time_; }
+
+ private:
+  std::uint32_t node_;
+  std::string obstacle_;
   double time_;
 };
 

@@ -36,16 +36,21 @@ void describe_errors(Api& api) {
              [](const ErrorValue& error) { return error.where; });
   type.field("kind", "string",
              "\"input\" (a value or option is wrong), \"io\" (a file), \"unstable\" (a simulation "
-             "left the numbers), \"interrupted\" (Ctrl-C), \"memory\" or \"internal\"",
+             "left the numbers), \"tunnelled\" (a node went through an obstacle), \"interrupted\" "
+             "(Ctrl-C), \"memory\" or \"internal\"",
              [](const ErrorValue& error) { return error.kind; });
   type.table_field("node", "integer",
-                   "first node that left the numbers, of an unstable run; or nil",
+                   "first node that left the numbers or went through an obstacle; or nil",
                    [](lua_State* L, const ErrorValue& error) {
                      error.node ? push(L, *error.node) : lua_pushnil(L);
                    });
   type.table_field("time", "number", "when it did [s]; or nil",
                    [](lua_State* L, const ErrorValue& error) {
                      error.time ? push(L, *error.time) : lua_pushnil(L);
+                   });
+  type.table_field("obstacle", "string", "name of the obstacle that a node went through; or nil",
+                   [](lua_State* L, const ErrorValue& error) {
+                     error.obstacle ? push(L, *error.obstacle) : lua_pushnil(L);
                    });
   api.add(type.build());
 }
@@ -63,6 +68,12 @@ std::shared_ptr<const ErrorValue> current_error(lua_State* L) {
     error->message = e.what();
     error->node = static_cast<long long>(e.node()) + 1;
     error->time = e.time();
+  } catch (const TunnelError& e) {
+    error->kind = "tunnelled";
+    error->message = e.what();
+    error->node = static_cast<long long>(e.node()) + 1;
+    error->time = e.time();
+    error->obstacle = e.obstacle();
   } catch (const IoError& e) {
     error->kind = "io";
     error->message = e.what();

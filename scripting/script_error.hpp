@@ -13,9 +13,11 @@ namespace springlod {
 struct ErrorValue {
   std::string message;
   std::string where;  ///< "script.lua:12: " or ""
-  std::string kind;   ///< "input", "io", "unstable", "interrupted", "memory", "internal"
-  std::optional<long long> node;  ///< of an unstable run, counted from 1
-  std::optional<double> time;     ///< of an unstable run [s]
+  /// "input", "io", "unstable", "tunnelled", "interrupted", "memory", "internal"
+  std::string kind;
+  std::optional<long long> node;        ///< where a run failed, counted from 1
+  std::optional<double> time;           ///< when a run failed [s]
+  std::optional<std::string> obstacle;  ///< that a node went through
 };
 template <>
 inline constexpr const char* kValueName<ErrorValue> = "Error";

@@ -18,14 +18,18 @@ constexpr double kLinearTolerance = 1e-3;
 
 class GradientSolver final : public BackwardEuler::LinearSolver {
  public:
-  Eigen::VectorXd solve(const Matrix& matrix, const Eigen::VectorXd& right) override {
+  explicit GradientSolver(std::uint32_t iterations) {
     solver_.setTolerance(kLinearTolerance);
+    if (iterations > 0) solver_.setMaxIterations(iterations);
+  }
+  Eigen::VectorXd solve(const Matrix& matrix, const Eigen::VectorXd& right) override {
     solver_.compute(matrix);
     Eigen::VectorXd x = solver_.solve(right);
     passes_ = static_cast<std::uint64_t>(solver_.iterations());
     return x;
   }
   std::uint64_t passes() const override { return passes_; }
+  bool converged() const override { return solver_.info() == Eigen::Success; }
 
  private:
   Eigen::ConjugateGradient<Matrix, Eigen::Lower> solver_;  // preconditioned by the diagonal
@@ -41,6 +45,7 @@ class FactorSolver final : public BackwardEuler::LinearSolver {
     return factor_.solve(right);
   }
   std::uint64_t passes() const override { return 1; }
+  bool converged() const override { return factor_.info() == Eigen::Success; }
 
  private:
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor_;
@@ -65,7 +70,7 @@ BackwardEuler::BackwardEuler(const MassSpringModel& model, const Scenario& scena
   if (options.integrator == Integrator::backward_euler_direct)
     solver_ = std::make_unique<FactorSolver>();
   else
-    solver_ = std::make_unique<GradientSolver>();
+    solver_ = std::make_unique<GradientSolver>(options.solver.linear_iterations);
   make_pattern();
 }
 
@@ -178,12 +183,18 @@ void BackwardEuler::solve() {
   }
   gradient_.resize(3 * static_cast<Eigen::Index>(x_.size()));
   energy_ = energy(x_next_);
-  for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
-    linearise(x_next_);
-    if (iteration == 0) scale = std::max(std::sqrt(scale), gradient_.norm());
-    if (gradient_.norm() <= tolerance_ * scale || !descend()) break;
-  }
+  if (!minimise(std::sqrt(scale))) ++unconverged_steps_;
   finish_implicit(springs_);
+}
+
+bool BackwardEuler::minimise(double scale) {
+  for (std::uint32_t iteration = 0;; ++iteration) {
+    linearise(x_next_);
+    if (iteration == 0) scale = std::max(scale, gradient_.norm());
+    if (gradient_.norm() <= tolerance_ * scale) return true;
+    if (iteration == iterations_) return false;
+    if (!descend()) return solver_->converged();
+  }
 }
 
 }  // namespace springlod

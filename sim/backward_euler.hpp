@@ -23,6 +23,7 @@ class BackwardEuler final : public WholeStep {
   BackwardEuler(const MassSpringModel& model, const Scenario& scenario, const State& start,
                 double step, const StepperOptions& options);
   ~BackwardEuler() override;
+  std::uint64_t unconverged_steps() const override { return unconverged_steps_; }
 
   /// Solves H d = g for the lower half of a symmetric matrix.
   class LinearSolver {
@@ -32,6 +33,8 @@ class BackwardEuler final : public WholeStep {
                                   const Eigen::VectorXd& right) = 0;
     /// Passes over the springs that the last solution took.
     virtual std::uint64_t passes() const = 0;
+    /// Whether the last solution is as exact as it should be.
+    virtual bool converged() const = 0;
   };
 
  private:
@@ -44,6 +47,9 @@ class BackwardEuler final : public WholeStep {
   void add_to_diagonal(std::uint32_t node, const Mat3& block);
   /// Goes from x_next_ against the gradient; false if that brings nothing any more.
   bool descend();
+  /// Newton's method from x_next_; whether it came to an end: forces within the tolerance of
+  /// `scale` [N], or no descent left although the linear system was solved (rounding).
+  bool minimise(double scale);
 
   ImplicitSprings springs_;
   std::uint32_t iterations_;
@@ -54,6 +60,7 @@ class BackwardEuler final : public WholeStep {
   std::vector<Vec3> free_, trial_, trial_velocity_;
   std::vector<Contact> trial_contacts_;
   double energy_ = 0;
+  std::uint64_t unconverged_steps_ = 0;
 };
 
 }  // namespace springlod

@@ -200,6 +200,10 @@ class Comparing {
       throw UnstableError(
           fmt::format("{}, start {}: {}", result_.levels[level].label, start, e.what()), e.node(),
           e.time());
+    } catch (const TunnelError& e) {
+      throw TunnelError(
+          fmt::format("{}, start {}: {}", result_.levels[level].label, start, e.what()), e.node(),
+          e.obstacle(), e.time());
     }
   }
 

@@ -26,6 +26,8 @@ struct SolverOptions {
   std::uint32_t iterations = 0;
   /// Backward Euler stops once the forces left are this part of those at the start of the step [1].
   double tolerance = 1e-6;
+  /// Iterations of the conjugate gradients inside one of Newton's at most; 0: twice the unknowns.
+  std::uint32_t linear_iterations = 0;
 };
 
 }  // namespace springlod

@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 
 #include "model/error.hpp"
-#include "model/stable_step.hpp"
 #include "sim/contact.hpp"
-#include "sim/kernel.hpp"
-#include "sim/runge_kutta.hpp"
+#include "sim/crossing_watch.hpp"
+#include "sim/energy_watch.hpp"
 #include "sim/stepper.hpp"
+#include "sim/tunnel_watch.hpp"
 
 namespace springlod {
 namespace {
@@ -30,13 +30,6 @@ constexpr double kLongestStep = 0.01;
 
 // Schemes without a limit take steps that follow contacts and the swing of whole bodies [s].
 constexpr double kImplicitStep = 1e-3;
-
-// The kinetic energy of the half-step velocities may exceed what is there by
-// 1 / (1 - (omega dt / 2)^2): 50 if all of it were in the top mode at 0.99 of the limit. [1]
-constexpr double kEnergyMargin = 100;
-
-// Strain whose energy counts as rounding [1]: below it nothing is called growth.
-constexpr double kRoundingStrain = 1e-11;
 
 void validate(const RunOptions& options) {
   if (options.step && !(std::isfinite(*options.step) && *options.step > 0))
@@ -57,50 +50,6 @@ double default_step(const RunOptions& options, double predicted, double duration
   if (is_implicit(options.integrator)) longest = std::min(longest, kImplicitStep);
   return duration / std::ceil(duration / longest);
 }
-
-/// Compares the kinetic energy with all that could have become kinetic energy so far.
-class EnergyWatch {
- public:
-  /// `start`: after the first kick. Its v+ count, not the ledger's v- . v+, which is negative for a
-  /// body released at rest.
-  EnergyWatch(const MassSpringModel& model, const Stepper& start)
-      : rounding_(kRoundingStrain * kRoundingStrain * spring_work(model)) {
-    std::uint32_t node = 0;
-    available_ = start.kinetic_after(&node) + elastic_energy(model, start.positions()) +
-                 contact_energy(start.contacts());
-  }
-
-  void look(const Stepper& body, double gravity_work) {
-    std::uint32_t node = 0;
-    const double kinetic = body.kinetic_after(&node);
-    if (!std::isfinite(kinetic)) throw_not_finite(body);
-    most_gravity_work_ = std::max(most_gravity_work_, gravity_work);
-    const double bound = kEnergyMargin * (available_ + most_gravity_work_) + rounding_;
-    if (kinetic > bound)
-      throw UnstableError(
-          fmt::format(
-              "the run became unstable: at t = {:.6g} s the kinetic energy is {:.3g} J, of "
-              "at most {:.3g} J that were there, most of it in node {}; take a smaller step",
-              body.time(), kinetic, available_ + most_gravity_work_, node),
-          node, body.time());
-  }
-
- private:
-  [[noreturn]] static void throw_not_finite(const Stepper& body) {
-    const State state = body.state();
-    std::uint32_t node = 0;
-    while (node + 1 < state.x.size() && state.x[node].allFinite() && state.v[node].allFinite())
-      ++node;
-    throw UnstableError(fmt::format("the run became unstable: node {} is not finite at t = {:.6g} "
-                                    "s; take a smaller step",
-                                    node, body.time()),
-                        node, body.time());
-  }
-
-  double rounding_;
-  double available_ = 0;
-  double most_gravity_work_ = 0;
-};
 
 /// Whether the centre of mass has been slow for long enough.
 class StopWatch {
@@ -159,13 +108,13 @@ class Recorder {
   std::uint64_t count_ = 0;
 };
 
-void integrate(const MassSpringModel& model, const Scenario& scenario, const RunOptions& options,
-               Trajectory& trajectory) {
+void integrate(const MassSpringModel& model, const Scenario& scenario, const State& start,
+               const RunOptions& options, const StepLimit& limit, Trajectory& trajectory) {
   const double step = trajectory.step;
   // A duration that is a whole number of steps must not get one more from rounding.
   const auto last_step = static_cast<std::uint64_t>(std::ceil(scenario.duration / step - 1e-6));
   const std::unique_ptr<Stepper> stepper = make_stepper(
-      model, scenario, initial_state(model, scenario.start), step,
+      model, scenario, start, step,
       {.integrator = options.integrator, .solver = options.solver, .ledger = options.ledger});
   Stepper& body = *stepper;
   Recorder recorder(options.frame_rate, options.ledger, trajectory);
@@ -173,7 +122,9 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Run
   Task task(options.progress, "simulate", last_step);
 
   body.prepare();
-  EnergyWatch watch(model, body);
+  EnergyWatch watch(model, body, step, limit);
+  TunnelWatch walls(model, scenario.obstacles, start.x);
+  CrossingWatch crossings(model, start);
   const Vec3 weight = scenario.gravity * std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
   const Vec3 first_center = body.center_of_mass();
   for (;;) {
@@ -182,11 +133,13 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Run
     if (body.step_number() == last_step) break;
     if (body.step_number() % kLookEvery == 0) {
       watch.look(body, weight.dot(body.center_of_mass() - first_center));
+      if (!trajectory.first_crossing) trajectory.first_crossing = crossings.look(body.state());
       if (stop.look(body)) break;
       task.advance(std::min(kLookEvery, last_step - body.step_number()));
     }
     recorder.record(body, step);
     body.commit();
+    walls.look(body.positions(), body.time(), step);
     body.prepare();
   }
   watch.look(body, weight.dot(body.center_of_mass() - first_center));
@@ -194,37 +147,33 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Run
 
   trajectory.final = body.state();
   trajectory.steps = body.step_number();
+  trajectory.unconverged_steps = body.unconverged_steps();
   trajectory.spring_updates = body.spring_updates();
   trajectory.simulated = body.time();
 }
 
 }  // namespace
 
-double predicted_step(const MassSpringModel& model, const Scenario& scenario,
-                      Integrator integrator) {
-  if (is_implicit(integrator)) return std::numeric_limits<double>::infinity();
-  FrequencyOptions contact;
-  contact.ground_stiffness = contact_stiffness(model, scenario.obstacles);
-  const double omega = largest_frequency(model, contact);
-  if (!(omega > 0)) return std::numeric_limits<double>::infinity();
-  double damping_time = largest_damping_time(model);
-  for (const Obstacle& obstacle : scenario.obstacles)
-    damping_time = std::max(damping_time, obstacle.damping);
-  if (integrator == Integrator::runge_kutta_4) return runge_kutta_stable_step(omega, damping_time);
-  return stable_step(omega,
-                     integrator == Integrator::velocity_verlet ? 2 * damping_time : damping_time);
-}
-
 Trajectory run(const MassSpringModel& model, const Scenario& scenario, const RunOptions& options) {
   validate(model);
   validate(scenario);
+  return run(model, scenario, initial_state(model, scenario.start), options);
+}
+
+Trajectory run(const MassSpringModel& model, const Scenario& scenario, const State& start,
+               const RunOptions& options) {
+  validate(model);
+  validate(scenario);
   validate(options);
+  if (start.x.size() != model.node_count() || start.v.size() != model.node_count())
+    throw InputError(fmt::format("run: a start of {} positions and {} velocities for {} nodes",
+                                 start.x.size(), start.v.size(), model.node_count()));
   const auto begin = std::chrono::steady_clock::now();
+  const StepLimit limit = step_limit(model, scenario, options.integrator);
   Trajectory trajectory;
-  trajectory.predicted_step = predicted_step(model, scenario, options.integrator);
-  trajectory.step =
-      options.step.value_or(default_step(options, trajectory.predicted_step, scenario.duration));
-  integrate(model, scenario, options, trajectory);
+  trajectory.predicted_step = limit.step;
+  trajectory.step = options.step.value_or(default_step(options, limit.step, scenario.duration));
+  integrate(model, scenario, start, options, limit, trajectory);
   trajectory.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return trajectory;

@@ -10,6 +10,7 @@
 #include "sim/integrator.hpp"
 #include "sim/ledger.hpp"
 #include "sim/scenario.hpp"
+#include "sim/step_limit.hpp"
 
 namespace springlod {
 
@@ -27,6 +28,14 @@ struct RunOptions {
   Progress* progress = nullptr;
 };
 
+/// Two nodes joined by a spring that went past each other: it turned over between two looks at the
+/// body, beyond what the body as a whole turned.
+struct Crossing {
+  std::uint32_t a = 0;  ///< node
+  std::uint32_t b = 0;  ///< node
+  double time = 0;      ///< of the look that saw it [s]
+};
+
 struct Frame {
   double time = 0;      ///< [s]
   std::vector<Vec3> x;  ///< [m]
@@ -40,28 +49,29 @@ struct Trajectory {
   /// Springs evaluated, in every step and iteration: the deterministic measure of cost. (A sparse
   /// factorization, of which it knows nothing, counts as one pass.)
   std::uint64_t spring_updates = 0;
+  /// Steps that the solver of backward Euler ended short of its tolerance.
+  std::uint64_t unconverged_steps = 0;
   double simulated = 0;                 ///< [s]; below the duration if a stop rule ended the run
   double wall_seconds = 0;              ///< measured; never part of a result that must repeat
   std::vector<Frame> frames;            ///< at the frame times, first and last included
   std::vector<LedgerEntry> ledger;      ///< one a frame; empty if not asked for
   std::optional<double> first_contact;  ///< [s]
+  /// The first springs to turn over: from there on the body is inside out at that place.
+  std::optional<Crossing> first_crossing;
   State final;
 };
-
-/// Stable step of the model under the scenario [s]: see stable_step, with the contact stiffness of
-/// the nodes with an area added to the springs and the largest damping time of springs and
-/// obstacles; velocity Verlet counts damping twice (see Leapfrog), Runge-Kutta has its own limit.
-/// Infinite for the implicit schemes and if nothing is stiff.
-double predicted_step(const MassSpringModel& model, const Scenario& scenario,
-                      Integrator integrator = Integrator::symplectic_euler);
 
 /// Runs the model under the scenario. The step is `safety` times the predicted one, shortened so
 /// that the duration is a whole number of steps, or exactly the one given. Frames lie exactly at
 /// the frame times, between steps on the straight line that the scheme draws; ledger entries at the
 /// last step before. Throws InputError for a wrong model, scenario or option, UnstableError naming
-/// node and time as soon as a coordinate stops being finite or the energy grows without a source.
+/// node and time as soon as a coordinate stops being finite or the energy grows without a source,
+/// TunnelError as soon as a node has gone through a box.
 Trajectory run(const MassSpringModel& model, const Scenario& scenario,
                const RunOptions& options = {});
+/// From positions and velocities of its own instead of the scenario's throw.
+Trajectory run(const MassSpringModel& model, const Scenario& scenario, const State& start,
+               const RunOptions& options);
 
 /// What Scenario::measure_from asks for [m], from the way of the centre of mass.
 double measured_distance(const Scenario& scenario, const Vec3& first_center,

@@ -31,6 +31,9 @@ class Stepper {
   double time() const { return static_cast<double>(n_) * step_; }
   /// Springs evaluated so far, every one of every iteration counted: the deterministic cost.
   virtual std::uint64_t spring_updates() const = 0;
+  /// Steps whose solver used up its iterations short of its tolerance. Schemes that take a fixed
+  /// number of iterations promise no tolerance and have none.
+  virtual std::uint64_t unconverged_steps() const { return 0; }
 
   const std::vector<Vec3>& positions() const { return x_; }
   const std::vector<Contact>& contacts() const { return contacts_; }

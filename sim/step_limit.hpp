@@ -1,0 +1,31 @@
+#pragma once
+
+#include <limits>
+
+#include "model/mass_spring.hpp"
+#include "sim/integrator.hpp"
+#include "sim/scenario.hpp"
+
+namespace springlod {
+
+/// How long a step an explicit scheme can take. Infinite for the implicit schemes and if nothing is
+/// stiff.
+struct StepLimit {
+  double step = std::numeric_limits<double>::infinity();             ///< [s]
+  double without_damping = std::numeric_limits<double>::infinity();  ///< if nothing were damped [s]
+
+  /// Whether damping, and not how stiff springs and contacts are, costs most of the step.
+  bool set_by_damping() const;
+};
+
+/// From the highest frequency of the model, with the contact stiffness of the nodes with an area
+/// added to the springs, and the largest damping time of springs and obstacles: see stable_step.
+/// Velocity Verlet counts damping twice (see Leapfrog), Runge-Kutta has its own limit.
+StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario,
+                     Integrator integrator = Integrator::symplectic_euler);
+
+/// step_limit(...).step [s].
+double predicted_step(const MassSpringModel& model, const Scenario& scenario,
+                      Integrator integrator = Integrator::symplectic_euler);
+
+}  // namespace springlod

@@ -1,0 +1,112 @@
+#include "sim/tunnel_watch.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
+namespace springlod {
+namespace {
+
+Vec3 into_box(const SolidBox& box, const Vec3& point) {
+  return box.rotation.transpose() * (point - box.center);
+}
+
+std::int8_t face(Eigen::Index axis, bool positive) {
+  const auto number = static_cast<std::int8_t>(axis + 1);
+  return positive ? number : static_cast<std::int8_t>(-number);
+}
+
+/// The face that a node inside is nearest to; 0 outside.
+std::int8_t nearest_face(const Vec3& half_size, const Vec3& at) {
+  Eigen::Index axis = 0;
+  const double depth = (half_size - at.cwiseAbs()).minCoeff(&axis);
+  return depth > 0 ? face(axis, at[axis] >= 0) : std::int8_t{0};
+}
+
+}  // namespace
+
+TunnelWatch::TunnelWatch(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
+                         const std::vector<Vec3>& x) {
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    if (model.contact_area[i] > 0) node_.push_back(i);
+  for (const Obstacle& obstacle : obstacles) {
+    const auto* box = std::get_if<SolidBox>(&obstacle.shape);
+    if (box == nullptr) continue;
+    Wall& wall = walls_.emplace_back(Wall{obstacle.name, *box, {}, {}});
+    for (const std::uint32_t node : node_) {
+      wall.at.push_back(into_box(*box, x[node]));
+      wall.entry.push_back(nearest_face(box->half_size, wall.at.back()));
+    }
+  }
+}
+
+void TunnelWatch::look(const std::vector<Vec3>& x, double time, double step) {
+  for (Wall& wall : walls_)
+    for (std::size_t n = 0; n < node_.size(); ++n) {
+      const Vec3 to = into_box(wall.box, x[node_[n]]);
+      const Vec3 from = std::exchange(wall.at[n], to);
+      const Pass way = pass(wall.box.half_size, from, to);
+      if (!way.hits) {
+        wall.entry[n] = 0;
+        continue;
+      }
+      if (way.in != 0) wall.entry[n] = way.in;
+      if (way.out == 0) continue;
+      if (way.out == -wall.entry[n])
+        throw_tunnelled(wall, node_[n], way.out, to - from, time, step);
+      wall.entry[n] = 0;
+    }
+}
+
+// The straight way from `from` to `to` cut by the three pairs of faces in turn.
+TunnelWatch::Pass TunnelWatch::pass(const Vec3& half_size, const Vec3& from, const Vec3& to) {
+  Pass pass;
+  double begin = 0;
+  double end = 1;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double half = half_size[axis];
+    if ((from[axis] >= half && to[axis] >= half) || (from[axis] <= -half && to[axis] <= -half))
+      return {};
+    const double way = to[axis] - from[axis];
+    if (way == 0) continue;  // within this pair of faces all the way
+    const double forward = way > 0 ? 1 : -1;
+    const double enters = (-forward * half - from[axis]) / way;
+    const double leaves = (forward * half - from[axis]) / way;
+    if (enters > begin) {
+      begin = enters;
+      pass.in = face(axis, way < 0);
+    }
+    if (leaves < end) {
+      end = leaves;
+      pass.out = face(axis, way > 0);
+    }
+  }
+  pass.hits = begin < end;
+  return pass;
+}
+
+void TunnelWatch::throw_tunnelled(const Wall& wall, std::uint32_t node, Face out, const Vec3& way,
+                                  double time, double step) {
+  const Eigen::Index axis = std::abs(out) - 1;
+  const double thickness = 2 * wall.box.half_size[axis];
+  const double moved = std::abs(way[axis]);
+  // At half the thickness a step a node still comes to be pushed back on the side it came from.
+  const bool too_fast = moved > thickness / 2;
+  const std::string advice =
+      too_fast ? fmt::format("take a step below {:.3g} s or a thicker obstacle",
+                             step * thickness / (2 * moved))
+               : std::string(
+                     "its contact is too soft to hold the body: give it more stiffness, or make it "
+                     "thicker");
+  throw TunnelError(
+      fmt::format("node {} went through obstacle \"{}\" by t = {:.6g} s: it moved {:.3g} m in a "
+                  "step of {:.3g} s, and the obstacle is {:.3g} m thick; {}",
+                  node, wall.name, time, moved, step, thickness, advice),
+      node, wall.name, time);
+}
+
+}  // namespace springlod
