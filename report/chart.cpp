@@ -7,10 +7,9 @@
 #include <fmt/format.h>
 
 #include "model/error.hpp"
-#include "model/file.hpp"
 #include "report/chart_layout.hpp"
 #include "report/csv.hpp"
-#include "report/subprocess.hpp"
+#include "report/gnuplot.hpp"
 
 namespace springlod {
 namespace {
@@ -31,24 +30,12 @@ int shape(std::size_t series) {
   return kShapes[series % kShapes.size()];
 }
 
-// In gnuplot's single quotes nothing is special but the quote; a line break would end the command.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  out += '\'';
-  return out;
-}
-
 bool has_interval(const ChartPoint& p) {
   return p.y_high > p.y_low;
 }
 
 void require_drawable(const std::vector<ChartSeries>& series, const fs::path& path) {
-  if (path.extension() != ".svg" && path.extension() != ".png")
-    throw InputError(fmt::format("chart: {} must end in .svg or .png", path.string()));
+  require_picture_name(path);
   std::size_t points = 0;
   for (const ChartSeries& s : series)
     for (const ChartPoint& p : s.points) {
@@ -89,11 +76,6 @@ Axes make_axes(const std::vector<ChartSeries>& series, const ChartOptions& optio
   return {make_axis(x, options.log_x), make_axis(y, options.log_y)};
 }
 
-// gnuplot counts letters in pixels for svg, in points (96 a 72nd inch) for png.
-double font_unit(const fs::path& path) {
-  return path.extension() == ".svg" ? 1 : 0.75;
-}
-
 // Where the key goes: in rows between title and plot, so that it never hides a point.
 struct Key {
   int columns = 0;  // 0: no key
@@ -119,32 +101,14 @@ Key plan_key(const std::vector<ChartSeries>& series, const ChartFrame& frame) {
 std::string axis_lines(const char* letter, const Axis& axis, const std::string& label) {
   std::string ticks;
   for (const Tick& tick : axis.ticks)
-    ticks += fmt::format("{}{} {}", ticks.empty() ? "" : ", ", quoted(tick.text),
+    ticks += fmt::format("{}{} {}", ticks.empty() ? "" : ", ", gnuplot_quoted(tick.text),
                          number_text(tick.value));
   std::string text = axis.log ? fmt::format("set logscale {}\n", letter)
                               : fmt::format("unset logscale {}\n", letter);
   text +=
       fmt::format("set {}range [{}:{}]\n", letter, number_text(axis.low), number_text(axis.high));
   text += fmt::format("set {}tics ({})\n", letter, ticks);
-  text += fmt::format("set {}label {}\n", letter, quoted(label));
-  return text;
-}
-
-std::string terminal_lines(const fs::path& path, const ChartFrame& frame) {
-  // noenhanced: "_" and "^" in names stay what they are.
-  const bool svg = path.extension() == ".svg";
-  std::string text = "set encoding utf8\n";
-  if (svg)
-    text += fmt::format(
-        "set terminal svg size {},{} font 'sans-serif,{}' background rgb 'white' noenhanced "
-        "name 'chart'\n",
-        frame.width, frame.height, frame.font);
-  else
-    text += fmt::format("set terminal pngcairo size {},{} font 'DejaVu Sans,{}' noenhanced\n",
-                        frame.width, frame.height, frame.font * font_unit(path));
-  // Whoever draws the chart again may name another file: gnuplot -e "picture='other.svg'" ...
-  text += fmt::format("if (!exists('picture')) picture = {}\nset output picture\n",
-                      quoted(path.filename().string()));
+  text += fmt::format("set {}label {}\n", letter, gnuplot_quoted(label));
   return text;
 }
 
@@ -162,7 +126,8 @@ std::string style_lines(const ChartFrame& frame, const ChartOptions& options, co
   if (!options.title.empty())
     text += fmt::format(
         "set label 1 {} at screen 0.5,{:.4f} center font ',{:.4g}' textcolor rgb '#14171B'\n",
-        quoted(options.title), 1 - 1.5 * frame.font / frame.height, frame.font * unit * 1.2);
+        gnuplot_quoted(options.title), 1 - 1.5 * frame.font / frame.height,
+        frame.font * unit * 1.2);
   if (key.columns == 0)
     text += "unset key\n";
   else
@@ -181,7 +146,7 @@ std::string label_lines(const std::vector<PlacedLabel>& labels, double font_size
     text += fmt::format(
         "set label {} {} at graph {:.5f},{:.5f} {} font ',{:.4g}' "
         "textcolor rgb '{}' front\n",
-        number++, quoted(label.text), label.x, label.y,
+        number++, gnuplot_quoted(label.text), label.x, label.y,
         kAnchors[static_cast<std::size_t>(label.anchor)], font_size, colour(label.series));
   return text;
 }
@@ -209,14 +174,14 @@ std::string plot_lines(const std::vector<ChartSeries>& series, const std::string
     const std::size_t count = series[s].points.size();
     if (count == 0) continue;
     const std::string rows =
-        fmt::format("{} skip 1 every ::{}::{}", quoted(data), first, first + count - 1);
+        fmt::format("{} skip 1 every ::{}::{}", gnuplot_quoted(data), first, first + count - 1);
     first += count;
     const auto separator = [&] { return text.empty() ? "plot " : ", \\\n     "; };
     if (std::any_of(series[s].points.begin(), series[s].points.end(), has_interval))
       text += fmt::format("{}{} using 2:3:4:5 with yerrorbars pt 0 lw 1.2 lc rgb '{}' notitle",
                           separator(), rows, colour(s));
     const std::string title =
-        series[s].name.empty() ? "notitle" : "title " + quoted(series[s].name);
+        series[s].name.empty() ? "notitle" : "title " + gnuplot_quoted(series[s].name);
     text +=
         fmt::format("{}{} using 2:3 with {} pt {} ps 1.2 lw 2 lc rgb '{}' {}", separator(), rows,
                     series[s].joined ? "linespoints" : "points", shape(s), colour(s), title);
@@ -243,15 +208,13 @@ std::string gnuplot_script(const std::vector<ChartSeries>& series, const ChartOp
   frame.top =
       (options.title.empty() ? 1 : kTitleSpace) * frame.font + key.height + 0.6 * frame.font;
   const Axes axes = make_axes(series, options);
-  std::string text = "# Made by springlod. Draws " + path.filename().string() + " again: gnuplot " +
-                     path.stem().string() + ".gp\n";
-  text += terminal_lines(path, frame);
+  std::string text = gnuplot_terminal(path, frame.width, frame.height, frame.font);
   text += "set datafile separator comma\n";
-  text += style_lines(frame, options, key, font_unit(path));
+  text += style_lines(frame, options, key, gnuplot_font_unit(path));
   text += axis_lines("x", axes.x, options.x_label);
   text += axis_lines("y", axes.y, options.y_label);
   text += label_lines(place_labels(with_edge_labels(series, options), axes.x, axes.y, frame),
-                      kLabelFont * frame.font * font_unit(path));
+                      kLabelFont * frame.font * gnuplot_font_unit(path));
   text += edge_point_lines(series, axes);
   text += plot_lines(series, data);
   return text;
@@ -264,25 +227,12 @@ ChartFiles draw_chart(const std::vector<ChartSeries>& series, const ChartOptions
   require_drawable(series, path);
   ChartFiles files;
   files.data = fs::path(path).replace_extension(".csv");
-  files.script = fs::path(path).replace_extension(".gp");
+  files.script = gnuplot_script_path(path);
   save_csv(data_table(series), files.data);
-  write_text_file(files.script,
-                  gnuplot_script(series, options, path, files.data.filename().string()));
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  // The script names its neighbours without a folder, so that all three can be moved together.
-  files.command = "cd " + shell_word(folder.string()) + " && " +
-                  shell_line("gnuplot", {files.script.filename().string()});
-  const auto gnuplot = find_program("gnuplot");
-  if (!gnuplot) return files;
-  write_aside(path, [&](const fs::path& aside) {
-    const std::string output = "picture=" + quoted(aside.filename().string());
-    const ProgramResult run =
-        run_program(*gnuplot, {"-e", output, files.script.filename().string()}, folder);
-    if (run.exit_code != 0)
-      throw IoError(fmt::format("gnuplot failed (exit {}) on {}:\n{}\nThe command was: {}",
-                                run.exit_code, files.script.string(), run.errors, files.command));
-  });
-  files.drawn = true;
+  const Drawing drawing = draw_with_gnuplot(
+      gnuplot_script(series, options, path, files.data.filename().string()), path);
+  files.drawn = drawing.drawn;
+  files.command = drawing.command;
   return files;
 }
 

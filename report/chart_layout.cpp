@@ -141,7 +141,14 @@ std::string tick_text(double value) {
   const double size = std::abs(value);
   if (size == 0) return "0";
   if (size >= 1e-4 && size < 1e6) return fmt::format("{:.6g}", value);
-  int exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9));
+  return power_text(value);
+}
+
+std::string power_text(double value) {
+  const double size = std::abs(value);
+  if (size >= 0.1 && size < 1e3) return fmt::format("{:.3g}", value);
+  if (size == 0) return "0";
+  const int exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9));
   const std::string mantissa = fmt::format("{:.3g}", value / std::pow(10., exponent));
   const std::string power = "10" + superscript(exponent);
   return mantissa == "1" ? power : mantissa + "·" + power;

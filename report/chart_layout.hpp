@@ -40,6 +40,9 @@ Axis make_axis(const std::vector<double>& values, bool log);
 /// "0.05", "2·10⁹"
 std::string tick_text(double value);
 
+/// "1", "10", "10³", "2·10⁴": short for powers of ten.
+std::string power_text(double value);
+
 enum class TextAnchor { left, center, right };
 
 /// A point's label, placed: anchor in plot box units, 0..1 from the lower left.

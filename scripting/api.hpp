@@ -119,6 +119,7 @@ void describe_random(Api& api);  // of voxelize too, called by describe_voxelize
 void describe_refill(Api& api);  // likewise, called by describe_lod: it makes levels
 void describe_lod(Api& api);
 void describe_sim(Api& api);
+void describe_stability(Api& api);  // of sim too
 void describe_render(Api& api);
 void describe_report(Api& api);
 void describe_statistics(Api& api);

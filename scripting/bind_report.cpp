@@ -9,6 +9,8 @@
 #include "report/animate.hpp"
 #include "report/chart.hpp"
 #include "report/csv.hpp"
+#include "report/gnuplot.hpp"
+#include "report/map_picture.hpp"
 #include "report/video.hpp"
 #include "scripting/call.hpp"
 #include "scripting/chart_table.hpp"
@@ -55,9 +57,23 @@ int video_binding(Call& call) {
   return call.give(video.made, video.command);
 }
 
+int give_drawn(Call& call, const Drawing& drawing) {
+  if (!drawing.drawn)
+    call.session().console().say("no chart: gnuplot is not installed; with it, run\n  " +
+                                 drawing.command);
+  return call.give(drawing.drawn, drawing.command);
+}
+
 int chart_binding(Call& call) {
   ChartOptions options;
   TableReader reader = call.options(3);
+  if (const auto map = call.try_value<StabilityMap>(2)) {
+    MapPictureOptions picture;
+    read_chart_options(reader, options);
+    reader.finish();
+    picture.title = options.title;
+    return give_drawn(call, draw_map(*map, picture, call.path(1)));
+  }
   const auto comparison = call.try_value<ComparisonValue>(2);
   std::vector<ChartSeries> series;
   if (comparison) {
@@ -69,10 +85,7 @@ int chart_binding(Call& call) {
   read_chart_options(reader, options);
   reader.finish();
   const ChartFiles files = draw_chart(series, options, call.path(1));
-  if (!files.drawn)
-    call.session().console().say("no chart: gnuplot is not installed; with it, run\n  " +
-                                 files.command);
-  return call.give(files.drawn, files.command);
+  return give_drawn(call, {files.drawn, files.command});
 }
 
 int csv_binding(Call& call) {
@@ -202,12 +215,14 @@ void describe_report(Api& api) {
   api.add(FunctionEntry{
       .name = "chart",
       .group = kGroup,
-      .summary =
-          "Draws a chart as .svg or .png: cost against error of a comparison, or any series.",
+      .summary = "Draws a chart as .svg or .png: cost against error of a comparison, a stability "
+                 "map, or any "
+                 "series.",
       .arguments = {{.name = "path", .type = "string", .help = "NAME.svg or NAME.png to write"},
                     {.name = "data",
-                     .type = "Comparison or list of Series",
-                     .help = "a comparison gives one point a level"}},
+                     .type = "Comparison, StabilityMap or list of Series",
+                     .help = "a comparison gives one point a level, a map a panel for each level "
+                             "and integrator (of the options it takes the title)"}},
       .options = chart_parameters(),
       .returns = "boolean, string: whether it was drawn (gnuplot may be missing), the command that "
                  "draws it",

@@ -9,6 +9,8 @@
 #include "model/error.hpp"
 #include "report/comparison_tables.hpp"
 #include "scripting/call.hpp"
+#include "scripting/chart_table.hpp"
+#include "scripting/integrator_word.hpp"
 #include "scripting/scenario_table.hpp"
 #include "scripting/values.hpp"
 #include "sim/compare.hpp"
@@ -26,8 +28,7 @@ std::vector<Parameter> run_parameters() {
            .type = "one of",
            .fallback = "\"symplectic_euler\"",
            .help = "how a step is made; the first three are explicit, the others go on at any step",
-           .choices = {"symplectic_euler", "velocity_verlet", "runge_kutta_4", "backward_euler_cg",
-                       "backward_euler_direct", "xpbd", "projective_dynamics"}},
+           .choices = integrator_words()},
           {.name = "iterations",
            .type = "integer",
            .fallback = "20 of Newton, 1 sweep of xpbd, 10 of projective_dynamics",
@@ -36,6 +37,10 @@ std::vector<Parameter> run_parameters() {
            .type = "number",
            .fallback = fmt::format("{}", usual.solver.tolerance),
            .help = "part of the forces at which backward Euler stops iterating"},
+          {.name = "linear_iterations",
+           .type = "integer",
+           .fallback = "twice the unknowns",
+           .help = "of the conjugate gradients inside one iteration of Newton, at most"},
           {.name = "step",
            .type = "quantity",
            .dimension = Dimension::time,
@@ -56,21 +61,30 @@ std::vector<Parameter> run_parameters() {
 }
 
 void read_run_options(Call& call, TableReader& reader, RunOptions& options) {
-  reader.choose("integrator", options.integrator,
-                {{"symplectic_euler", Integrator::symplectic_euler},
-                 {"velocity_verlet", Integrator::velocity_verlet},
-                 {"runge_kutta_4", Integrator::runge_kutta_4},
-                 {"backward_euler_cg", Integrator::backward_euler_cg},
-                 {"backward_euler_direct", Integrator::backward_euler_direct},
-                 {"xpbd", Integrator::xpbd},
-                 {"projective_dynamics", Integrator::projective_dynamics}});
+  read_integrator(reader, "integrator", options.integrator);
   reader.read("iterations", options.solver.iterations);
   reader.read("tolerance", options.solver.tolerance);
+  reader.read("linear_iterations", options.solver.linear_iterations);
   reader.read("step", options.step);
   reader.read("safety", options.safety);
   reader.read("frame_rate", options.frame_rate);
   reader.read("ledger", options.ledger);
   options.progress = call.progress();
+}
+
+/// What a run went on with although it should be known.
+void warn(Console& console, const Trajectory& run) {
+  if (run.unconverged_steps > 0)
+    console.say(
+        fmt::format("run: in {} of {} steps the solver stopped short of its tolerance; give it "
+                    "more iterations, "
+                    "a greater tolerance or a smaller step",
+                    run.unconverged_steps, run.steps));
+  if (run.first_crossing)
+    console.say(fmt::format(
+        "run: nodes {} and {} went past each other by t = {:.4g} s: the body is inside out there; "
+        "take a stiffer material, a softer blow or a finer model",
+        run.first_crossing->a + 1, run.first_crossing->b + 1, run.first_crossing->time));
 }
 
 int run_binding(Call& call) {
@@ -82,6 +96,7 @@ int run_binding(Call& call) {
   read_run_options(call, reader, options);
   reader.finish();
   value->trajectory = run(*value->model->model, *value->scenario, options);
+  warn(call.session().console(), value->trajectory);
   return call.give(std::shared_ptr<const TrajectoryValue>(value));
 }
 
@@ -146,6 +161,15 @@ void push_final(lua_State* L, const TrajectoryValue& value) {
   set_field(L, "v", value.trajectory.final.v);
 }
 
+void push_crossing(lua_State* L, const TrajectoryValue& value) {
+  const auto& crossing = value.trajectory.first_crossing;
+  if (!crossing) return lua_pushnil(L);
+  begin_table(L);
+  set_field(L, "a", crossing->a + 1);
+  set_field(L, "b", crossing->b + 1);
+  set_field(L, "time", crossing->time);
+}
+
 void describe_trajectory(Api& api) {
   TypeBuilder<TrajectoryValue> type(
       "One run of one model; trajectory[i] is frame i, #trajectory their number.",
@@ -166,6 +190,9 @@ void describe_trajectory(Api& api) {
          [](const Trajectory& t) { return t.wall_seconds; });
   type.field("steps", "integer", "number of steps",
              [](const TrajectoryValue& value) { return value.trajectory.steps; });
+  type.field("unconverged_steps", "integer",
+             "steps that the solver of backward Euler ended short of its tolerance",
+             [](const TrajectoryValue& value) { return value.trajectory.unconverged_steps; });
   type.field("spring_updates", "integer",
              "steps times springs: the cost that does not depend on "
              "the machine",
@@ -177,6 +204,10 @@ void describe_trajectory(Api& api) {
                      const auto& time = value.trajectory.first_contact;
                      time ? push(L, *time) : lua_pushnil(L);
                    });
+  type.table_field("first_crossing", "table",
+                   "the first two nodes of a spring that went past each other: a, b (from 1), time "
+                   "[s]; or nil",
+                   push_crossing);
   type.table_field("ledger", "list of tables",
                    "energies of each frame [J]: time, kinetic, elastic, gravity, contact, "
                    "lost_damping, lost_friction, lost_contact, lost_switch, total",
@@ -199,20 +230,6 @@ void describe_trajectory(Api& api) {
         return true;
       });
   api.add(type.build());
-}
-
-void push_rows(lua_State* L, const Table& table) {
-  begin_list(L, table.rows.size());
-  std::size_t number = 0;
-  for (const auto& row : table.rows) {
-    begin_table(L);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      // Cells are text; numbers become numbers again.
-      if (lua_stringtonumber(L, row[i].c_str()) == 0) push(L, row[i]);
-      end_field(L, table.columns[i].c_str());
-    }
-    end_list_entry(L, ++number);
-  }
 }
 
 int table_method(Call& call) {
@@ -311,6 +328,7 @@ void describe_sim(Api& api) {
   describe_scenario(api);
   describe_trajectory(api);
   describe_comparison(api);
+  describe_stability(api);
   const Parameter scenario{.name = "scenario",
                            .type = "Scenario",
                            .help = "what it goes through; a table for s.scenario will do"};
@@ -323,7 +341,8 @@ void describe_sim(Api& api) {
       .options = run_parameters(),
       .returns = "Trajectory",
       .errors = "A run that leaves the numbers: error.kind is \"unstable\", error.node and "
-                "error.time say where and when.",
+                "error.time say where and when. A node that goes through a box: \"tunnelled\", "
+                "error.obstacle says which.",
       .example = "local trajectory = s.run(chain[1], scene, {frame_rate = 30})",
       .call = run_binding});
   api.add(FunctionEntry{

@@ -212,6 +212,19 @@ void TableReader::read(std::string_view name, std::vector<std::string>& into) {
   lua_pop(lua_, 1);
 }
 
+void TableReader::read(std::string_view name, std::vector<double>& into) {
+  if (!get(name)) return;
+  if (!lua_istable(lua_, -1)) refuse(name, "a list of numbers, got " + shown(lua_, -1));
+  into.clear();
+  for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(lua_, -1)); ++i) {
+    lua_rawgeti(lua_, -1, i);
+    into.push_back(
+        quantity_at(lua_, -1, listed(name).dimension, fmt::format("{}: {}[{}]", owner_, name, i)));
+    lua_pop(lua_, 1);
+  }
+  lua_pop(lua_, 1);
+}
+
 std::optional<long long> TableReader::whole_number(std::string_view name, double least,
                                                    double most) {
   if (!get(name)) return std::nullopt;

@@ -41,6 +41,7 @@ class TableReader {
   void read(std::string_view name, Vec3& into);
   void read(std::string_view name, Colour& into);
   void read(std::string_view name, std::vector<std::string>& into);
+  void read(std::string_view name, std::vector<double>& into);  ///< each as a single one is read
   template <class T>
   requires std::integral<T> &&(!std::same_as<T, bool>)void read(std::string_view name, T& into) {
     if (const auto value = whole_number(name, static_cast<double>(std::numeric_limits<T>::min()),

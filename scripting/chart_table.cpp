@@ -220,4 +220,18 @@ Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle nu
   return table;
 }
 
+void push_rows(lua_State* L, const Table& table) {
+  begin_list(L, table.rows.size());
+  std::size_t number = 0;
+  for (const auto& row : table.rows) {
+    begin_table(L);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      // Cells are text; numbers become numbers again.
+      if (lua_stringtonumber(L, row[i].c_str()) == 0) push(L, row[i]);
+      end_field(L, table.columns[i].c_str());
+    }
+    end_list_entry(L, ++number);
+  }
+}
+
 }  // namespace springlod

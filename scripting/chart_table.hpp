@@ -24,6 +24,9 @@ void describe_series(Api& api);
 /// How numbers that are not whole are written: so that they read back the same, or to be looked at.
 enum class NumberStyle { exact, four_digits };
 
+/// A list of rows, each a table with the columns as keys; cells that are numbers become numbers.
+void push_rows(lua_State* L, const Table& table);
+
 /// Rows at `index` with the option `columns`.
 Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers);
 

@@ -12,6 +12,7 @@
 #include "sim/compare.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
+#include "sim/stability_map.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/import.hpp"
 
@@ -68,6 +69,9 @@ struct ComparisonValue {
 };
 template <>
 inline constexpr const char* kValueName<ComparisonValue> = "Comparison";
+
+template <>
+inline constexpr const char* kValueName<StabilityMap> = "StabilityMap";
 
 template <>
 inline constexpr const char* kValueName<NoiseFloor> = "NoiseFloor";

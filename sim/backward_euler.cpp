@@ -11,8 +11,6 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr std::uint32_t kIterations = 20;  // Newton rarely wants more than 5
-
 // Newton's direction need not be exact: this part of the gradient may be left [1].
 constexpr double kLinearTolerance = 1e-3;
 
@@ -62,7 +60,7 @@ BackwardEuler::BackwardEuler(const MassSpringModel& model, const Scenario& scena
                              const State& start, double step, const StepperOptions& options)
     : WholeStep(model, scenario, start, step, options),
       springs_(model, step),
-      iterations_(options.solver.iterations > 0 ? options.solver.iterations : kIterations),
+      iterations_(iterations_of(options.integrator, options.solver)),
       tolerance_(options.solver.tolerance),
       free_(start.x),
       trial_(start.x),

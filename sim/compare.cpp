@@ -13,6 +13,7 @@
 #include "model/error.hpp"
 #include "sim/deviation.hpp"
 #include "sim/parallel.hpp"
+#include "sim/run_progress.hpp"
 
 namespace springlod {
 namespace {
@@ -20,9 +21,6 @@ namespace {
 // Frames of two runs closer than this are the same instant [s]; frame times only differ by
 // rounding.
 constexpr double kSameTime = 1e-9;
-
-// Units of progress in one run, whatever its number of steps.
-constexpr std::uint64_t kUnitsPerRun = 1000;
 
 void validate(const LodChain& chain, const CompareOptions& options) {
   if (chain.levels.empty()) throw InputError("compare: the chain has no levels");
@@ -38,32 +36,6 @@ std::string label_of(std::uint32_t level, const std::string& variant) {
   if (level == 0) return "base";
   return variant.empty() ? fmt::format("LOD-{}", level) : fmt::format("LOD-{}-{}", variant, level);
 }
-
-/// Turns the steps of one run into its share of the whole and stops the run when asked to.
-class RunProgress : public Progress {
- public:
-  RunProgress(Progress* whole, const std::function<bool()>& stopped)
-      : whole_(whole), stopped_(&stopped) {}
-  void begin(std::string_view /*task*/, std::uint64_t total) override { total_ = total; }
-  void advance(std::uint64_t count) override {
-    if ((*stopped_)()) throw InterruptedError();
-    done_ += count;
-    report(kUnitsPerRun * done_ / total_);
-  }
-  /// What is left when a stop rule ended the run early.
-  void finish() { report(kUnitsPerRun); }
-
- private:
-  void report(std::uint64_t units) {
-    if (whole_ != nullptr && units > reported_) whole_->advance(units - reported_);
-    reported_ = units;
-  }
-  Progress* whole_;
-  const std::function<bool()>* stopped_;
-  std::uint64_t total_ = 1;
-  std::uint64_t done_ = 0;
-  std::uint64_t reported_ = 0;
-};
 
 /// What the levels of one start need of the base.
 struct BaseRun {
@@ -123,7 +95,7 @@ class Comparing {
 
   Comparison run_all() {
     const std::uint64_t jobs = std::uint64_t{options_.starts} * chain_.levels.size();
-    Task task(options_.progress, "compare", jobs * kUnitsPerRun);
+    Task task(options_.progress, "compare", jobs * RunProgress::kUnits);
     // Start by start, the base first: a level that waits for its base waits for a run under way.
     run_jobs(jobs, options_.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
       const auto start = static_cast<std::uint32_t>(job / chain_.levels.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace springlod {
@@ -15,6 +16,14 @@ enum class Integrator {
   projective_dynamics,    ///< Bouaziz, Martin, Liu, Kavan, Pauly 2014
 };
 
+inline constexpr std::array kIntegrators{
+    Integrator::symplectic_euler,   Integrator::velocity_verlet,       Integrator::runge_kutta_4,
+    Integrator::backward_euler_cg,  Integrator::backward_euler_direct, Integrator::xpbd,
+    Integrator::projective_dynamics};
+
+/// The word that scripts and tables use: "symplectic_euler".
+const char* to_string(Integrator integrator);
+
 /// Whether the step is not bound by the model's highest frequency.
 bool is_implicit(Integrator integrator);
 
@@ -29,5 +38,9 @@ struct SolverOptions {
   /// Iterations of the conjugate gradients inside one of Newton's at most; 0: twice the unknowns.
   std::uint32_t linear_iterations = 0;
 };
+
+/// Iterations at most that `options` stand for: their default filled in; 0 for the explicit
+/// schemes.
+std::uint32_t iterations_of(Integrator integrator, const SolverOptions& options);
 
 }  // namespace springlod

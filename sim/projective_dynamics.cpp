@@ -1,18 +1,13 @@
 #include "sim/projective_dynamics.hpp"
 
 namespace springlod {
-namespace {
-
-constexpr std::uint32_t kIterations = 10;
-
-}  // namespace
 
 ProjectiveDynamics::ProjectiveDynamics(const MassSpringModel& model, const Scenario& scenario,
                                        const State& start, double step,
                                        const StepperOptions& options)
     : WholeStep(model, scenario, start, step, options),
       springs_(model, step),
-      iterations_(options.solver.iterations > 0 ? options.solver.iterations : kIterations),
+      iterations_(iterations_of(options.integrator, options.solver)),
       touching_(model.node_count(), 0.0),
       free_(start.x),
       right_(static_cast<Eigen::Index>(model.node_count()), 3) {

@@ -10,21 +10,6 @@
 
 namespace springlod {
 
-bool is_implicit(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::symplectic_euler:
-    case Integrator::velocity_verlet:
-    case Integrator::runge_kutta_4:
-      return false;
-    case Integrator::backward_euler_cg:
-    case Integrator::backward_euler_direct:
-    case Integrator::xpbd:
-    case Integrator::projective_dynamics:
-      return true;
-  }
-  return false;
-}
-
 Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start,
                  double step)
     : model_(&model),

@@ -3,17 +3,12 @@
 #include <algorithm>
 
 namespace springlod {
-namespace {
-
-constexpr std::uint32_t kSweeps = 1;
-
-}  // namespace
 
 Xpbd::Xpbd(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
            const StepperOptions& options)
     : WholeStep(model, scenario, start, step, options),
       springs_(model, step),
-      sweeps_(options.solver.iterations > 0 ? options.solver.iterations : kSweeps),
+      sweeps_(iterations_of(options.integrator, options.solver)),
       multiplier_(model.spring_count()) {
   for (const double mass : model.mass) inverse_mass_.push_back(1 / mass);
 }

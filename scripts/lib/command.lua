@@ -51,6 +51,32 @@ function command.number(option, limit, inclusive)
   end
 end
 
+-- Lists with commas between, such as 1,10,1e3: the words of `text`, each through `convert`.
+local function list(text, convert)
+  local values = {}
+  for word in (text .. ","):gmatch("%s*(.-)%s*,") do
+    local value, reason = convert(word)
+    if value == nil then return nil, reason end
+    values[#values + 1] = value
+  end
+  return values
+end
+
+-- Numbers above `limit`; if `whole`, whole ones from it on.
+function command.numbers(option, limit, whole)
+  local convert = whole and command.whole(option, limit) or command.number(option, limit)
+  return function(text) return list(text, convert) end
+end
+
+-- Quantities such as 1ms,5ms in SI units.
+function command.quantities(option, dimension)
+  return function(text) return list(text, command.quantity(option, dimension)) end
+end
+
+function command.words(text)
+  return list(text, function(word) return word end)
+end
+
 -- Why a call failed: the message of springlod without the line of the script that called it. What
 -- is no error of springlod is a fault of a script and keeps its line.
 function command.reason(failure)

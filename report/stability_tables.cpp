@@ -1,0 +1,89 @@
+#include "report/stability_tables.hpp"
+
+#include <fmt/format.h>
+
+namespace springlod {
+namespace {
+
+std::string whole(std::uint64_t value) {
+  return fmt::format("{}", value);
+}
+
+}  // namespace
+
+std::string stability_columns_help() {
+  return "level, nodes, springs, integrator, iterations (at most; 0: explicit), ratio (of Young's "
+         "moduli, stiff over soft), step [s], limit (predicted for the integrator; of symplectic "
+         "Euler for implicit ones) [s], step_over_limit, stable (1: the run came to its end within "
+         "its energy), verdict, diverged_at [s], node (that diverged or hangs loose; from 1), "
+         "energy_drift (of the scheme, over the energy at the start), error (RMS distance from a "
+         "fine run over its RMS way), cost (spring updates a simulated second), unconverged_steps; "
+         "what does not apply is an empty string";
+}
+
+Table stability_table(const StabilityMap& map) {
+  Table table;
+  table.columns = {
+      "level", "nodes",        "springs",         "integrator", "iterations",       "ratio",
+      "step",  "limit",        "step_over_limit", "stable",     "verdict",          "diverged_at",
+      "node",  "energy_drift", "error",           "cost",       "unconverged_steps"};
+  for (const StabilityPoint& point : map.points) {
+    const StabilityBody& body = map.bodies[point.body];
+    const auto if_stable = [&](double value) {
+      return point.stable ? number_text(value) : std::string();
+    };
+    table.rows.push_back(
+        {whole(body.level), whole(body.nodes), whole(body.springs), to_string(point.integrator),
+         whole(point.iterations), number_text(body.ratio), number_text(point.step),
+         number_text(point.limit), number_text(point.step / point.limit), point.stable ? "1" : "0",
+         to_string(point.verdict), point.diverged_at ? number_text(*point.diverged_at) : "",
+         point.node ? whole(std::uint64_t{*point.node} + 1) : "", if_stable(point.energy_drift),
+         if_stable(point.error), if_stable(point.cost), whole(point.unconverged_steps)});
+  }
+  return table;
+}
+
+std::string stability_bodies_columns_help() {
+  return "level, ratio, nodes, springs, limit (of symplectic Euler) [s], limited_by (springs or "
+         "damping), period (of the base's slowest mode) [s], duration (of each run) [s], "
+         "frequency_error (mean relative error of the six lowest frequencies against the base at "
+         "the same ratio), reference_error (what the fine run itself is off, as error), "
+         "loose_nodes "
+         "(how many)";
+}
+
+Table stability_bodies_table(const StabilityMap& map) {
+  Table table;
+  table.columns = {"level",           "ratio",           "nodes",      "springs",
+                   "limit",           "limited_by",      "period",     "duration",
+                   "frequency_error", "reference_error", "loose_nodes"};
+  for (const StabilityBody& body : map.bodies)
+    table.rows.push_back({whole(body.level), number_text(body.ratio), whole(body.nodes),
+                          whole(body.springs), number_text(body.limit),
+                          body.limited_by_damping ? "damping" : "springs", number_text(body.period),
+                          number_text(body.duration), number_text(body.frequency_error),
+                          number_text(body.reference_error), whole(body.mechanism_nodes.size())});
+  return table;
+}
+
+Table stability_timings_table(const StabilityMap& map) {
+  Table table;
+  table.columns = {"level",
+                   "integrator",
+                   "iterations",
+                   "ratio",
+                   "step",
+                   "wall_seconds",
+                   "wall_seconds_per_second"};
+  for (const StabilityPoint& point : map.points) {
+    if (!point.stable) continue;
+    const StabilityBody& body = map.bodies[point.body];
+    table.rows.push_back({whole(body.level), to_string(point.integrator), whole(point.iterations),
+                          number_text(body.ratio), number_text(point.step),
+                          number_text(point.wall_seconds),
+                          number_text(point.wall_seconds / body.duration)});
+  }
+  return table;
+}
+
+}  // namespace springlod

@@ -1,0 +1,133 @@
+-- Maps which integrator holds out at which step and stiffness ratio.
+
+local s = require "springlod"
+local command = require "lib.command"
+
+local parser = command.parser("stability", "Runs every level of an asset under every integrator, "
+  .. "over steps and stiffness ratios, against a fine run of the same model. Writes map.csv, "
+  .. "bodies.csv, map.svg and map.png, and timings.csv (measured times, which alone differ from "
+  .. "run to run).")
+parser:argument("asset", "a .glb that convert or save wrote")
+parser:option("--out", "folder to write to"):argname("<folder>"):default("out/stability")
+parser:option("--levels", "such as 0,2 (default: all)")
+  :convert(command.numbers("--levels", 0, true)):argname("<list>")
+parser:option("--ratios", "Young's modulus of the stiff part over the soft one (default: 1,10,100,"
+  .. "1000,1e4,1e5)"):convert(command.numbers("--ratios", 0)):argname("<list>")
+parser:option("--integrators", "such as xpbd,runge_kutta_4 (default: all)")
+  :convert(command.words):argname("<list>")
+parser:option("--iterations", "of xpbd and projective_dynamics, such as 1,10,100")
+  :convert(command.numbers("--iterations", 1, true)):argname("<list>")
+parser:option("--steps", "of explicit integrators, in predicted limits (default: 0.5,0.9,1.1,2)")
+  :convert(command.numbers("--steps", 0)):argname("<list>")
+parser:option("--implicit-steps", "of the others, in periods of the slowest mode (default: "
+  .. "0.003,0.01,0.03,0.1)"):convert(command.numbers("--implicit-steps", 0)):argname("<list>")
+parser:option("--absolute-steps", "of all, such as 0.1ms,1ms, in place of both")
+  :convert(command.quantities("--absolute-steps", "time")):argname("<list>")
+parser:option("--periods", "length of each run in periods of the slowest mode (default: 2)")
+  :convert(command.number("--periods", 0))
+parser:option("--duration", "length of each run, such as 0.1s")
+  :convert(command.quantity("--duration", "time"))
+parser:flag("--fixed-levels", "only the base follows the ratio: how far can a level be used off "
+  .. "the one it was made for?")
+parser:flag("--quick", "three ratios, three steps, one period: a first look")
+local args = parser:parse()
+
+local quick = args.quick and {
+  ratios = {1, 100, 1e4}, steps = {0.9, 1.1}, implicit_steps = {0.01, 0.03, 0.1}, periods = 1,
+} or {}
+
+local function stability()
+  local map = s.stability(s.load(args.asset), {
+    levels = args.levels, ratios = args.ratios or quick.ratios, integrators = args.integrators,
+    iterations = args.iterations, steps = args.steps or quick.steps,
+    implicit_steps = args.implicit_steps or quick.implicit_steps,
+    absolute_steps = args.absolute_steps, periods = args.periods or quick.periods,
+    duration = args.duration, remake_levels = not args.fixed_levels,
+    seed = s.seed, threads = s.threads,
+  })
+  for _, name in ipairs{"table", "bodies", "timings"} do
+    local rows, columns = map[name](map)
+    local file = name == "table" and "map" or name
+    s.csv(("%s/%s.csv"):format(args.out, file), rows, {columns = columns})
+  end
+  local title = "Stability of " .. command.base_name(args.asset)
+  s.chart(args.out .. "/map.svg", map, {title = title})
+  s.chart(args.out .. "/map.png", map, {title = title})
+  return map
+end
+
+local function percent(part)
+  return ("%.3g %%"):format(100 * part)
+end
+
+-- A row of integrators[...] of one level: for each ratio the best that it came to.
+local function best_rows(rows, ratios)
+  local lines, of = {}, {}
+  for _, row in ipairs(rows) do
+    local key = ("%d %s %d"):format(row.level, row.integrator, row.iterations)
+    local line = of[key]
+    if not line then
+      line = {row = row, best = {}}
+      of[key] = line
+      lines[#lines + 1] = line
+    end
+    local best = line.best[row.ratio]
+    if not best or row.stable == 1 and (best.stable == 0 or row.error < best.error) then
+      line.best[row.ratio] = row
+    end
+  end
+  local cells = {}
+  for i, line in ipairs(lines) do
+    local row = {line.row.level, line.row.integrator, line.row.iterations}
+    for _, ratio in ipairs(ratios) do
+      local best = line.best[ratio]
+      row[#row + 1] = best.stable == 1 and percent(best.error) or best.verdict
+    end
+    cells[i] = row
+  end
+  return cells
+end
+
+-- For each level and ratio the cheapest point within `most` of the reference.
+local function cheapest_rows(rows, bodies, most)
+  local cells = {}
+  for i, body in ipairs(bodies) do
+    local best
+    for _, row in ipairs(rows) do
+      local fits = row.level == body.level and row.ratio == body.ratio and row.stable == 1
+        and row.error <= most
+      if fits and (not best or row.cost < best.cost) then best = row end
+    end
+    cells[i] = {
+      body.level, ("%g"):format(body.ratio), ("%.3g"):format(body.limit), body.limited_by,
+      percent(body.frequency_error), best and best.integrator or "none",
+      best and ("%.3g"):format(best.step) or "", best and percent(best.error) or "",
+      best and ("%.3g"):format(best.cost) or "",
+    }
+  end
+  return cells
+end
+
+local ok, map = command.try(stability)
+if not ok then command.fail("cannot map %s: %s", args.asset, map) end
+local rows = map:table()
+local bodies = map:bodies()
+local ratios, columns = {}, {"level", "integrator", "iterations"}
+for _, body in ipairs(bodies) do
+  if body.level == bodies[1].level then
+    ratios[#ratios + 1] = body.ratio
+    columns[#columns + 1] = ("%g"):format(body.ratio)
+  end
+end
+print("stiff part: " .. map.stiff_part)
+print("\nleast error of any step, by ratio of Young's moduli:")
+print(s.format_table(best_rows(rows, ratios), {columns = columns}))
+print("\ncheapest within 10 % (spring updates a simulated second):")
+print(s.format_table(cheapest_rows(rows, bodies, 0.1), {columns = {
+  "level", "ratio", "limit [s]", "limited by", "frequencies off", "integrator", "step [s]", "error",
+  "cost"}}))
+local counts = {}
+for verdict, count in pairs(map.verdicts) do counts[#counts + 1] = count .. " " .. verdict end
+table.sort(counts)
+print(("\n%d points: %s"):format(#rows, table.concat(counts, ", ")))
+s.say("wrote " .. args.out)
