@@ -275,7 +275,7 @@ class Picture {
     const Rect place{strip.left + kSeam, y_of(strip, cell.high) + kSeam, strip.right - kSeam,
                      y_of(strip, cell.low) - kSeam};
     if (cell.point->verdict == Verdict::mechanism) return sheet_.hatch(place, kMechanismPattern);
-    if (!cell.point->stable) return sheet_.hatch(place, kDivergedPattern);
+    if (!cell.point->finished) return sheet_.hatch(place, kDivergedPattern);
     sheet_.colour(place, colour_of(cell.point->error));
     const char* mark = mark_of(cell.point->verdict);
     if (*mark == '\0') return;

@@ -14,8 +14,10 @@ std::string whole(std::uint64_t value) {
 std::string stability_columns_help() {
   return "level, nodes, springs, integrator, iterations (at most; 0: explicit), ratio (of Young's "
          "moduli, stiff over soft), step [s], limit (predicted for the integrator; of symplectic "
-         "Euler for implicit ones) [s], step_over_limit, stable (1: the run came to its end within "
-         "its energy), verdict, diverged_at [s], node (that diverged or hangs loose; from 1), "
+         "Euler for implicit ones) [s], step_over_limit, stable (1: the run came to its end with "
+         "less "
+         "than twice its energy), verdict, diverged_at [s], node (that diverged or hangs loose; "
+         "from 1), "
          "energy_drift (of the scheme, over the energy at the start), error (RMS distance from a "
          "fine run over its RMS way), cost (spring updates a simulated second), unconverged_steps; "
          "what does not apply is an empty string";
@@ -29,16 +31,16 @@ Table stability_table(const StabilityMap& map) {
       "node",  "energy_drift", "error",           "cost",       "unconverged_steps"};
   for (const StabilityPoint& point : map.points) {
     const StabilityBody& body = map.bodies[point.body];
-    const auto if_stable = [&](double value) {
-      return point.stable ? number_text(value) : std::string();
+    const auto if_finished = [&](double value) {
+      return point.finished ? number_text(value) : std::string();
     };
     table.rows.push_back(
         {whole(body.level), whole(body.nodes), whole(body.springs), to_string(point.integrator),
          whole(point.iterations), number_text(body.ratio), number_text(point.step),
          number_text(point.limit), number_text(point.step / point.limit), point.stable ? "1" : "0",
          to_string(point.verdict), point.diverged_at ? number_text(*point.diverged_at) : "",
-         point.node ? whole(std::uint64_t{*point.node} + 1) : "", if_stable(point.energy_drift),
-         if_stable(point.error), if_stable(point.cost), whole(point.unconverged_steps)});
+         point.node ? whole(std::uint64_t{*point.node} + 1) : "", if_finished(point.energy_drift),
+         if_finished(point.error), if_finished(point.cost), whole(point.unconverged_steps)});
   }
   return table;
 }
@@ -76,7 +78,7 @@ Table stability_timings_table(const StabilityMap& map) {
                    "wall_seconds",
                    "wall_seconds_per_second"};
   for (const StabilityPoint& point : map.points) {
-    if (!point.stable) continue;
+    if (!point.finished) continue;
     const StabilityBody& body = map.bodies[point.body];
     table.rows.push_back({whole(body.level), to_string(point.integrator), whole(point.iterations),
                           number_text(body.ratio), number_text(point.step),

@@ -16,6 +16,7 @@
 #include "scripting/chart_table.hpp"
 #include "scripting/picture.hpp"
 #include "scripting/values.hpp"
+#include "sim/stability_map.hpp"
 
 namespace springlod {
 

@@ -45,6 +45,8 @@ int stability_binding(Call& call) {
     options.iterations = std::move(iterations);
   reader.read("steps", options.steps);
   reader.read("implicit_steps", options.implicit_steps);
+  reader.read("sweep_steps", options.sweep_steps);
+  reader.read("damping", options.damping);
   reader.read("absolute_steps", options.absolute_steps);
   reader.read("periods", options.periods);
   reader.read("duration", options.duration);
@@ -134,12 +136,16 @@ std::vector<Parameter> parameters() {
       {.name = "implicit_steps",
        .type = "list of numbers",
        .fallback = list_text(usual.implicit_steps),
-       .help = "of the implicit ones, as parts of the period of the body's slowest mode"},
+       .help = "of backward Euler, as parts of the period of the body's slowest mode"},
+      {.name = "sweep_steps",
+       .type = "list of numbers",
+       .fallback = list_text(usual.sweep_steps),
+       .help = "of xpbd and projective_dynamics, likewise"},
       {.name = "absolute_steps",
        .type = "list of quantities",
        .dimension = Dimension::time,
        .fallback = "none",
-       .help = "for all integrators, in place of both"},
+       .help = "for all integrators, in place of these"},
       {.name = "periods",
        .type = "number",
        .fallback = fmt::format("{:g}", usual.periods),

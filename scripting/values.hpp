@@ -12,11 +12,12 @@
 #include "sim/compare.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
-#include "sim/stability_map.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/import.hpp"
 
 namespace springlod {
+
+struct StabilityMap;
 
 // What a script holds is a noun of springlod together with where it came from. All are shared and
 // never changed.

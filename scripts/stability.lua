@@ -17,23 +17,28 @@ parser:option("--integrators", "such as xpbd,runge_kutta_4 (default: all)")
   :convert(command.words):argname("<list>")
 parser:option("--iterations", "of xpbd and projective_dynamics, such as 1,10,100")
   :convert(command.numbers("--iterations", 1, true)):argname("<list>")
-parser:option("--steps", "of explicit integrators, in predicted limits (default: 0.5,0.9,1.1,2)")
+parser:option("--steps", "of explicit integrators, in predicted limits (default: 0.5,0.9,1.1,2,5,20)")
   :convert(command.numbers("--steps", 0)):argname("<list>")
-parser:option("--implicit-steps", "of the others, in periods of the slowest mode (default: "
+parser:option("--implicit-steps", "of backward Euler, in periods of the slowest mode (default: "
   .. "0.003,0.01,0.03,0.1)"):convert(command.numbers("--implicit-steps", 0)):argname("<list>")
-parser:option("--absolute-steps", "of all, such as 0.1ms,1ms, in place of both")
+parser:option("--sweep-steps", "of xpbd and projective_dynamics, likewise (default: "
+  .. "0.0003,0.001,0.003,0.01,0.03)"):convert(command.numbers("--sweep-steps", 0))
+  :argname("<list>")
+parser:option("--absolute-steps", "of all, such as 0.1ms,1ms, in place of these")
   :convert(command.quantities("--absolute-steps", "time")):argname("<list>")
-parser:option("--periods", "length of each run in periods of the slowest mode (default: 2)")
+parser:option("--periods", "length of each run in periods of the slowest mode (default: 1)")
   :convert(command.number("--periods", 0))
 parser:option("--duration", "length of each run, such as 0.1s")
   :convert(command.quantity("--duration", "time"))
+parser:flag("--damping", "springs keep their damping (the map is without it unless you say so)")
 parser:flag("--fixed-levels", "only the base follows the ratio: how far can a level be used off "
   .. "the one it was made for?")
-parser:flag("--quick", "three ratios, three steps, one period: a first look")
+parser:flag("--quick", "fewer ratios and steps: a first look")
 local args = parser:parse()
 
 local quick = args.quick and {
-  ratios = {1, 100, 1e4}, steps = {0.9, 1.1}, implicit_steps = {0.01, 0.03, 0.1}, periods = 1,
+  ratios = {1, 100, 1e4}, steps = {0.9, 1.1, 2}, implicit_steps = {0.01, 0.03, 0.1},
+  sweep_steps = {0.001, 0.01},
 } or {}
 
 local function stability()
@@ -41,6 +46,7 @@ local function stability()
     levels = args.levels, ratios = args.ratios or quick.ratios, integrators = args.integrators,
     iterations = args.iterations, steps = args.steps or quick.steps,
     implicit_steps = args.implicit_steps or quick.implicit_steps,
+    sweep_steps = args.sweep_steps or quick.sweep_steps, damping = args.damping or false,
     absolute_steps = args.absolute_steps, periods = args.periods or quick.periods,
     duration = args.duration, remake_levels = not args.fixed_levels,
     seed = s.seed, threads = s.threads,
@@ -72,7 +78,8 @@ local function best_rows(rows, ratios)
       lines[#lines + 1] = line
     end
     local best = line.best[row.ratio]
-    if not best or row.stable == 1 and (best.stable == 0 or row.error < best.error) then
+    local better = row.error ~= "" and (not best or best.error == "" or row.error < best.error)
+    if not best or better then
       line.best[row.ratio] = row
     end
   end
@@ -81,7 +88,7 @@ local function best_rows(rows, ratios)
     local row = {line.row.level, line.row.integrator, line.row.iterations}
     for _, ratio in ipairs(ratios) do
       local best = line.best[ratio]
-      row[#row + 1] = best.stable == 1 and percent(best.error) or best.verdict
+      row[#row + 1] = best.error ~= "" and percent(best.error) or best.verdict
     end
     cells[i] = row
   end

@@ -35,6 +35,7 @@ void validate(const LodChain& chain, const StabilityOptions& options) {
   require_positive(options.ratios, "ratios");
   require_positive(options.steps, "steps");
   require_positive(options.implicit_steps, "implicit_steps");
+  require_positive(options.sweep_steps, "sweep_steps");
   require_positive(options.absolute_steps, "absolute_steps");
   require_positive({options.periods}, "periods");
   if (options.duration) require_positive({*options.duration}, "duration");
@@ -56,6 +57,18 @@ std::vector<std::uint32_t> levels_of(const LodChain& chain, const StabilityOptio
 
 bool is_swept(Integrator integrator) {
   return integrator == Integrator::xpbd || integrator == Integrator::projective_dynamics;
+}
+
+/// Steps of a scheme [s].
+std::vector<double> steps_of(const StabilityPoint& point, const StabilityBody& body,
+                             const StabilityOptions& options) {
+  if (!options.absolute_steps.empty()) return sorted_once(options.absolute_steps);
+  const bool free = is_implicit(point.integrator);
+  std::vector<double> steps = is_swept(point.integrator) ? options.sweep_steps
+                              : free                     ? options.implicit_steps
+                                                         : options.steps;
+  for (double& step : steps) step *= free ? body.period : point.limit;
+  return sorted_once(steps);
 }
 
 /// The verdict on a run that came to its end.
@@ -151,16 +164,11 @@ class Mapping {
 
   void add_steps(StabilityPoint point) {
     const StabilityBody& body = map_.bodies[point.body];
-    const bool free = is_implicit(point.integrator);
     point.limit =
-        free ? body.limit
-             : predicted_step(model_of(body), specimens_[point.body].scene, point.integrator);
-    std::vector<double> steps = options_.absolute_steps;
-    if (steps.empty()) {
-      steps = free ? options_.implicit_steps : options_.steps;
-      for (double& step : steps) step *= free ? body.period : point.limit;
-    }
-    for (const double step : sorted_once(steps)) {
+        is_implicit(point.integrator)
+            ? body.limit
+            : predicted_step(model_of(body), specimens_[point.body].scene, point.integrator);
+    for (const double step : steps_of(point, body, options_)) {
       point.step = step;
       map_.points.push_back(point);
     }
@@ -190,8 +198,9 @@ class Mapping {
                                  .progress = &progress};
     try {
       const Trajectory found = run(model_of(body), specimen.scene, specimen.start, run_options);
-      point.stable = true;
+      point.finished = true;
       point.energy_drift = worst_drift(found.ledger);
+      point.stable = point.energy_drift < kRunaway;
       point.error = specimen.error(model_of(body), found.frames);
       point.cost = static_cast<double>(found.spring_updates) / found.simulated;
       point.unconverged_steps = found.unconverged_steps;
