@@ -17,8 +17,8 @@ parser:option("--integrators", "such as xpbd,runge_kutta_4 (default: all)")
   :convert(command.words):argname("<list>")
 parser:option("--iterations", "of xpbd and projective_dynamics, such as 1,10,100")
   :convert(command.numbers("--iterations", 1, true)):argname("<list>")
-parser:option("--steps", "of explicit integrators, in predicted limits (default: 0.5,0.9,1.1,2,5,20)")
-  :convert(command.numbers("--steps", 0)):argname("<list>")
+parser:option("--steps", "of explicit integrators, in predicted limits (default: "
+  .. "0.5,0.9,1.1,2,5,20)"):convert(command.numbers("--steps", 0)):argname("<list>")
 parser:option("--implicit-steps", "of backward Euler, in periods of the slowest mode (default: "
   .. "0.003,0.01,0.03,0.1)"):convert(command.numbers("--implicit-steps", 0)):argname("<list>")
 parser:option("--sweep-steps", "of xpbd and projective_dynamics, likewise (default: "
@@ -138,3 +138,9 @@ for verdict, count in pairs(map.verdicts) do counts[#counts + 1] = count .. " " 
 table.sort(counts)
 print(("\n%d points: %s"):format(#rows, table.concat(counts, ", ")))
 s.say("wrote " .. args.out)
+local first = rows[1]
+if (map.verdicts.mechanism or 0) == #rows then
+  command.fail("nothing could be run: level %d is a mechanism (node %d hangs loose). s.zero_modes "
+    .. "tells more; guards, the corners lattice or finer cells mend it",
+    first.level, first.node)
+end

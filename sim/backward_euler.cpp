@@ -181,7 +181,8 @@ void BackwardEuler::solve() {
   }
   gradient_.resize(3 * static_cast<Eigen::Index>(x_.size()));
   energy_ = energy(x_next_);
-  if (!minimise(std::sqrt(scale))) ++unconverged_steps_;
+  if (gave_up_) ++unconverged_steps_;
+  gave_up_ = !minimise(std::sqrt(scale));
   finish_implicit(springs_);
 }
 

@@ -61,6 +61,7 @@ class BackwardEuler final : public WholeStep {
   std::vector<Contact> trial_contacts_;
   double energy_ = 0;
   std::uint64_t unconverged_steps_ = 0;
+  bool gave_up_ = false;  // on the step worked out last, which may yet be taken
 };
 
 }  // namespace springlod

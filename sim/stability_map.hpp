@@ -59,8 +59,8 @@ struct StabilityOptions {
   /// How long each run is, in periods of the body's slowest mode [1].
   double periods = 1;
   std::optional<double> duration = {};  ///< the same in seconds
-  std::uint32_t threads = 0;       ///< 0: all cores. Never changes the result
-  std::uint64_t seed = 1;          ///< of the search for frequencies
+  std::uint32_t threads = 0;            ///< 0: all cores. Never changes the result
+  std::uint64_t seed = 1;               ///< of the search for frequencies
   Progress* progress = nullptr;
 };
 

@@ -1,0 +1,121 @@
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/program.hpp"
+
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+using springlod::test::obj_of_boxes;
+using springlod::test::Ran;
+using springlod::test::Scratch;
+using springlod::test::slurp;
+using springlod::test::spit;
+using springlod::test::springlod_run;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void make_asset(const Scratch& scratch, const std::string& lattice = "corners") {
+  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
+  REQUIRE(springlod_run({"convert", (scratch / "bar.obj").string(), "-o",
+                         (scratch / "bar.glb").string(), "--cell", "0.5", "--lattice", lattice,
+                         "--levels", "1", "-q"})
+              .exit_code == 0);
+}
+
+std::vector<std::string> arguments(const Scratch& scratch, const std::string& out,
+                                   const std::vector<std::string>& more = {}) {
+  std::vector<std::string> all{"stability",
+                               (scratch / "bar.glb").string(),
+                               "--out",
+                               (scratch / out).string(),
+                               "--ratios",
+                               "1,100",
+                               "--steps",
+                               "0.9,1.2",
+                               "--implicit-steps",
+                               "0.05",
+                               "--sweep-steps",
+                               "0.02"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("stability writes map, bodies, timings and picture, the same bits with any threads") {
+  const Scratch scratch;
+  make_asset(scratch);
+  const Ran ran = springlod_run(arguments(scratch, "one"));
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("stiff part: the half beyond the center of mass along x") &&
+                          Contains("projective_dynamics") && Contains("cheapest within 10 %") &&
+                          Contains("40 points:"));
+  const std::string map = slurp(scratch / "one/map.csv");
+  CHECK_THAT(map, StartsWith("level,nodes,springs,integrator,iterations,ratio,step,limit,"));
+  // 2 levels, 2 ratios, 3 explicit schemes of 2 steps, 4 others of one.
+  CHECK(std::count(map.begin(), map.end(), '\n') == 1 + 2 * 2 * (3 * 2 + 4));
+  CHECK_THAT(map, Contains(",diverged,") && !Contains("wall") && !Contains("nan"));
+  CHECK_THAT(slurp(scratch / "one/timings.csv"), Contains("wall_seconds"));
+  for (const char* picture : {"map.svg", "map.png"})
+    CHECK((fs::exists(scratch / "one" / picture) || ran.err.find("gnuplot") != std::string::npos));
+
+  std::vector<std::string> single = arguments(scratch, "two");
+  single.insert(single.begin(), {"--threads", "1"});
+  REQUIRE(springlod_run(single).exit_code == 0);
+  for (const char* name : {"map.csv", "bodies.csv", "map.gp"}) {
+    CAPTURE(name);
+    CHECK(slurp(scratch / "one" / name) == slurp(scratch / "two" / name));
+  }
+}
+
+TEST_CASE("stability says in one line what is wrong with an option or asset") {
+  const Scratch scratch;
+  make_asset(scratch);
+  const auto refused = [&](const std::vector<std::string>& more, int code,
+                           const std::string& reason) {
+    const Ran ran = springlod_run(arguments(scratch, "out", more));
+    CAPTURE(ran.err, reason);
+    CHECK(ran.exit_code == code);
+    CHECK_THAT(ran.err, Contains(reason) && !Contains("traceback"));
+  };
+  refused({"--levels", "7"}, 1, "levels: 7 is not there; the chain has 0 to 1");
+  refused({"--integrators", "verlet"}, 1, "velocity_verlet");
+  refused({"--ratios", "1,-3"}, 2, "'-3' must be a number above 0");
+  refused({"--absolute-steps", "1kg"}, 2, "--absolute-steps");
+  refused({"--periods", "none"}, 2, "--periods");
+  spit(scratch / "bar.glb", "no asset");
+  refused({}, 1, "cannot map");
+}
+
+TEST_CASE("stability names the mechanism of a bar one cell thick instead of running it") {
+  const Scratch scratch;
+  spit(scratch / "thin.obj", obj_of_boxes({{"bar", 0, 6}}));
+  REQUIRE(springlod_run({"convert", (scratch / "thin.obj").string(), "-o",
+                         (scratch / "bar.glb").string(), "--cell", "1", "--lattice", "centers",
+                         "--levels", "0", "-q"})
+              .exit_code == 0);
+  const Ran ran = springlod_run(arguments(scratch, "out"));
+  CAPTURE(ran.err);
+  CHECK(ran.exit_code == 1);
+  CHECK_THAT(ran.err, Contains("nothing could be run") && Contains("mechanism"));
+  CHECK_THAT(slurp(scratch / "out/map.csv"), Contains(",mechanism,"));
+}
+
+TEST_CASE("a script sees through which wall a node went, and where and when") {
+  const Ran ran = springlod_run({"-e", R"(
+    local s = require "springlod"
+    local m = s.model{nodes = {{0, 0, 0, mass = 1, contact_area = 1}, {1, 0, 0, mass = 1, contact_area = 1}},
+                      springs = {{1, 2, k = 100}}}
+    local scene = {gravity = {0, 0, 0}, duration = 0.1, throw = {velocity = {100, 0, 0}},
+                   obstacles = {{name = "glass", box = {center = {3, 0, 0}, size = {0.01, 5, 5}}}}}
+    local ok, failure = pcall(s.run, m, scene, {step = 1e-3})
+    print(ok, failure.kind, failure.obstacle, failure.node, failure.time > 0.019)
+    print(failure.message))"});
+  CAPTURE(ran.err, ran.out);
+  CHECK_THAT(ran.out, StartsWith("false\ttunnelled\tglass\t2\ttrue\n"));
+  CHECK_THAT(ran.out, Contains("take a step below"));
+}
