@@ -142,6 +142,8 @@ local function paper()
     paper_studies.three_runs(cases.rods, settings, store))
   publish("energy", "Largest energy difference over the base's largest kinetic energy",
     paper_studies.energy({cases.ball, cases.rods[1]}, settings, store))
+  publish("elasticity", "Elasticity alone: the ten lowest frequencies against the base's",
+    paper_studies.elasticity(settings, store))
   publish("sensitivity", "What a scene makes of a start that is 0.1 % off",
     paper_studies.sensitivity(settings, store))
 end

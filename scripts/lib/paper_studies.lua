@@ -2,23 +2,14 @@
 -- energy measure that it cites, and how much each scene makes of a small change.
 
 local s = require "springlod"
+local averages = require "lib.averages"
 local paper_numbers = require "lib.paper_numbers"
 local paper_runs = require "lib.paper_runs"
 local paper_scenes = require "lib.paper_scenes"
 
 local paper_studies = {}
 
-local function mean(list)
-  local sum = 0
-  for _, value in ipairs(list) do sum = sum + value end
-  return sum / #list
-end
-
-local function standard_deviation(list)
-  local middle, sum = mean(list), 0
-  for _, value in ipairs(list) do sum = sum + (value - middle) ^ 2 end
-  return math.sqrt(sum / (#list - 1))
-end
+local mean, standard_deviation = averages.mean, averages.standard_deviation
 
 -- The scene of a case as a table again, cut to `duration`.
 local function cut(scene, duration)
@@ -169,7 +160,7 @@ function paper_studies.sensitivity(settings, store)
   local columns = {"scene", "time", "way", "spread", "growth", "level_difference"}
   local jitter = 0.001 -- relative, uniform: a standard deviation of jitter / sqrt(3)
   local scenes = {
-    {"die", paper_scenes.cube(), paper_scenes.die{friction = settings.friction}},
+    {"die", paper_scenes.block(), paper_scenes.die{friction = settings.friction}},
     {"roll", paper_scenes.ball(), paper_scenes.roll{friction = settings.friction}},
     {"wall", paper_scenes.rods(), paper_scenes.wall{friction = settings.friction}},
   }
@@ -193,6 +184,84 @@ function paper_studies.sensitivity(settings, store)
           growth = spread / mean(of_base) / (jitter / math.sqrt(3)),
           level_difference = mean(of_level) - mean(of_base),
         }
+      end
+    end
+    return rows
+  end), columns
+end
+
+local function frequencies(model)
+  local list = {}
+  for i, mode in ipairs(s.modes(model, {count = 10})) do list[i] = mode.frequency end
+  return list
+end
+
+-- Ways to make a chain of `base`, and its options for a seed.
+local function ways(base, grid)
+  local list = {}
+  local function add(name, options)
+    list[#list + 1] = {name = name, chain = function(seed)
+      options.levels, options.seed = 2, seed
+      return s.simplify(base, options)
+    end}
+  end
+  for _, variant in ipairs(paper_runs.variants) do
+    local name = "LOD" .. (variant.name == "" and "" or "-" .. variant.name)
+    add(name, {grouping = variant.grouping, border = variant.border})
+  end
+  add("LOD-h by gradient alone", {grouping = "priority_hard"})
+  add("LOD with mass by proximity", {mass = "proximity"})
+  local counts = s.simplify(base, {levels = 2, seed = 1}) -- about as many nodes as by merging
+  for _, style in ipairs{"lattice", "random"} do
+    list[#list + 1] = {name = "refilled " .. style, chain = function(seed)
+      return s.refill(base, grid, {
+        nodes = {counts[1].node_count, counts[2].node_count}, style = style, lattice = "centers",
+        seed = seed,
+      })
+    end}
+  end
+  return list
+end
+
+-- The elasticity alone, no scene: how far the ten lowest frequencies of each level are off the
+-- base's, and to which side; means over the simplification seeds.
+function paper_studies.elasticity(settings, store)
+  local columns = {"body", "way", "level", "nodes", "error_percent", "bias_percent"}
+  local bodies = {
+    {"ball", paper_scenes.ball()}, {"rods", paper_scenes.rods()},
+    {"bar", paper_scenes.block{size = {4, 4, 20}}}, {"cube", paper_scenes.block{size = {8, 8, 8}}},
+  }
+  return store:rows("elasticity", columns, function()
+    local rows = {}
+    for _, body in ipairs(bodies) do
+      local name, base, grid = table.unpack(body)
+      local of_base = frequencies(base)
+      for _, way in ipairs(ways(base, grid)) do
+        local found = {{}, {}}
+        for seed = settings.seed, settings.seed + settings.simplifications - 1 do
+          local chain = way.chain(seed)
+          for level = 1, 2 do
+            local errors, biases = {}, {}
+            for i, frequency in ipairs(frequencies(chain[level])) do
+              biases[i] = 100 * (frequency / of_base[i] - 1)
+              errors[i] = math.abs(biases[i])
+            end
+            table.insert(found[level],
+              {nodes = chain[level].node_count, error = mean(errors), bias = mean(biases)})
+          end
+        end
+        for level = 1, 2 do
+          local function over_seeds(key)
+            local list = {}
+            for i, entry in ipairs(found[level]) do list[i] = entry[key] end
+            return mean(list)
+          end
+          rows[#rows + 1] = {
+            body = name, way = way.name, level = level,
+            nodes = math.floor(over_seeds("nodes") + 0.5), error_percent = over_seeds("error"),
+            bias_percent = over_seeds("bias"),
+          }
+        end
       end
     end
     return rows

@@ -2,8 +2,11 @@
 -- believed: intervals, the noise floor, and whether "the same" has been shown.
 
 local s = require "springlod"
+local averages = require "lib.averages"
 local paper_numbers = require "lib.paper_numbers"
 local paper_runs = require "lib.paper_runs"
+
+local mean = averages.mean
 
 local paper_tables = {}
 
@@ -25,12 +28,6 @@ local function by_start(seeds)
     for seed = 1, #seeds do list[start][seed] = seeds[seed][start] end
   end
   return list
-end
-
-local function mean(list)
-  local sum = 0
-  for _, value in ipairs(list) do sum = sum + value end
-  return sum / #list
 end
 
 -- Nodes and ends of a level, means over the seeds.
