@@ -5,7 +5,6 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <random>
 
 #include <fmt/format.h>
 
@@ -14,6 +13,7 @@
 #include "sim/deviation.hpp"
 #include "sim/parallel.hpp"
 #include "sim/run_progress.hpp"
+#include "sim/starts.hpp"
 
 namespace springlod {
 namespace {
@@ -40,6 +40,7 @@ std::string label_of(std::uint32_t level, const std::string& variant) {
 /// What the levels of one start need of the base.
 struct BaseRun {
   std::vector<Frame> frames;
+  std::vector<LedgerEntry> ledger;
   std::optional<double> first_contact;
 };
 
@@ -73,6 +74,18 @@ Errors deviation(const std::vector<Frame>& frames, const BaseRun& base,
   }
   // The first frame, t = 0, is always common and in the window.
   return {sum.surface / static_cast<double>(in_window), sum.shape / static_cast<double>(common)};
+}
+
+/// Largest difference of the mechanical energy over the base's largest kinetic energy; the ledgers
+/// hold one entry a frame.
+double energy_difference(const std::vector<LedgerEntry>& ledger,
+                         const std::vector<LedgerEntry>& base) {
+  double largest = 0;
+  double kinetic = 0;
+  for (const LedgerEntry& entry : base) kinetic = std::max(kinetic, entry.kinetic);
+  for (std::size_t i = 0; i < std::min(ledger.size(), base.size()); ++i)
+    largest = std::max(largest, std::abs(ledger[i].mechanical() - base[i].mechanical()));
+  return kinetic > 0 ? largest / kinetic : 0;
 }
 
 /// One call of `compare`.
@@ -114,6 +127,7 @@ class Comparing {
     try {
       Trajectory trajectory = run_level(0, start, stopped);
       base->frames = start == 0 ? trajectory.frames : std::move(trajectory.frames);
+      base->ledger = start == 0 ? trajectory.ledger : std::move(trajectory.ledger);
       base->first_contact = trajectory.first_contact;
       if (start == 0) {
         result_.levels[0].base_frames = trajectory.frames;
@@ -134,9 +148,11 @@ class Comparing {
     const std::shared_ptr<BaseRun>& base = base_run.get();
     const Errors errors =
         deviation(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);
+    StartResult& result = result_.levels[level].starts[start];
+    result.surface_error = errors.surface;
+    result.shape_error = errors.shape;
+    result.energy_difference = energy_difference(trajectory.ledger, base->ledger);
     leave(start, *base);
-    result_.levels[level].starts[start].surface_error = errors.surface;
-    result_.levels[level].starts[start].shape_error = errors.shape;
     if (start == 0) {
       result_.levels[level].first = std::move(trajectory);
       result_.levels[level].base_frames = std::move(base_frames);
@@ -144,7 +160,9 @@ class Comparing {
   }
 
   void leave(std::uint32_t start, BaseRun& base) {
-    if (--slots_[start].users == 0) base.frames = {};
+    if (--slots_[start].users > 0) return;
+    base.frames = {};
+    base.ledger = {};
   }
 
   /// Runs one level and keeps what only its own trajectory tells.
@@ -196,24 +214,6 @@ class Comparing {
 };
 
 }  // namespace
-
-Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
-               std::uint32_t index) {
-  if (index == 0) return start;
-  Throw changed = start;
-  changed.position = start.placed ? start.position : center;
-  changed.placed = true;
-  std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U),
-                         index};
-  std::mt19937_64 random(sequence);
-  const auto factor = [&] {
-    const double unit = static_cast<double>(random() >> 11U) * 0x1p-53;  // [0, 1)
-    return 1 + jitter * (2 * unit - 1);
-  };
-  changed.velocity *= factor();
-  changed.position.z() *= factor();
-  return changed;
-}
 
 Comparison compare(const LodChain& chain, const Scenario& scenario, const CompareOptions& options) {
   validate(chain, options);

@@ -4,27 +4,33 @@
 #include <functional>
 #include <string_view>
 
+#include "model/error.hpp"
 #include "model/progress.hpp"
 
 namespace springlod {
 
-/// Turns the steps of one run into its share of many and stops the run when asked to.
+/// One run of many: turns its steps into its share of the whole, and stops it when asked to.
 class RunProgress : public Progress {
  public:
-  /// Units of progress in one run, whatever its number of steps.
+  /// Of one run, whatever its number of steps.
   static constexpr std::uint64_t kUnits = 1000;
 
-  /// `whole` may be null.
   RunProgress(Progress* whole, const std::function<bool()>& stopped)
       : whole_(whole), stopped_(&stopped) {}
-  void begin(std::string_view task, std::uint64_t total) override;
-  void advance(std::uint64_t count) override;
-  /// What is left when a run ended early.
+  void begin(std::string_view /*task*/, std::uint64_t total) override { total_ = total; }
+  void advance(std::uint64_t count) override {
+    if ((*stopped_)()) throw InterruptedError();
+    done_ += count;
+    report(kUnits * done_ / total_);
+  }
+  /// What is left when a stop rule ended the run early.
   void finish() { report(kUnits); }
 
  private:
-  void report(std::uint64_t units);
-
+  void report(std::uint64_t units) {
+    if (whole_ != nullptr && units > reported_) whole_->advance(units - reported_);
+    reported_ = units;
+  }
   Progress* whole_;
   const std::function<bool()>* stopped_;
   std::uint64_t total_ = 1;

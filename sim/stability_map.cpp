@@ -55,8 +55,8 @@ std::vector<std::uint32_t> levels_of(const LodChain& chain, const StabilityOptio
   return levels;
 }
 
-// Steps of an explicit run at least: at 1.1 of the limit, where speeds grow by 2.4 a step (Runge-Kutta
-// 1.9), an instability comes up from rounding within 50.
+// Steps of an explicit run at least: at 1.1 of the limit, where speeds grow by 2.4 a step
+// (Runge-Kutta 1.9), an instability comes up from rounding within 50.
 constexpr double kLeastSteps = 200;
 
 bool is_swept(Integrator integrator) {
