@@ -143,6 +143,7 @@ const char* mark_of(Verdict verdict) {
       return "!";
     case Verdict::stable:
     case Verdict::inaccurate:
+    case Verdict::runaway:
     case Verdict::diverged:
     case Verdict::mechanism:
       break;
@@ -275,7 +276,7 @@ class Picture {
     const Rect place{strip.left + kSeam, y_of(strip, cell.high) + kSeam, strip.right - kSeam,
                      y_of(strip, cell.low) - kSeam};
     if (cell.point->verdict == Verdict::mechanism) return sheet_.hatch(place, kMechanismPattern);
-    if (!cell.point->finished) return sheet_.hatch(place, kDivergedPattern);
+    if (!cell.point->stable) return sheet_.hatch(place, kDivergedPattern);
     sheet_.colour(place, colour_of(cell.point->error));
     const char* mark = mark_of(cell.point->verdict);
     if (*mark == '\0') return;
@@ -340,17 +341,18 @@ class Picture {
     const double next_row = 26;
     x += 48;
     sheet_.hatch({x, top, x + kBox, top + kHigh}, kDivergedPattern);
-    sheet_.write(x + kBox + text, top + kHigh / 2, "diverged", "left", kFont * 0.85);
+    sheet_.write(x + kBox + text, top + kHigh / 2, "diverged, or its energy doubled", "left",
+                 kFont * 0.85);
     sheet_.hatch({x, top + next_row, x + kBox, top + next_row + kHigh}, kMechanismPattern);
     sheet_.write(x + kBox + text, top + next_row + kHigh / 2, "mechanism, not run", "left",
                  kFont * 0.85);
-    x += 200;
+    x += 268;
     sheet_.line(x, top + kHigh / 2, x + kBox, top + kHigh / 2, kLimitInk, 2.2);
     sheet_.write(x + kBox + text, top + kHigh / 2, "predicted explicit limit", "left",
                  kFont * 0.85);
     sheet_.write(x, top + next_row + kHigh / 2,
-                 "~ energy off by 10 %   o level off its design   ! not converged   x inside out",
-                 "left", kFont * 0.85);
+                 "~ energy off by 10 %   o off its design   ! not converged   x inside out", "left",
+                 kFont * 0.85);
   }
 
   const StabilityMap& map_;

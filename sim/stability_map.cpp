@@ -77,6 +77,7 @@ std::vector<double> steps_of(const StabilityPoint& point, const StabilityBody& b
 
 /// The verdict on a run that came to its end.
 Verdict judge(const StabilityBody& body, const StabilityPoint& point, const Trajectory& run) {
+  if (!point.stable) return Verdict::runaway;
   if (run.unconverged_steps > 0) return Verdict::unconverged;
   if (run.first_crossing) return Verdict::crossed;
   if (body.frequency_error > kOffDesign) return Verdict::off_design;
@@ -251,6 +252,8 @@ const char* to_string(Verdict verdict) {
       return "crossed";
     case Verdict::unconverged:
       return "unconverged";
+    case Verdict::runaway:
+      return "runaway";
     case Verdict::diverged:
       return "diverged";
     case Verdict::mechanism:

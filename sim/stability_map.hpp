@@ -19,6 +19,7 @@ enum class Verdict {
   off_design,   ///< the level is not the body any more: its frequencies are off by kOffDesign
   crossed,      ///< nodes went past each other: the body is inside out somewhere
   unconverged,  ///< the solver of backward Euler gave up short of its tolerance
+  runaway,      ///< the energy rose by kRunaway: the numbers are finite and mean nothing
   diverged,     ///< the run left the numbers
   mechanism,    ///< springs leave nodes loose: not run
 };
