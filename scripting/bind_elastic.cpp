@@ -40,7 +40,7 @@ int static_loads_binding(Call& call) {
   const MassSpringModel& model = *call.value<ModelValue>(1)->model;
   const std::vector<StaticLoad> loads = smooth_loads(model);
   const std::vector<StaticSolution> solutions =
-      solve_static(elastic_body(model, call.progress()), loads);
+      solve_static(elastic_body(model, {.progress = call.progress()}), loads);
   lua_State* L = call.lua();
   begin_list(L, loads.size());
   for (std::size_t i = 0; i < loads.size(); ++i) {
