@@ -119,8 +119,8 @@ int deflect_binding(Call& call) {
   const MassSpringModel& model = *call.value<ModelValue>(1)->model;
   TableReader reader = call.options(2);
   if (!reader.has("force")) reader.refuse("force", "given: which forces pull at the nodes");
-  const StaticLoad load{"of deflect", read_forces(reader, model)};
   const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
+  const StaticLoad load{"of deflect", read_forces(reader, model)};
   reader.finish();
   push_solution(
       call.lua(),

@@ -100,7 +100,7 @@ std::vector<Vec3> read_forces(TableReader& reader, const MassSpringModel& model)
   lua_pushnil(L);
   while (lua_next(L, given) != 0) {
     lua_pushvalue(L, -2);
-    const std::uint32_t node = node_number(L, model, "a key of " + what);
+    const std::uint32_t node = node_number(L, model, what + ": its keys");
     lua_pop(L, 1);
     forces[node] = vector_at(L, -1, Dimension::number, fmt::format("{}[{}]", what, node + 1));
     lua_pop(L, 1);
