@@ -1,4 +1,4 @@
-// Meshes, grids of cells, and the lattices built on them.
+// Meshes, their voxelizing, and the lattices built on grids.
 
 #include <algorithm>
 #include <utility>
@@ -14,7 +14,6 @@
 #include "voxelize/grid.hpp"
 #include "voxelize/import.hpp"
 #include "voxelize/lattice.hpp"
-#include "voxelize/vdb_file.hpp"
 
 namespace springlod {
 
@@ -27,16 +26,6 @@ std::string box_text(const Box3& box) {
   return fmt::format("{} x {} x {}", format_quantity(size.x(), Dimension::length),
                      format_quantity(size.y(), Dimension::length),
                      format_quantity(size.z(), Dimension::length));
-}
-
-Box3 grid_box(const MaterialGrid& grid) {
-  Box3 box;
-  for (const CellIndex& cell : grid.cells) {
-    const Vec3 corner = grid.origin + grid.cell * Vec3(cell[0], cell[1], cell[2]);
-    box.extend(corner);
-    box.extend(corner + Vec3::Constant(grid.cell));
-  }
-  return box;
 }
 
 int import_binding(Call& call) {
@@ -63,23 +52,6 @@ int import_binding(Call& call) {
   while (remarks.ends_with('\n')) remarks.pop_back();
   if (!remarks.empty()) call.session().console().say(remarks);
   return call.give(std::shared_ptr<const MeshValue>(value));
-}
-
-// {rod = {young = ...}, ...}: any name, so the keys are not checked.
-void read_materials(Call& call, int table, std::map<std::string, Material>& into) {
-  lua_State* L = call.lua();
-  if (!lua_istable(L, table))
-    throw InputError(fmt::format(
-        "voxelize: materials must be a table part = {{young = ..., density = ...}}, got {}",
-        describe_type_at(L, table)));
-  lua_pushnil(L);
-  while (lua_next(L, table) != 0) {
-    if (lua_type(L, -2) != LUA_TSTRING)
-      throw InputError("voxelize: materials are named by their part, as in {rod = {young = ...}}");
-    const std::string name = lua_tostring(L, -2);
-    into[name] = read_material(call, lua_gettop(L), "materials." + name, name);
-    lua_pop(L, 1);
-  }
 }
 
 void read_core(Call& call, TableReader& reader, VoxelizeOptions& options) {
@@ -118,7 +90,8 @@ int voxelize_binding(Call& call) {
   VoxelizeOptions options;
   TableReader reader = call.options(2);
   reader.read("cell", options.cell);
-  if (const int table = reader.raw("materials")) read_materials(call, table, options.materials);
+  if (const int table = reader.raw("materials"))
+    options.materials = read_materials(call, table, "voxelize");
   if (const int table = reader.raw("fallback"))
     options.fallback = read_material(call, table, "voxelize: fallback", options.fallback.name);
   reader.read("priority", options.priority);
@@ -141,19 +114,6 @@ int voxelize_binding(Call& call) {
   value->mesh = mesh;
   value->provenance = mesh->provenance;
   value->provenance.set("cell", fmt::format("{} m", value->grid.cell));
-  return call.give(std::shared_ptr<const GridValue>(value));
-}
-
-int save_vdb_binding(Call& call) {
-  save_vdb(call.value<GridValue>(2)->grid, call.path(1));
-  return 0;
-}
-
-int load_vdb_binding(Call& call) {
-  auto value = std::make_shared<GridValue>();
-  value->grid = load_vdb(call.path(1));
-  value->provenance.set("springlod", version());
-  value->provenance.set("grid", call.path(1).filename().string());
   return call.give(std::shared_ptr<const GridValue>(value));
 }
 
@@ -242,51 +202,6 @@ void describe_mesh(Api& api) {
   api.add(type.build());
 }
 
-std::string grid_text(const GridValue& value) {
-  std::vector<std::size_t> counts(value.grid.materials.size(), 0);
-  for (const std::uint16_t material : value.grid.material) ++counts[material];
-  std::string text = fmt::format("Grid: {} cells of {}", value.grid.cells.size(),
-                                 format_quantity(value.grid.cell, Dimension::length));
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    if (counts[i] > 0) text += fmt::format(", {} {}", counts[i], value.grid.materials[i].name);
-  return text;
-}
-
-void describe_grid(Api& api) {
-  TypeBuilder<GridValue> type("Filled cells of a cubic grid, each of one material.", grid_text);
-  type.field("cell", "number", "edge of a cell [m]",
-             [](const GridValue& value) { return value.grid.cell; });
-  type.field("cell_count", "integer", "number of filled cells",
-             [](const GridValue& value) { return value.grid.cells.size(); });
-  type.field("volume", "number", "of the filled cells [m3]", [](const GridValue& value) {
-    return static_cast<double>(value.grid.cells.size()) * value.grid.cell * value.grid.cell *
-           value.grid.cell;
-  });
-  type.field("min", "{x, y, z}", "lowest corner of the filled cells [m]",
-             [](const GridValue& value) { return Vec3(grid_box(value.grid).min()); });
-  type.field("max", "{x, y, z}", "highest corner of the filled cells [m]",
-             [](const GridValue& value) { return Vec3(grid_box(value.grid).max()); });
-  type.table_field(
-      "materials", "list of Material", "materials by number",
-      [](lua_State* L, const GridValue& value) { push_materials(L, value.grid.materials); });
-  type.table_field("cells", "list of {x, y, z, depth=, material=}",
-                   "centre [m], depth under the surface [m] and material's name of every cell",
-                   [](lua_State* L, const GridValue& value) {
-                     const MaterialGrid& grid = value.grid;
-                     begin_list(L, grid.cells.size());
-                     for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-                       const CellIndex& cell = grid.cells[i];
-                       push(L, Vec3(grid.origin +
-                                    grid.cell * Vec3(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5)));
-                       if (i < grid.depth.size())
-                         set_field(L, "depth", static_cast<double>(grid.depth[i]));
-                       set_field(L, "material", grid.materials[grid.material[i]].name);
-                       end_list_entry(L, i + 1);
-                     }
-                   });
-  api.add(type.build());
-}
-
 void describe_voxelize_function(Api& api) {
   api.add(RecordEntry{
       .name = "Core",
@@ -337,7 +252,6 @@ void describe_voxelize_function(Api& api) {
 
 void describe_voxelize(Api& api) {
   describe_mesh(api);
-  describe_grid(api);
   api.add(FunctionEntry{
       .name = "import",
       .group = kGroup,
@@ -357,6 +271,7 @@ void describe_voxelize(Api& api) {
       .example = "local mesh = s.import(\"dumbbell.obj\", {unit = \"cm\", up = \"z\"})",
       .call = import_binding});
   describe_voxelize_function(api);
+  describe_grid(api);
   api.add(FunctionEntry{
       .name = "lattice",
       .group = kGroup,
@@ -379,24 +294,6 @@ void describe_voxelize(Api& api) {
       .example = "local base = s.lattice(grid, {style = \"centers\"})",
       .call = lattice_binding});
   describe_random(api);
-  api.add(FunctionEntry{
-      .name = "save_vdb",
-      .group = kGroup,
-      .summary = "Writes a grid as .vdb: distance, material number, Young's modulus, density.",
-      .arguments = {{.name = "path", .type = "string", .help = "file to write"},
-                    {.name = "grid", .type = "Grid", .help = "what to write"}},
-      .returns = "nothing",
-      .errors = "The file cannot be written.",
-      .example = "s.save_vdb(\"out/dumbbell.vdb\", grid)",
-      .call = save_vdb_binding});
-  api.add(FunctionEntry{.name = "load_vdb",
-                        .group = kGroup,
-                        .summary = "Reads a grid that save_vdb wrote.",
-                        .arguments = {{.name = "path", .type = "string", .help = "file to read"}},
-                        .returns = "Grid: without a mesh",
-                        .errors = "No such file, not a .vdb file, or none of springlod's.",
-                        .example = "local grid = s.load_vdb(\"out/dumbbell.vdb\")",
-                        .call = load_vdb_binding});
 }
 
 }  // namespace springlod

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "model/error.hpp"
+
 namespace springlod {
 
 Material read_material(Call& call, int index, const std::string& owner, const std::string& name) {
@@ -17,6 +19,24 @@ Material read_material(Call& call, int index, const std::string& owner, const st
   reader.finish();
   validate(material);
   return material;
+}
+
+std::map<std::string, Material> read_materials(Call& call, int table, const std::string& owner) {
+  std::map<std::string, Material> into;
+  lua_State* L = call.lua();
+  if (!lua_istable(L, table))
+    throw InputError(
+        fmt::format("{}: materials must be a table name = {{young = ..., density = ...}}, got {}",
+                    owner, describe_type_at(L, table)));
+  lua_pushnil(L);
+  while (lua_next(L, table) != 0) {
+    if (lua_type(L, -2) != LUA_TSTRING)
+      throw InputError(owner + ": materials are named, as in {rod = {young = ...}}");
+    const std::string name = lua_tostring(L, -2);
+    into[name] = read_material(call, lua_gettop(L), "materials." + name, name);
+    lua_pop(L, 1);
+  }
+  return into;
 }
 
 void push_material(lua_State* L, const Material& material) {

@@ -1,4 +1,4 @@
-// Random models, refilled levels and eq. 2, as a script sees them.
+// Grids by formula, random models, refilled levels and eq. 2, as a script sees them.
 
 #include <catch2/catch.hpp>
 
@@ -62,4 +62,25 @@ TEST_CASE("a script reads eq. 2 of the whole, of each material and of each node"
     print(e.materials[1].name, math.floor(e.young + 0.5), math.floor(e.density + 0.5)))");
   CHECK(ran.exit_code == 0);
   CHECK(ran.out == "default\t1000000\t1000\n");
+}
+
+TEST_CASE("a script fills a grid by a formula, and is told what is wrong with it") {
+  const std::string bar =
+      "{cell = '10 cm', size = {2, 2, 6}, origin = {0, 0, -0.3},"
+      " materials = {stiff = {young = '1 MPa'}, soft = {young = '0.1 MPa'}}, fill = ";
+  const Ran ran =
+      springlod_run({"-e", "local s = require 'springlod'; local grid = s.grid" + bar + R"(
+    function(_, _, z) if z < 0.2 then return z < 0 and 'stiff' or 'soft' end end}
+    print(grid.cell_count, grid.min[3], #grid.materials)
+    print(s.lattice(grid, {style = 'centers'}).node_count))"});
+  CHECK(ran.exit_code == 0);
+  CHECK(ran.out == "20\t-0.3\t2\n20\n");
+  const auto refused = [&](const std::string& fill) {
+    return springlod_run({"-e", "require 'springlod'.grid" + bar + fill + "}"}).err;
+  };
+  CHECK_THAT(refused("function() return 'iron' end"), Contains("'iron', which materials does not"));
+  CHECK_THAT(refused("function() return 3 end"), Contains("it returned a number"));
+  CHECK_THAT(refused("function() end"), Contains("all of the 2 x 2 x 6 cells empty"));
+  CHECK_THAT(refused("function() error('own fault') end"), Contains("own fault"));
+  CHECK_THAT(refused("1"), Contains("fill must be a function"));
 }
