@@ -82,6 +82,7 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.refill(base, grid, {nodes = 60, style = "random"})[1].node_count == 60)
     local modes = s.modes(chain[1], {count = 3, seed = 2})
     assert(#modes == 3 and modes[1].frequency > 0 and #modes[1].shape == chain[1].node_count)
+    assert(s.deflect(base, {force = {[1] = {1, 0, 0}}}).compliance > 0)
     local loads = s.static_loads(chain[1])
     assert(#loads == 9 and loads[9].name == "twist x" and loads[9].compliance > 0)
     assert(#loads[1].force == chain[1].node_count and #loads[1].displacement[1] == 3)
