@@ -82,11 +82,16 @@ local function table_1(ball)
   local rows = paper_tables.rows(ball, settings)
   publish("table-1", "Table 1: how far the ball rolls", rows, paper_tables.columns,
     paper_tables.readable(rows))
-  local series = {}
-  for i, row in ipairs(rows) do
-    series[i] = {name = row.model, joined = false, points = {{
-      row.ends, row.distance, label = row.model, low = row.distance_low, high = row.distance_high,
-    }}}
+  -- A line a variant, through the base and its levels.
+  local function point(row)
+    return {row.ends, row.distance, label = row.model, low = row.distance_low,
+            high = row.distance_high}
+  end
+  local series = {{name = "base", points = {point(rows[1])}}}
+  for i = 2, #rows, 2 do
+    series[#series + 1] = {
+      name = rows[i].model:gsub("-1$", ""), points = {point(rows[i]), point(rows[i + 1])},
+    }
   end
   for _, ending in ipairs{"svg", "png"} do
     s.chart(("%s/table-1-chart.%s"):format(args.out, ending), series, {
@@ -98,16 +103,19 @@ end
 
 local function table_2(rods)
   local all, lines = {}, {}
+  local beside = 0.08 -- units of speed from model to model, so that no interval hides another
   for _, one in ipairs(rods) do
     local rows = paper_tables.rows(one, settings)
-    for _, row in ipairs(rows) do
+    for i, row in ipairs(rows) do
       all[#all + 1] = row
       if not lines[row.model] then
         lines[row.model] = {name = row.model, points = {}}
         lines[#lines + 1] = lines[row.model]
       end
-      table.insert(lines[row.model].points,
-        {one.speed, row.distance, low = row.distance_low, high = row.distance_high})
+      table.insert(lines[row.model].points, {
+        one.speed + beside * (i - 1), row.distance, low = row.distance_low,
+        high = row.distance_high,
+      })
     end
     publish("table-2-speed-" .. one.speed, ("Table 2: final distance from the wall, speed %g")
       :format(one.speed), rows, paper_tables.columns, paper_tables.readable(rows))
@@ -144,6 +152,8 @@ local function paper()
     paper_studies.energy({cases.ball, cases.rods[1]}, settings, store))
   publish("elasticity", "Elasticity alone: the ten lowest frequencies against the base's",
     paper_studies.elasticity(settings, store))
+  publish("random-models", "Random models: eq. 2 against a stretch test",
+    paper_studies.random_models(settings, store))
   publish("sensitivity", "What a scene makes of a start that is 0.1 % off",
     paper_studies.sensitivity(settings, store))
 end

@@ -223,10 +223,14 @@ local function ways(base, grid)
   return list
 end
 
+local function trace(inertia) return inertia[1][1] + inertia[2][2] + inertia[3][3] end
+
 -- The elasticity alone, no scene: how far the ten lowest frequencies of each level are off the
--- base's, and to which side; means over the simplification seeds.
+-- base's, and to which side, and its moment of inertia; means over the simplification seeds.
 function paper_studies.elasticity(settings, store)
-  local columns = {"body", "way", "level", "nodes", "error_percent", "bias_percent"}
+  local columns = {
+    "body", "way", "level", "nodes", "error_percent", "bias_percent", "inertia_percent",
+  }
   local bodies = {
     {"ball", paper_scenes.ball()}, {"rods", paper_scenes.rods()},
     {"bar", paper_scenes.block{size = {4, 4, 20}}}, {"cube", paper_scenes.block{size = {8, 8, 8}}},
@@ -246,8 +250,10 @@ function paper_studies.elasticity(settings, store)
               biases[i] = 100 * (frequency / of_base[i] - 1)
               errors[i] = math.abs(biases[i])
             end
-            table.insert(found[level],
-              {nodes = chain[level].node_count, error = mean(errors), bias = mean(biases)})
+            table.insert(found[level], {
+              nodes = chain[level].node_count, error = mean(errors), bias = mean(biases),
+              inertia = 100 * (trace(chain[level].inertia) / trace(base.inertia) - 1),
+            })
           end
         end
         for level = 1, 2 do
@@ -259,10 +265,33 @@ function paper_studies.elasticity(settings, store)
           rows[#rows + 1] = {
             body = name, way = way.name, level = level,
             nodes = math.floor(over_seeds("nodes") + 0.5), error_percent = over_seeds("error"),
-            bias_percent = over_seeds("bias"),
+            bias_percent = over_seeds("bias"), inertia_percent = over_seeds("inertia"),
           }
         end
       end
+    end
+    return rows
+  end), columns
+end
+
+-- Random models: E by eq. 2 alone over the E that a solved stretch test shows, and Poisson's ratio;
+-- means over seeds.
+function paper_studies.random_models(settings, store)
+  local columns = {"nodes", "ends_a_node", "eq_2_over_measured", "poisson"}
+  return store:rows("random-models", columns, function()
+    local _, grid = paper_scenes.block{size = {10, 10, 10}}
+    local rows = {}
+    for _, ends in ipairs{14, 18, 24} do
+      local factors, ratios = {}, {}
+      for seed = settings.seed, settings.seed + settings.simplifications - 1 do
+        local about = s.random(grid, {nodes = 1000, ends = ends, seed = seed}).provenance
+        table.insert(factors, tonumber(about.rescaled))
+        table.insert(ratios, tonumber(about.measured_poisson))
+      end
+      rows[#rows + 1] = {
+        nodes = 1000, ends_a_node = ends, eq_2_over_measured = mean(factors),
+        poisson = mean(ratios),
+      }
     end
     return rows
   end), columns
