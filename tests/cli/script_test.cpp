@@ -78,6 +78,9 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.zero_modes(chain[1])[1].zero_modes == 6)
     assert(s.stable_step(chain[0]) > 0)
     assert(s.estimate(base).young > 0)
+    assert(s.grid{cell = 0.1, size = {2, 1, 1}, materials = {bar = {young = 1e6}},
+                  fill = function() return "bar" end}.cell_count == 2)
+    assert(#s.ensemble(chain[2], scene, {starts = 2, integrator = "xpbd"}) == 2)
     assert(s.random(grid, {nodes = 120}).node_count == 120)
     assert(s.refill(base, grid, {nodes = 60, style = "random"})[1].node_count == 60)
     local modes = s.modes(chain[1], {count = 3, seed = 2})
