@@ -1,7 +1,6 @@
 #include "render/camera.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -56,15 +55,15 @@ Mat4f view_projection(const Camera& camera, double aspect) {
 
 namespace {
 
-std::array<Vec3, 8> corners(const Box3& box) {
-  std::array<Vec3, 8> points;
-  for (std::size_t i = 0; i < 8; ++i) points[i] = box.corner(static_cast<Box3::CornerType>(i));
+std::vector<Vec3> corners(const Box3& box) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 8; ++i) points.push_back(box.corner(static_cast<Box3::CornerType>(i)));
   return points;
 }
 
 // Least distance of an eye at `target + distance back` that has all points inside the field.
-double fitting_distance(const std::array<Vec3, 8>& points, const Vec3& target,
-                        const CameraAxes& axes, double tan_x, double tan_y) {
+double fitting_distance(const std::vector<Vec3>& points, const Vec3& target, const CameraAxes& axes,
+                        double tan_x, double tan_y) {
   double distance = 0;
   for (const Vec3& p : points) {
     const Vec3 r = p - target;
@@ -79,8 +78,16 @@ double fitting_distance(const std::array<Vec3, 8>& points, const Vec3& target,
 
 Camera frame_box(const Box3& box, double azimuth, double elevation, double aspect,
                  double fov_degrees) {
+  return frame_points(box.isEmpty() ? std::vector<Vec3>{} : corners(box), azimuth, elevation,
+                      aspect, fov_degrees);
+}
+
+Camera frame_points(const std::vector<Vec3>& points, double azimuth, double elevation,
+                    double aspect, double fov_degrees) {
+  Box3 box;
+  for (const Vec3& point : points) box.extend(point);
   if (box.isEmpty() || !box.sizes().allFinite())
-    throw InputError("camera: there is nothing to look at (the box is empty or not finite)");
+    throw InputError("camera: there is nothing to look at (no point, or one that is not finite)");
   if (!(aspect > 0) || !(fov_degrees > 0 && fov_degrees < 180))
     throw InputError("camera: the aspect must be above 0, the field of view between 0 and 180 deg");
   const double az = azimuth * kDegree;
@@ -94,7 +101,6 @@ Camera frame_box(const Box3& box, double azimuth, double elevation, double aspec
   const double tan_half = std::tan(fov_degrees * kDegree / 2);
   const double tan_y = tan_half / kMarginUpright;
   const double tan_x = tan_half * aspect / kMarginAcross;
-  const std::array<Vec3, 8> points = corners(box);
   // Perspective makes the near side larger: shift the target until left and right, above and below
   // leave the same room. Converges fast; 8 rounds are far below a pixel.
   double distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
