@@ -78,29 +78,30 @@ double fitting_distance(const std::vector<Vec3>& points, const Vec3& target, con
 
 Camera frame_box(const Box3& box, double azimuth, double elevation, double aspect,
                  double fov_degrees) {
-  return frame_points(box.isEmpty() ? std::vector<Vec3>{} : corners(box), azimuth, elevation,
-                      aspect, fov_degrees);
+  return frame_points(box.isEmpty() ? std::vector<Vec3>{} : corners(box),
+                      {azimuth, elevation, aspect, fov_degrees});
 }
 
-Camera frame_points(const std::vector<Vec3>& points, double azimuth, double elevation,
-                    double aspect, double fov_degrees) {
+Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
   Box3 box;
   for (const Vec3& point : points) box.extend(point);
   if (box.isEmpty() || !box.sizes().allFinite())
     throw InputError("camera: there is nothing to look at (no point, or one that is not finite)");
-  if (!(aspect > 0) || !(fov_degrees > 0 && fov_degrees < 180))
+  if (!(framing.aspect > 0) || !(framing.fov_degrees > 0 && framing.fov_degrees < 180))
     throw InputError("camera: the aspect must be above 0, the field of view between 0 and 180 deg");
-  const double az = azimuth * kDegree;
-  const double el = elevation * kDegree;
+  if (!(framing.headroom >= 0 && framing.headroom < 1))
+    throw InputError("camera: the headroom must be from 0 to below 1");
+  const double az = framing.azimuth * kDegree;
+  const double el = framing.elevation * kDegree;
   const Vec3 back(std::cos(az) * std::cos(el), std::sin(az) * std::cos(el), std::sin(el));
   Camera camera;
-  camera.fov_degrees = fov_degrees;
+  camera.fov_degrees = framing.fov_degrees;
   camera.target = box.center();
   camera.eye = camera.target + back;
   const CameraAxes axes = camera_axes(camera);
-  const double tan_half = std::tan(fov_degrees * kDegree / 2);
-  const double tan_y = tan_half / kMarginUpright;
-  const double tan_x = tan_half * aspect / kMarginAcross;
+  const double tan_half = std::tan(framing.fov_degrees * kDegree / 2);
+  const double tan_y = (1 - framing.headroom) * tan_half / kMarginUpright;
+  const double tan_x = tan_half * framing.aspect / kMarginAcross;
   // Perspective makes the near side larger: shift the target until left and right, above and below
   // leave the same room. Converges fast; 8 rounds are far below a pixel.
   double distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
@@ -118,7 +119,9 @@ Camera frame_points(const std::vector<Vec3>& points, double azimuth, double elev
     distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
   }
   constexpr double kLeast = 1e-9;  // a box of one point still gives a camera
-  camera.eye = camera.target + std::max(distance, kLeast) * back;
+  distance = std::max(distance, kLeast);
+  camera.target += framing.headroom * tan_half * distance * axes.up;
+  camera.eye = camera.target + distance * back;
   return camera;
 }
 

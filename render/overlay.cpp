@@ -15,7 +15,7 @@ constexpr Colour kPlate{1, 1, 1};
 constexpr Colour kDivider{0.62F, 0.65F, 0.69F};
 constexpr double kPlateAlpha = 0.72;
 
-/// Sizes that follow the picture's height [px].
+/// Sizes that follow the panel's height [px].
 struct Sizes {
   double title, caption, small, pad, margin;
   explicit Sizes(int height)
@@ -43,6 +43,13 @@ std::string length_text(double metres) {
 }
 
 }  // namespace
+
+double heading_share(int panel_height, std::size_t captions) {
+  const Sizes sizes(panel_height);
+  return (sizes.margin + sizes.line(sizes.title) +
+          static_cast<double>(captions) * sizes.line(sizes.caption) + 1.2 * sizes.pad) /
+         panel_height;
+}
 
 void Overlay::draw_heading(Image& image, const PixelRect& panel, const PanelLabels& labels) {
   const Sizes sizes(panel.height);

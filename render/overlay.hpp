@@ -30,6 +30,9 @@ struct PanelLabels {
   std::optional<double> grid_spacing;  ///< [m]: written small, as the scale of the floor
 };
 
+/// Part of a panel's height that its title and `captions` lines below it take.
+double heading_share(int panel_height, std::size_t captions);
+
 /// Writes labels, colour scales and dividers on pictures, after they were drawn.
 class Overlay {
  public:

@@ -1,6 +1,7 @@
 #include "render/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/format.h>
@@ -35,10 +36,16 @@ ColourScale strain_scale(double range) {
                     {1, fmt::format("+{:.3g} %", range * 100)}}};
 }
 
+/// Three digits; thousands in full, as "1000" says more than "1e+03".
+std::string tick_text(double value) {
+  const double size = std::abs(value);
+  return size >= 999.5 && size < 1e6 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
 ColourScale colour_scale(const ValueScale& scale) {
   ColourScale shown{.name = scale.label, .colour = value_colour, .ticks = {}, .bar_share = 0.28};
   const auto tick = [&](double part, double value) {
-    shown.ticks.push_back({part, fmt::format("{:.3g}", value / scale.unit)});
+    shown.ticks.push_back({part, tick_text(value / scale.unit)});
   };
   if (!(scale.high > scale.low)) {
     tick(0.5, scale.low);

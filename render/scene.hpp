@@ -29,11 +29,17 @@ struct Camera {
   double fov_degrees = 35;  ///< vertical
 };
 
-/// A camera that sees all points, which fill the picture, from the direction (azimuth, elevation)
-/// [deg].
-Camera frame_points(const std::vector<Vec3>& points, double azimuth, double elevation,
-                    double aspect, double fov_degrees = 35);
-/// The same for the corners of a box.
+/// How points are looked at.
+struct Framing {
+  double azimuth = -70;  ///< of the eye, from x towards y [deg]
+  double elevation = 15;
+  double aspect = 4. / 3;  ///< width / height of the panel
+  double fov_degrees = 35;
+  double headroom = 0;  ///< part of the height that is kept free above, for labels
+};
+/// A camera that sees all points, which fill the picture. Throws InputError without points.
+Camera frame_points(const std::vector<Vec3>& points, const Framing& framing);
+/// A camera that sees everything in the box from the direction (azimuth, elevation) [deg].
 Camera frame_box(const Box3& box, double azimuth, double elevation, double aspect,
                  double fov_degrees = 35);
 

@@ -147,9 +147,14 @@ std::vector<Camera> cameras_of(const std::vector<std::unique_ptr<Picture>>& pane
     centers.push_back(options.camera == StillCamera::follow ? middle(points) : Vec3(Vec3::Zero()));
     for (const Vec3& point : points) all.push_back(point - centers.back());
   }
-  const Camera common =
-      frame_points(all, options.azimuth, options.elevation,
-                   static_cast<double>(options.width) / static_cast<double>(options.height));
+  double headings = 0;
+  for (const auto& panel : panels)
+    headings = std::max(headings, panel->heading_share(static_cast<int>(options.height)));
+  const Camera common = frame_points(
+      all, {.azimuth = options.azimuth,
+            .elevation = options.elevation,
+            .aspect = static_cast<double>(options.width) / static_cast<double>(options.height),
+            .headroom = headings});
   std::vector<Camera> cameras;
   for (const Vec3& center : centers) {
     Camera& camera = cameras.emplace_back(common);

@@ -8,6 +8,7 @@
 #include <lua.hpp>
 
 #include "model/error.hpp"
+#include "render/overlay.hpp"
 #include "report/playback.hpp"
 
 namespace springlod {
@@ -106,7 +107,7 @@ void Picture::set_instant(const TrajectoryValue& run) {
     set_model(run.model, &frame.x);
   }
   add_obstacles(*run.scenario);
-  caption_ = fmt::format("t = {:.3f} s", time);
+  instant_ = fmt::format("t = {:.3f} s", time);
 }
 
 void Picture::set_model(std::shared_ptr<const ModelValue> model,
@@ -130,6 +131,19 @@ std::vector<Vec3> Picture::points() const {
   std::vector<Vec3> points = positions_;
   points.insert(points.end(), surface_positions_.begin(), surface_positions_.end());
   return points;
+}
+
+std::vector<std::string> Picture::heading() const {
+  std::vector<std::string> lines;
+  std::istringstream title(options_.title);
+  for (std::string line; std::getline(title, line);) lines.push_back(line);
+  if (!instant_.empty()) lines.push_back(instant_);
+  return lines;
+}
+
+double Picture::heading_share(int panel_height) const {
+  const std::size_t lines = heading().size();
+  return lines == 0 ? 0 : springlod::heading_share(panel_height, lines - 1);
 }
 
 Panel Picture::panel(const Camera& camera) const {
@@ -160,10 +174,11 @@ Panel Picture::panel(const Camera& camera) const {
   panel.planes = planes_;
   panel.boxes = boxes_;
   panel.camera = camera;
-  std::istringstream lines(options_.title);
-  std::getline(lines, panel.title);
-  for (std::string line; std::getline(lines, line);) panel.captions.push_back(line);
-  if (!caption_.empty()) panel.captions.push_back(caption_);
+  const std::vector<std::string> lines = heading();
+  if (!lines.empty()) {
+    panel.title = lines.front();
+    panel.captions.assign(lines.begin() + 1, lines.end());
+  }
   return panel;
 }
 

@@ -29,6 +29,8 @@ class Picture {
   /// and for options that do not fit it.
   static std::unique_ptr<Picture> of(lua_State* L, int index, PanelOptions options);
 
+  /// Part of a panel's height that its title and captions take; 0 without any.
+  double heading_share(int panel_height) const;
   /// All that the camera has to see.
   std::vector<Vec3> points() const;
   /// Good as long as this lives.
@@ -36,6 +38,7 @@ class Picture {
 
  private:
   void set_model(std::shared_ptr<const ModelValue> model, const std::vector<Vec3>* positions);
+  std::vector<std::string> heading() const;
   void set_instant(const TrajectoryValue& run);
   void add_obstacles(const Scenario& scenario);
 
@@ -46,7 +49,7 @@ class Picture {
   std::vector<Vec3> surface_positions_;
   std::vector<DrawnPlane> planes_;
   std::vector<DrawnBox> boxes_;
-  std::string caption_;
+  std::string instant_;  // "t = 0.300 s" of a trajectory
 };
 
 /// Colour of each surface part: of the material with the part's name or its material's name; empty
