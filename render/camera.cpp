@@ -13,9 +13,11 @@ constexpr double kDegree = std::numbers::pi / 180;
 // Depth range in distances eye-target: nothing worth seeing is nearer or farther.
 constexpr double kNear = 0.02;
 constexpr double kFar = 50;
-// Room around the framed box, as a factor: above and below it stay free for labels.
-constexpr double kMarginAcross = 1.06;
-constexpr double kMarginUpright = 1.22;
+// Room around what is framed, as a part of it. Above and below a box there is more, for labels.
+constexpr double kMarginAcross = 0.06;
+constexpr double kMarginOfBox = 0.22;
+// Of the panels whose vertical field of view is taken as it is given.
+constexpr double kUsualAspect = 4. / 3;
 
 }  // namespace
 
@@ -74,12 +76,22 @@ double fitting_distance(const std::vector<Vec3>& points, const Vec3& target, con
   return distance;
 }
 
+double field_of_view(const Framing& framing) {
+  if (framing.aspect <= kUsualAspect) return framing.fov_degrees;
+  const double tan_half = std::tan(framing.fov_degrees * kDegree / 2);
+  return 2 * std::atan(tan_half * kUsualAspect / framing.aspect) / kDegree;
+}
+
 }  // namespace
 
 Camera frame_box(const Box3& box, double azimuth, double elevation, double aspect,
                  double fov_degrees) {
   return frame_points(box.isEmpty() ? std::vector<Vec3>{} : corners(box),
-                      {azimuth, elevation, aspect, fov_degrees});
+                      {.azimuth = azimuth,
+                       .elevation = elevation,
+                       .aspect = aspect,
+                       .fov_degrees = fov_degrees,
+                       .margin = kMarginOfBox});
 }
 
 Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
@@ -89,19 +101,20 @@ Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
     throw InputError("camera: there is nothing to look at (no point, or one that is not finite)");
   if (!(framing.aspect > 0) || !(framing.fov_degrees > 0 && framing.fov_degrees < 180))
     throw InputError("camera: the aspect must be above 0, the field of view between 0 and 180 deg");
-  if (!(framing.headroom >= 0 && framing.headroom < 1))
-    throw InputError("camera: the headroom must be from 0 to below 1");
+  if (!(framing.margin >= 0)) throw InputError("camera: the margin must be 0 or more");
+  if (!(framing.headroom >= 0 && framing.footroom >= 0 && framing.headroom + framing.footroom < 1))
+    throw InputError("camera: headroom and footroom must be 0 or more and together below 1");
   const double az = framing.azimuth * kDegree;
   const double el = framing.elevation * kDegree;
   const Vec3 back(std::cos(az) * std::cos(el), std::sin(az) * std::cos(el), std::sin(el));
   Camera camera;
-  camera.fov_degrees = framing.fov_degrees;
+  camera.fov_degrees = field_of_view(framing);
   camera.target = box.center();
   camera.eye = camera.target + back;
   const CameraAxes axes = camera_axes(camera);
-  const double tan_half = std::tan(framing.fov_degrees * kDegree / 2);
-  const double tan_y = (1 - framing.headroom) * tan_half / kMarginUpright;
-  const double tan_x = tan_half * framing.aspect / kMarginAcross;
+  const double tan_half = std::tan(camera.fov_degrees * kDegree / 2);
+  const double tan_y = (1 - framing.headroom - framing.footroom) * tan_half / (1 + framing.margin);
+  const double tan_x = tan_half * framing.aspect / (1 + kMarginAcross);
   // Perspective makes the near side larger: shift the target until left and right, above and below
   // leave the same room. Converges fast; 8 rounds are far below a pixel.
   double distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
@@ -120,7 +133,7 @@ Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
   }
   constexpr double kLeast = 1e-9;  // a box of one point still gives a camera
   distance = std::max(distance, kLeast);
-  camera.target += framing.headroom * tan_half * distance * axes.up;
+  camera.target += (framing.headroom - framing.footroom) * tan_half * distance * axes.up;
   camera.eye = camera.target + distance * back;
   return camera;
 }

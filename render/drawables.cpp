@@ -21,9 +21,10 @@ constexpr double kSpringRadius = 0.033;
 constexpr double kValueNodeRadius = 0.20;
 constexpr double kValueSpringFactor = 0.6;
 constexpr Colour kValueSpringColour{0.66F, 0.68F, 0.71F};
-// Of the paper's figure 4: inner nodes stand out, border nodes step back.
+// Of the paper's figure 4: inner nodes stand out, border nodes and springs step back.
 constexpr double kBoldFactor = 1.6;
 constexpr double kPlainFactor = 0.55;
+constexpr double kStepBackFactor = 0.45;  // of the springs
 constexpr Colour kBoldColour{0.82F, 0.10F, 0.10F};
 constexpr Colour kPlainColour{0.52F, 0.54F, 0.57F};
 
@@ -88,8 +89,10 @@ std::vector<SpringInstance> spring_instances(const DrawnBody& body, const Vec3& 
   const MassSpringModel& model = *body.model;
   const std::vector<Vec3>& x = node_positions(body);
   const bool strained = body.style.spring_colour == SpringColour::strain;
-  const bool plain = !strained && shows_values(body);
-  const double factor = plain ? kValueSpringFactor : 1;
+  const bool plain = !strained && (shows_values(body) || body.style.bold_inner_nodes);
+  const double factor = !plain                        ? 1
+                        : body.style.bold_inner_nodes ? kStepBackFactor
+                                                      : kValueSpringFactor;
   const auto radius = static_cast<float>(factor * kSpringRadius * mean_spring_length(model));
   std::vector<SpringInstance> springs;
   springs.reserve(model.spring_count());
@@ -152,6 +155,22 @@ TriangleMesh box_mesh(const DrawnBox& box) {
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   mesh.parts = {{"box", "", 0, 12}};
   return mesh;
+}
+
+std::vector<Vec3> outline(const DrawnBody& body) {
+  std::vector<Vec3> points;
+  if (body.style.surface && body.surface != nullptr) points = surface_positions(body);
+  const bool balls = body.style.nodes || body.style.bold_inner_nodes;
+  if (body.model == nullptr || !(balls || body.style.springs)) return points;
+  const Vec3 origin = node_positions(body).empty() ? Vec3(Vec3::Zero()) : node_positions(body)[0];
+  for (const NodeInstance& node : node_instances(body, origin)) {
+    const Vec3 center = origin + node.center.cast<double>();
+    points.push_back(center);
+    for (int axis = 0; balls && axis < 3; ++axis)
+      for (const double side : {-1., 1.})
+        points.emplace_back(center + side * static_cast<double>(node.radius) * Vec3::Unit(axis));
+  }
+  return points;
 }
 
 Box3 drawn_bounds(const DrawnBody& body) {

@@ -34,6 +34,13 @@ int whole(double v) {
   return static_cast<int>(std::lround(v));
 }
 
+int scale_thickness(const Sizes& sizes) {
+  return whole(sizes.small * 0.55);
+}
+int scale_height(const Sizes& sizes) {
+  return whole(2 * sizes.line(sizes.small) + scale_thickness(sizes) + 1.6 * sizes.pad);
+}
+
 std::string length_text(double metres) {
   if (metres >= 1000) return fmt::format("{:g} km", metres / 1000);
   if (metres >= 1) return fmt::format("{:g} m", metres);
@@ -49,6 +56,11 @@ double heading_share(int panel_height, std::size_t captions) {
   return (sizes.margin + sizes.line(sizes.title) +
           static_cast<double>(captions) * sizes.line(sizes.caption) + 1.2 * sizes.pad) /
          panel_height;
+}
+
+double scale_share(int panel_height) {
+  const Sizes sizes(panel_height);
+  return (sizes.margin + scale_height(sizes)) / panel_height;
 }
 
 void Overlay::draw_heading(Image& image, const PixelRect& panel, const PanelLabels& labels) {
@@ -92,14 +104,14 @@ int Overlay::draw_scale(Image& image, const PixelRect& panel, const ColourScale&
   const double before = scale.ticks.empty() ? 0 : half(scale.ticks.front());
   const double after = scale.ticks.empty() ? 0 : half(scale.ticks.back());
   const int bar = whole(panel.width * scale.bar_share);
-  const int thick = whole(sizes.small * 0.55);
+  const int thick = scale_thickness(sizes);
   const std::string name =
       text_.fitted(scale.name, sizes.small, panel.width - 2 * (sizes.margin + sizes.pad));
   const double name_width = text_.width(name, sizes.small);
   // Room for a name that is wider than bar and numbers.
   const double beside = std::max({0., (name_width - bar) / 2 - std::min(before, after)});
   const int width = bar + whole(before + after + 2 * (sizes.pad + beside));
-  const int height = whole(2 * sizes.line(sizes.small) + thick + 1.6 * sizes.pad);
+  const int height = scale_height(sizes);
   const PixelRect plate{panel.x + panel.width - whole(sizes.margin) - width, bottom - height, width,
                         height};
   fill_rounded(image, plate, sizes.pad, kPlate, kPlateAlpha);

@@ -32,6 +32,8 @@ struct PanelLabels {
 
 /// Part of a panel's height that its title and `captions` lines below it take.
 double heading_share(int panel_height, std::size_t captions);
+/// Part of a panel's height that a colour scale takes.
+double scale_share(int panel_height);
 
 /// Writes labels, colour scales and dividers on pictures, after they were drawn.
 class Overlay {

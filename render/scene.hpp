@@ -34,8 +34,12 @@ struct Framing {
   double azimuth = -70;  ///< of the eye, from x towards y [deg]
   double elevation = 15;
   double aspect = 4. / 3;  ///< width / height of the panel
-  double fov_degrees = 35;
+  /// Vertical, of panels up to 4:3; wider ones see no farther to the sides than that, for there a
+  /// wide view stretches balls into eggs.
+  double fov_degrees = 25;
   double headroom = 0;  ///< part of the height that is kept free above, for labels
+  double footroom = 0;  ///< and below, for colour bars
+  double margin = 0.1;  ///< kept free above and below, as a part of what the points fill
 };
 /// A camera that sees all points, which fill the picture. Throws InputError without points.
 Camera frame_points(const std::vector<Vec3>& points, const Framing& framing);

@@ -147,14 +147,22 @@ std::vector<Camera> cameras_of(const std::vector<std::unique_ptr<Picture>>& pane
     centers.push_back(options.camera == StillCamera::follow ? middle(points) : Vec3(Vec3::Zero()));
     for (const Vec3& point : points) all.push_back(point - centers.back());
   }
+  const int height = static_cast<int>(options.height);
   double headings = 0;
-  for (const auto& panel : panels)
-    headings = std::max(headings, panel->heading_share(static_cast<int>(options.height)));
+  double scales = 0;
+  for (const auto& panel : panels) {
+    headings = std::max(headings, panel->heading_share(height));
+    scales = std::max(scales, panel->scales_share(height));
+  }
+  // Of a panel of a few pixels labels would leave nothing.
+  constexpr double kMostForLabels = 0.5;
+  const double shrink = std::min(1., kMostForLabels / std::max(headings + scales, 1e-9));
   const Camera common = frame_points(
       all, {.azimuth = options.azimuth,
             .elevation = options.elevation,
             .aspect = static_cast<double>(options.width) / static_cast<double>(options.height),
-            .headroom = headings});
+            .headroom = shrink * headings,
+            .footroom = shrink * scales});
   std::vector<Camera> cameras;
   for (const Vec3& center : centers) {
     Camera& camera = cameras.emplace_back(common);

@@ -8,6 +8,8 @@
 #include <lua.hpp>
 
 #include "model/error.hpp"
+#include "render/drawables.hpp"
+#include "render/node_values.hpp"
 #include "render/overlay.hpp"
 #include "report/playback.hpp"
 
@@ -127,10 +129,7 @@ void Picture::add_obstacles(const Scenario& scenario) {
 }
 
 std::vector<Vec3> Picture::points() const {
-  if (mesh_) return mesh_->mesh.positions;
-  std::vector<Vec3> points = positions_;
-  points.insert(points.end(), surface_positions_.begin(), surface_positions_.end());
-  return points;
+  return outline(panel(Camera{}).bodies.front());
 }
 
 std::vector<std::string> Picture::heading() const {
@@ -144,6 +143,12 @@ std::vector<std::string> Picture::heading() const {
 double Picture::heading_share(int panel_height) const {
   const std::size_t lines = heading().size();
   return lines == 0 ? 0 : springlod::heading_share(panel_height, lines - 1);
+}
+
+double Picture::scales_share(int panel_height) const {
+  const DrawnBody body = panel(Camera{}).bodies.front();
+  const bool strain = body.style.springs && body.style.spring_colour == SpringColour::strain;
+  return ((shows_values(body) ? 1 : 0) + (strain ? 1 : 0)) * scale_share(panel_height);
 }
 
 Panel Picture::panel(const Camera& camera) const {

@@ -31,6 +31,8 @@ class Picture {
 
   /// Part of a panel's height that its title and captions take; 0 without any.
   double heading_share(int panel_height) const;
+  /// Part that its colour scales take.
+  double scales_share(int panel_height) const;
   /// All that the camera has to see.
   std::vector<Vec3> points() const;
   /// Good as long as this lives.

@@ -8,6 +8,7 @@ local figures = {}
 
 -- What the paper counts: nodes and, where it tells them, spring ends.
 local paper = {
+  lattices = {{216}, {125}, {64}, {27}},
   cube = {{216}, {95}, {41}, {18}},
   strong = {{216}, {180}, {164}, {158}},
   ball = {{281, 4094}, {114, 1596}, {51, 670}},
@@ -73,8 +74,10 @@ local function lattices(context)
   local panels = {}
   for level = chain.coarsest, 0, -1 do
     local model = chain[level]
-    panels[#panels + 1] = {model, title = heading(("%d nodes an edge")
-      :format(math.floor(model.node_count ^ (1 / 3) + 0.5)), model)}
+    local edge = math.floor(model.node_count ^ (1 / 3) + 0.5)
+    panels[#panels + 1] = {
+      model, title = heading(("edge of %d"):format(edge), model, paper.lattices[level + 1]),
+    }
   end
   return context:draw("figure-1", "Figure 1: a cube by cubic lattices of four resolutions", panels,
     {azimuth = -60, elevation = 22})
@@ -113,7 +116,7 @@ local function masses_in_a_row(context)
   end
   local title = "Figure 2: mass in one dimension, uniform and with two nodes merged"
   local drawn = context:draw("figure-2", title, panels, {
-    columns = 1, width = 900, height = 210, azimuth = -90, elevation = 12, node_colour = "mass",
+    columns = 1, width = 900, height = 200, azimuth = -90, elevation = 10, node_colour = "mass",
     node_size = "mass", node_radius = 0.2, springs = true,
   })
   s.chart(context.folder .. "/figure-2.svg", series,
@@ -133,7 +136,7 @@ local function cube_with_strong_border(context)
     {levels = 3, border = "strong", seed = context.seed})
   return context:draw("figure-4",
     "Figure 4: merging with a strong border, three times\nNodes inside in bold red",
-    level_panels(chain, "strong-", paper.strong),
+    level_panels(chain, "", paper.strong),
     {azimuth = -60, elevation = 22, bold_inner_nodes = true})
 end
 
@@ -154,7 +157,7 @@ local function ball_falls_and_rolls(context)
       {run, time = run.first_contact / 2, title = "falls"},
       {run, time = hardest_moment(run), title = "hits the floor"},
       {run, time = 1.5, title = "rolls"},
-    })
+    }, {elevation = 10})
 end
 
 local function core_and_shell(context)
@@ -174,18 +177,19 @@ local function rods_solid_and_wire(context)
       }
     end
   end
-  return context:draw("figure-7", "Figure 7: two stiff rods joined by rubber, solid and as springs",
-    panels, {columns = 2, height = 300, width = 600, elevation = 20})
+  return context:draw("figure-7", "Figure 7: two stiff rods joined by rubber, solid and as springs\n"
+    .. "Solid, both are the same mesh: a level carries it with fewer nodes", panels,
+    {columns = 2, width = 600, height = 300, azimuth = -78, elevation = 20})
 end
 
 local function throw_at_wall(context)
   local scene = paper_scenes.wall()
   scene.throw.turn = {axis = {0, 1, 0}, angle = "90 deg"} -- upright
-  scene.duration = 1.5
+  scene.duration = 1
   local rods = context.bodies.rods
   local runs = {s.run(rods[0], scene), s.run(rods[1], scene)}
   local panels = {}
-  for _, time in ipairs {0, 0.14, 0.3, 0.6, 1.4} do
+  for _, time in ipairs {0, 0.13, 0.3, 0.5, 0.9} do
     for level, run in ipairs(runs) do
       local model = rods[level - 1]
       panels[#panels + 1] = {
@@ -217,7 +221,7 @@ end
 
 local function eq2_of_rods(context)
   return eq2_on_nodes(context, "rods", context.bodies.rods, paper.rods,
-    {width = 520, height = 300, elevation = 20, cut = cut_open, springs = true})
+    {width = 560, height = 260, azimuth = -80, elevation = 20, cut = cut_open, springs = true})
 end
 
 -- In the order of the paper, eq. 2 last.
@@ -246,7 +250,7 @@ function figures.draw(folder, options)
   options = options or {}
   local seed = options.seed or s.seed
   local context = setmetatable({
-    folder = folder, seed = seed, bodies = make_bodies(seed), scale = options.quick and 0.6 or 1,
+    folder = folder, seed = seed, bodies = make_bodies(seed), scale = options.quick and 0.7 or 1,
   }, Context)
   local list = {}
   for _, draw in ipairs(all_figures) do
