@@ -62,9 +62,9 @@ struct DrawnBox {
 struct ValueStyle {
   /// Over the colour bar, before the unit of node_colour; of own values with theirs. Empty: a usual
   /// one.
-  std::string label;
+  std::string label = {};
   /// What the ends of the colour scale stand for [SI]; none: least and largest of all panels.
-  std::optional<std::pair<double, double>> range;
+  std::optional<std::pair<double, double>> range = {};
   ValueScaling scaling = ValueScaling::automatic;
 };
 

@@ -85,7 +85,7 @@ end
 
 -- Nodes of 1 kg in a row, each of four pieces, then the two in the middle merged. The pieces are
 -- the base, so that proximity can share them out.
-local function row_of_nodes(mass_rule)
+function figures.row_of_nodes(mass_rule)
   local pieces, springs, four, all = {}, {}, {}, {}
   for i = 1, 24 do
     pieces[i] = {(i - 2.5) / 4, 0, 0, mass = 1 / 4, volume = 1 / 64}
@@ -98,7 +98,8 @@ local function row_of_nodes(mass_rule)
 end
 
 local function masses_in_a_row(context)
-  local by_proportion, by_proximity = row_of_nodes("proportional"), row_of_nodes("proximity")
+  local by_proportion, by_proximity =
+    figures.row_of_nodes("proportional"), figures.row_of_nodes("proximity")
   local cases = {
     {name = "a) uniform", model = by_proportion[1]},
     {name = "b) two merged, by proportion", model = by_proportion[2]},
@@ -109,7 +110,8 @@ local function masses_in_a_row(context)
     local masses, points = {}, {}
     for j, node in ipairs(case.model:nodes()) do
       masses[j] = ("%.4g"):format(node.mass)
-      points[j] = {node.x, node.mass, label = masses[j]}
+      -- A label only where the mass has changed, else they would cover each other.
+      points[j] = {node.x, node.mass, label = node.mass ~= 1 and masses[j] or nil}
     end
     panels[i] = {case.model, title = ("%s: masses %s kg"):format(case.name, table.concat(masses, ", "))}
     series[i] = {name = case.name, points = points}
@@ -120,7 +122,7 @@ local function masses_in_a_row(context)
     node_size = "mass", node_radius = 0.2, springs = true,
   })
   s.chart(context.folder .. "/figure-2.svg", series,
-    {title = title, x_label = "place of the node (m)", y_label = "mass (kg)"})
+    {title = "Figure 2: mass of the nodes", x_label = "place (m)", y_label = "mass (kg)"})
   drawn[#drawn + 1] = {file = "figure-2.svg", title = title}
   return drawn
 end
@@ -216,7 +218,8 @@ local function eq2_on_nodes(context, name, chain, counts, options)
 end
 
 local function eq2_of_ball(context)
-  return eq2_on_nodes(context, "ball", context.bodies.ball, paper.ball, {cut = cut_open})
+  return eq2_on_nodes(context, "ball", context.bodies.ball, paper.ball,
+    {height = 460, cut = cut_open})
 end
 
 local function eq2_of_rods(context)
