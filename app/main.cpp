@@ -22,6 +22,7 @@ using springlod::Outcome;
 using springlod::ScriptState;
 
 constexpr int kFailed = 1;
+constexpr int kInterrupted = 130;  // as shells have it: 128 + SIGINT
 
 Outcome run_action(ScriptState& state, const CommandLine& line) {
   switch (line.action) {
@@ -49,10 +50,13 @@ int run(const std::vector<std::string>& arguments) {
   const springlod::InterruptHandler interrupts;
   ScriptState state(line.settings);
   const Outcome outcome = run_action(state, line);
-  if (!outcome.done)
+  if (outcome.interrupted)
+    fmt::print(stderr, "springlod: interrupted\n");
+  else if (!outcome.done)
     fmt::print(stderr, "springlod: {}\n{}{}", outcome.message, outcome.traceback,
                outcome.traceback.empty() ? "" : "\n");
   if (line.action == CommandLine::Action::prompt || line.prompt_after) springlod::run_prompt(state);
+  if (outcome.interrupted) return kInterrupted;
   return outcome.done ? 0 : kFailed;
 }
 

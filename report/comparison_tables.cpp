@@ -49,8 +49,9 @@ std::string comparison_columns_help() {
   return "level, label, nodes, springs, ends, step [s], spring_updates_per_second (of simulated "
          "time), cost_ratio (base / level), surface_error [m], surface_error_percent and "
          "shape_error_percent (of the base's bounding diagonal), shape_error [m], distance [m], "
-         "distance_spread [m] (standard deviation over the starts), simulated [s], ledger_error "
-         "(of the largest kinetic energy)";
+         "distance_spread [m] (standard deviation over the starts), energy_difference (largest, of "
+         "the base's largest kinetic energy), simulated [s], ledger_error (of the largest kinetic "
+         "energy)";
 }
 
 Table comparison_table(const Comparison& comparison, const LodChain& chain) {
@@ -69,6 +70,7 @@ Table comparison_table(const Comparison& comparison, const LodChain& chain) {
                    "shape_error_percent",
                    "distance",
                    "distance_spread",
+                   "energy_difference",
                    "simulated",
                    "ledger_error"};
   const auto& levels = comparison.levels;
@@ -79,31 +81,40 @@ Table comparison_table(const Comparison& comparison, const LodChain& chain) {
     const double surface = mean_over(runs, [](const StartResult& s) { return s.surface_error; });
     const double shape = mean_over(runs, [](const StartResult& s) { return s.shape_error; });
     const double distance = mean_over(runs, [](const StartResult& s) { return s.distance; });
+    const double energy = mean_over(runs, [](const StartResult& s) { return s.energy_difference; });
     const double simulated = mean_over(runs, [](const StartResult& s) { return s.simulated; });
-    table.rows.push_back({fmt::format("{}", runs.level), runs.label,
-                          fmt::format("{}", model.node_count()),
-                          fmt::format("{}", model.spring_count()),
-                          fmt::format("{}", model.end_count()), number_text(runs.first.step),
-                          number_text(cost), number_text(cost_per_second(levels.front()) / cost),
-                          number_text(surface), number_text(100 * surface / diagonal),
-                          number_text(shape), number_text(100 * shape / diagonal),
-                          number_text(distance), number_text(distance_spread(runs)),
-                          number_text(simulated), number_text(largest_ledger_error(runs))});
+    table.rows.push_back(
+        {fmt::format("{}", runs.level), runs.label, fmt::format("{}", model.node_count()),
+         fmt::format("{}", model.spring_count()), fmt::format("{}", model.end_count()),
+         number_text(runs.first.step), number_text(cost),
+         number_text(cost_per_second(levels.front()) / cost), number_text(surface),
+         number_text(100 * surface / diagonal), number_text(shape),
+         number_text(100 * shape / diagonal), number_text(distance),
+         number_text(distance_spread(runs)), number_text(energy), number_text(simulated),
+         number_text(largest_ledger_error(runs))});
   }
   return table;
 }
 
 Table starts_table(const Comparison& comparison) {
   Table table;
-  table.columns = {"level",       "label",     "start",          "distance",    "surface_error",
-                   "shape_error", "simulated", "spring_updates", "ledger_error"};
+  table.columns = {"level",
+                   "label",
+                   "start",
+                   "distance",
+                   "surface_error",
+                   "shape_error",
+                   "energy_difference",
+                   "simulated",
+                   "spring_updates",
+                   "ledger_error"};
   for (const LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
       const StartResult& start = runs.starts[i];
       table.rows.push_back({fmt::format("{}", runs.level), runs.label, fmt::format("{}", i + 1),
                             number_text(start.distance), number_text(start.surface_error),
-                            number_text(start.shape_error), number_text(start.simulated),
-                            fmt::format("{}", start.spring_updates),
+                            number_text(start.shape_error), number_text(start.energy_difference),
+                            number_text(start.simulated), fmt::format("{}", start.spring_updates),
                             number_text(start.ledger_error)});
     }
   return table;

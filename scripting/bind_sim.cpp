@@ -9,9 +9,11 @@
 #include "model/error.hpp"
 #include "report/comparison_tables.hpp"
 #include "scripting/call.hpp"
+#include "scripting/run_options.hpp"
 #include "scripting/scenario_table.hpp"
 #include "scripting/values.hpp"
 #include "sim/compare.hpp"
+#include "sim/ensemble.hpp"
 #include "sim/run.hpp"
 
 namespace springlod {
@@ -19,59 +21,6 @@ namespace springlod {
 namespace {
 
 constexpr const char* kGroup = "Simulation";
-
-std::vector<Parameter> run_parameters() {
-  const RunOptions usual;
-  return {{.name = "integrator",
-           .type = "one of",
-           .fallback = "\"symplectic_euler\"",
-           .help = "how a step is made; the first three are explicit, the others go on at any step",
-           .choices = {"symplectic_euler", "velocity_verlet", "runge_kutta_4", "backward_euler_cg",
-                       "backward_euler_direct", "xpbd", "projective_dynamics"}},
-          {.name = "iterations",
-           .type = "integer",
-           .fallback = "20 of Newton, 1 sweep of xpbd, 10 of projective_dynamics",
-           .help = "of the implicit schemes, a step"},
-          {.name = "tolerance",
-           .type = "number",
-           .fallback = fmt::format("{}", usual.solver.tolerance),
-           .help = "part of the forces at which backward Euler stops iterating"},
-          {.name = "step",
-           .type = "quantity",
-           .dimension = Dimension::time,
-           .fallback = "safety times the predicted stable step; 1 ms for the implicit schemes",
-           .help = "time step"},
-          {.name = "safety",
-           .type = "number",
-           .fallback = fmt::format("{}", usual.safety),
-           .help = "part of the predicted stable step that is taken"},
-          {.name = "frame_rate",
-           .type = "number",
-           .fallback = fmt::format("{}", usual.frame_rate),
-           .help = "frames kept a simulated second; 0: first and last only"},
-          {.name = "ledger",
-           .type = "boolean",
-           .fallback = usual.ledger ? "true" : "false",
-           .help = "keep account of the energy"}};
-}
-
-void read_run_options(Call& call, TableReader& reader, RunOptions& options) {
-  reader.choose("integrator", options.integrator,
-                {{"symplectic_euler", Integrator::symplectic_euler},
-                 {"velocity_verlet", Integrator::velocity_verlet},
-                 {"runge_kutta_4", Integrator::runge_kutta_4},
-                 {"backward_euler_cg", Integrator::backward_euler_cg},
-                 {"backward_euler_direct", Integrator::backward_euler_direct},
-                 {"xpbd", Integrator::xpbd},
-                 {"projective_dynamics", Integrator::projective_dynamics}});
-  reader.read("iterations", options.solver.iterations);
-  reader.read("tolerance", options.solver.tolerance);
-  reader.read("step", options.step);
-  reader.read("safety", options.safety);
-  reader.read("frame_rate", options.frame_rate);
-  reader.read("ledger", options.ledger);
-  options.progress = call.progress();
-}
 
 int run_binding(Call& call) {
   auto value = std::make_shared<TrajectoryValue>();
@@ -104,6 +53,40 @@ int compare_binding(Call& call) {
   options.progress = call.progress();
   value->comparison = compare(value->chain->chain, *scenario, options);
   return call.give(std::shared_ptr<const ComparisonValue>(value));
+}
+
+int ensemble_binding(Call& call) {
+  const auto model = call.value<ModelValue>(1);
+  const auto scenario = scenario_argument(call, 2);
+  EnsembleOptions options;
+  TableReader reader = call.options(3);
+  options.seed = call.session().settings().seed;
+  options.threads = call.session().settings().threads;
+  std::uint32_t first = options.first_start + 1;
+  reader.read("first", first);
+  if (first == 0) reader.refuse("first", "1 or more");
+  options.first_start = first - 1;
+  reader.read("starts", options.starts);
+  reader.read("jitter", options.jitter);
+  reader.read("seed", options.seed);
+  reader.read("threads", options.threads);
+  read_run_options(call, reader, options.run);
+  reader.finish();
+  options.progress = call.progress();
+  const std::vector<EnsembleRun> runs = run_ensemble(*model->model, *scenario, options);
+  lua_State* L = call.lua();
+  begin_list(L, runs.size());
+  std::size_t number = 0;
+  for (const EnsembleRun& run : runs) {
+    begin_table(L);
+    set_field(L, "start", run.start + 1);
+    set_field(L, "distance", run.distance);
+    set_field(L, "simulated", run.simulated);
+    set_field(L, "spring_updates", run.spring_updates);
+    set_field(L, "ledger_error", run.ledger_error);
+    end_list_entry(L, ++number);
+  }
+  return 1;
 }
 
 void push_frame(lua_State* L, const Frame& frame) {
@@ -263,8 +246,8 @@ void describe_comparison(Api& api) {
   type.method({.name = "starts",
                .summary = "What every level did in every start.",
                .returns = "list of tables, list of their keys: level, label, start, distance [m], "
-                          "surface_error [m], shape_error [m], simulated [s], spring_updates, "
-                          "ledger_error",
+                          "surface_error [m], shape_error [m], energy_difference, simulated [s], "
+                          "spring_updates, ledger_error",
                .call = starts_method});
   type.method({.name = "timings",
                .summary = "Measured times, which are never the same twice.",
@@ -275,32 +258,50 @@ void describe_comparison(Api& api) {
   api.add(type.build());
 }
 
+std::vector<Parameter> start_parameters(std::uint32_t starts) {
+  const CompareOptions usual;
+  return {{.name = "starts",
+           .type = "integer",
+           .fallback = fmt::format("{}", starts),
+           .help = "starts, the same for every level"},
+          {.name = "jitter",
+           .type = "number",
+           .fallback = fmt::format("{}", usual.jitter),
+           .help = "relative change of speed and height from start to start; the first has none"},
+          {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "of the jitter"},
+          {.name = "threads",
+           .type = "integer",
+           .fallback = "s.threads",
+           .help = "0: all cores; never changes a result"}};
+}
+
 std::vector<Parameter> compare_parameters() {
   const CompareOptions usual;
-  std::vector<Parameter> parameters{
-      {.name = "starts",
-       .type = "integer",
-       .fallback = fmt::format("{}", usual.starts),
-       .help = "starts, the same for every level"},
-      {.name = "jitter",
-       .type = "number",
-       .fallback = fmt::format("{}", usual.jitter),
-       .help = "relative change of speed and start height from start to start; the first has none"},
-      {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "of the jitter"},
-      {.name = "threads",
-       .type = "integer",
-       .fallback = "s.threads",
-       .help = "0: all cores; never changes a result"},
+  std::vector<Parameter> parameters = start_parameters(usual.starts);
+  parameters.push_back(
       {.name = "error_window",
        .type = "quantity",
        .dimension = Dimension::time,
        .fallback = fmt::format("{}", usual.error_window),
-       .help = "errors are averaged up to so long after the base's first contact"},
-      {.name = "variant",
-       .type = "string",
-       .fallback = "none",
-       .help = "goes into the labels: \"hb\" makes \"LOD-hb-1\""}};
-  const std::vector<Parameter> run = run_parameters();
+       .help = "errors are averaged up to so long after the base's first contact"});
+  parameters.push_back({.name = "variant",
+                        .type = "string",
+                        .fallback = "none",
+                        .help = "goes into the labels: \"hb\" makes \"LOD-hb-1\""});
+  const std::vector<Parameter> run = run_parameters(RunOptions{});
+  parameters.insert(parameters.end(), run.begin(), run.end());
+  return parameters;
+}
+
+std::vector<Parameter> ensemble_parameters() {
+  const EnsembleOptions usual;
+  std::vector<Parameter> parameters = start_parameters(usual.starts);
+  parameters.push_back(
+      {.name = "first",
+       .type = "integer",
+       .fallback = fmt::format("{}", usual.first_start + 1),
+       .help = "number of the first start: others than those of another ensemble"});
+  const std::vector<Parameter> run = run_parameters(usual.run);
   parameters.insert(parameters.end(), run.begin(), run.end());
   return parameters;
 }
@@ -320,7 +321,7 @@ void describe_sim(Api& api) {
       .summary = "Runs a model under a scenario.",
       .arguments = {{.name = "model", .type = "Model", .help = "a model or a level of a chain"},
                     scenario},
-      .options = run_parameters(),
+      .options = run_parameters(RunOptions{}),
       .returns = "Trajectory",
       .errors = "A run that leaves the numbers: error.kind is \"unstable\", error.node and "
                 "error.time say where and when.",
@@ -337,6 +338,21 @@ void describe_sim(Api& api) {
       .example = "local runs = s.compare(chain, scene, {starts = 24, jitter = 0.02})\n"
                  "print(s.inspect(runs:table()))",
       .call = compare_binding});
+  api.add(FunctionEntry{
+      .name = "ensemble",
+      .group = kGroup,
+      .summary = "Runs one model from many starts and keeps what each came to.",
+      .arguments = {{.name = "model", .type = "Model", .help = "a model or a level of a chain"},
+                    scenario},
+      .options = ensemble_parameters(),
+      .returns = "list of tables, one a start: start (its number), distance [m], simulated [s], "
+                 "spring_updates, ledger_error. Starts of one seed and number are the same for "
+                 "every level: pairs",
+      .errors = "As for run.",
+      .example = "local distances = {}\n"
+                 "for i, run in ipairs(s.ensemble(chain[1], scene, {starts = 24})) do\n"
+                 "  distances[i] = run.distance\nend",
+      .call = ensemble_binding});
 }
 
 }  // namespace springlod

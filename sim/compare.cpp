@@ -5,7 +5,6 @@
 #include <functional>
 #include <future>
 #include <memory>
-#include <random>
 
 #include <fmt/format.h>
 
@@ -13,6 +12,8 @@
 #include "model/error.hpp"
 #include "sim/deviation.hpp"
 #include "sim/parallel.hpp"
+#include "sim/run_progress.hpp"
+#include "sim/starts.hpp"
 
 namespace springlod {
 namespace {
@@ -20,9 +21,6 @@ namespace {
 // Frames of two runs closer than this are the same instant [s]; frame times only differ by
 // rounding.
 constexpr double kSameTime = 1e-9;
-
-// Units of progress in one run, whatever its number of steps.
-constexpr std::uint64_t kUnitsPerRun = 1000;
 
 void validate(const LodChain& chain, const CompareOptions& options) {
   if (chain.levels.empty()) throw InputError("compare: the chain has no levels");
@@ -39,35 +37,10 @@ std::string label_of(std::uint32_t level, const std::string& variant) {
   return variant.empty() ? fmt::format("LOD-{}", level) : fmt::format("LOD-{}-{}", variant, level);
 }
 
-/// Turns the steps of one run into its share of the whole and stops the run when asked to.
-class RunProgress : public Progress {
- public:
-  RunProgress(Progress* whole, const std::function<bool()>& stopped)
-      : whole_(whole), stopped_(&stopped) {}
-  void begin(std::string_view /*task*/, std::uint64_t total) override { total_ = total; }
-  void advance(std::uint64_t count) override {
-    if ((*stopped_)()) throw InterruptedError();
-    done_ += count;
-    report(kUnitsPerRun * done_ / total_);
-  }
-  /// What is left when a stop rule ended the run early.
-  void finish() { report(kUnitsPerRun); }
-
- private:
-  void report(std::uint64_t units) {
-    if (whole_ != nullptr && units > reported_) whole_->advance(units - reported_);
-    reported_ = units;
-  }
-  Progress* whole_;
-  const std::function<bool()>* stopped_;
-  std::uint64_t total_ = 1;
-  std::uint64_t done_ = 0;
-  std::uint64_t reported_ = 0;
-};
-
 /// What the levels of one start need of the base.
 struct BaseRun {
   std::vector<Frame> frames;
+  std::vector<LedgerEntry> ledger;
   std::optional<double> first_contact;
 };
 
@@ -103,6 +76,18 @@ Errors deviation(const std::vector<Frame>& frames, const BaseRun& base,
   return {sum.surface / static_cast<double>(in_window), sum.shape / static_cast<double>(common)};
 }
 
+/// Largest difference of the mechanical energy over the base's largest kinetic energy; the ledgers
+/// hold one entry a frame.
+double energy_difference(const std::vector<LedgerEntry>& ledger,
+                         const std::vector<LedgerEntry>& base) {
+  double largest = 0;
+  double kinetic = 0;
+  for (const LedgerEntry& entry : base) kinetic = std::max(kinetic, entry.kinetic);
+  for (std::size_t i = 0; i < std::min(ledger.size(), base.size()); ++i)
+    largest = std::max(largest, std::abs(ledger[i].mechanical() - base[i].mechanical()));
+  return kinetic > 0 ? largest / kinetic : 0;
+}
+
 /// One call of `compare`.
 class Comparing {
  public:
@@ -123,7 +108,7 @@ class Comparing {
 
   Comparison run_all() {
     const std::uint64_t jobs = std::uint64_t{options_.starts} * chain_.levels.size();
-    Task task(options_.progress, "compare", jobs * kUnitsPerRun);
+    Task task(options_.progress, "compare", jobs * RunProgress::kUnits);
     // Start by start, the base first: a level that waits for its base waits for a run under way.
     run_jobs(jobs, options_.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
       const auto start = static_cast<std::uint32_t>(job / chain_.levels.size());
@@ -142,6 +127,7 @@ class Comparing {
     try {
       Trajectory trajectory = run_level(0, start, stopped);
       base->frames = start == 0 ? trajectory.frames : std::move(trajectory.frames);
+      base->ledger = start == 0 ? trajectory.ledger : std::move(trajectory.ledger);
       base->first_contact = trajectory.first_contact;
       if (start == 0) {
         result_.levels[0].base_frames = trajectory.frames;
@@ -162,9 +148,11 @@ class Comparing {
     const std::shared_ptr<BaseRun>& base = base_run.get();
     const Errors errors =
         deviation(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);
+    StartResult& result = result_.levels[level].starts[start];
+    result.surface_error = errors.surface;
+    result.shape_error = errors.shape;
+    result.energy_difference = energy_difference(trajectory.ledger, base->ledger);
     leave(start, *base);
-    result_.levels[level].starts[start].surface_error = errors.surface;
-    result_.levels[level].starts[start].shape_error = errors.shape;
     if (start == 0) {
       result_.levels[level].first = std::move(trajectory);
       result_.levels[level].base_frames = std::move(base_frames);
@@ -172,7 +160,9 @@ class Comparing {
   }
 
   void leave(std::uint32_t start, BaseRun& base) {
-    if (--slots_[start].users == 0) base.frames = {};
+    if (--slots_[start].users > 0) return;
+    base.frames = {};
+    base.ledger = {};
   }
 
   /// Runs one level and keeps what only its own trajectory tells.
@@ -220,24 +210,6 @@ class Comparing {
 };
 
 }  // namespace
-
-Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
-               std::uint32_t index) {
-  if (index == 0) return start;
-  Throw changed = start;
-  changed.position = start.placed ? start.position : center;
-  changed.placed = true;
-  std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U),
-                         index};
-  std::mt19937_64 random(sequence);
-  const auto factor = [&] {
-    const double unit = static_cast<double>(random() >> 11U) * 0x1p-53;  // [0, 1)
-    return 1 + jitter * (2 * unit - 1);
-  };
-  changed.velocity *= factor();
-  changed.position.z() *= factor();
-  return changed;
-}
 
 Comparison compare(const LodChain& chain, const Scenario& scenario, const CompareOptions& options) {
   validate(chain, options);

@@ -32,7 +32,12 @@ struct StartResult {
   /// the window [m].
   double surface_error = 0;
   double shape_error = 0;  ///< the same after the best rigid fit, over all common frames [m]
-  double simulated = 0;    ///< [s]
+  /// Largest difference of the mechanical energy from the base's at one time, over the base's
+  /// largest kinetic energy [1]: the maximum energy difference of Yeh, Reinman, Patel, Faloutsos
+  /// 2009 (their percentage is of the energy itself, which has no zero where gravity has none). 0
+  /// without a ledger.
+  double energy_difference = 0;
+  double simulated = 0;  ///< [s]
   std::uint64_t spring_updates = 0;
   double wall_seconds = 0;  ///< measured; kept out of results
   double ledger_error = 0;  ///< largest |total - initial| over the largest kinetic energy
@@ -51,12 +56,6 @@ struct Comparison {
   Scenario scenario;
   std::vector<LevelRuns> levels;
 };
-
-/// The start of run number `index`: speed times 1 + jitter u1, height (z of the centre of mass)
-/// times 1 + jitter u2, with u1, u2 uniform in [-1, 1) from (seed, index) alone; index 0 stays as
-/// it is. `center`: centre of mass of the model, which a start that is not placed keeps.
-Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
-               std::uint32_t index);
 
 /// Runs every level of the chain from the same starts, spread over threads; the result does not
 /// depend on their number. Only the frames of the first start are kept. Without frames between

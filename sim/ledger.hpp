@@ -33,9 +33,10 @@ struct LedgerEntry {
   double lost_friction = 0;
   double lost_contact = 0;  ///< to contact damping and to contact beginning or ending in mid-step
   double lost_switch = 0;   ///< to a level switch
+  /// What is still there and could move the body.
+  double mechanical() const { return kinetic + elastic + gravity + contact; }
   double total() const {
-    return kinetic + elastic + gravity + contact + lost_damping + lost_friction + lost_contact +
-           lost_switch;
+    return mechanical() + lost_damping + lost_friction + lost_contact + lost_switch;
   }
 };
 

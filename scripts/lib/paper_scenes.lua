@@ -75,15 +75,17 @@ function paper_scenes.rods(options)
   return s.lattice(grid, {style = "centers"}), grid
 end
 
--- A cube of `nodes` nodes along each edge.
-function paper_scenes.cube(options)
+-- A block of one material, `size` nodes along each axis: the paper's cube if left out.
+function paper_scenes.block(options)
   local o = with_defaults(options, {
-    nodes = 6, material = {young = "1 MPa", density = 1000, damping = "2 ms", colour = "#b08d57"},
+    size = {6, 6, 6},
+    material = {young = "1 MPa", density = 1000, damping = "2 ms", colour = "#b08d57"},
   })
+  local origin = {}
+  for axis, count in ipairs(o.size) do origin[axis] = -count * cell / 2 end
   local grid = s.grid{
-    cell = cell, size = {o.nodes, o.nodes, o.nodes},
-    origin = {-o.nodes * cell / 2, -o.nodes * cell / 2, -o.nodes * cell / 2},
-    materials = {body = o.material}, fill = function() return "body" end,
+    cell = cell, size = o.size, origin = origin, materials = {body = o.material},
+    fill = function() return "body" end,
   }
   return s.lattice(grid, {style = "centers"}), grid
 end

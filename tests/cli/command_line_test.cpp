@@ -112,7 +112,7 @@ TEST_CASE("a failing script exits 1 with its line and a traceback") {
 TEST_CASE("Ctrl-C stops a Lua loop that catches every error") {
   const Ran ran = springlod_interrupted(
       {"-e", "io.stderr:write('going\\n') while true do pcall(function() end) end"}, "going\n");
-  CHECK(ran.exit_code == 1);
+  CHECK(ran.exit_code == 130);
   CHECK_THAT(ran.err, Contains("interrupted"));
 }
 
@@ -125,6 +125,6 @@ TEST_CASE("Ctrl-C stops a long simulation") {
        "io.stderr:write('going\\n')\n"
        "s.run(m, {duration = 1e9}, {step = 1e-3, frame_rate = 0})"},
       "going\n");
-  CHECK(ran.exit_code == 1);
+  CHECK(ran.exit_code == 130);
   CHECK_THAT(ran.err, Contains("interrupted"));
 }

@@ -8,6 +8,7 @@
 #include "model/error.hpp"
 #include "sim/deviation.hpp"
 #include "sim/parallel.hpp"
+#include "sim/starts.hpp"
 #include "tests/sim/bodies.hpp"
 
 using namespace springlod;
@@ -230,4 +231,15 @@ TEST_CASE("Jobs run once each and the lowest failure wins") {
   };
   CHECK_THROWS_WITH(run_jobs(50, threads, failing), "7");
   CHECK_NOTHROW(run_jobs(0, threads, failing));
+}
+
+TEST_CASE("The energy difference is none between equal models and some between levels") {
+  LodChain same;
+  same.levels = {small_chain().levels[0], small_chain().levels[0]};
+  const Comparison equal = compare(same, small_scene());
+  CHECK(equal.levels[1].starts[0].energy_difference == 0);
+  const Comparison coarser = compare(small_chain(), small_scene());
+  CHECK(coarser.levels[0].starts[0].energy_difference == 0);
+  CHECK(coarser.levels[1].starts[0].energy_difference > 1e-3);
+  CHECK(coarser.levels[1].starts[0].energy_difference < 1);
 }

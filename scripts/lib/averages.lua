@@ -1,0 +1,17 @@
+-- Of a list of numbers. s.statistics gives intervals too, but wants five values or more.
+
+local averages = {}
+
+function averages.mean(list)
+  local sum = 0
+  for _, value in ipairs(list) do sum = sum + value end
+  return sum / #list
+end
+
+function averages.standard_deviation(list)
+  local middle, sum = averages.mean(list), 0
+  for _, value in ipairs(list) do sum = sum + (value - middle) ^ 2 end
+  return math.sqrt(sum / (#list - 1))
+end
+
+return averages

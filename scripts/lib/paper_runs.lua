@@ -1,0 +1,144 @@
+-- The runs behind the paper's two tables: which there are, and how each is made.
+
+local s = require "springlod"
+local paper_scenes = require "lib.paper_scenes"
+
+local paper_runs = {}
+
+local columns = {"start", "distance", "simulated", "spring_updates"}
+
+-- The paper's names: b = weak border, h = priority, number = level.
+paper_runs.variants = {
+  {name = "", grouping = "standard", border = "none"},
+  {name = "b", grouping = "standard", border = "weak"},
+  {name = "h", grouping = "priority", border = "none"},
+  {name = "hb", grouping = "priority", border = "weak"},
+}
+
+function paper_runs.label(variant, level)
+  return "LOD-" .. (variant.name == "" and "" or variant.name .. "-") .. level
+end
+
+-- How far the base is from itself: other starts, and what a method's own error does.
+local noise_sources = {
+  {name = "other-starts", times = 2},
+  {name = "half-step", times = 1, safety = 0.4},
+  {name = "velocity-verlet", times = 1, integrator = "velocity_verlet"},
+}
+
+-- One throw of one body: scene as a Scenario and as the table it was made of. `variants`: those of
+-- the paper's table.
+local function case(name, base, scene, variants)
+  return {
+    name = name, base = base, scene = s.scenario(scene), table = scene, variants = variants,
+  }
+end
+
+-- Table 1: one case. Table 2: one a speed.
+function paper_runs.cases(settings)
+  local ball = paper_scenes.ball{materials = settings.ball_materials}
+  local rods = paper_scenes.rods{materials = settings.rods_materials}
+  local cases = {ball = case("ball", ball, paper_scenes.roll{
+    speed = settings.ball_speed, friction = settings.friction,
+  }, paper_runs.variants), rods = {}}
+  for i, speed in ipairs(settings.speeds) do
+    cases.rods[i] = case("rods-" .. speed, rods, paper_scenes.wall{
+      speed = speed * settings.speed_scale, friction = settings.friction,
+    }, {paper_runs.variants[4], paper_runs.variants[2]})
+    cases.rods[i].speed = speed
+  end
+  return cases
+end
+
+-- The chain of a variant, made once; many seeds make many.
+local chains = setmetatable({}, {__mode = "k"})
+function paper_runs.chain(base, variant, seed)
+  chains[base] = chains[base] or {}
+  local key = variant.name .. " " .. seed
+  chains[base][key] = chains[base][key] or s.simplify(base, {
+    levels = 2, grouping = variant.grouping, border = variant.border, seed = seed,
+  })
+  return chains[base][key]
+end
+
+-- All samples of a case: name, kind ("base", "noise" or the label of a level), model (a function),
+-- options of s.ensemble.
+local function samples(one, settings)
+  local list = {}
+  local function add(name, kind, model, options)
+    options.jitter, options.seed = settings.jitter, settings.seed
+    list[#list + 1] = {name = one.name .. "/" .. name, kind = kind, model = model,
+                       options = options}
+  end
+  local function base() return one.base end
+  add("base", "base", base, {starts = settings.starts})
+  local first = settings.starts + 1
+  for _, source in ipairs(noise_sources) do
+    local starts = source.times * settings.starts
+    add(source.name, "noise", base, {
+      first = first, starts = starts, safety = source.safety, integrator = source.integrator,
+    })
+    first = first + starts
+  end
+  for _, variant in ipairs(one.variants) do
+    for level = 1, 2 do
+      local label = paper_runs.label(variant, level)
+      for seed = settings.seed, settings.seed + settings.simplifications - 1 do
+        local function model() return paper_runs.chain(one.base, variant, seed)[level] end
+        add(("%s-seed-%d"):format(label, seed), label, model, {starts = settings.starts})
+      end
+    end
+  end
+  return list
+end
+
+-- The distances of a sample, run if the store has them not.
+local function distances(sample, scene, store)
+  local rows = store:rows(sample.name, columns, function()
+    return s.ensemble(sample.model(), scene, sample.options)
+  end)
+  local list = {}
+  for i, row in ipairs(rows) do list[i] = row.distance end
+  return list
+end
+
+-- Says how far a long work is and how long it will take.
+local function teller(total)
+  local begun, done = os.time(), 0
+  return function(name)
+    done = done + 1
+    local left = os.difftime(os.time(), begun) / done * (total - done)
+    s.say(("%d/%d %s, about %.0f s left"):format(done, total, name, left))
+  end
+end
+
+-- Runs what the store lacks of `cases`. Each case gets base_distances, noise (several)
+-- and levels (by label, a list of distances a seed).
+function paper_runs.run(cases, settings, store)
+  local missing = 0
+  for _, one in ipairs(cases) do
+    one.samples = samples(one, settings)
+    for _, sample in ipairs(one.samples) do
+      if not store:has(sample.name) then missing = missing + 1 end
+    end
+  end
+  local tell = teller(missing)
+  for _, one in ipairs(cases) do
+    one.noise, one.levels = {}, {}
+    for _, sample in ipairs(one.samples) do
+      local new = not store:has(sample.name)
+      local found = distances(sample, one.scene, store)
+      if new then tell(sample.name) end
+      if sample.kind == "base" then
+        one.base_distances = found
+      elseif sample.kind == "noise" then
+        table.insert(one.noise, found)
+      else
+        one.levels[sample.kind] = one.levels[sample.kind] or {}
+        table.insert(one.levels[sample.kind], found)
+      end
+    end
+  end
+end
+
+return paper_runs

@@ -1,0 +1,161 @@
+-- The paper's two tables from samples of many runs (lib.paper_runs), with what a table needs to be
+-- believed: intervals, the noise floor, and whether "the same" has been shown.
+
+local s = require "springlod"
+local averages = require "lib.averages"
+local paper_numbers = require "lib.paper_numbers"
+local paper_runs = require "lib.paper_runs"
+
+local mean = averages.mean
+
+local paper_tables = {}
+
+paper_tables.columns = {
+  "case", "model", "nodes", "ends", "paper_nodes", "paper_ends",
+  "distance", "distance_low", "distance_high", "spread",
+  "difference", "difference_low", "difference_high",
+  "over_spread", "over_spread_low", "over_spread_high",
+  "wasserstein", "wasserstein_low", "wasserstein_high",
+  "noise_floor", "seeds_inside", "seeds", "equivalent",
+  "paper_distance", "paper_difference",
+}
+
+-- A list of numbers a seed as a list a start of one number a seed.
+local function by_start(seeds)
+  local list = {}
+  for start = 1, #seeds[1] do
+    list[start] = {}
+    for seed = 1, #seeds do list[start][seed] = seeds[seed][start] end
+  end
+  return list
+end
+
+-- Nodes and ends of a level, means over the seeds.
+local function counts(one, variant, level, settings)
+  local nodes, ends = {}, {}
+  for seed = settings.seed, settings.seed + settings.simplifications - 1 do
+    local model = paper_runs.chain(one.base, variant, seed)[level]
+    nodes[#nodes + 1], ends[#ends + 1] = model.node_count, model.end_count
+  end
+  return math.floor(mean(nodes) + 0.5), math.floor(mean(ends) + 0.5)
+end
+
+local function base_row(one)
+  local m = s.statistics(one.base_distances)
+  return {
+    case = one.name, model = "base", nodes = one.base.node_count, ends = one.base.end_count,
+    distance = m.mean, distance_low = m.mean_low, distance_high = m.mean_high,
+    spread = m.deviation,
+  }
+end
+
+local function level_row(one, variant, level, floor, settings)
+  local label = paper_runs.label(variant, level)
+  local seeds = one.levels[label]
+  local c = s.compare_samples(one.base_distances, by_start(seeds),
+    {paired = true, margin = settings.margin})
+  local m = s.statistics(by_start(seeds))
+  local inside = 0
+  for _, distances in ipairs(seeds) do
+    if floor:judge(one.base_distances, distances).inside then inside = inside + 1 end
+  end
+  local nodes, ends = counts(one, variant, level, settings)
+  return {
+    case = one.name, model = label, nodes = nodes, ends = ends,
+    distance = m.mean, distance_low = m.mean_low, distance_high = m.mean_high,
+    spread = m.deviation,
+    difference = c.difference.value, difference_low = c.difference.low,
+    difference_high = c.difference.high,
+    over_spread = c.difference_over_spread.value, over_spread_low = c.difference_over_spread.low,
+    over_spread_high = c.difference_over_spread.high,
+    wasserstein = c.wasserstein.value, wasserstein_low = c.wasserstein.low,
+    wasserstein_high = c.wasserstein.high,
+    noise_floor = floor.level, seeds_inside = inside, seeds = #seeds,
+    equivalent = c.equivalent and "yes" or "not shown",
+  }
+end
+
+local function beside_paper(row, one)
+  local counted = one.speed and paper_numbers.rods[row.model] or paper_numbers.roll[row.model]
+  row.paper_nodes, row.paper_ends = counted.nodes, counted.ends
+  if one.speed then
+    local theirs = paper_numbers.at(row.model, one.speed)
+    local base = paper_numbers.at("base", one.speed)
+    if theirs then
+      row.paper_distance, row.paper_difference = theirs[1], theirs[1] - base[1]
+    end
+  else
+    row.paper_distance = counted.distance
+    row.paper_difference = counted.distance - paper_numbers.roll.base.distance
+  end
+  return row
+end
+
+-- The rows of one case: the base, then every variant's levels.
+function paper_tables.rows(one, settings)
+  local floor = s.noise_floor(one.noise, {size = #one.base_distances})
+  local rows = {beside_paper(base_row(one), one)}
+  for _, variant in ipairs(one.variants) do
+    for level = 1, 2 do
+      rows[#rows + 1] = beside_paper(level_row(one, variant, level, floor, settings), one)
+    end
+  end
+  return rows
+end
+
+-- Table 2 in one number a model: the mean over the speeds of |difference of the means|, beside the
+-- paper's and beside what the base makes of itself with other starts.
+function paper_tables.over_speeds(cases)
+  local rows = {}
+  local other = {}
+  for i, one in ipairs(cases) do
+    other[i] = math.abs(mean(one.noise[1]) - mean(one.base_distances))
+  end
+  rows[1] = {model = "base, other starts", mean_difference = mean(other)}
+  for _, variant in ipairs(cases[1].variants) do
+    for level = 1, 2 do
+      local label = paper_runs.label(variant, level)
+      local ours, theirs = {}, {}
+      for i, one in ipairs(cases) do
+        local all = {}
+        for _, distances in ipairs(one.levels[label]) do all[#all + 1] = mean(distances) end
+        ours[i] = math.abs(mean(all) - mean(one.base_distances))
+        local paper = paper_numbers.at(label, one.speed)
+        if paper then
+          theirs[#theirs + 1] = math.abs(paper[1] - paper_numbers.at("base", one.speed)[1])
+        end
+      end
+      rows[#rows + 1] = {
+        model = label, mean_difference = mean(ours),
+        paper_mean_difference = #theirs > 0 and mean(theirs) or nil,
+      }
+    end
+  end
+  return rows, {"model", "mean_difference", "paper_mean_difference"}
+end
+
+-- The table as people read it: each interval in one cell.
+function paper_tables.readable(rows)
+  local short = {}
+  for i, row in ipairs(rows) do
+    local function interval(name)
+      if not row[name] then return "" end
+      return ("%.2f (%.2f .. %.2f)"):format(row[name], row[name .. "_low"], row[name .. "_high"])
+    end
+    local function difference(value) return value and ("%+.1f"):format(value) or "" end
+    short[i] = {
+      row.model, ("%d/%d"):format(row.nodes, row.ends),
+      ("%d/%d"):format(row.paper_nodes, row.paper_ends), interval("distance"),
+      ("%.2f"):format(row.spread), interval("over_spread"), interval("wasserstein"),
+      row.noise_floor and ("%.2f"):format(row.noise_floor) or "",
+      row.seeds and ("%d of %d"):format(row.seeds_inside, row.seeds) or "", row.equivalent or "",
+      difference(row.difference), difference(row.paper_difference),
+    }
+  end
+  return short, {
+    "model", "nodes/ends", "paper", "distance [m]", "spread [m]", "difference/spread", "W1 [m]",
+    "floor [m]", "inside", "same", "difference [m]", "paper's",
+  }
+end
+
+return paper_tables

@@ -1,0 +1,46 @@
+// `springlod paper`, in small: the paper's tables from few runs.
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/program.hpp"
+
+using Catch::Matchers::Contains;
+using springlod::test::Ran;
+using springlod::test::Scratch;
+using springlod::test::slurp;
+using springlod::test::springlod_interrupted;
+using springlod::test::springlod_run;
+
+namespace {
+
+std::vector<std::string> paper(const std::filesystem::path& folder, const std::string& starts,
+                               const std::string& threads) {
+  return {
+      "paper",        "--out",     folder.string(), "--starts",          starts, "--speeds", "30",
+      "--no-figures", "--threads", threads,         "--simplifications", "1"};
+}
+
+}  // namespace
+
+TEST_CASE("paper goes on where it was stopped, and comes to the same tables on any cores") {
+  const Scratch scratch;
+  const Ran whole = springlod_run(paper(scratch / "whole", "5", "2"));
+  REQUIRE(whole.exit_code == 0);
+  for (const char* part : {"Table 1", "LOD-hb-2", "Table 2", "base at half the step", "die"})
+    CHECK_THAT(whole.out, Contains(part));
+
+  const Ran stopped = springlod_interrupted(paper(scratch / "parts", "5", "1"), "rods-30/base");
+  CHECK(stopped.exit_code == 130);
+  CHECK(std::filesystem::exists(scratch / "parts/runs/rods-30/base.csv"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "parts/table-1.csv"));
+  const Ran resumed = springlod_run(paper(scratch / "parts", "5", "1"));
+  REQUIRE(resumed.exit_code == 0);
+  CHECK(resumed.err.find("ball/base") == std::string::npos);
+  for (const char* file : {"tables.md", "table-1.csv", "table-2.csv", "early-errors.csv",
+                           "three-runs.csv", "energy.csv", "sensitivity.csv"})
+    CHECK(slurp(scratch / "parts" / file) == slurp(scratch / "whole" / file));
+
+  const Ran mixed = springlod_run(paper(scratch / "whole", "6", "2"));
+  CHECK(mixed.exit_code == 1);
+  CHECK_THAT(mixed.err, Contains("holds runs with starts = 5, not 6; take another folder"));
+}

@@ -1,0 +1,86 @@
+#include "sim/ensemble.hpp"
+
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "model/error.hpp"
+#include "sim/compare.hpp"
+#include "tests/sim/bodies.hpp"
+
+using namespace springlod;
+
+namespace {
+
+const LodChain& chain() {
+  static const LodChain made = simplify(
+      bodies::block(4, 3, 3, 0.1, bodies::material("m", 1e6, 1000, 0.002), LatticeStyle::centers),
+      {});
+  return made;
+}
+
+Scenario scene() {
+  Scenario made;
+  made.obstacles = {bodies::floor(1e6, 0.5)};
+  made.start.placed = true;
+  made.start.position = {0, 0, 0.5};
+  made.start.velocity = {2, 0, 0};
+  made.start.spin = {0, 3, 1};
+  made.duration = 0.5;
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("An ensemble runs the starts that compare runs") {
+  CompareOptions compared;
+  compared.starts = 4;
+  const Comparison comparison = compare(chain(), scene(), compared);
+  EnsembleOptions options;
+  options.starts = 4;
+  for (std::size_t level = 0; level < chain().levels.size(); ++level) {
+    const auto runs = run_ensemble(chain().levels[level].model, scene(), options);
+    REQUIRE(runs.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const StartResult& start = comparison.levels[level].starts[i];
+      CHECK(runs[i].start == i);
+      CHECK(runs[i].distance == start.distance);
+      CHECK(runs[i].spring_updates == start.spring_updates);
+      CHECK(runs[i].simulated == start.simulated);
+    }
+  }
+}
+
+TEST_CASE("An ensemble is the same in parts and for any number of threads") {
+  const MassSpringModel& model = chain().levels[1].model;
+  EnsembleOptions options;
+  options.starts = 6;
+  options.threads = 1;
+  const auto whole = run_ensemble(model, scene(), options);
+  options.threads = 2;
+  options.first_start = 3;
+  options.starts = 3;
+  const auto part = run_ensemble(model, scene(), options);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(part[i].start == whole[i + 3].start);
+    CHECK(part[i].distance == whole[i + 3].distance);
+  }
+  CHECK(whole[4].distance != whole[5].distance);
+}
+
+TEST_CASE("An ensemble refuses what it cannot run, and names the start that diverged") {
+  EnsembleOptions options;
+  options.starts = 0;
+  CHECK_THROWS_AS(run_ensemble(chain().levels[0].model, scene(), options), InputError);
+  options.starts = 2;
+  options.jitter = 1;
+  CHECK_THROWS_AS(run_ensemble(chain().levels[0].model, scene(), options), InputError);
+  options.jitter = 0.02;
+  options.run.step = 3 * predicted_step(chain().levels[0].model, scene());
+  try {
+    run_ensemble(chain().levels[0].model, scene(), options);
+    FAIL("stable at three times the predicted step");
+  } catch (const UnstableError& e) {
+    CHECK_THAT(e.what(), Catch::Matchers::StartsWith("start 1: "));
+  }
+}
