@@ -145,7 +145,7 @@ std::vector<Camera> cameras_of(const std::vector<std::unique_ptr<Picture>>& pane
   for (const auto& panel : panels) {
     const std::vector<Vec3> points = panel->points();
     centers.push_back(options.camera == StillCamera::follow ? middle(points) : Vec3(Vec3::Zero()));
-    for (const Vec3& point : points) all.push_back(point - centers.back());
+    for (const Vec3& point : points) all.emplace_back(point - centers.back());
   }
   const int height = static_cast<int>(options.height);
   double headings = 0;

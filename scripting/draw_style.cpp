@@ -42,7 +42,7 @@ DrawnPlane read_cut(TableReader& reader, const char* name) {
     lua_pop(L, 1);
   }
   lua_pop(L, 1);
-  const DrawnPlane cut{Vec3(numbers[0], numbers[1], numbers[2]), numbers[3]};
+  DrawnPlane cut{Vec3(numbers[0], numbers[1], numbers[2]), numbers[3]};
   if (!(cut.normal.norm() > 0)) reader.refuse(name, "a plane with a normal other than zero");
   return cut;
 }

@@ -2,25 +2,33 @@
 -- counted or computed here. figures.draw draws them all.
 
 local s = require "springlod"
+local paper_numbers = require "lib.paper_numbers"
 local paper_scenes = require "lib.paper_scenes"
 
 local figures = {}
 
--- What the paper counts: nodes and, where it tells them, spring ends.
+-- What the paper counts at each level of a figure.
+local function node_counts(...)
+  local levels = {}
+  for level, nodes in ipairs {...} do levels[level] = {nodes = nodes} end
+  return levels
+end
+local function hb_counts(of)
+  return {of.base, of["LOD-hb-1"], of["LOD-hb-2"]}
+end
 local paper = {
-  lattices = {{216}, {125}, {64}, {27}},
-  cube = {{216}, {95}, {41}, {18}},
-  strong = {{216}, {180}, {164}, {158}},
-  ball = {{281, 4094}, {114, 1596}, {51, 670}},
-  rods = {{368, 4724}, {154, 1746}, {67, 658}},
+  lattices = node_counts(216, 125, 64, 27),
+  cube = node_counts(216, 95, 41, 18),
+  strong = node_counts(216, 180, 164, 158),
+  ball = hb_counts(paper_numbers.roll),
+  rods = hb_counts(paper_numbers.rods),
 }
 
 -- "LOD-hb-1: 161 nodes, 1878 ends" and below it what the paper has.
 local function heading(name, model, counts)
-  local text = ("%s: %d nodes, %d ends"):format(name, model.node_count, model.end_count)
-  if not counts then return text end
-  text = ("%s\npaper: %d nodes"):format(text, counts[1])
-  if counts[2] then text = ("%s, %d ends"):format(text, counts[2]) end
+  local text = ("%s: %d nodes, %d ends\npaper: %d nodes"):format(name, model.node_count,
+    model.end_count, counts.nodes)
+  if counts.ends then text = ("%s, %d ends"):format(text, counts.ends) end
   return text
 end
 
@@ -45,8 +53,8 @@ local function simplify_hb(base, levels, seed)
   return s.simplify(base, {levels = levels, grouping = "priority", border = "weak", seed = seed})
 end
 
--- The rods as a mesh too, so that they can be drawn solid: the cells are those of paper_scenes.rods,
--- laid along x.
+-- The rods from a mesh, so that they can be drawn solid: the cells are those of
+-- paper_scenes.rods, laid along x.
 local function solid_rods()
   local mesh = s.import(s.samples .. "/dumbbell.obj", {unit = "dm", up = "z"})
   local materials = dofile(s.samples .. "/dumbbell_materials.lua")
@@ -55,7 +63,7 @@ end
 
 -- Bodies of the paper's tests, made once for all figures.
 local function make_bodies(seed)
-  local cube, cube_grid = paper_scenes.cube()
+  local cube, cube_grid = paper_scenes.block()
   return {
     cube = cube, cube_grid = cube_grid,
     ball = simplify_hb((paper_scenes.ball()), 2, seed),
@@ -113,7 +121,9 @@ local function masses_in_a_row(context)
       -- A label only where the mass has changed, else they would cover each other.
       points[j] = {node.x, node.mass, label = node.mass ~= 1 and masses[j] or nil}
     end
-    panels[i] = {case.model, title = ("%s: masses %s kg"):format(case.name, table.concat(masses, ", "))}
+    panels[i] = {
+      case.model, title = ("%s: masses %s kg"):format(case.name, table.concat(masses, ", ")),
+    }
     series[i] = {name = case.name, points = points}
   end
   local title = "Figure 2: mass in one dimension, uniform and with two nodes merged"
@@ -195,8 +205,8 @@ local function throw_at_wall(context)
     for level, run in ipairs(runs) do
       local model = rods[level - 1]
       panels[#panels + 1] = {
-        run, time = time, title = ("%s, %d nodes"):format(level_name("hb-", level - 1),
-        model.node_count),
+        run, time = time,
+        title = ("%s, %d nodes"):format(level_name("hb-", level - 1), model.node_count),
       }
     end
   end
