@@ -189,7 +189,8 @@ local function rods_solid_and_wire(context)
       }
     end
   end
-  return context:draw("figure-7", "Figure 7: two stiff rods joined by rubber, solid and as springs\n"
+  return context:draw("figure-7",
+    "Figure 7: two stiff rods joined by rubber, solid and as springs\n"
     .. "Solid, both are the same mesh: a level carries it with fewer nodes", panels,
     {columns = 2, width = 600, height = 300, azimuth = -78, elevation = 20})
 end
