@@ -25,8 +25,7 @@ std::size_t colour_count(const springlod::Image& image) {
 
 TEST_CASE("all figures of the paper are drawn, and none is blank") {
   const Scratch scratch;
-  const Ran ran =
-      springlod_run({"-q", "run", "scripts/figures.lua", "--", scratch.folder().string(), "quick"});
+  const Ran ran = springlod_run({"-q", "figures", "--quick", scratch.folder().string()});
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
   std::set<std::string> pictures;
