@@ -24,6 +24,20 @@ Groups compose(const Groups& finer, const Groups& coarser) {
   return composed;
 }
 
+std::vector<std::uint32_t> carried(const Groups& groups, const std::vector<std::uint32_t>& nodes) {
+  std::vector<bool> holds(groups.count, false);
+  for (const std::uint32_t node : nodes) {
+    if (node >= groups.of.size())
+      throw InputError(fmt::format("groups: there is no node {} among the {} that were grouped",
+                                   node, groups.of.size()));
+    holds[groups.of[node]] = true;
+  }
+  std::vector<std::uint32_t> coarse;
+  for (std::uint32_t g = 0; g < groups.count; ++g)
+    if (holds[g]) coarse.push_back(g);
+  return coarse;
+}
+
 void validate(const Groups& groups) {
   std::vector<bool> seen(groups.count, false);
   for (std::size_t i = 0; i < groups.of.size(); ++i) {

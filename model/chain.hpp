@@ -21,6 +21,9 @@ struct Groups {
 Groups identity_groups(std::uint32_t node_count);
 /// `finer` first, then `coarser`: merges made level by level compose.
 Groups compose(const Groups& finer, const Groups& coarser);
+/// The coarse nodes that hold at least one of the fine `nodes`: rising, each once. So an anchored
+/// group is one of which any node was anchored. Throws InputError for a node not in the map.
+std::vector<std::uint32_t> carried(const Groups& groups, const std::vector<std::uint32_t>& nodes);
 /// Throws InputError unless every group number is below count and occurs.
 void validate(const Groups& groups);
 

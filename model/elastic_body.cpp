@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "model/anchors.hpp"
 #include "model/error.hpp"
 #include "model/random_block.hpp"
 #include "model/stable_step.hpp"
@@ -26,7 +27,8 @@ constexpr int kRaises = 3;
 /// Numbers in the zero modes of one part that are still stored [8 bytes each].
 constexpr double kMostStored = 5e7;
 
-/// The part as a model of its own, as far as stiffness and mass go.
+/// A connected part, its anchored nodes included, as a model of its own as far as stiffness and
+/// mass go.
 MassSpringModel part_model(const MassSpringModel& model, const std::vector<std::uint32_t>& nodes,
                            const std::vector<std::uint32_t>& springs,
                            const std::vector<std::uint32_t>& place) {
@@ -64,13 +66,27 @@ Eigen::MatrixXd rigid_motions(const MassSpringModel& part, const Eigen::VectorXd
   return motions;
 }
 
-void factorise(ElasticPart& part, const MassSpringModel& model, Progress* progress) {
+/// The 3n x 3n block of a 3N x 3N matrix that belongs to `n` rising nodes.
+Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix,
+                                     const std::vector<std::uint32_t>& nodes) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto size = 3 * static_cast<Eigen::Index>(nodes.size());
+  Eigen::SparseMatrix<double> select(matrix.rows(), size);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (int d = 0; d < 3; ++d)
+      entries.emplace_back(static_cast<int>(3 * nodes[i]) + d, static_cast<int>(3 * i) + d, 1.0);
+  select.setFromTriplets(entries.begin(), entries.end());
+  return select.transpose() * matrix * select;
+}
+
+void factorise(ElasticPart& part, const MassSpringModel& model, const std::vector<Vec3>& points,
+               Progress* progress) {
   const double bound = frequency_bound(model);
   part.shift = bound > 0 ? kShift * bound * bound : 1;
   for (int attempt = 0; attempt <= kRaises; ++attempt, part.shift *= kRaise) {
     Eigen::SparseMatrix<double> shifted = part.stiffness;
     for (Eigen::Index i = 0; i < part.unknowns(); ++i) shifted.coeffRef(i, i) += part.shift;
-    part.factor = std::make_shared<const SparseCholesky>(shifted, model.rest, progress);
+    part.factor = std::make_shared<const SparseCholesky>(shifted, points, progress);
     if (part.factor->positive()) return;
   }
   throw InputError(
@@ -94,24 +110,33 @@ void find_mechanisms(ElasticPart& part, Eigen::Index count) {
   part.zero_modes.rightCols(count) = motions;
 }
 
-ElasticPart make_part(const MassSpringModel& model, std::vector<std::uint32_t> nodes,
-                      const PartModes& found, Progress* progress) {
+/// `model` is the part alone, `all` its nodes' numbers in the whole, `free` the places in `all` of
+/// those that can move.
+ElasticPart make_part(const MassSpringModel& model, const std::vector<std::uint32_t>& all,
+                      const std::vector<std::uint32_t>& free, const PartModes& found,
+                      Progress* progress) {
   ElasticPart part;
-  part.nodes = std::move(nodes);
-  part.root_mass.resize(3 * static_cast<Eigen::Index>(model.node_count()));
-  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+  std::vector<Vec3> points;
+  part.root_mass.resize(3 * static_cast<Eigen::Index>(free.size()));
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    part.nodes.push_back(all[free[i]]);
+    points.push_back(model.rest[free[i]]);
     part.root_mass.segment<3>(3 * static_cast<Eigen::Index>(i))
-        .setConstant(std::sqrt(model.mass[i]));
+        .setConstant(std::sqrt(model.mass[free[i]]));
+  }
   if (static_cast<double>(found.zero_modes) * static_cast<double>(part.unknowns()) > kMostStored)
     throw InputError(
         fmt::format("elastic analysis: the part at node {} has {} zero modes, too many to store; "
                     "zero_modes tells which nodes hang loose",
                     part.nodes.front(), found.zero_modes));
   const Eigen::VectorXd weight = part.root_mass.cwiseInverse();
-  part.stiffness = weight.asDiagonal() * stiffness_matrix(model) * weight.asDiagonal();
-  part.zero_modes =
-      rigid_motions(model, part.root_mass, static_cast<Eigen::Index>(found.expected) - 3);
-  factorise(part, model, progress);
+  part.stiffness =
+      weight.asDiagonal() * block_of(stiffness_matrix(model), free) * weight.asDiagonal();
+  part.zero_modes.resize(part.unknowns(), 0);
+  if (found.anchored == 0)
+    part.zero_modes =
+        rigid_motions(model, part.root_mass, static_cast<Eigen::Index>(found.expected) - 3);
+  factorise(part, model, points, progress);
   if (found.zero_modes > found.expected)
     find_mechanisms(part, static_cast<Eigen::Index>(found.zero_modes - found.expected));
   return part;
@@ -150,24 +175,31 @@ std::uint32_t ElasticBody::zero_mode_count() const {
   return count;
 }
 
-ElasticBody elastic_body(const MassSpringModel& model, Progress* progress) {
+ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& options) {
+  const std::vector<std::uint8_t> held = anchor_flags(model, options.anchored);
   const Components components = connected_components(model);
-  const std::vector<PartModes> found = zero_modes(model);
-  std::vector<std::vector<std::uint32_t>> nodes(components.count), springs(components.count);
+  const std::vector<PartModes> found = zero_modes(model, options.anchored);
+  std::vector<std::vector<std::uint32_t>> nodes(components.count), free(components.count),
+      springs(components.count);
   std::vector<std::uint32_t> place(model.node_count());
+  ElasticBody body;
+  body.node_count = model.node_count();
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     std::vector<std::uint32_t>& of_part = nodes[components.of_node[i]];
     place[i] = static_cast<std::uint32_t>(of_part.size());
     of_part.push_back(i);
+    if (held[i] != 0)
+      body.anchored.push_back(i);
+    else
+      free[components.of_node[i]].push_back(place[i]);
   }
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
     springs[components.of_node[model.a[s]]].push_back(s);
 
-  ElasticBody body;
-  body.node_count = model.node_count();
   for (std::uint32_t p = 0; p < components.count; ++p)
-    body.parts.push_back(
-        make_part(part_model(model, nodes[p], springs[p], place), nodes[p], found[p], progress));
+    if (!free[p].empty())
+      body.parts.push_back(make_part(part_model(model, nodes[p], springs[p], place), nodes[p],
+                                     free[p], found[p], options.progress));
   return body;
 }
 

@@ -13,13 +13,15 @@
 
 namespace springlod {
 
-/// One connected part of a model that nothing holds, ready to be solved with: n nodes, 3n unknowns
+/// One connected part of a model, ready to be solved with: n nodes that can move, 3n unknowns
 /// y = M^1/2 u, in which the stiffness is D = M^-1/2 K M^-1/2 [1/s2] and modes are orthonormal.
+/// Springs to anchored nodes count in K; the anchored nodes themselves have no unknowns.
 struct ElasticPart {
-  std::vector<std::uint32_t> nodes;              ///< n, rising
-  Eigen::VectorXd root_mass;                     ///< sqrt(m) of each unknown [kg^1/2], 3n
-  Eigen::SparseMatrix<double> stiffness;         ///< D, 3n x 3n, both halves
-  Eigen::MatrixXd zero_modes;                    ///< 3n x z, orthonormal: rigid motions, mechanisms
+  std::vector<std::uint32_t> nodes;       ///< n, rising
+  Eigen::VectorXd root_mass;              ///< sqrt(m) of each unknown [kg^1/2], 3n
+  Eigen::SparseMatrix<double> stiffness;  ///< D, 3n x 3n, both halves
+  /// 3n x z, orthonormal: rigid motions and mechanisms. z = 0 where anchors leave neither.
+  Eigen::MatrixXd zero_modes;
   double shift = 0;                              ///< sigma [1/s2] > 0
   std::shared_ptr<const SparseCholesky> factor;  ///< of D + sigma I
 
@@ -38,8 +40,16 @@ struct ElasticPart {
 /// Treat as immutable.
 struct ElasticBody {
   std::uint32_t node_count = 0;
-  std::vector<ElasticPart> parts;  ///< by their lowest node
+  std::vector<std::uint32_t> anchored;  ///< rising, each once; empty: nothing holds the body
+  std::vector<ElasticPart> parts;       ///< by their lowest node; those that can move
   std::uint32_t zero_mode_count() const;
+};
+
+struct ElasticOptions {
+  /// Nodes held where they are, in any order: what is solved for then is the body fixed there. On
+  /// a level, `carried` takes those of level 0 along.
+  std::vector<std::uint32_t> anchored = {};
+  Progress* progress = nullptr;  ///< may be null
 };
 
 /// Finds the zero modes of each part and factorises it with a small shift: 1e-12 of the square
@@ -48,7 +58,9 @@ struct ElasticBody {
 ///
 /// 20k nodes as a cube: 4 s and 0.7 GB; time goes with N^2, storage with N^4/3.
 /// Throws InputError for a model with more mechanisms than can be stored (hundreds, in a large
-/// part) and for stiffnesses so uneven that no small shift makes the matrix positive.
-ElasticBody elastic_body(const MassSpringModel& model, Progress* progress = nullptr);
+/// part), for stiffnesses so uneven that no small shift makes the matrix positive, and for anchored
+/// nodes that the model does not have. Anchors that leave motions free are no error here: those
+/// are zero modes, which solve_static refuses to push at.
+ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& options = {});
 
 }  // namespace springlod

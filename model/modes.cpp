@@ -216,7 +216,7 @@ Modes lowest_modes(const ElasticBody& body, const ModeOptions& options) {
 }
 
 Modes lowest_modes(const MassSpringModel& model, const ModeOptions& options) {
-  return lowest_modes(elastic_body(model, options.progress), options);
+  return lowest_modes(elastic_body(model, {.progress = options.progress}), options);
 }
 
 }  // namespace springlod

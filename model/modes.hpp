@@ -18,7 +18,7 @@ struct ModeOptions {
   Progress* progress = nullptr;  ///< may be null
 };
 
-/// One way in which a body that nothing holds swings about rest.
+/// One way in which a body swings about rest; anchored nodes do not move in it.
 struct Mode {
   double angular_frequency = 0;  ///< omega [rad/s]
   /// A bound of the relative error of omega^2: the residual of the shifted inverse,
@@ -33,8 +33,9 @@ struct Mode {
 };
 
 struct Modes {
-  std::vector<Mode> modes;               ///< from the lowest frequency up
-  std::uint32_t zero_modes_skipped = 0;  ///< rigid motions (6 for a solid part) and mechanisms
+  std::vector<Mode> modes;  ///< from the lowest frequency up
+  /// Rigid motions (6 for a solid part, none for a well anchored one) and mechanisms.
+  std::uint32_t zero_modes_skipped = 0;
 };
 
 /// The lowest modes of M^-1 K that springs resist, each as often as it occurs. Block Lanczos
@@ -46,7 +47,7 @@ struct Modes {
 /// Throws InputError for a count of 0, an accuracy outside 1e-12..0.1, should the iteration not
 /// converge, and where elastic_body does.
 Modes lowest_modes(const MassSpringModel& model, const ModeOptions& options = {});
-/// Of a model that is factorised already.
+/// Of a model that is factorised already; so are those with anchored nodes.
 Modes lowest_modes(const ElasticBody& body, const ModeOptions& options = {});
 
 }  // namespace springlod

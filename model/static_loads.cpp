@@ -28,6 +28,24 @@ void check(const ElasticBody& body, const StaticLoad& load) {
           fmt::format("static load {}: the force on node {} is not finite", load.name, i));
 }
 
+/// A load does not count as pushing at a zero mode if its part along it, over its size, is less
+/// than this: far above rounding in either.
+constexpr double kPushes = 1e-9;
+
+/// What the anchors of a body do not hold has no rest to go to.
+void check_held(const ElasticPart& part, const StaticLoad& load, const Eigen::VectorXd& force) {
+  const Eigen::VectorXd free = part.zero_modes.transpose() * force;
+  if (free.norm() <= kPushes * force.norm()) return;
+  const Eigen::VectorXd motion = (part.zero_modes * free).cwiseQuotient(part.root_mass);
+  Eigen::Index farthest = 0;
+  motion.reshaped(3, motion.size() / 3).colwise().norm().maxCoeff(&farthest);
+  throw InputError(fmt::format(
+      "static load {}: no spring resists it, and the anchors leave the part free to move with it, "
+      "most of all node {} (counted from 0); anchor more nodes: three that do not lie in a line "
+      "hold a solid part, and zero_modes tells what is loose",
+      load.name, part.nodes[static_cast<std::size_t>(farthest)]));
+}
+
 struct Solved {
   Eigen::MatrixXd y;
   Eigen::MatrixXd last_step;
@@ -66,13 +84,15 @@ struct Sizes {
   Eigen::VectorXd solution, last_step;
 };
 
-void solve_part(const ElasticPart& part, const std::vector<StaticLoad>& loads,
+void solve_part(const ElasticPart& part, bool anchored, const std::vector<StaticLoad>& loads,
                 std::vector<StaticSolution>& solutions, Sizes& sizes) {
   const auto count = static_cast<Eigen::Index>(loads.size());
   Eigen::MatrixXd force(part.unknowns(), count);
-  for (Eigen::Index c = 0; c < count; ++c)
-    force.col(c) =
-        part.gather(loads[static_cast<std::size_t>(c)].force).cwiseQuotient(part.root_mass);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const StaticLoad& load = loads[static_cast<std::size_t>(c)];
+    force.col(c) = part.gather(load.force).cwiseQuotient(part.root_mass);
+    if (anchored) check_held(part, load, force.col(c));
+  }
   part.remove_zero_modes(force);
   const auto [y, last_step] = solve_balanced(part, force);
   sizes.solution += y.colwise().squaredNorm().transpose();
@@ -150,7 +170,8 @@ std::vector<StaticSolution> solve_static(const ElasticBody& body,
     solution.displacement.assign(body.node_count, Vec3::Zero());
   const auto count = static_cast<Eigen::Index>(loads.size());
   Sizes sizes{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
-  for (const ElasticPart& part : body.parts) solve_part(part, loads, solutions, sizes);
+  for (const ElasticPart& part : body.parts)
+    solve_part(part, !body.anchored.empty(), loads, solutions, sizes);
   for (Eigen::Index c = 0; c < count; ++c)
     if (sizes.solution[c] > 0)
       solutions[static_cast<std::size_t>(c)].residual =

@@ -8,18 +8,20 @@
 
 namespace springlod {
 
-/// Forces on the nodes of a model. They need not balance: what would only push or turn a part, or
-/// move a mechanism, is taken out when the load is solved for.
+/// Forces on the nodes of a model. For a body that nothing holds they need not balance: what would
+/// only push or turn a part, or move a mechanism, is taken out when the load is solved for.
 struct StaticLoad {
   std::string name;
   std::vector<Vec3> force;  ///< N [N]
 };
 
-/// How a body that nothing holds gives way to a load.
+/// How a body gives way to a load.
 struct StaticSolution {
-  /// N [m]; without rigid motion: sum m u = 0 and sum m r x u = 0 over each part.
+  /// N [m]; without rigid motion: sum m u = 0 and sum m r x u = 0 over each part that nothing
+  /// holds. 0 for anchored nodes.
   std::vector<Vec3> displacement;
-  /// Work of the balanced forces along the displacement, f.u [J]: twice the elastic energy.
+  /// Work of the balanced (anchored: of the given) forces along the displacement, f.u [J]: twice
+  /// the elastic energy.
   double compliance = 0;
   /// Size of the iteration's last step over that of the displacement, both weighted by mass: what
   /// iterating on would change.
@@ -36,7 +38,8 @@ std::vector<StaticLoad> smooth_loads(const MassSpringModel& model);
 /// K u = f for each load, with the rigid motions projected out: of the forces as the inertia of the
 /// accelerated body would balance them (f - M Z Z^T f), of the displacements by mass. Conjugate
 /// gradients, preconditioned by the factors of the body.
-/// Throws InputError for a load of another size than N or with forces that are not finite.
+/// Throws InputError for a load of another size than N or with forces that are not finite; for a
+/// body with anchored nodes, also where a load pushes at a motion that the anchors leave free.
 std::vector<StaticSolution> solve_static(const ElasticBody& body,
                                          const std::vector<StaticLoad>& loads);
 

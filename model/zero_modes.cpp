@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 
+#include "model/anchors.hpp"
 #include "model/error.hpp"
 #include "model/random_block.hpp"
 #include "model/rigid_pieces.hpp"
@@ -67,14 +68,15 @@ struct Part {
   std::vector<std::uint32_t> nodes;
   std::vector<std::uint32_t> springs;
   std::vector<Body> bodies;
+  std::uint32_t anchored = 0;  // nodes
   Eigen::Index unknowns = 0;
   bool has_resting_body = false;
 };
 
 class ZeroModes {
  public:
-  explicit ZeroModes(const MassSpringModel& model)
-      : model_(model), body_of_(model.node_count(), 0) {}
+  ZeroModes(const MassSpringModel& model, const std::vector<std::uint32_t>& anchored)
+      : model_(model), held_(anchor_flags(model, anchored)), body_of_(model.node_count(), 0) {}
 
   std::vector<PartModes> run() {
     std::vector<PartModes> all;
@@ -92,6 +94,7 @@ class ZeroModes {
     for (std::uint32_t i = 0; i < model_.node_count(); ++i) {
       Part& part = parts[components.of_node[i]];
       part.nodes.push_back(i);
+      part.anchored += held_[i];
       const std::uint32_t piece = pieces.of_node[i];
       std::uint32_t body = piece == kNoPiece ? kNone : body_of_piece[piece];
       if (body == kNone) {
@@ -113,13 +116,25 @@ class ZeroModes {
         std::max_element(part.bodies.begin(), part.bodies.end(), [](const Body& p, const Body& q) {
           return std::pair(p.rigid, p.nodes.size()) < std::pair(q.rigid, q.nodes.size());
         });
-    part.has_resting_body = largest->rigid;
+    // Where nodes are anchored, the largest piece may still turn about them.
+    part.has_resting_body = largest->rigid && part.anchored == 0;
     for (Body& body : part.bodies) {
       measure(body, model_);
       if (part.has_resting_body && &body == &*largest) continue;
       body.first_unknown = part.unknowns;
       part.unknowns += body.unknowns();
     }
+  }
+
+  /// Three unit springs, one an axis, from a node at `rest` to the ground.
+  static void add_ground(const Body& body, const Vec3& rest,
+                         std::vector<Eigen::Triplet<double>>& entries) {
+    const Eigen::Matrix3Xd columns = motions(body, rest);
+    const Eigen::MatrixXd block = columns.transpose() * columns;
+    for (Eigen::Index i = 0; i < block.rows(); ++i)
+      for (Eigen::Index j = 0; j < block.cols(); ++j)
+        entries.emplace_back(static_cast<int>(body.first_unknown + i),
+                             static_cast<int>(body.first_unknown + j), block(i, j));
   }
 
   Eigen::SparseMatrix<double> stiffness(const Part& part) const {
@@ -142,6 +157,8 @@ class ZeroModes {
         for (const auto& [j, y] : row)
           entries.emplace_back(static_cast<int>(i), static_cast<int>(j), x * y);
     }
+    for (const std::uint32_t i : part.nodes)
+      if (held_[i] != 0) add_ground(part.bodies[body_of_[i]], model_.rest[i], entries);
     Eigen::SparseMatrix<double> matrix(part.unknowns, part.unknowns);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
@@ -227,10 +244,13 @@ class ZeroModes {
     PartModes modes;
     modes.first_node = part.nodes.front();
     modes.node_count = static_cast<std::uint32_t>(part.nodes.size());
+    modes.anchored = part.anchored;
     const Eigen::SparseMatrix<double> k = stiffness(part);
     Eigen::MatrixXd rigid(part.unknowns, 0);
     modes.zero_modes = count_zeros(k);
-    if (part.has_resting_body) {
+    if (part.anchored > 0) {
+      modes.expected = 0;
+    } else if (part.has_resting_body) {
       modes.zero_modes += 6;  // those of the body at rest
     } else {
       rigid = rigid_motions(part);
@@ -242,13 +262,15 @@ class ZeroModes {
   }
 
   const MassSpringModel& model_;
+  std::vector<std::uint8_t> held_;      // 1 for anchored nodes
   std::vector<std::uint32_t> body_of_;  // node -> body within its part
 };
 
 }  // namespace
 
-std::vector<PartModes> zero_modes(const MassSpringModel& model) {
-  return ZeroModes(model).run();
+std::vector<PartModes> zero_modes(const MassSpringModel& model,
+                                  const std::vector<std::uint32_t>& anchored) {
+  return ZeroModes(model, anchored).run();
 }
 
 }  // namespace springlod

@@ -1,7 +1,6 @@
 #include "render/camera.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,9 +13,11 @@ constexpr double kDegree = std::numbers::pi / 180;
 // Depth range in distances eye-target: nothing worth seeing is nearer or farther.
 constexpr double kNear = 0.02;
 constexpr double kFar = 50;
-// Room around the framed box, as a factor: above and below it stay free for labels.
-constexpr double kMarginAcross = 1.06;
-constexpr double kMarginUpright = 1.22;
+// Room around what is framed, as a part of it. Above and below a box there is more, for labels.
+constexpr double kMarginAcross = 0.06;
+constexpr double kMarginOfBox = 0.22;
+// Of the panels whose vertical field of view is taken as it is given.
+constexpr double kUsualAspect = 4. / 3;
 
 }  // namespace
 
@@ -56,15 +57,15 @@ Mat4f view_projection(const Camera& camera, double aspect) {
 
 namespace {
 
-std::array<Vec3, 8> corners(const Box3& box) {
-  std::array<Vec3, 8> points;
-  for (std::size_t i = 0; i < 8; ++i) points[i] = box.corner(static_cast<Box3::CornerType>(i));
+std::vector<Vec3> corners(const Box3& box) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 8; ++i) points.push_back(box.corner(static_cast<Box3::CornerType>(i)));
   return points;
 }
 
 // Least distance of an eye at `target + distance back` that has all points inside the field.
-double fitting_distance(const std::array<Vec3, 8>& points, const Vec3& target,
-                        const CameraAxes& axes, double tan_x, double tan_y) {
+double fitting_distance(const std::vector<Vec3>& points, const Vec3& target, const CameraAxes& axes,
+                        double tan_x, double tan_y) {
   double distance = 0;
   for (const Vec3& p : points) {
     const Vec3 r = p - target;
@@ -75,26 +76,45 @@ double fitting_distance(const std::array<Vec3, 8>& points, const Vec3& target,
   return distance;
 }
 
+double field_of_view(const Framing& framing) {
+  if (framing.aspect <= kUsualAspect) return framing.fov_degrees;
+  const double tan_half = std::tan(framing.fov_degrees * kDegree / 2);
+  return 2 * std::atan(tan_half * kUsualAspect / framing.aspect) / kDegree;
+}
+
 }  // namespace
 
 Camera frame_box(const Box3& box, double azimuth, double elevation, double aspect,
                  double fov_degrees) {
+  return frame_points(box.isEmpty() ? std::vector<Vec3>{} : corners(box),
+                      {.azimuth = azimuth,
+                       .elevation = elevation,
+                       .aspect = aspect,
+                       .fov_degrees = fov_degrees,
+                       .margin = kMarginOfBox});
+}
+
+Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
+  Box3 box;
+  for (const Vec3& point : points) box.extend(point);
   if (box.isEmpty() || !box.sizes().allFinite())
-    throw InputError("camera: there is nothing to look at (the box is empty or not finite)");
-  if (!(aspect > 0) || !(fov_degrees > 0 && fov_degrees < 180))
+    throw InputError("camera: there is nothing to look at (no point, or one that is not finite)");
+  if (!(framing.aspect > 0) || !(framing.fov_degrees > 0 && framing.fov_degrees < 180))
     throw InputError("camera: the aspect must be above 0, the field of view between 0 and 180 deg");
-  const double az = azimuth * kDegree;
-  const double el = elevation * kDegree;
+  if (!(framing.margin >= 0)) throw InputError("camera: the margin must be 0 or more");
+  if (!(framing.headroom >= 0 && framing.footroom >= 0 && framing.headroom + framing.footroom < 1))
+    throw InputError("camera: headroom and footroom must be 0 or more and together below 1");
+  const double az = framing.azimuth * kDegree;
+  const double el = framing.elevation * kDegree;
   const Vec3 back(std::cos(az) * std::cos(el), std::sin(az) * std::cos(el), std::sin(el));
   Camera camera;
-  camera.fov_degrees = fov_degrees;
+  camera.fov_degrees = field_of_view(framing);
   camera.target = box.center();
   camera.eye = camera.target + back;
   const CameraAxes axes = camera_axes(camera);
-  const double tan_half = std::tan(fov_degrees * kDegree / 2);
-  const double tan_y = tan_half / kMarginUpright;
-  const double tan_x = tan_half * aspect / kMarginAcross;
-  const std::array<Vec3, 8> points = corners(box);
+  const double tan_half = std::tan(camera.fov_degrees * kDegree / 2);
+  const double tan_y = (1 - framing.headroom - framing.footroom) * tan_half / (1 + framing.margin);
+  const double tan_x = tan_half * framing.aspect / (1 + kMarginAcross);
   // Perspective makes the near side larger: shift the target until left and right, above and below
   // leave the same room. Converges fast; 8 rounds are far below a pixel.
   double distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
@@ -112,7 +132,9 @@ Camera frame_box(const Box3& box, double azimuth, double elevation, double aspec
     distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
   }
   constexpr double kLeast = 1e-9;  // a box of one point still gives a camera
-  camera.eye = camera.target + std::max(distance, kLeast) * back;
+  distance = std::max(distance, kLeast);
+  camera.target += (framing.headroom - framing.footroom) * tan_half * distance * axes.up;
+  camera.eye = camera.target + distance * back;
   return camera;
 }
 

@@ -1,10 +1,12 @@
 #include "render/drawables.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "model/error.hpp"
+#include "render/node_values.hpp"
 #include "render/strain_colour.hpp"
 
 namespace springlod {
@@ -14,9 +16,15 @@ namespace {
 // behind them.
 constexpr double kNodeRadius = 0.11;
 constexpr double kSpringRadius = 0.033;
-// Of the paper's figure 4: inner nodes stand out, border nodes step back.
+// Balls that tell a number are what one looks at: larger, and the springs thin and grey, else their
+// colours would be read as numbers.
+constexpr double kValueNodeRadius = 0.20;
+constexpr double kValueSpringFactor = 0.6;
+constexpr Colour kValueSpringColour{0.66F, 0.68F, 0.71F};
+// Of the paper's figure 4: inner nodes stand out, border nodes and springs step back.
 constexpr double kBoldFactor = 1.6;
 constexpr double kPlainFactor = 0.55;
+constexpr double kStepBackFactor = 0.45;  // of the springs
 constexpr Colour kBoldColour{0.82F, 0.10F, 0.10F};
 constexpr Colour kPlainColour{0.52F, 0.54F, 0.57F};
 
@@ -33,6 +41,11 @@ Eigen::Vector3f relative(const Vec3& p, const Vec3& origin) {
 
 Colour material_colour(const MassSpringModel& model, std::uint32_t node) {
   return drawn_colour(model, model.material[node]);
+}
+
+bool is_cut_away(const DrawnBody& body, std::uint32_t node) {
+  const auto& cut = body.style.cut;
+  return cut && cut->normal.dot(body.model->rest[node]) < cut->offset;
 }
 
 Colour mix(const Colour& a, const Colour& b, float t) {
@@ -75,20 +88,29 @@ std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSu
 std::vector<SpringInstance> spring_instances(const DrawnBody& body, const Vec3& origin) {
   const MassSpringModel& model = *body.model;
   const std::vector<Vec3>& x = node_positions(body);
-  const auto radius = static_cast<float>(kSpringRadius * mean_spring_length(model));
-  std::vector<SpringInstance> springs(model.spring_count());
-  for (std::size_t s = 0; s < springs.size(); ++s) {
+  const bool strained = body.style.spring_colour == SpringColour::strain;
+  const bool plain = !strained && (shows_values(body) || body.style.bold_inner_nodes);
+  const double factor = !plain                        ? 1
+                        : body.style.bold_inner_nodes ? kStepBackFactor
+                                                      : kValueSpringFactor;
+  const auto radius = static_cast<float>(factor * kSpringRadius * mean_spring_length(model));
+  std::vector<SpringInstance> springs;
+  springs.reserve(model.spring_count());
+  for (std::size_t s = 0; s < model.spring_count(); ++s) {
     const std::uint32_t a = model.a[s];
     const std::uint32_t b = model.b[s];
-    SpringInstance& spring = springs[s];
-    spring = {relative(x[a], origin), relative(x[b], origin), {}, {}, radius};
-    if (body.style.spring_colour == SpringColour::strain) {
+    if (is_cut_away(body, a) || is_cut_away(body, b)) continue;
+    SpringInstance spring{relative(x[a], origin), relative(x[b], origin), {}, {}, radius};
+    if (strained) {
       const double strain = (x[b] - x[a]).norm() / model.rest_length[s] - 1;
       spring.colour_a = spring.colour_b = strain_colour(strain / body.style.strain_range);
+    } else if (plain) {
+      spring.colour_a = spring.colour_b = kValueSpringColour;
     } else {
       spring.colour_a = material_colour(model, a);
       spring.colour_b = material_colour(model, b);
     }
+    springs.push_back(spring);
   }
   return springs;
 }
@@ -96,20 +118,28 @@ std::vector<SpringInstance> spring_instances(const DrawnBody& body, const Vec3& 
 std::vector<NodeInstance> node_instances(const DrawnBody& body, const Vec3& origin) {
   const MassSpringModel& model = *body.model;
   const std::vector<Vec3>& x = node_positions(body);
+  const double usual = shows_values(body) ? kValueNodeRadius : kNodeRadius;
   const double radius =
-      body.style.node_radius > 0 ? body.style.node_radius : kNodeRadius * mean_spring_length(model);
+      body.style.node_radius > 0 ? body.style.node_radius : usual * mean_spring_length(model);
   // Strain takes the colours: then balls are neutral, else they would be read as strain.
   const bool neutral = body.style.springs && body.style.spring_colour == SpringColour::strain;
-  std::vector<NodeInstance> nodes(model.node_count());
-  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-    Colour colour = neutral ? kPlainColour : material_colour(model, i);
+  const double mean_mass =
+      std::accumulate(model.mass.begin(), model.mass.end(), 0.) / model.node_count();
+  std::vector<NodeInstance> nodes;
+  nodes.reserve(model.node_count());
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    if (is_cut_away(body, i)) continue;
+    Colour colour = !body.node_colours.empty() ? body.node_colours[i]
+                    : neutral                  ? kPlainColour
+                                               : material_colour(model, i);
     double factor = 1;
+    if (body.style.node_size == NodeSize::mass) factor = std::cbrt(model.mass[i] / mean_mass);
     if (body.style.bold_inner_nodes) {
       const bool inner = model.border[i] == 0;
       colour = inner ? kBoldColour : mix(kPlainColour, colour, 0.15F);
-      factor = inner ? kBoldFactor : kPlainFactor;
+      factor *= inner ? kBoldFactor : kPlainFactor;
     }
-    nodes[i] = {relative(x[i], origin), colour, static_cast<float>(radius * factor)};
+    nodes.push_back({relative(x[i], origin), colour, static_cast<float>(radius * factor)});
   }
   return nodes;
 }
@@ -125,6 +155,22 @@ TriangleMesh box_mesh(const DrawnBox& box) {
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   mesh.parts = {{"box", "", 0, 12}};
   return mesh;
+}
+
+std::vector<Vec3> outline(const DrawnBody& body) {
+  std::vector<Vec3> points;
+  if (body.style.surface && body.surface != nullptr) points = surface_positions(body);
+  const bool balls = body.style.nodes || body.style.bold_inner_nodes;
+  if (body.model == nullptr || !(balls || body.style.springs)) return points;
+  const Vec3 origin = node_positions(body).empty() ? Vec3(Vec3::Zero()) : node_positions(body)[0];
+  for (const NodeInstance& node : node_instances(body, origin)) {
+    const Vec3 center = origin + node.center.cast<double>();
+    points.push_back(center);
+    for (int axis = 0; balls && axis < 3; ++axis)
+      for (const double side : {-1., 1.})
+        points.emplace_back(center + side * static_cast<double>(node.radius) * Vec3::Unit(axis));
+  }
+  return points;
 }
 
 Box3 drawn_bounds(const DrawnBody& body) {
@@ -150,12 +196,17 @@ void validate(const DrawnBody& body) {
     throw InputError(fmt::format("drawing: strain_range = {} must be above 0", style.strain_range));
   if (style.node_radius < 0 || !std::isfinite(style.node_radius))
     throw InputError(fmt::format("drawing: node_radius = {} must be 0 or more", style.node_radius));
+  if (style.cut && !(style.cut->normal.norm() > 0))
+    throw InputError("drawing: the normal of a cut must not be zero");
   if (body.model != nullptr) {
     const std::vector<Vec3>& x = node_positions(body);
     if (x.size() != body.model->rest.size())
       throw InputError(fmt::format("drawing: {} positions for a model of {} nodes", x.size(),
                                    body.model->rest.size()));
     require_finite(x, "node");
+    if (!body.node_colours.empty() && body.node_colours.size() != x.size())
+      throw InputError(fmt::format("drawing: {} node colours for a model of {} nodes",
+                                   body.node_colours.size(), x.size()));
   } else if (style.nodes || style.springs || style.bold_inner_nodes) {
     throw InputError("drawing: nodes or springs are asked for, but the body has no model");
   }

@@ -37,6 +37,10 @@ std::vector<NodeInstance> node_instances(const DrawnBody& body, const Vec3& orig
 /// A box as a mesh, so that it is drawn and casts shadows like any surface.
 TriangleMesh box_mesh(const DrawnBox& box);
 
+/// Points that hold all that is drawn of a body, its balls with their radius: what a camera has to
+/// see.
+std::vector<Vec3> outline(const DrawnBody& body);
+
 /// All that is drawn of a body.
 Box3 drawn_bounds(const DrawnBody& body);
 

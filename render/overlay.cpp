@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
-
-#include "render/strain_colour.hpp"
 
 namespace springlod {
 namespace {
@@ -16,7 +15,7 @@ constexpr Colour kPlate{1, 1, 1};
 constexpr Colour kDivider{0.62F, 0.65F, 0.69F};
 constexpr double kPlateAlpha = 0.72;
 
-/// Sizes that follow the picture's height [px].
+/// Sizes that follow the panel's height [px].
 struct Sizes {
   double title, caption, small, pad, margin;
   explicit Sizes(int height)
@@ -35,6 +34,13 @@ int whole(double v) {
   return static_cast<int>(std::lround(v));
 }
 
+int scale_thickness(const Sizes& sizes) {
+  return whole(sizes.small * 0.55);
+}
+int scale_height(const Sizes& sizes) {
+  return whole(2 * sizes.line(sizes.small) + scale_thickness(sizes) + 1.6 * sizes.pad);
+}
+
 std::string length_text(double metres) {
   if (metres >= 1000) return fmt::format("{:g} km", metres / 1000);
   if (metres >= 1) return fmt::format("{:g} m", metres);
@@ -44,6 +50,18 @@ std::string length_text(double metres) {
 }
 
 }  // namespace
+
+double heading_share(int panel_height, std::size_t captions) {
+  const Sizes sizes(panel_height);
+  return (sizes.margin + sizes.line(sizes.title) +
+          static_cast<double>(captions) * sizes.line(sizes.caption) + 1.2 * sizes.pad) /
+         panel_height;
+}
+
+double scale_share(int panel_height) {
+  const Sizes sizes(panel_height);
+  return (sizes.margin + scale_height(sizes)) / panel_height;
+}
 
 void Overlay::draw_heading(Image& image, const PixelRect& panel, const PanelLabels& labels) {
   const Sizes sizes(panel.height);
@@ -77,42 +95,48 @@ void Overlay::draw_heading(Image& image, const PixelRect& panel, const PanelLabe
   }
 }
 
-void Overlay::draw_scale(Image& image, const PixelRect& panel, double range) {
+int Overlay::draw_scale(Image& image, const PixelRect& panel, const ColourScale& scale,
+                        int bottom) {
   const Sizes sizes(panel.height);
-  const std::string low = fmt::format("\u2212{:.3g} %", range * 100);
-  const std::string high = fmt::format("+{:.3g} %", range * 100);
-  const std::string name = "strain";
-  const int bar = whole(panel.width * 0.20);
-  const int thick = whole(sizes.small * 0.55);
-  const double half_low = text_.width(low, sizes.small) / 2;
-  const double half_high = text_.width(high, sizes.small) / 2;
-  const int width = bar + whole(half_low + half_high + 2 * sizes.pad);
-  const int height = whole(2 * sizes.line(sizes.small) + thick + 1.6 * sizes.pad);
-  // Above the line of the footer, which may be centred right beside it.
-  const int bottom = panel.y + panel.height - whole(sizes.margin);
+  const auto half = [&](const ColourScale::Tick& tick) {
+    return text_.width(tick.text, sizes.small) / 2;
+  };
+  const double before = scale.ticks.empty() ? 0 : half(scale.ticks.front());
+  const double after = scale.ticks.empty() ? 0 : half(scale.ticks.back());
+  const int bar = whole(panel.width * scale.bar_share);
+  const int thick = scale_thickness(sizes);
+  const std::string name =
+      text_.fitted(scale.name, sizes.small, panel.width - 2 * (sizes.margin + sizes.pad));
+  const double name_width = text_.width(name, sizes.small);
+  // Room for a name that is wider than bar and numbers.
+  const double beside = std::max({0., (name_width - bar) / 2 - std::min(before, after)});
+  const int width = bar + whole(before + after + 2 * (sizes.pad + beside));
+  const int height = scale_height(sizes);
   const PixelRect plate{panel.x + panel.width - whole(sizes.margin) - width, bottom - height, width,
                         height};
   fill_rounded(image, plate, sizes.pad, kPlate, kPlateAlpha);
-  const int x0 = plate.x + whole(sizes.pad + half_low);
+  const int x0 = plate.x + whole(sizes.pad + beside + before);
   const double name_base = plate.y + 0.7 * sizes.pad + kAscent * sizes.small;
   const int y0 = plate.y + whole(0.8 * sizes.pad + sizes.line(sizes.small));
   for (int x = 0; x < bar; ++x) {
-    const Colour colour = strain_colour(2 * (x + 0.5) / bar - 1);
+    const Colour colour = scale.colour((x + 0.5) / bar);
     for (int y = 0; y < thick; ++y) blend_pixel(image, x0 + x, y0 + y, colour, 1);
   }
-  const double ticks = y0 + thick + 0.2 * sizes.pad + kAscent * sizes.small + 1;
-  text_.draw(image, panel, x0 + (bar - text_.width(name, sizes.small)) / 2, name_base, name,
-             sizes.small, kInk);
-  text_.draw(image, panel, x0 - half_low, ticks, low, sizes.small, kPaleInk);
-  text_.draw(image, panel, x0 + (bar - text_.width("0", sizes.small)) / 2, ticks, "0", sizes.small,
-             kPaleInk);
-  text_.draw(image, panel, x0 + bar - half_high, ticks, high, sizes.small, kPaleInk);
+  const double numbers = y0 + thick + 0.2 * sizes.pad + kAscent * sizes.small + 1;
+  text_.draw(image, panel, x0 + (bar - name_width) / 2, name_base, name, sizes.small, kInk);
+  for (const ColourScale::Tick& tick : scale.ticks)
+    text_.draw(image, panel, x0 + tick.part * bar - half(tick), numbers, tick.text, sizes.small,
+               kPaleInk);
+  return plate.y;
 }
 
 void Overlay::draw_panel(Image& image, const PixelRect& panel, const PanelLabels& labels) {
   const Sizes sizes(panel.height);
   draw_heading(image, panel, labels);
-  if (labels.strain_range) draw_scale(image, panel, *labels.strain_range);
+  // Above the line of the footer, which may be centred right beside them.
+  int bottom = panel.y + panel.height - whole(sizes.margin);
+  for (const ColourScale& scale : labels.scales)
+    bottom = draw_scale(image, panel, scale, bottom) - whole(sizes.margin / 2);
   if (labels.grid_spacing) {
     const std::string text = "grid " + length_text(*labels.grid_spacing);
     text_.draw(image, panel, panel.x + sizes.margin + sizes.pad,
@@ -137,12 +161,59 @@ void Overlay::draw_footer(Image& image, const std::string& text) {
              plate.y + sizes.pad / 2 + leading + kAscent * sizes.title, line, sizes.title, kInk);
 }
 
-void Overlay::draw_dividers(Image& image, int panel_width) {
+void Overlay::draw_dividers(Image& image, const PixelRect& first_panel) {
   constexpr int kThick = 2;  // [px]
-  for (int x = panel_width; x < static_cast<int>(image.width); x += panel_width)
-    for (int y = 0; y < static_cast<int>(image.height); ++y)
-      for (int i = -kThick / 2; i < kThick - kThick / 2; ++i)
-        blend_pixel(image, x + i, y, kDivider, 1);
+  const auto line = [&](int x, int y, int width, int height) {
+    for (int row = y; row < y + height; ++row)
+      for (int column = x; column < x + width; ++column)
+        blend_pixel(image, column, row, kDivider, 1);
+  };
+  const int width = static_cast<int>(image.width);
+  const int height = static_cast<int>(image.height);
+  for (int x = first_panel.width; x < width; x += first_panel.width)
+    line(x - kThick / 2, first_panel.y, kThick, height - first_panel.y);
+  // Under the title too, if there is one.
+  for (int y = first_panel.y > 0 ? first_panel.y : first_panel.height; y < height;
+       y += first_panel.height)
+    line(0, y - kThick / 2, width, kThick);
+}
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+constexpr double kTitleFactor = 1.25;  // of the panels' titles
+
+}  // namespace
+
+int Overlay::title_height(const std::string& title, int panel_height) {
+  const Sizes sizes(panel_height);
+  double height = 0;
+  for (std::size_t i = 0; i < lines_of(title).size(); ++i)
+    height += sizes.line(i == 0 ? kTitleFactor * sizes.title : sizes.title);
+  return height > 0 ? whole(height + 2 * sizes.pad) : 0;
+}
+
+void Overlay::draw_title(Image& image, const std::string& title, int panel_height) {
+  const Sizes sizes(panel_height);
+  const PixelRect strip{0, 0, static_cast<int>(image.width), title_height(title, panel_height)};
+  fill_rounded(image, strip, 0, kPlate, 1);
+  double y = sizes.pad;
+  bool first = true;
+  for (const std::string& text : lines_of(title)) {
+    const double size = first ? kTitleFactor * sizes.title : sizes.title;
+    const std::string line = text_.fitted(text, size, strip.width - 2 * sizes.margin);
+    const double leading = (sizes.line(size) - size) / 2;
+    text_.draw(image, strip, (strip.width - text_.width(line, size)) / 2,
+               y + leading + kAscent * size, line, size, first ? kInk : kPaleInk);
+    y += sizes.line(size);
+    first = false;
+  }
 }
 
 }  // namespace springlod

@@ -300,8 +300,9 @@ Animation animate(const LodAsset& asset, const Comparison& comparison, const fs:
   require_matching(asset, comparison);
   require_sane(options);
   const std::vector<double> times = picture_times(comparison, options);
-  Renderer renderer(options.width, options.height,
-                    static_cast<std::uint32_t>(comparison.levels.size()));
+  Renderer renderer({.panel_width = options.width,
+                     .panel_height = options.height,
+                     .panel_count = static_cast<std::uint32_t>(comparison.levels.size())});
   std::vector<PanelPlayer> players;
   for (const LevelRuns& runs : comparison.levels)
     players.emplace_back(asset, comparison, runs, times, options);
@@ -311,7 +312,8 @@ Animation animate(const LodAsset& asset, const Comparison& comparison, const fs:
   for (std::size_t k = 0; k < times.size(); ++k) {
     std::vector<Panel> panels;
     for (PanelPlayer& player : players) panels.push_back(player.at(k, times[k]));
-    Image picture = renderer.draw(panels, fmt::format("t = {:.3f} s", times[k]));
+    Image picture =
+        renderer.draw(std::move(panels), {.footer = fmt::format("t = {:.3f} s", times[k])});
     if (writing.valid()) writing.get();
     writing = std::async(
         std::launch::async,

@@ -9,6 +9,7 @@
 #include "model/error.hpp"
 #include "scripting/call.hpp"
 #include "scripting/grouping_script.hpp"
+#include "scripting/node_choice.hpp"
 #include "scripting/values.hpp"
 
 namespace springlod {
@@ -75,6 +76,16 @@ int group_map_method(Call& call) {
   return call.give(map);
 }
 
+int carried_method(Call& call) {
+  const auto self = call.self<LodAsset>();
+  const Level& level = self->chain.levels[level_number(call, *self)];
+  std::vector<std::uint32_t> nodes = carried(
+      level.of_base,
+      nodes_at(call.lua(), call.index(2), self->chain.levels[0].model, "chain:carried: nodes"));
+  for (std::uint32_t& node : nodes) ++node;
+  return call.give(nodes);
+}
+
 std::string chain_text(const LodAsset& asset) {
   std::vector<std::string> nodes;
   std::vector<std::string> springs;
@@ -121,6 +132,20 @@ void describe_chain(Api& api) {
                .arguments = {level},
                .returns = "list of integers",
                .call = group_map_method});
+  type.method({.name = "carried",
+               .summary = "The nodes of a level that nodes of the base went into, such as anchored "
+                          "ones: those with at least one of them in their group.",
+               .arguments = {level,
+                             {.name = "nodes",
+                              .type = "list of integers or function",
+                              .help = "of the base: their numbers, or a function of a Node that "
+                                      "returns true for them"}},
+               .returns = "list of integers, rising",
+               .errors = "A node that the base does not have.",
+               .example =
+                   "local held = chain:carried(1, function(node) return node.x < 0.001 end)\n"
+                   "print(s.modes(chain[1], {anchored = held})[1].frequency)",
+               .call = carried_method});
   type.elements(
       [](const LodAsset& asset) { return static_cast<long long>(asset.chain.levels.size()) - 1; },
       [](lua_State* L, const std::shared_ptr<const LodAsset>& chain, long long number) {

@@ -1,4 +1,4 @@
-// Mass-spring models: read, built from tables, tested; chains saved, loaded and told about.
+// Mass-spring models: read, built from tables, estimated; chains saved, loaded and told about.
 
 #include <utility>
 
@@ -9,9 +9,7 @@
 #include "model/error.hpp"
 #include "model/estimate.hpp"
 #include "model/stable_step.hpp"
-#include "model/stiffness.hpp"
 #include "model/units.hpp"
-#include "model/zero_modes.hpp"
 #include "scripting/call.hpp"
 #include "scripting/model_table.hpp"
 #include "scripting/records.hpp"
@@ -71,21 +69,6 @@ int springs_method(Call& call) {
   return 1;
 }
 
-int stretch_binding(Call& call) {
-  const auto value = call.value<ModelValue>(1);
-  StretchOptions options;
-  TableReader reader = call.options(2);
-  reader.choose("axis", options.axis, {{"x", 0}, {"y", 1}, {"z", 2}});
-  reader.read("cross_section", options.cross_section);
-  reader.finish();
-  const StretchResult result = stretch_test(*value->model, options);
-  begin_table(call.lua());
-  set_field(call.lua(), "young", result.young);
-  set_field(call.lua(), "poisson", result.poisson);
-  set_field(call.lua(), "reaction", result.reaction);
-  return 1;
-}
-
 void push_estimate(lua_State* L, const Eq2Estimate& e) {
   begin_table(L);
   set_field(L, "nodes", e.nodes);
@@ -111,25 +94,6 @@ int estimate_binding(Call& call) {
   end_field(L, "materials");
   set_field(L, "node_young", result.young);
   set_field(L, "node_density", result.density);
-  return 1;
-}
-
-int zero_modes_binding(Call& call) {
-  const auto value = call.value<ModelValue>(1);
-  const std::vector<PartModes> parts = zero_modes(*value->model);
-  lua_State* L = call.lua();
-  begin_list(L, parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    begin_table(L);
-    set_field(L, "first_node", parts[i].first_node + 1);
-    set_field(L, "node_count", parts[i].node_count);
-    set_field(L, "zero_modes", parts[i].zero_modes);
-    set_field(L, "expected", parts[i].expected);
-    std::vector<std::uint32_t> nodes = parts[i].mechanism_nodes;
-    for (std::uint32_t& node : nodes) ++node;
-    set_field(L, "mechanism_nodes", nodes);
-    end_list_entry(L, i + 1);
-  }
   return 1;
 }
 
@@ -286,26 +250,8 @@ void describe_material(Api& api) {
                  "\"#40a060\"}"});
 }
 
-void describe_tests(Api& api) {
+void describe_estimates(Api& api) {
   const Parameter model{.name = "model", .type = "Model", .help = "a model or a level of a chain"};
-  api.add(FunctionEntry{
-      .name = "stretch",
-      .group = kGroup,
-      .summary = "Stretch test: the Young's modulus and Poisson's ratio that a bar shows.",
-      .arguments = {model},
-      .options = {{.name = "axis",
-                   .type = "one of",
-                   .fallback = "\"z\"",
-                   .help = "along which the end planes are pulled apart",
-                   .choices = {"x", "y", "z"}},
-                  {.name = "cross_section",
-                   .type = "number",
-                   .fallback = "volume / length",
-                   .help = "area that the force is divided by [m2]"}},
-      .returns = "table: young [Pa], poisson, reaction [N at strain 1]",
-      .errors = "Fewer than two planes of nodes along the axis.",
-      .example = "print(s.stretch(base, {axis = \"z\"}).young)",
-      .call = stretch_binding});
   api.add(FunctionEntry{
       .name = "estimate",
       .group = kGroup,
@@ -316,17 +262,6 @@ void describe_tests(Api& api) {
       .errors = "None for a valid model. An upper bound: s.stretch measures.",
       .example = "print(s.estimate(base).materials[1].young)",
       .call = estimate_binding});
-  api.add(FunctionEntry{
-      .name = "zero_modes",
-      .group = kGroup,
-      .summary = "Counts the motions that no spring resists, for each connected part.",
-      .arguments = {model},
-      .returns = "list of tables: first_node, node_count, zero_modes, expected (6; 5 for a line, 3 "
-                 "for one node), mechanism_nodes",
-      .errors = "None for a valid model.",
-      .example = "for _, part in ipairs(s.zero_modes(chain[1])) do\n"
-                 "  if part.zero_modes > part.expected then print(s.inspect(part)) end\nend",
-      .call = zero_modes_binding});
   api.add(FunctionEntry{.name = "stable_step",
                         .group = kGroup,
                         .summary = "Largest stable time step of the model without contact.",
@@ -394,7 +329,7 @@ void describe_model(Api& api) {
                                "  nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 1}},\n"
                                "  springs = {{1, 2, k = 100}}}",
                     .call = model_binding});
-  describe_tests(api);
+  describe_estimates(api);
   describe_assets(api);
 }
 

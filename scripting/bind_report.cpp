@@ -14,7 +14,7 @@
 #include "report/video.hpp"
 #include "scripting/call.hpp"
 #include "scripting/chart_table.hpp"
-#include "scripting/picture.hpp"
+#include "scripting/draw_style.hpp"
 #include "scripting/values.hpp"
 #include "sim/stability_map.hpp"
 

@@ -1,5 +1,6 @@
 #include "scripting/picture.hpp"
 
+#include <sstream>
 #include <utility>
 #include <variant>
 
@@ -7,6 +8,10 @@
 #include <lua.hpp>
 
 #include "model/error.hpp"
+#include "render/drawables.hpp"
+#include "render/node_values.hpp"
+#include "render/overlay.hpp"
+#include "report/playback.hpp"
 
 namespace springlod {
 
@@ -17,11 +22,37 @@ std::shared_ptr<const T> value_at(lua_State* L, int index) {
   return std::static_pointer_cast<const T>(boxed_at(L, index, &kValueName<T>));
 }
 
-const Frame& frame_of(const TrajectoryValue& value, std::uint32_t number) {
-  const auto& frames = value.trajectory.frames;
+const Frame& frame_of(const Trajectory& trajectory, std::uint32_t number) {
+  const auto& frames = trajectory.frames;
   if (frames.empty() || number > frames.size())
     throw InputError(fmt::format("render: frame must be 1 to {}, got {}", frames.size(), number));
   return number == 0 ? frames.back() : frames[number - 1];
+}
+
+void require_instant(const Trajectory& trajectory, double time) {
+  const auto& frames = trajectory.frames;
+  // A run ends on a whole step, so a script may ask for a little more.
+  constexpr double kSlack = 1e-3;
+  if (frames.empty() || time < frames.front().time || time > frames.back().time + kSlack)
+    throw InputError(fmt::format(
+        "render: time must be within the run, 0 to {:.4g} s, got {:g} s; run it longer or ask for "
+        "an earlier instant",
+        frames.empty() ? 0 : frames.back().time, time));
+}
+
+void require_one_value_a_node(const PanelOptions& options, const ModelValue* model) {
+  if (options.node_values.empty()) return;
+  if (model == nullptr)
+    throw InputError("render: node_values need nodes, but a Mesh has none; draw a model");
+  if (options.node_values.size() != model->model->node_count())
+    throw InputError(
+        fmt::format("render: node_values must be one number a node: {} numbers for a "
+                    "model of {} nodes",
+                    options.node_values.size(), model->model->node_count()));
+  if (options.style.node_colour != NodeColour::material)
+    throw InputError(
+        "render: node_values and node_colour both set the colours of the nodes; give "
+        "one of them");
 }
 
 }  // namespace
@@ -43,8 +74,9 @@ std::vector<Colour> part_colours(const TriangleMesh& surface,
   return colours;
 }
 
-std::unique_ptr<Picture> Picture::of(lua_State* L, int index, const PictureOptions& options) {
+std::unique_ptr<Picture> Picture::of(lua_State* L, int index, PanelOptions options) {
   auto picture = std::make_unique<Picture>();
+  picture->options_ = std::move(options);
   if (auto mesh = value_at<MeshValue>(L, index)) {
     picture->mesh_ = mesh;
   } else if (auto model = value_at<ModelValue>(L, index)) {
@@ -52,15 +84,32 @@ std::unique_ptr<Picture> Picture::of(lua_State* L, int index, const PictureOptio
   } else if (auto chain = value_at<LodAsset>(L, index)) {
     picture->set_model(level_value(chain, 0), nullptr);
   } else if (auto run = value_at<TrajectoryValue>(L, index)) {
-    const Frame& frame = frame_of(*run, options.frame);
-    picture->set_model(run->model, &frame.x);
-    picture->add_obstacles(*run->scenario);
-    picture->caption_ = fmt::format("t = {:.3f} s", frame.time);
+    picture->set_instant(*run);
   } else {
     throw InputError(fmt::format("render: expected a Mesh, Model, LodChain or Trajectory, got {}",
                                  describe_type_at(L, index)));
   }
+  require_one_value_a_node(picture->options_, picture->model_.get());
   return picture;
+}
+
+void Picture::set_instant(const TrajectoryValue& run) {
+  const PanelOptions& options = options_;
+  if (options.time && options.frame != 0)
+    throw InputError("render: frame and time both choose the instant; give one of them");
+  double time = 0;
+  if (options.time) {
+    require_instant(run.trajectory, *options.time);
+    time = *options.time;
+    const std::vector<Vec3> positions = positions_at(run.trajectory.frames, time);
+    set_model(run.model, &positions);
+  } else {
+    const Frame& frame = frame_of(run.trajectory, options.frame);
+    time = frame.time;
+    set_model(run.model, &frame.x);
+  }
+  add_obstacles(*run.scenario);
+  instant_ = fmt::format("t = {:.3f} s", time);
 }
 
 void Picture::set_model(std::shared_ptr<const ModelValue> model,
@@ -79,26 +128,42 @@ void Picture::add_obstacles(const Scenario& scenario) {
   }
 }
 
-Box3 Picture::box() const {
-  if (mesh_) return bounds(mesh_->mesh);
-  Box3 box;
-  for (const Vec3& point : positions_) box.extend(point);
-  for (const Vec3& point : surface_positions_) box.extend(point);
-  return box;
+std::vector<Vec3> Picture::points() const {
+  return outline(panel(Camera{}).bodies.front());
 }
 
-Panel Picture::panel(const PictureOptions& options, const Camera& camera,
-                     const std::string& title) const {
+std::vector<std::string> Picture::heading() const {
+  std::vector<std::string> lines;
+  std::istringstream title(options_.title);
+  for (std::string line; std::getline(title, line);) lines.push_back(line);
+  if (!instant_.empty()) lines.push_back(instant_);
+  return lines;
+}
+
+double Picture::heading_share(int panel_height) const {
+  const std::size_t lines = heading().size();
+  return lines == 0 ? 0 : springlod::heading_share(panel_height, lines - 1);
+}
+
+double Picture::scales_share(int panel_height) const {
+  const DrawnBody body = panel(Camera{}).bodies.front();
+  const bool strain = body.style.springs && body.style.spring_colour == SpringColour::strain;
+  return ((shows_values(body) ? 1 : 0) + (strain ? 1 : 0)) * scale_share(panel_height);
+}
+
+Panel Picture::panel(const Camera& camera) const {
   DrawnBody body;
-  body.style = options.style;
+  body.style = options_.style;
   if (mesh_) {
     body.surface = &mesh_->mesh;
     body.style.surface = true;  // all that a mesh has
     body.style.nodes = false;
     body.style.springs = false;
+    body.style.bold_inner_nodes = false;
   } else {
     body.model = model_->model.get();
     body.node_positions = &positions_;
+    if (!options_.node_values.empty()) body.node_values = &options_.node_values;
     if (model_->surface) {
       body.surface = model_->surface.get();
       body.surface_positions = &surface_positions_;
@@ -114,59 +179,12 @@ Panel Picture::panel(const PictureOptions& options, const Camera& camera,
   panel.planes = planes_;
   panel.boxes = boxes_;
   panel.camera = camera;
-  panel.title = title;
-  if (!caption_.empty()) panel.captions.push_back(caption_);
+  const std::vector<std::string> lines = heading();
+  if (!lines.empty()) {
+    panel.title = lines.front();
+    panel.captions.assign(lines.begin() + 1, lines.end());
+  }
   return panel;
-}
-
-void read_style(TableReader& reader, DrawStyle& style) {
-  reader.read("surface", style.surface);
-  reader.read("nodes", style.nodes);
-  reader.read("springs", style.springs);
-  reader.choose("spring_colour", style.spring_colour,
-                {{"material", SpringColour::material}, {"strain", SpringColour::strain}});
-  reader.read("strain_range", style.strain_range);
-  reader.read("node_radius", style.node_radius);
-  reader.read("surface_opacity", style.surface_opacity);
-  reader.read("bold_inner_nodes", style.bold_inner_nodes);
-}
-
-std::vector<Parameter> style_parameters(const DrawStyle& usual) {
-  const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
-  return {{.name = "surface",
-           .type = "boolean",
-           .fallback = truth(usual.surface),
-           .help = "draw the shaded surface, if there is one"},
-          {.name = "nodes",
-           .type = "boolean",
-           .fallback = truth(usual.nodes),
-           .help = "draw nodes as balls"},
-          {.name = "springs",
-           .type = "boolean",
-           .fallback = truth(usual.springs),
-           .help = "draw springs"},
-          {.name = "spring_colour",
-           .type = "one of",
-           .fallback = "\"material\"",
-           .help = "what the colour of a spring tells",
-           .choices = {"material", "strain"}},
-          {.name = "strain_range",
-           .type = "number",
-           .fallback = fmt::format("{}", usual.strain_range),
-           .help = "strain drawn in full red (stretched) or blue (compressed)"},
-          {.name = "node_radius",
-           .type = "quantity",
-           .dimension = Dimension::length,
-           .fallback = "a part of the mean spring length",
-           .help = "radius of the balls"},
-          {.name = "surface_opacity",
-           .type = "number",
-           .fallback = fmt::format("{}", usual.surface_opacity),
-           .help = "below 1 shows the springs inside"},
-          {.name = "bold_inner_nodes",
-           .type = "boolean",
-           .fallback = truth(usual.bold_inner_nodes),
-           .help = "nodes off the border in bold red"}};
 }
 
 }  // namespace springlod

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,45 +11,48 @@
 
 namespace springlod {
 
-/// How a still picture is taken: the options of `s.render`.
-struct PictureOptions {
-  std::uint32_t width = 640;  ///< of one panel [px]
-  std::uint32_t height = 480;
-  double azimuth = -70;  ///< [deg]
-  double elevation = 15;
-  std::uint32_t frame = 0;  ///< of trajectories, counted from 1; 0: the last
-  std::vector<std::string> titles;
-  std::string footer;
+/// What one panel of a picture shows of its subject.
+struct PanelOptions {
+  /// In the corner; lines after the first are smaller.
+  std::string title;
+  std::uint32_t frame = 0;     ///< of a trajectory, counted from 1; 0: the last
+  std::optional<double> time;  ///< of a trajectory [s]: this instant instead of a frame
+  /// Numbers that the nodes show, one a node; empty: none.
+  std::vector<double> node_values;
   DrawStyle style;
 };
 
 /// One subject of a picture with all that a Panel points into.
 class Picture {
  public:
-  /// The Mesh, Model, LodChain (its base) or Trajectory at `index`. Throws InputError for others.
-  static std::unique_ptr<Picture> of(lua_State* L, int index, const PictureOptions& options);
+  /// The Mesh, Model, LodChain (its base) or Trajectory at `index`. Throws InputError for others
+  /// and for options that do not fit it.
+  static std::unique_ptr<Picture> of(lua_State* L, int index, PanelOptions options);
 
-  /// What the camera has to see.
-  Box3 box() const;
+  /// Part of a panel's height that its title and captions take; 0 without any.
+  double heading_share(int panel_height) const;
+  /// Part that its colour scales take.
+  double scales_share(int panel_height) const;
+  /// All that the camera has to see.
+  std::vector<Vec3> points() const;
   /// Good as long as this lives.
-  Panel panel(const PictureOptions& options, const Camera& camera, const std::string& title) const;
+  Panel panel(const Camera& camera) const;
 
  private:
   void set_model(std::shared_ptr<const ModelValue> model, const std::vector<Vec3>* positions);
+  std::vector<std::string> heading() const;
+  void set_instant(const TrajectoryValue& run);
   void add_obstacles(const Scenario& scenario);
 
+  PanelOptions options_;
   std::shared_ptr<const MeshValue> mesh_;
   std::shared_ptr<const ModelValue> model_;
   std::vector<Vec3> positions_;
   std::vector<Vec3> surface_positions_;
   std::vector<DrawnPlane> planes_;
   std::vector<DrawnBox> boxes_;
-  std::string caption_;
+  std::string instant_;  // "t = 0.300 s" of a trajectory
 };
-
-/// Reads the options of a DrawStyle (surface, nodes, springs, ...), listed by style_parameters().
-void read_style(TableReader& reader, DrawStyle& style);
-std::vector<Parameter> style_parameters(const DrawStyle& usual);
 
 /// Colour of each surface part: of the material with the part's name or its material's name; empty
 /// if none is found.

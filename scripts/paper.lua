@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local paper_figures = require "lib.paper_figures"
 local paper_numbers = require "lib.paper_numbers"
 local paper_runs = require "lib.paper_runs"
 local paper_studies = require "lib.paper_studies"
@@ -144,6 +145,9 @@ local function paper()
     settings.speed_scale, settings.seed, settings.margin))
   table_1(cases.ball)
   table_2(cases.rods)
+  if not args.no_figures then
+    paper_figures.draw(args.out, {seed = settings.seed, quick = args.quick})
+  end
   publish("early-errors", "Before chaos: mean distance from the base's nodes [m]",
     paper_studies.early_errors({cases.ball, cases.rods[1]}, settings, store))
   publish("three-runs", "The paper's way: three runs with steps that differ [m]",
@@ -170,4 +174,4 @@ end
 local ok, reason = command.try(paper)
 if not ok then command.fail("paper: %s", reason) end
 save_page()
-s.say("tables.md, CSV files, charts are in " .. args.out)
+s.say("tables.md, CSV files, charts and figures are in " .. args.out)

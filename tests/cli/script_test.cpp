@@ -78,10 +78,17 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.zero_modes(chain[1])[1].zero_modes == 6)
     assert(s.stable_step(chain[0]) > 0)
     assert(s.estimate(base).young > 0)
+    assert(s.grid{cell = 0.1, size = {2, 1, 1}, materials = {bar = {young = 1e6}},
+                  fill = function() return "bar" end}.cell_count == 2)
+    assert(#s.ensemble(chain[2], scene, {starts = 2, integrator = "xpbd"}) == 2)
     assert(s.random(grid, {nodes = 120}).node_count == 120)
     assert(s.refill(base, grid, {nodes = 60, style = "random"})[1].node_count == 60)
+    assert(s.grid{cell = 1, size = {1, 1, 1}, materials = {a = {young = 1e6}},
+                  fill = function() return "a" end}.cell_count == 1)
+    assert(#s.ensemble(chain[1], scene, {starts = 2}) == 2)
     local modes = s.modes(chain[1], {count = 3, seed = 2})
     assert(#modes == 3 and modes[1].frequency > 0 and #modes[1].shape == chain[1].node_count)
+    assert(s.deflect(base, {force = {[1] = {1, 0, 0}}}).compliance > 0)
     local loads = s.static_loads(chain[1])
     assert(#loads == 9 and loads[9].name == "twist x" and loads[9].compliance > 0)
     assert(#loads[1].force == chain[1].node_count and #loads[1].displacement[1] == 3)

@@ -25,8 +25,8 @@ Panel studio(const Box3& box) {
 }
 
 Image draw_one(const Panel& panel, const std::string& footer = "") {
-  Renderer renderer(kWidth, kHeight, 1);
-  return renderer.draw({panel}, footer);
+  Renderer renderer({kWidth, kHeight, 1});
+  return renderer.draw({panel}, {.footer = footer});
 }
 
 std::array<int, 3> pixel(const Image& image, std::uint32_t x, std::uint32_t y) {
@@ -137,7 +137,7 @@ TEST_CASE("equal panels come out equal side by side") {
   Panel panel = studio(scene.box);
   panel.bodies = {scene.body()};
   panel.title = "level";
-  Renderer renderer(kWidth, kHeight, 3);
+  Renderer renderer({kWidth, kHeight, 3});
   const Image image = renderer.draw({panel, panel, panel});
   REQUIRE(image.width == 3 * kWidth);
   std::size_t unequal = 0;
@@ -157,12 +157,12 @@ TEST_CASE(
   a.bodies = {ball_scene.body()};
   Panel b = studio(dumbbell_scene.box);
   b.bodies = {dumbbell_scene.body(), ball_scene.body()};
-  Renderer renderer(kWidth, kHeight, 1);
+  Renderer renderer({kWidth, kHeight, 1});
   const Image first = renderer.draw({a});
   const Image other = renderer.draw({b});
   CHECK(renderer.draw({a}).rgb == first.rgb);
   CHECK(other.rgb != first.rgb);
-  Renderer second(kWidth, kHeight, 1);
+  Renderer second({kWidth, kHeight, 1});
   CHECK(second.draw({a}).rgb == first.rgb);
   CHECK(renderer.draw({b}).rgb == other.rgb);
 }
@@ -192,7 +192,7 @@ TEST_CASE("panels of one strain range share one colour scale, on the last of the
   Panel panel = studio(scene.box);
   panel.bodies = {scene.body()};
   panel.bodies[0].style.spring_colour = SpringColour::strain;
-  Renderer renderer(kWidth, kHeight, 2);
+  Renderer renderer({kWidth, kHeight, 2});
   const Image image = renderer.draw({panel, panel});
   int strong = 0;  // pixels of the scale's red end, as far right and down as the scale lies
   for (const std::uint32_t left : {0U, kWidth})
@@ -209,7 +209,7 @@ TEST_CASE("a label that is too long is shortened, not written over the next pane
   Panel plain = studio(scene.box);
   Panel wordy = plain;
   wordy.title = std::string(200, 'W');
-  Renderer renderer(kWidth, kHeight, 2);
+  Renderer renderer({kWidth, kHeight, 2});
   const Image with = renderer.draw({wordy, plain});
   const Image without = renderer.draw({plain, plain});
   std::size_t changed = 0;
@@ -238,16 +238,16 @@ TEST_CASE("a framed box lies inside the picture from every side") {
 }
 
 TEST_CASE("what cannot be drawn is refused with a reason") {
-  CHECK_THROWS_AS(Renderer(0, 480, 1), InputError);
-  CHECK_THROWS_AS(Renderer(640, 0, 1), InputError);
-  CHECK_THROWS_AS(Renderer(640, 480, 0), InputError);
-  CHECK_THROWS_AS(Renderer(16385, 10, 1), InputError);
-  CHECK_THROWS_AS(Renderer(640, 16385, 1), InputError);
-  CHECK_THROWS_AS(Renderer(4294967295U, 480, 2), InputError);
+  CHECK_THROWS_AS(Renderer({0, 480, 1}), InputError);
+  CHECK_THROWS_AS(Renderer({640, 0, 1}), InputError);
+  CHECK_THROWS_AS(Renderer({640, 480, 0}), InputError);
+  CHECK_THROWS_AS(Renderer({16385, 10, 1}), InputError);
+  CHECK_THROWS_AS(Renderer({640, 16385, 1}), InputError);
+  CHECK_THROWS_AS(Renderer({4294967295U, 480, 2}), InputError);
   CHECK_THROWS_AS(frame_box(Box3(), 0, 0, 1), InputError);
 
   const BallScene scene;
-  Renderer renderer(64, 48, 1);
+  Renderer renderer({64, 48, 1});
   Panel panel = studio(scene.box);
   CHECK_THROWS_AS(renderer.draw({panel, panel}), InputError);
   panel.bodies = {scene.body()};

@@ -1,0 +1,21 @@
+#include "model/anchors.hpp"
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
+namespace springlod {
+
+std::vector<std::uint8_t> anchor_flags(const MassSpringModel& model,
+                                       const std::vector<std::uint32_t>& anchored) {
+  std::vector<std::uint8_t> flags(model.node_count(), 0);
+  for (const std::uint32_t node : anchored) {
+    if (node >= flags.size())
+      throw InputError(fmt::format("anchors: there is no node {}; the model has {}, counted from 0",
+                                   node, flags.size()));
+    flags[node] = 1;
+  }
+  return flags;
+}
+
+}  // namespace springlod

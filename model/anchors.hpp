@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+
+namespace springlod {
+
+/// Anchored nodes are held where they are. Everything that takes them takes a list of their
+/// numbers, in any order; a number that comes twice counts once.
+
+/// 1 for each anchored node, N. Throws InputError for a node that the model does not have.
+std::vector<std::uint8_t> anchor_flags(const MassSpringModel& model,
+                                       const std::vector<std::uint32_t>& anchored);
+
+}  // namespace springlod
