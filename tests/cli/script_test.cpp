@@ -81,6 +81,8 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.grid{cell = 0.1, size = {2, 1, 1}, materials = {bar = {young = 1e6}},
                   fill = function() return "bar" end}.cell_count == 2)
     assert(#s.ensemble(chain[2], scene, {starts = 2, integrator = "xpbd"}) == 2)
+    assert(s.stability(chain, {levels = {2}, ratios = {1}, steps = {1.2},
+                               integrators = {"symplectic_euler"}}).verdicts.diverged == 1)
     assert(s.random(grid, {nodes = 120}).node_count == 120)
     assert(s.refill(base, grid, {nodes = 60, style = "random"})[1].node_count == 60)
     assert(s.grid{cell = 1, size = {1, 1, 1}, materials = {a = {young = 1e6}},
