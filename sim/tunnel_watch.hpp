@@ -13,8 +13,8 @@ namespace springlod {
 /// Follows the nodes with an area through the boxes of a scenario, step by step, whatever the
 /// scheme: a node that leaves a box by the face opposite to the one by which it came in, in one
 /// step or in many, has gone through. (Cutting a corner, in by one face and out by one beside it,
-/// happens at any step and is let pass.) Some 10 ns a box and node of the surface; nothing without
-/// boxes.
+/// happens at any step and is let pass.) A step costs one turn into the axes of each box a node;
+/// nothing without boxes.
 class TunnelWatch {
  public:
   /// `x`: the start positions.
