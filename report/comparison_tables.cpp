@@ -107,7 +107,9 @@ Table starts_table(const Comparison& comparison) {
                    "energy_difference",
                    "simulated",
                    "spring_updates",
-                   "ledger_error"};
+                   "ledger_error",
+                   "unconverged_steps",
+                   "first_crossing"};
   for (const LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
       const StartResult& start = runs.starts[i];
@@ -115,7 +117,9 @@ Table starts_table(const Comparison& comparison) {
                             number_text(start.distance), number_text(start.surface_error),
                             number_text(start.shape_error), number_text(start.energy_difference),
                             number_text(start.simulated), fmt::format("{}", start.spring_updates),
-                            number_text(start.ledger_error)});
+                            number_text(start.ledger_error),
+                            fmt::format("{}", start.unconverged_steps),
+                            start.first_crossing ? number_text(*start.first_crossing) : ""});
     }
   return table;
 }

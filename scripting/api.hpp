@@ -120,6 +120,7 @@ void describe_random(Api& api);  // of voxelize too, called by describe_voxelize
 void describe_refill(Api& api);  // likewise, called by describe_lod: it makes levels
 void describe_lod(Api& api);
 void describe_sim(Api& api);
+void describe_compare(Api& api);    // of sim too, called by describe_sim
 void describe_stability(Api& api);  // of sim too
 void describe_render(Api& api);
 void describe_report(Api& api);

@@ -1,4 +1,4 @@
-// Running one model, and comparing the levels of a chain.
+// Running one model under a scenario.
 
 #include <algorithm>
 #include <utility>
@@ -7,14 +7,10 @@
 #include <lua.hpp>
 
 #include "model/error.hpp"
-#include "report/comparison_tables.hpp"
 #include "scripting/call.hpp"
-#include "scripting/chart_table.hpp"
 #include "scripting/run_options.hpp"
 #include "scripting/scenario_table.hpp"
 #include "scripting/values.hpp"
-#include "sim/compare.hpp"
-#include "sim/ensemble.hpp"
 #include "sim/run.hpp"
 
 namespace springlod {
@@ -44,65 +40,12 @@ int run_binding(Call& call) {
   RunOptions options;
   TableReader reader = call.options(3);
   read_run_options(call, reader, options);
+  bool quiet = false;
+  reader.read("quiet", quiet);
   reader.finish();
   value->trajectory = run(*value->model->model, *value->scenario, options);
-  warn(call.session().console(), value->trajectory);
+  if (!quiet) warn(call.session().console(), value->trajectory);
   return call.give(std::shared_ptr<const TrajectoryValue>(value));
-}
-
-int compare_binding(Call& call) {
-  auto value = std::make_shared<ComparisonValue>();
-  value->chain = call.value<LodAsset>(1);
-  const auto scenario = scenario_argument(call, 2);
-  CompareOptions options;
-  TableReader reader = call.options(3);
-  options.seed = call.session().settings().seed;
-  options.threads = call.session().settings().threads;
-  reader.read("starts", options.starts);
-  reader.read("jitter", options.jitter);
-  reader.read("seed", options.seed);
-  reader.read("threads", options.threads);
-  reader.read("error_window", options.error_window);
-  reader.read("variant", options.variant);
-  read_run_options(call, reader, options.run);
-  reader.finish();
-  options.progress = call.progress();
-  value->comparison = compare(value->chain->chain, *scenario, options);
-  return call.give(std::shared_ptr<const ComparisonValue>(value));
-}
-
-int ensemble_binding(Call& call) {
-  const auto model = call.value<ModelValue>(1);
-  const auto scenario = scenario_argument(call, 2);
-  EnsembleOptions options;
-  TableReader reader = call.options(3);
-  options.seed = call.session().settings().seed;
-  options.threads = call.session().settings().threads;
-  std::uint32_t first = options.first_start + 1;
-  reader.read("first", first);
-  if (first == 0) reader.refuse("first", "1 or more");
-  options.first_start = first - 1;
-  reader.read("starts", options.starts);
-  reader.read("jitter", options.jitter);
-  reader.read("seed", options.seed);
-  reader.read("threads", options.threads);
-  read_run_options(call, reader, options.run);
-  reader.finish();
-  options.progress = call.progress();
-  const std::vector<EnsembleRun> runs = run_ensemble(*model->model, *scenario, options);
-  lua_State* L = call.lua();
-  begin_list(L, runs.size());
-  std::size_t number = 0;
-  for (const EnsembleRun& run : runs) {
-    begin_table(L);
-    set_field(L, "start", run.start + 1);
-    set_field(L, "distance", run.distance);
-    set_field(L, "simulated", run.simulated);
-    set_field(L, "spring_updates", run.spring_updates);
-    set_field(L, "ledger_error", run.ledger_error);
-    end_list_entry(L, ++number);
-  }
-  return 1;
 }
 
 void push_frame(lua_State* L, const Frame& frame) {
@@ -216,111 +159,13 @@ void describe_trajectory(Api& api) {
   api.add(type.build());
 }
 
-int table_method(Call& call) {
-  const auto self = call.self<ComparisonValue>();
-  const Table table = comparison_table(self->comparison, self->chain->chain);
-  push_rows(call.lua(), table);
-  push(call.lua(), table.columns);
-  return 2;
-}
-
-int timings_method(Call& call) {
-  const auto self = call.self<ComparisonValue>();
-  const Table table = timings_table(self->comparison);
-  push_rows(call.lua(), table);
-  push(call.lua(), table.columns);
-  return 2;
-}
-
-int starts_method(Call& call) {
-  const auto self = call.self<ComparisonValue>();
-  const Table table = starts_table(self->comparison);
-  push_rows(call.lua(), table);
-  push(call.lua(), table.columns);
-  return 2;
-}
-
-std::string comparison_text(const ComparisonValue& value) {
-  std::vector<std::string> labels;
-  for (const LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
-  const std::size_t starts =
-      value.comparison.levels.empty() ? 0 : value.comparison.levels.front().starts.size();
-  return fmt::format("Comparison of {} in {}, {} start{}", fmt::join(labels, ", "),
-                     value.comparison.scenario.name, starts, starts == 1 ? "" : "s");
-}
-
-void describe_comparison(Api& api) {
-  TypeBuilder<ComparisonValue> type("Runs of every level of a chain from the same starts.",
-                                    comparison_text);
-  type.field("labels", "list of strings", "names of the levels", [](const ComparisonValue& value) {
-    std::vector<std::string> labels;
-    for (const LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
-    return labels;
-  });
-  type.method({.name = "table",
-               .summary = "Cost and error of every level, means over the starts.",
-               .returns = "list of tables, list of their keys: " + comparison_columns_help(),
-               .call = table_method});
-  type.method({.name = "starts",
-               .summary = "What every level did in every start.",
-               .returns = "list of tables, list of their keys: level, label, start, distance [m], "
-                          "surface_error [m], shape_error [m], energy_difference, simulated [s], "
-                          "spring_updates, ledger_error",
-               .call = starts_method});
-  type.method({.name = "timings",
-               .summary = "Measured times, which are never the same twice.",
-               .returns = "list of tables, list of their keys: level, label, start, wall_seconds, "
-                          "simulated [s], spring_updates, spring_updates_per_wall_second, "
-                          "real_time_factor",
-               .call = timings_method});
-  api.add(type.build());
-}
-
-std::vector<Parameter> start_parameters(std::uint32_t starts) {
-  const CompareOptions usual;
-  return {{.name = "starts",
-           .type = "integer",
-           .fallback = fmt::format("{}", starts),
-           .help = "starts, the same for every level"},
-          {.name = "jitter",
-           .type = "number",
-           .fallback = fmt::format("{}", usual.jitter),
-           .help = "relative change of speed and height from start to start; the first has none"},
-          {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "of the jitter"},
-          {.name = "threads",
-           .type = "integer",
-           .fallback = "s.threads",
-           .help = "0: all cores; never changes a result"}};
-}
-
-std::vector<Parameter> compare_parameters() {
-  const CompareOptions usual;
-  std::vector<Parameter> parameters = start_parameters(usual.starts);
-  parameters.push_back(
-      {.name = "error_window",
-       .type = "quantity",
-       .dimension = Dimension::time,
-       .fallback = fmt::format("{}", usual.error_window),
-       .help = "errors are averaged up to so long after the base's first contact"});
-  parameters.push_back({.name = "variant",
-                        .type = "string",
-                        .fallback = "none",
-                        .help = "goes into the labels: \"hb\" makes \"LOD-hb-1\""});
-  const std::vector<Parameter> run = run_parameters(RunOptions{});
-  parameters.insert(parameters.end(), run.begin(), run.end());
-  return parameters;
-}
-
-std::vector<Parameter> ensemble_parameters() {
-  const EnsembleOptions usual;
-  std::vector<Parameter> parameters = start_parameters(usual.starts);
-  parameters.push_back(
-      {.name = "first",
-       .type = "integer",
-       .fallback = fmt::format("{}", usual.first_start + 1),
-       .help = "number of the first start: others than those of another ensemble"});
-  const std::vector<Parameter> run = run_parameters(usual.run);
-  parameters.insert(parameters.end(), run.begin(), run.end());
+std::vector<Parameter> single_run_parameters() {
+  std::vector<Parameter> parameters = run_parameters(RunOptions{});
+  parameters.push_back({.name = "quiet",
+                        .type = "boolean",
+                        .fallback = "false",
+                        .help = "do not say that a solver stopped short or that nodes went past "
+                                "each other; the Trajectory tells"});
   return parameters;
 }
 
@@ -329,50 +174,21 @@ std::vector<Parameter> ensemble_parameters() {
 void describe_sim(Api& api) {
   describe_scenario(api);
   describe_trajectory(api);
-  describe_comparison(api);
   describe_stability(api);
-  const Parameter scenario{.name = "scenario",
-                           .type = "Scenario",
-                           .help = "what it goes through; a table for s.scenario will do"};
   api.add(FunctionEntry{
       .name = "run",
       .group = kGroup,
       .summary = "Runs a model under a scenario.",
       .arguments = {{.name = "model", .type = "Model", .help = "a model or a level of a chain"},
-                    scenario},
-      .options = run_parameters(RunOptions{}),
+                    scenario_parameter()},
+      .options = single_run_parameters(),
       .returns = "Trajectory",
       .errors = "A run that leaves the numbers: error.kind is \"unstable\", error.node and "
                 "error.time say where and when. A node that goes through a box: \"tunnelled\", "
                 "error.obstacle says which.",
       .example = "local trajectory = s.run(chain[1], scene, {frame_rate = 30})",
       .call = run_binding});
-  api.add(FunctionEntry{
-      .name = "compare",
-      .group = kGroup,
-      .summary = "Runs every level of a chain from the same starts and measures cost and error.",
-      .arguments = {{.name = "chain", .type = "LodChain", .help = "levels to compare"}, scenario},
-      .options = compare_parameters(),
-      .returns = "Comparison",
-      .errors = "As for run.",
-      .example = "local runs = s.compare(chain, scene, {starts = 24, jitter = 0.02})\n"
-                 "print(s.inspect(runs:table()))",
-      .call = compare_binding});
-  api.add(FunctionEntry{
-      .name = "ensemble",
-      .group = kGroup,
-      .summary = "Runs one model from many starts and keeps what each came to.",
-      .arguments = {{.name = "model", .type = "Model", .help = "a model or a level of a chain"},
-                    scenario},
-      .options = ensemble_parameters(),
-      .returns = "list of tables, one a start: start (its number), distance [m], simulated [s], "
-                 "spring_updates, ledger_error. Starts of one seed and number are the same for "
-                 "every level: pairs",
-      .errors = "As for run.",
-      .example = "local distances = {}\n"
-                 "for i, run in ipairs(s.ensemble(chain[1], scene, {starts = 24})) do\n"
-                 "  distances[i] = run.distance\nend",
-      .call = ensemble_binding});
+  describe_compare(api);
 }
 
 }  // namespace springlod

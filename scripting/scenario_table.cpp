@@ -233,6 +233,12 @@ std::shared_ptr<const Scenario> scenario_argument(Call& call, int number) {
   return std::make_shared<const Scenario>(scenario_from_table(call, reader));
 }
 
+Parameter scenario_parameter() {
+  return {.name = "scenario",
+          .type = "Scenario",
+          .help = "what it goes through; a table for s.scenario will do"};
+}
+
 void describe_scenario(Api& api) {
   describe_obstacles(api);
   describe_throw(api);

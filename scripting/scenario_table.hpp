@@ -9,6 +9,8 @@ namespace springlod {
 Scenario scenario_from_table(Call& call, TableReader& reader);
 /// Argument `number`: a Scenario, or a table that could be handed to s.scenario.
 std::shared_ptr<const Scenario> scenario_argument(Call& call, int number);
+/// How such an argument is listed.
+Parameter scenario_parameter();
 
 /// The records Obstacle, Box, Throw, Turn, Stop and the function scenario.
 void describe_scenario(Api& api);

@@ -140,7 +140,8 @@ local function paper()
   write_page("# The paper's tables, made again\n")
   write_page(("%d paired starts, %d simplification seeds, jitter %g, friction %g, 1 unit of speed "
     .. "= %g m/s, seed %d. W1: 1-Wasserstein distance; inside: simplification seeds whose distance "
-    .. "lies below the noise floor; same: shown to be within %g spreads of the base."):format(
+    .. "lies below the noise floor; same: shown to be within %g spreads of the base; "
+    .. "turned: runs in which springs turned over."):format(
     settings.starts, settings.simplifications, settings.jitter, settings.friction,
     settings.speed_scale, settings.seed, settings.margin))
   table_1(cases.ball)

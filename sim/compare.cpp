@@ -174,27 +174,12 @@ class Comparing {
     RunProgress progress(options_.progress, stopped);
     RunOptions run_options = options_.run;
     run_options.progress = &progress;
-    try {
-      Trajectory trajectory = run(model, scenario, run_options);
-      progress.finish();
-      StartResult& result = result_.levels[level].starts[start];
-      result.distance = measured_distance(
-          scenario, scenario.start.placed ? scenario.start.position : base_center_,
-          center_of_mass(model, trajectory.final.x));
-      result.simulated = trajectory.simulated;
-      result.spring_updates = trajectory.spring_updates;
-      result.wall_seconds = trajectory.wall_seconds;
-      result.ledger_error = closure_error(trajectory.ledger);
-      return trajectory;
-    } catch (const UnstableError& e) {
-      throw UnstableError(
-          fmt::format("{}, start {}: {}", result_.levels[level].label, start, e.what()), e.node(),
-          e.time());
-    } catch (const TunnelError& e) {
-      throw TunnelError(
-          fmt::format("{}, start {}: {}", result_.levels[level].label, start, e.what()), e.node(),
-          e.obstacle(), e.time());
-    }
+    LevelRuns& runs = result_.levels[level];
+    Trajectory trajectory =
+        run_start(model, scenario, base_center_, run_options,
+                  fmt::format("{}, start {}", runs.label, start + 1), runs.starts[start]);
+    progress.finish();
+    return trajectory;
   }
 
   std::vector<Frame> bring_back(std::uint32_t level, const std::vector<Frame>& frames) const {

@@ -8,6 +8,7 @@
 #include "model/progress.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
+#include "sim/starts.hpp"
 
 namespace springlod {
 
@@ -26,8 +27,7 @@ struct CompareOptions {
 };
 
 /// What one level did in one start.
-struct StartResult {
-  double distance = 0;  ///< Scenario::measure_from at the end [m]
+struct StartResult : RunSummary {
   /// Mass-weighted RMS distance of the level-0 nodes from the base's, averaged over the frames of
   /// the window [m].
   double surface_error = 0;
@@ -37,10 +37,6 @@ struct StartResult {
   /// 2009 (their percentage is of the energy itself, which has no zero where gravity has none). 0
   /// without a ledger.
   double energy_difference = 0;
-  double simulated = 0;  ///< [s]
-  std::uint64_t spring_updates = 0;
-  double wall_seconds = 0;  ///< measured; kept out of results
-  double ledger_error = 0;  ///< largest |total - initial| over the largest kinetic energy
 };
 
 struct LevelRuns {

@@ -7,6 +7,7 @@
 #include "model/progress.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
+#include "sim/starts.hpp"
 
 namespace springlod {
 
@@ -22,13 +23,8 @@ struct EnsembleOptions {
   Progress* progress = nullptr;
 };
 
-/// What is kept of one run.
-struct EnsembleRun {
+struct EnsembleRun : RunSummary {
   std::uint32_t start = 0;  ///< its number
-  double distance = 0;      ///< Scenario::measure_from at the end [m]
-  double simulated = 0;     ///< [s]
-  std::uint64_t spring_updates = 0;
-  double ledger_error = 0;  ///< closure_error; 0 without a ledger
 };
 
 /// Runs the model from every start, spread over threads; one result a start, in their order.

@@ -2,6 +2,10 @@
 
 #include <random>
 
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
 namespace springlod {
 
 Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
@@ -20,6 +24,27 @@ Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint6
   changed.velocity *= factor();
   changed.position.z() *= factor();
   return changed;
+}
+
+Trajectory run_start(const MassSpringModel& model, const Scenario& scenario, const Vec3& center,
+                     const RunOptions& options, const std::string& name, RunSummary& summary) {
+  try {
+    Trajectory trajectory = run(model, scenario, options);
+    summary.distance =
+        measured_distance(scenario, scenario.start.placed ? scenario.start.position : center,
+                          center_of_mass(model, trajectory.final.x));
+    summary.simulated = trajectory.simulated;
+    summary.spring_updates = trajectory.spring_updates;
+    summary.wall_seconds = trajectory.wall_seconds;
+    summary.ledger_error = closure_error(trajectory.ledger);
+    summary.unconverged_steps = trajectory.unconverged_steps;
+    if (trajectory.first_crossing) summary.first_crossing = trajectory.first_crossing->time;
+    return trajectory;
+  } catch (const UnstableError& e) {
+    throw UnstableError(fmt::format("{}: {}", name, e.what()), e.node(), e.time());
+  } catch (const TunnelError& e) {
+    throw TunnelError(fmt::format("{}: {}", name, e.what()), e.node(), e.obstacle(), e.time());
+  }
 }
 
 }  // namespace springlod

@@ -5,7 +5,7 @@ local paper_scenes = require "lib.paper_scenes"
 
 local paper_runs = {}
 
-local columns = {"start", "distance", "simulated", "spring_updates"}
+local columns = {"start", "distance", "simulated", "spring_updates", "first_crossing"}
 
 -- The paper's names: b = weak border, h = priority, number = level.
 paper_runs.variants = {
@@ -92,14 +92,18 @@ local function samples(one, settings)
   return list
 end
 
--- The distances of a sample, run if the store has them not.
+-- The distances of a sample, run if the store has them not, and in how many of its runs springs
+-- turned over.
 local function distances(sample, scene, store)
   local rows = store:rows(sample.name, columns, function()
     return s.ensemble(sample.model(), scene, sample.options)
   end)
-  local list = {}
-  for i, row in ipairs(rows) do list[i] = row.distance end
-  return list
+  local list, turned_over = {}, 0
+  for i, row in ipairs(rows) do
+    list[i] = row.distance
+    if row.first_crossing ~= "" then turned_over = turned_over + 1 end
+  end
+  return list, turned_over
 end
 
 -- Says how far a long work is and how long it will take.
@@ -112,8 +116,8 @@ local function teller(total)
   end
 end
 
--- Runs what the store lacks of `cases`. Each case gets base_distances, noise (several)
--- and levels (by label, a list of distances a seed).
+-- Runs what the store lacks of `cases`. Each case gets base_distances, noise (several),
+-- levels (by label, a list of distances a seed) and turned_over (by kind, a number of runs).
 function paper_runs.run(cases, settings, store)
   local missing = 0
   for _, one in ipairs(cases) do
@@ -124,10 +128,11 @@ function paper_runs.run(cases, settings, store)
   end
   local tell = teller(missing)
   for _, one in ipairs(cases) do
-    one.noise, one.levels = {}, {}
+    one.noise, one.levels, one.turned_over = {}, {}, {}
     for _, sample in ipairs(one.samples) do
       local new = not store:has(sample.name)
-      local found = distances(sample, one.scene, store)
+      local found, turned_over = distances(sample, one.scene, store)
+      one.turned_over[sample.kind] = (one.turned_over[sample.kind] or 0) + turned_over
       if new then tell(sample.name) end
       if sample.kind == "base" then
         one.base_distances = found

@@ -20,7 +20,7 @@ local function cut(scene, duration)
 end
 
 local function positions_at(model, scene, time)
-  return s.run(model, cut(scene, time), {frame_rate = 0, ledger = false}).final.x
+  return s.run(model, cut(scene, time), {frame_rate = 0, ledger = false, quiet = true}).final.x
 end
 
 -- Mass-weighted RMS distance of a level's nodes from the centres of mass of their groups in the
@@ -50,8 +50,8 @@ function paper_studies.early_errors(cases, settings, store)
   return store:rows("early-errors", columns, function()
     local rows = {}
     for _, one in ipairs(cases) do
-      local contact = s.run(one.base, cut(one.table, 1), {frame_rate = 0, ledger = false})
-        .first_contact
+      local contact = s.run(one.base, cut(one.table, 1),
+        {frame_rate = 0, ledger = false, quiet = true}).first_contact
       local times = {contact, 1}
       local base = {}
       for i, time in ipairs(times) do base[i] = positions_at(one.base, one.table, time) end
@@ -110,7 +110,8 @@ end
 -- Mechanical energy of each frame and the largest kinetic energy, of a run from the plain start.
 local function energies(model, scene, safety)
   local list, kinetic = {}, 0
-  for i, entry in ipairs(s.run(model, scene, {frame_rate = 60, safety = safety}).ledger) do
+  local run = s.run(model, scene, {frame_rate = 60, safety = safety, quiet = true})
+  for i, entry in ipairs(run.ledger) do
     list[i] = entry.kinetic + entry.elastic + entry.gravity + entry.contact
     kinetic = math.max(kinetic, entry.kinetic)
   end

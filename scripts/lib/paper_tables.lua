@@ -16,7 +16,7 @@ paper_tables.columns = {
   "difference", "difference_low", "difference_high",
   "over_spread", "over_spread_low", "over_spread_high",
   "wasserstein", "wasserstein_low", "wasserstein_high",
-  "noise_floor", "seeds_inside", "seeds", "equivalent",
+  "noise_floor", "seeds_inside", "seeds", "equivalent", "turned_over_percent",
   "paper_distance", "paper_difference",
 }
 
@@ -46,6 +46,7 @@ local function base_row(one)
     case = one.name, model = "base", nodes = one.base.node_count, ends = one.base.end_count,
     distance = m.mean, distance_low = m.mean_low, distance_high = m.mean_high,
     spread = m.deviation,
+    turned_over_percent = 100 * one.turned_over.base / #one.base_distances,
   }
 end
 
@@ -72,6 +73,7 @@ local function level_row(one, variant, level, floor, settings)
     wasserstein_high = c.wasserstein.high,
     noise_floor = floor.level, seeds_inside = inside, seeds = #seeds,
     equivalent = c.equivalent and "yes" or "not shown",
+    turned_over_percent = 100 * one.turned_over[label] / (#seeds * #seeds[1]),
   }
 end
 
@@ -149,12 +151,13 @@ function paper_tables.readable(rows)
       ("%.2f"):format(row.spread), interval("over_spread"), interval("wasserstein"),
       row.noise_floor and ("%.2f"):format(row.noise_floor) or "",
       row.seeds and ("%d of %d"):format(row.seeds_inside, row.seeds) or "", row.equivalent or "",
-      difference(row.difference), difference(row.paper_difference),
+      ("%.0f %%"):format(row.turned_over_percent), difference(row.difference),
+      difference(row.paper_difference),
     }
   end
   return short, {
     "model", "nodes/ends", "paper", "distance [m]", "spread [m]", "difference/spread", "W1 [m]",
-    "floor [m]", "inside", "same", "difference [m]", "paper's",
+    "floor [m]", "inside", "same", "turned", "difference [m]", "paper's",
   }
 end
 
