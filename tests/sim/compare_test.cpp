@@ -185,7 +185,7 @@ TEST_CASE("The error of the first run that failed reaches the caller with level 
     compare(small_chain(), small_scene(), options);
     FAIL("an unstable step went through");
   } catch (const UnstableError& e) {
-    CHECK_THAT(e.what(), Catch::StartsWith("base, start 0"));
+    CHECK_THAT(e.what(), Catch::StartsWith("base, start 1"));
   }
 }
 

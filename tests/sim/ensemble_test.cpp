@@ -84,3 +84,20 @@ TEST_CASE("An ensemble refuses what it cannot run, and names the start that dive
     CHECK_THAT(e.what(), Catch::Matchers::StartsWith("start 1: "));
   }
 }
+
+TEST_CASE("Runs of many tell when springs turned over, or that none did") {
+  Scenario violent = scene();
+  violent.start.velocity = {0, 0, -120};  // far above the speed of sound of the block, 32 m/s
+  violent.obstacles = {bodies::floor(1e8, 0.5)};
+  violent.duration = 0.02;
+  CompareOptions compared;
+  compared.starts = 2;
+  const Comparison comparison = compare(chain(), violent, compared);
+  const auto runs = run_ensemble(chain().levels[0].model, violent, {.starts = 2});
+  for (std::size_t i = 0; i < 2; ++i) {
+    REQUIRE(runs[i].first_crossing.has_value());
+    CHECK(*runs[i].first_crossing > 0.001);
+    CHECK(runs[i].first_crossing == comparison.levels[0].starts[i].first_crossing);
+  }
+  CHECK_FALSE(run_ensemble(chain().levels[0].model, scene(), {.starts = 1})[0].first_crossing);
+}
