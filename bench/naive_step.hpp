@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+
+namespace springlod::bench {
+
+/// A floor at z = 0 and gravity along -z.
+struct Floor {
+  double stiffness = 1e6;  ///< kappa [N/m3]
+  double friction = 0.5;
+  double gravity = 9.81;  ///< [m/s2]
+};
+
+/// What fast kernels are measured against: the step that anyone writes first. Plain arrays of
+/// doubles, one spring after the other, its force scattered to both ends; then one node after the
+/// other: floor, friction, symplectic Euler. Frozen: it must not get faster with us.
+struct NaiveBody {
+  using Triple = std::array<double, 3>;
+  std::vector<Triple> x, v, f;
+  std::vector<double> mass, area;
+  std::vector<std::uint32_t> a, b;
+  std::vector<double> length, stiffness, damping;
+};
+
+NaiveBody naive_body(const MassSpringModel& model);
+void naive_step(NaiveBody& body, const Floor& floor, double step);
+
+}  // namespace springlod::bench
