@@ -95,14 +95,15 @@ local function best_rows(rows, ratios)
   return cells
 end
 
--- For each level and ratio the cheapest point within `most` of the reference.
+-- For each level and ratio the cheapest point within `most` of the reference. Not by factorization,
+-- which spring updates do not count.
 local function cheapest_rows(rows, bodies, most)
   local cells = {}
   for i, body in ipairs(bodies) do
     local best
     for _, row in ipairs(rows) do
       local fits = row.level == body.level and row.ratio == body.ratio and row.stable == 1
-        and row.error <= most
+        and row.error <= most and row.integrator ~= "backward_euler_direct"
       if fits and (not best or row.cost < best.cost) then best = row end
     end
     cells[i] = {
@@ -129,7 +130,8 @@ end
 print("stiff part: " .. map.stiff_part)
 print("\nleast error of any step, by ratio of Young's moduli:")
 print(s.format_table(best_rows(rows, ratios), {columns = columns}))
-print("\ncheapest within 10 % (spring updates a simulated second):")
+print("\ncheapest within 10 %, in spring updates a simulated second (which do not count "
+  .. "factorizations, so that backward_euler_direct is left out; timings.csv has all times):")
 print(s.format_table(cheapest_rows(rows, bodies, 0.1), {columns = {
   "level", "ratio", "limit [s]", "limited by", "frequencies off", "integrator", "step [s]", "error",
   "cost"}}))

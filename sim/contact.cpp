@@ -12,10 +12,6 @@ std::int8_t side_of(double coordinate) {
   return coordinate < 0 ? -1 : 1;
 }
 
-Vec3 into_box(const SolidBox& box, const Vec3& point) {
-  return box.rotation.transpose() * (point - box.center);
-}
-
 Contact make_contact(const Obstacle& obstacle, std::uint32_t node, double area, double depth,
                      const Vec3& normal, const Vec3& velocity) {
   Contact contact;
@@ -47,7 +43,7 @@ ContactFinder::ContactFinder(const MassSpringModel& model, const std::vector<Obs
     const auto* box = std::get_if<SolidBox>(&obstacles[o].shape);
     if (box == nullptr) continue;
     for (const std::uint32_t node : node_) {
-      const Vec3 local = into_box(*box, x[node]);
+      const Vec3 local = box->local(x[node]);
       sides_[o].push_back({side_of(local[0]), side_of(local[1]), side_of(local[2])});
     }
   }
@@ -82,7 +78,7 @@ void ContactFinder::find_box(const Obstacle& obstacle, const SolidBox& box,
   for (std::size_t n = 0; n < node_.size(); ++n) {
     const std::uint32_t node = node_[n];
     Sides& side = sides[n];
-    const Vec3 local = into_box(box, x[node]);
+    const Vec3 local = box.local(x[node]);
     Eigen::Index axis = 0;
     const double depth =
         (box.half_size - Vec3(side[0] * local[0], side[1] * local[1], side[2] * local[2]))

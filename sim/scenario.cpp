@@ -60,7 +60,7 @@ SurfacePoint surface_point(const Plane& plane, const Vec3& point) {
 }
 
 SurfacePoint surface_point(const SolidBox& box, const Vec3& point) {
-  const Vec3 local = box.rotation.transpose() * (point - box.center);
+  const Vec3 local = box.local(point);
   const Vec3 beyond = local.cwiseAbs() - box.half_size;
   Vec3 normal = Vec3::Zero();
   if (beyond.maxCoeff() > 0) {  // outside: towards the point from the nearest one of the surface

@@ -21,6 +21,8 @@ struct SolidBox {
   Vec3 center = Vec3::Zero();        ///< [m]
   Vec3 half_size = Vec3::Ones();     ///< [m] > 0
   Mat3 rotation = Mat3::Identity();  ///< box axes as columns
+  /// The point as seen along the box axes from its centre [m].
+  Vec3 local(const Vec3& point) const { return rotation.transpose() * (point - center); }
 };
 
 /// A fixed thing that nodes bump into: a penalty force kappa A d on a node of contact area A at

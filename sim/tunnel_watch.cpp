@@ -11,10 +11,6 @@
 namespace springlod {
 namespace {
 
-Vec3 into_box(const SolidBox& box, const Vec3& point) {
-  return box.rotation.transpose() * (point - box.center);
-}
-
 std::int8_t face(Eigen::Index axis, bool positive) {
   const auto number = static_cast<std::int8_t>(axis + 1);
   return positive ? number : static_cast<std::int8_t>(-number);
@@ -38,7 +34,7 @@ TunnelWatch::TunnelWatch(const MassSpringModel& model, const std::vector<Obstacl
     if (box == nullptr) continue;
     Wall& wall = walls_.emplace_back(Wall{obstacle.name, *box, {}, {}});
     for (const std::uint32_t node : node_) {
-      wall.at.push_back(into_box(*box, x[node]));
+      wall.at.push_back(box->local(x[node]));
       wall.entry.push_back(nearest_face(box->half_size, wall.at.back()));
     }
   }
@@ -47,7 +43,7 @@ TunnelWatch::TunnelWatch(const MassSpringModel& model, const std::vector<Obstacl
 void TunnelWatch::look(const std::vector<Vec3>& x, double time, double step) {
   for (Wall& wall : walls_)
     for (std::size_t n = 0; n < node_.size(); ++n) {
-      const Vec3 to = into_box(wall.box, x[node_[n]]);
+      const Vec3 to = wall.box.local(x[node_[n]]);
       const Vec3 from = std::exchange(wall.at[n], to);
       const Pass way = pass(wall.box.half_size, from, to);
       if (!way.hits) {

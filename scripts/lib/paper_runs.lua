@@ -50,6 +50,22 @@ function paper_runs.cases(settings)
   return cases
 end
 
+-- Calls visit(label, variant, level) for the levels of a case, variant by variant.
+function paper_runs.each_level(one, visit)
+  for _, variant in ipairs(one.variants) do
+    for level = 1, 2 do visit(paper_runs.label(variant, level), variant, level) end
+  end
+end
+
+-- visit(seed) of every simplification seed, as a list.
+function paper_runs.by_seed(settings, visit)
+  local list = {}
+  for seed = settings.seed, settings.seed + settings.simplifications - 1 do
+    list[#list + 1] = visit(seed)
+  end
+  return list
+end
+
 -- The chain of a variant, made once; many seeds make many.
 local chains = setmetatable({}, {__mode = "k"})
 function paper_runs.chain(base, variant, seed)
@@ -80,15 +96,12 @@ local function samples(one, settings)
     })
     first = first + starts
   end
-  for _, variant in ipairs(one.variants) do
-    for level = 1, 2 do
-      local label = paper_runs.label(variant, level)
-      for seed = settings.seed, settings.seed + settings.simplifications - 1 do
-        local function model() return paper_runs.chain(one.base, variant, seed)[level] end
-        add(("%s-seed-%d"):format(label, seed), label, model, {starts = settings.starts})
-      end
-    end
-  end
+  paper_runs.each_level(one, function(label, variant, level)
+    paper_runs.by_seed(settings, function(seed)
+      local function model() return paper_runs.chain(one.base, variant, seed)[level] end
+      add(("%s-seed-%d"):format(label, seed), label, model, {starts = settings.starts})
+    end)
+  end)
   return list
 end
 

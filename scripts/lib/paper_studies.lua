@@ -55,22 +55,19 @@ function paper_studies.early_errors(cases, settings, store)
       local times = {contact, 1}
       local base = {}
       for i, time in ipairs(times) do base[i] = positions_at(one.base, one.table, time) end
-      for _, variant in ipairs(one.variants) do
-        for level = 1, 2 do
-          local errors = {{}, {}}
-          for seed = settings.seed, settings.seed + settings.simplifications - 1 do
+      paper_runs.each_level(one, function(label, variant, level)
+        local function error_at(i)
+          return mean(paper_runs.by_seed(settings, function(seed)
             local chain = paper_runs.chain(one.base, variant, seed)
-            for i, time in ipairs(times) do
-              table.insert(errors[i], level_error(chain, level, base[i],
-                positions_at(chain[level], one.table, time)))
-            end
-          end
-          rows[#rows + 1] = {
-            case = one.name, model = paper_runs.label(variant, level), contact_time = contact,
-            at_contact = mean(errors[1]), after_1_s = mean(errors[2]),
-          }
+            return level_error(chain, level, base[i],
+              positions_at(chain[level], one.table, times[i]))
+          end))
         end
-      end
+        rows[#rows + 1] = {
+          case = one.name, model = label, contact_time = contact, at_contact = error_at(1),
+          after_1_s = error_at(2),
+        }
+      end)
     end
     return rows
   end), columns
@@ -96,12 +93,10 @@ function paper_studies.three_runs(cases, settings, store)
     local rows = {}
     for _, one in ipairs(cases) do
       rows[#rows + 1] = row(one, "base", one.base)
-      for _, variant in ipairs(one.variants) do
-        for level = 1, 2 do
-          rows[#rows + 1] = row(one, paper_runs.label(variant, level),
-            paper_runs.chain(one.base, variant, settings.seed)[level])
-        end
-      end
+      paper_runs.each_level(one, function(label, variant, level)
+        rows[#rows + 1] = row(one, label,
+          paper_runs.chain(one.base, variant, settings.seed)[level])
+      end)
     end
     return rows
   end), columns
@@ -138,16 +133,12 @@ function paper_studies.energy(cases, settings, store)
         }
       end
       add("base at half the step", {largest_difference(base, energies(one.base, one.scene, 0.4))})
-      for _, variant in ipairs(one.variants) do
-        for level = 1, 2 do
-          local differences = {}
-          for seed = settings.seed, settings.seed + settings.simplifications - 1 do
-            local model = paper_runs.chain(one.base, variant, seed)[level]
-            table.insert(differences, largest_difference(base, energies(model, one.scene)))
-          end
-          add(paper_runs.label(variant, level), differences)
-        end
-      end
+      paper_runs.each_level(one, function(label, variant, level)
+        add(label, paper_runs.by_seed(settings, function(seed)
+          local model = paper_runs.chain(one.base, variant, seed)[level]
+          return largest_difference(base, (energies(model, one.scene)))
+        end))
+      end)
     end
     return rows
   end), columns

@@ -32,12 +32,12 @@ end
 
 -- Nodes and ends of a level, means over the seeds.
 local function counts(one, variant, level, settings)
-  local nodes, ends = {}, {}
-  for seed = settings.seed, settings.seed + settings.simplifications - 1 do
-    local model = paper_runs.chain(one.base, variant, seed)[level]
-    nodes[#nodes + 1], ends[#ends + 1] = model.node_count, model.end_count
+  local function mean_of(field)
+    return math.floor(mean(paper_runs.by_seed(settings, function(seed)
+      return paper_runs.chain(one.base, variant, seed)[level][field]
+    end)) + 0.5)
   end
-  return math.floor(mean(nodes) + 0.5), math.floor(mean(ends) + 0.5)
+  return mean_of("node_count"), mean_of("end_count")
 end
 
 local function base_row(one)
@@ -97,11 +97,9 @@ end
 function paper_tables.rows(one, settings)
   local floor = s.noise_floor(one.noise, {size = #one.base_distances})
   local rows = {beside_paper(base_row(one), one)}
-  for _, variant in ipairs(one.variants) do
-    for level = 1, 2 do
-      rows[#rows + 1] = beside_paper(level_row(one, variant, level, floor, settings), one)
-    end
-  end
+  paper_runs.each_level(one, function(_, variant, level)
+    rows[#rows + 1] = beside_paper(level_row(one, variant, level, floor, settings), one)
+  end)
   return rows
 end
 
@@ -114,25 +112,22 @@ function paper_tables.over_speeds(cases)
     other[i] = math.abs(mean(one.noise[1]) - mean(one.base_distances))
   end
   rows[1] = {model = "base, other starts", mean_difference = mean(other)}
-  for _, variant in ipairs(cases[1].variants) do
-    for level = 1, 2 do
-      local label = paper_runs.label(variant, level)
-      local ours, theirs = {}, {}
-      for i, one in ipairs(cases) do
-        local all = {}
-        for _, distances in ipairs(one.levels[label]) do all[#all + 1] = mean(distances) end
-        ours[i] = math.abs(mean(all) - mean(one.base_distances))
-        local paper = paper_numbers.at(label, one.speed)
-        if paper then
-          theirs[#theirs + 1] = math.abs(paper[1] - paper_numbers.at("base", one.speed)[1])
-        end
+  paper_runs.each_level(cases[1], function(label)
+    local ours, theirs = {}, {}
+    for i, one in ipairs(cases) do
+      local all = {}
+      for _, distances in ipairs(one.levels[label]) do all[#all + 1] = mean(distances) end
+      ours[i] = math.abs(mean(all) - mean(one.base_distances))
+      local paper = paper_numbers.at(label, one.speed)
+      if paper then
+        theirs[#theirs + 1] = math.abs(paper[1] - paper_numbers.at("base", one.speed)[1])
       end
-      rows[#rows + 1] = {
-        model = label, mean_difference = mean(ours),
-        paper_mean_difference = #theirs > 0 and mean(theirs) or nil,
-      }
     end
-  end
+    rows[#rows + 1] = {
+      model = label, mean_difference = mean(ours),
+      paper_mean_difference = #theirs > 0 and mean(theirs) or nil,
+    }
+  end)
   return rows, {"model", "mean_difference", "paper_mean_difference"}
 end
 

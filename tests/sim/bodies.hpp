@@ -90,6 +90,25 @@ inline Obstacle floor(double kappa, double friction) {
   return obstacle;
 }
 
+/// A small block and two levels of it.
+inline const LodChain& small_chain() {
+  static const LodChain chain =
+      simplify(block(5, 4, 3, 0.1, material("m", 1e6, 1000, 0.002), LatticeStyle::centers), {});
+  return chain;
+}
+
+/// For small_chain: thrown turning onto the floor.
+inline Scenario small_scene(double duration) {
+  Scenario scene;
+  scene.obstacles = {floor(1e6, 0.5)};
+  scene.start.placed = true;
+  scene.start.position = {0, 0, 0.5};
+  scene.start.velocity = {2, 0, 0};
+  scene.start.spin = {0, 3, 1};
+  scene.duration = duration;
+  return scene;
+}
+
 /// Scene 1: the ball thrown along a floor.
 inline Scenario ball_scene() {
   Scenario scene;

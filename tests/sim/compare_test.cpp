@@ -15,22 +15,8 @@ using namespace springlod;
 
 namespace {
 
-const LodChain& small_chain() {
-  static const LodChain chain = simplify(
-      bodies::block(5, 4, 3, 0.1, bodies::material("m", 1e6, 1000, 0.002), LatticeStyle::centers),
-      {});
-  return chain;
-}
-
 Scenario small_scene() {
-  Scenario scene;
-  scene.obstacles = {bodies::floor(1e6, 0.5)};
-  scene.start.placed = true;
-  scene.start.position = {0, 0, 0.5};
-  scene.start.velocity = {2, 0, 0};
-  scene.start.spin = {0, 3, 1};
-  scene.duration = 0.6;
-  return scene;
+  return bodies::small_scene(0.6);
 }
 
 void check_same_bits(const StartResult& p, const StartResult& q) {
@@ -67,9 +53,9 @@ TEST_CASE("One and two threads give the same bits") {
   options.starts = 3;
   options.variant = "hb";
   options.threads = 1;
-  const auto one = compare(small_chain(), small_scene(), options);
+  const auto one = compare(bodies::small_chain(), small_scene(), options);
   options.threads = 2;
-  const auto two = compare(small_chain(), small_scene(), options);
+  const auto two = compare(bodies::small_chain(), small_scene(), options);
   REQUIRE(one.levels.size() == 3);
   for (std::size_t l = 0; l < 3; ++l) {
     REQUIRE(one.levels[l].starts.size() == 3);
@@ -90,7 +76,7 @@ TEST_CASE("Every level starts from the same jittered throw") {
   options.jitter = 0.1;
   Scenario scene = small_scene();
   scene.obstacles.clear();  // in free flight the way depends on the throw alone
-  const auto result = compare(small_chain(), scene, options);
+  const auto result = compare(bodies::small_chain(), scene, options);
   for (std::size_t s = 0; s < 4; ++s)
     for (std::size_t l = 1; l < 3; ++l)
       CHECK(result.levels[l].starts[s].distance ==
@@ -134,7 +120,7 @@ TEST_CASE("Jitter scales speed and height within its range and depends on seed a
 TEST_CASE("Errors are 0 for the base, grow with the level and ignore rigid motion in the shape") {
   CompareOptions options;
   options.threads = 2;
-  const auto result = compare(small_chain(), small_scene(), options);
+  const auto result = compare(bodies::small_chain(), small_scene(), options);
   CHECK(result.levels[0].starts[0].surface_error == 0);
   CHECK(result.levels[0].starts[0].shape_error == 0);
   for (std::size_t l = 1; l < 3; ++l) {
@@ -146,7 +132,7 @@ TEST_CASE("Errors are 0 for the base, grow with the level and ignore rigid motio
     CHECK(r.spring_updates < result.levels[0].starts[0].spring_updates);
     CHECK(r.ledger_error < 0.01);
     CHECK(result.levels[l].base_frames.front().x.size() ==
-          small_chain().levels[0].model.rest.size());
+          bodies::small_chain().levels[0].model.rest.size());
   }
 }
 
@@ -155,7 +141,7 @@ TEST_CASE("Before contact a level that flies like the base has no error") {
   scene.obstacles.clear();
   scene.start.spin = Vec3::Zero();
   CompareOptions options;
-  const auto result = compare(small_chain(), scene, options);
+  const auto result = compare(bodies::small_chain(), scene, options);
   CHECK(result.levels[1].starts[0].surface_error < 1e-5);  // chords between steps: g dt^2 / 8
   CHECK(result.levels[1].starts[0].shape_error < 1e-9);
 }
@@ -182,7 +168,7 @@ TEST_CASE("The error of the first run that failed reaches the caller with level 
   options.run.step = 1.0;
   options.threads = GENERATE(1U, 2U);
   try {
-    compare(small_chain(), small_scene(), options);
+    compare(bodies::small_chain(), small_scene(), options);
     FAIL("an unstable step went through");
   } catch (const UnstableError& e) {
     CHECK_THAT(e.what(), Catch::StartsWith("base, start 1"));
@@ -195,7 +181,7 @@ TEST_CASE("An interrupt stops all runs") {
   options.threads = GENERATE(1U, 2U);
   CountingProgress progress(500);
   options.progress = &progress;
-  CHECK_THROWS_AS(compare(small_chain(), small_scene(), options), InterruptedError);
+  CHECK_THROWS_AS(compare(bodies::small_chain(), small_scene(), options), InterruptedError);
   CHECK(progress.done() < 2000);
 }
 
@@ -208,16 +194,16 @@ TEST_CASE("Progress ends at its total, stop rules or not") {
   CountingProgress progress(~std::uint64_t{0});
   CompareOptions options;
   options.progress = &progress;
-  const auto result = compare(small_chain(), scene, options);
+  const auto result = compare(bodies::small_chain(), scene, options);
   CHECK(result.levels[0].starts[0].simulated < 0.2);
   CHECK(progress.done() == progress.total());
 }
 
 TEST_CASE("Wrong compare options are refused by name") {
   CHECK_THROWS_WITH(compare({}, small_scene(), {}), Catch::Contains("no levels"));
-  CHECK_THROWS_WITH(compare(small_chain(), small_scene(), {.starts = 0}),
+  CHECK_THROWS_WITH(compare(bodies::small_chain(), small_scene(), {.starts = 0}),
                     Catch::Contains("starts"));
-  CHECK_THROWS_WITH(compare(small_chain(), small_scene(), {.jitter = 1}),
+  CHECK_THROWS_WITH(compare(bodies::small_chain(), small_scene(), {.jitter = 1}),
                     Catch::Contains("jitter"));
 }
 
@@ -235,10 +221,10 @@ TEST_CASE("Jobs run once each and the lowest failure wins") {
 
 TEST_CASE("The energy difference is none between equal models and some between levels") {
   LodChain same;
-  same.levels = {small_chain().levels[0], small_chain().levels[0]};
+  same.levels = {bodies::small_chain().levels[0], bodies::small_chain().levels[0]};
   const Comparison equal = compare(same, small_scene());
   CHECK(equal.levels[1].starts[0].energy_difference == 0);
-  const Comparison coarser = compare(small_chain(), small_scene());
+  const Comparison coarser = compare(bodies::small_chain(), small_scene());
   CHECK(coarser.levels[0].starts[0].energy_difference == 0);
   CHECK(coarser.levels[1].starts[0].energy_difference > 1e-3);
   CHECK(coarser.levels[1].starts[0].energy_difference < 1);

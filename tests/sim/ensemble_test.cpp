@@ -12,22 +12,8 @@ using namespace springlod;
 
 namespace {
 
-const LodChain& chain() {
-  static const LodChain made = simplify(
-      bodies::block(4, 3, 3, 0.1, bodies::material("m", 1e6, 1000, 0.002), LatticeStyle::centers),
-      {});
-  return made;
-}
-
 Scenario scene() {
-  Scenario made;
-  made.obstacles = {bodies::floor(1e6, 0.5)};
-  made.start.placed = true;
-  made.start.position = {0, 0, 0.5};
-  made.start.velocity = {2, 0, 0};
-  made.start.spin = {0, 3, 1};
-  made.duration = 0.5;
-  return made;
+  return bodies::small_scene(0.5);
 }
 
 }  // namespace
@@ -35,11 +21,11 @@ Scenario scene() {
 TEST_CASE("An ensemble runs the starts that compare runs") {
   CompareOptions compared;
   compared.starts = 4;
-  const Comparison comparison = compare(chain(), scene(), compared);
+  const Comparison comparison = compare(bodies::small_chain(), scene(), compared);
   EnsembleOptions options;
   options.starts = 4;
-  for (std::size_t level = 0; level < chain().levels.size(); ++level) {
-    const auto runs = run_ensemble(chain().levels[level].model, scene(), options);
+  for (std::size_t level = 0; level < bodies::small_chain().levels.size(); ++level) {
+    const auto runs = run_ensemble(bodies::small_chain().levels[level].model, scene(), options);
     REQUIRE(runs.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) {
       const StartResult& start = comparison.levels[level].starts[i];
@@ -52,7 +38,7 @@ TEST_CASE("An ensemble runs the starts that compare runs") {
 }
 
 TEST_CASE("An ensemble is the same in parts and for any number of threads") {
-  const MassSpringModel& model = chain().levels[1].model;
+  const MassSpringModel& model = bodies::small_chain().levels[1].model;
   EnsembleOptions options;
   options.starts = 6;
   options.threads = 1;
@@ -71,14 +57,16 @@ TEST_CASE("An ensemble is the same in parts and for any number of threads") {
 TEST_CASE("An ensemble refuses what it cannot run, and names the start that diverged") {
   EnsembleOptions options;
   options.starts = 0;
-  CHECK_THROWS_AS(run_ensemble(chain().levels[0].model, scene(), options), InputError);
+  CHECK_THROWS_AS(run_ensemble(bodies::small_chain().levels[0].model, scene(), options),
+                  InputError);
   options.starts = 2;
   options.jitter = 1;
-  CHECK_THROWS_AS(run_ensemble(chain().levels[0].model, scene(), options), InputError);
+  CHECK_THROWS_AS(run_ensemble(bodies::small_chain().levels[0].model, scene(), options),
+                  InputError);
   options.jitter = 0.02;
-  options.run.step = 3 * predicted_step(chain().levels[0].model, scene());
+  options.run.step = 3 * predicted_step(bodies::small_chain().levels[0].model, scene());
   try {
-    run_ensemble(chain().levels[0].model, scene(), options);
+    run_ensemble(bodies::small_chain().levels[0].model, scene(), options);
     FAIL("stable at three times the predicted step");
   } catch (const UnstableError& e) {
     CHECK_THAT(e.what(), Catch::Matchers::StartsWith("start 1: "));
@@ -92,12 +80,13 @@ TEST_CASE("Runs of many tell when springs turned over, or that none did") {
   violent.duration = 0.02;
   CompareOptions compared;
   compared.starts = 2;
-  const Comparison comparison = compare(chain(), violent, compared);
-  const auto runs = run_ensemble(chain().levels[0].model, violent, {.starts = 2});
+  const Comparison comparison = compare(bodies::small_chain(), violent, compared);
+  const auto runs = run_ensemble(bodies::small_chain().levels[0].model, violent, {.starts = 2});
   for (std::size_t i = 0; i < 2; ++i) {
     REQUIRE(runs[i].first_crossing.has_value());
     CHECK(*runs[i].first_crossing > 0.001);
     CHECK(runs[i].first_crossing == comparison.levels[0].starts[i].first_crossing);
   }
-  CHECK_FALSE(run_ensemble(chain().levels[0].model, scene(), {.starts = 1})[0].first_crossing);
+  CHECK_FALSE(run_ensemble(bodies::small_chain().levels[0].model, scene(), {.starts = 1})[0]
+                  .first_crossing);
 }
