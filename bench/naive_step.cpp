@@ -30,8 +30,7 @@ void naive_step(NaiveBody& body, const Floor& floor, double step) {
     const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     for (double& c : d) c /= length;
     const double rate = d[0] * (vb[0] - va[0]) + d[1] * (vb[1] - va[1]) + d[2] * (vb[2] - va[2]);
-    const double tension =
-        body.stiffness[s] * (length - body.length[s]) + body.damping[s] * rate;
+    const double tension = body.stiffness[s] * (length - body.length[s]) + body.damping[s] * rate;
     for (int i = 0; i < 3; ++i) {
       body.f[body.a[s]][i] += tension * d[i];
       body.f[body.b[s]][i] -= tension * d[i];

@@ -7,6 +7,8 @@
 #include "bench/bodies.hpp"
 #include "bench/naive_step.hpp"
 #include "model/stable_step.hpp"
+#include "sim/block_forces.hpp"
+#include "sim/spring_blocks.hpp"
 
 namespace {
 
@@ -26,10 +28,9 @@ const MassSpringModel& body(bool merged, std::int64_t nodes) {
 
 void count_springs(benchmark::State& state, const MassSpringModel& model) {
   state.counters["nodes"] = model.node_count();
-  state.counters["ns_per_spring"] =
-      benchmark::Counter(static_cast<double>(model.spring_count()) * 1e-9,
-                         benchmark::Counter::kIsIterationInvariantRate |
-                             benchmark::Counter::kInvert);
+  state.counters["ns_per_spring"] = benchmark::Counter(
+      static_cast<double>(model.spring_count()) * 1e-9,
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 template <bool merged>
@@ -42,6 +43,56 @@ void naive(benchmark::State& state) {
 }
 BENCHMARK(naive<false>)->Name("lattice/naive_f64")->Arg(4096)->Arg(39304)->Arg(300763);
 BENCHMARK(naive<true>)->Name("merged/naive_f64")->Arg(4096)->Arg(40000)->Arg(300000);
+
+template <class Real>
+void move(SpringBlocks<Real>& laid, const Floor& floor, Real step) {
+  const auto kappa = static_cast<Real>(floor.stiffness);
+  const auto mu = static_cast<Real>(floor.friction);
+  const auto fall = static_cast<Real>(floor.gravity) * step;
+  for (SpringBlock<Real>& block : laid.blocks)
+    for (std::uint32_t i = 0; i < block.own; ++i) {
+      NodeRecord<Real>& r = block.records[i];
+      NodeForce<Real> f = block.forces[i];
+      block.forces[i] = {};
+      for (std::uint32_t c = block.copies_first[i]; c < block.copies_first[i + 1]; ++c) {
+        NodeForce<Real>& copy = laid.blocks[block.copies[c].block].forces[block.copies[c].place];
+        for (int k = 0; k < 4; ++k) f.f[k] += copy.f[k];
+        copy = {};
+      }
+      const Real factor = r.inverse_mass * step;
+      for (int k = 0; k < 3; ++k) r.v[k] += factor * f.f[k];
+      r.v[2] -= fall;
+      if (r.x[2] < 0) {
+        const Real push = kappa * r.contact_area * -r.x[2];
+        r.v[2] += factor * push;
+        const Real slip = std::sqrt(r.v[0] * r.v[0] + r.v[1] * r.v[1]);
+        const Real most = mu * push * factor;
+        const Real keep = slip > most ? 1 - most / slip : 0;
+        r.v[0] *= keep;
+        r.v[1] *= keep;
+      }
+      for (int k = 0; k < 3; ++k) r.x[k] += step * r.v[k];
+    }
+}
+
+template <class Real, bool merged>
+void blocks(benchmark::State& state) {
+  const MassSpringModel& model = body(merged, state.range(0));
+  SpringBlocks<Real> laid = make_spring_blocks<Real>(model);
+  const auto step = static_cast<Real>(kSafety * stable_step(model));
+  for (auto _ : state) {
+    for (SpringBlock<Real>& block : laid.blocks) {
+      for (std::size_t h = 0; h < block.halo.size(); ++h)
+        block.records[block.own + h] =
+            laid.blocks[block.halo[h].block].records[block.halo[h].place];
+      add_block_forces(block);
+    }
+    move<Real>(laid, {}, step);
+  }
+  count_springs(state, model);
+}
+BENCHMARK((blocks<float, false>))->Name("lattice/blocks_f32")->Arg(4096)->Arg(39304)->Arg(300763);
+BENCHMARK((blocks<float, true>))->Name("merged/blocks_f32")->Arg(4096)->Arg(40000)->Arg(300000);
 
 }  // namespace
 
