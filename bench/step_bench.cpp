@@ -7,8 +7,9 @@
 #include "bench/bodies.hpp"
 #include "bench/naive_step.hpp"
 #include "model/stable_step.hpp"
-#include "sim/block_forces.hpp"
-#include "sim/spring_blocks.hpp"
+#include "sim/fast/quad_kernel.hpp"
+#include "sim/fast/quad_layout.hpp"
+#include "sim/fast/row_state.hpp"
 
 namespace {
 
@@ -55,7 +56,7 @@ void move(SpringBlocks<Real>& laid, const Floor& floor, Real step) {
       NodeForce<Real> f = block.forces[i];
       block.forces[i] = {};
       for (std::uint32_t c = block.copies_first[i]; c < block.copies_first[i + 1]; ++c) {
-        NodeForce<Real>& copy = laid.blocks[block.copies[c].block].forces[block.copies[c].place];
+        NodeForce<Real>& copy = laid.blocks[block.copies[c].block].forces[block.copies[c].index];
         for (int k = 0; k < 4; ++k) f.f[k] += copy.f[k];
         copy = {};
       }
@@ -84,7 +85,7 @@ void blocks(benchmark::State& state) {
     for (SpringBlock<Real>& block : laid.blocks) {
       for (std::size_t h = 0; h < block.halo.size(); ++h)
         block.records[block.own + h] =
-            laid.blocks[block.halo[h].block].records[block.halo[h].place];
+            laid.blocks[block.halo[h].block].records[block.halo[h].index];
       add_block_forces(block);
     }
     move<Real>(laid, {}, step);
@@ -93,6 +94,27 @@ void blocks(benchmark::State& state) {
 }
 BENCHMARK((blocks<float, false>))->Name("lattice/blocks_f32")->Arg(4096)->Arg(39304)->Arg(300763);
 BENCHMARK((blocks<float, true>))->Name("merged/blocks_f32")->Arg(4096)->Arg(40000)->Arg(300000);
+
+template <class Real, bool merged>
+void rows(benchmark::State& state) {
+  const MassSpringModel& model = body(merged, state.range(0));
+  const RowLayout<Real> layout = make_row_layout<Real>(model);
+  RowState<Real> moving(layout);
+  for (std::uint32_t p = 0; p < layout.node.size(); ++p)
+    for (int k = 0; k < 3; ++k) moving.x[k][p] = static_cast<Real>(model.rest[layout.node[p]][k]);
+  const double step = kSafety * stable_step(model);
+  for (auto _ : state) {
+    for (std::uint32_t b = 0; b < layout.blocks.size(); ++b) find_row_forces(layout, b, moving);
+    for (std::uint32_t b = 0; b < layout.blocks.size(); ++b)
+      move_rows(layout, b, step, step, moving);
+  }
+  count_springs(state, model);
+  state.counters["fill"] = double(model.spring_count()) / double(layout.rows.size());
+  state.counters["palette"] = double(layout.properties.size());
+}
+BENCHMARK((rows<float, false>))->Name("lattice/rows_f32")->Arg(4096)->Arg(39304)->Arg(300763);
+BENCHMARK((rows<double, false>))->Name("lattice/rows_f64")->Arg(4096)->Arg(39304)->Arg(300763);
+BENCHMARK((rows<float, true>))->Name("merged/rows_f32")->Arg(4096);
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/spring_blocks.hpp"
+#include "sim/fast/quad_layout.hpp"
 
 namespace springlod {
 

@@ -1,10 +1,10 @@
-#include "sim/spring_blocks.hpp"
+#include "sim/fast/quad_layout.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <map>
 
-#include "sim/block_order.hpp"
+#include "sim/fast/block_order.hpp"
 
 namespace springlod {
 namespace {
@@ -66,7 +66,7 @@ class Laying {
     const auto springs = assign_springs(model_, rank_);
     SpringBlocks<Real> laid;
     laid.blocks.resize(order_.first.size() - 1);
-    std::vector<std::vector<NodeInBlock>> copies(model_.node_count());  // by rank
+    std::vector<std::vector<Place>> copies(model_.node_count());  // by rank
     for (std::uint32_t b = 0; b < laid.blocks.size(); ++b)
       lay_block(b, springs, copies, laid.blocks[b]);
     for (std::uint32_t b = 0; b < laid.blocks.size(); ++b) list_copies(b, copies, laid.blocks[b]);
@@ -76,13 +76,13 @@ class Laying {
   }
 
  private:
-  NodeInBlock in_block(std::uint32_t rank) const {
+  Place in_block(std::uint32_t rank) const {
     const std::uint32_t block = block_of_[rank];
     return {block, rank - order_.first[block]};
   }
 
   void lay_block(std::uint32_t number, const std::vector<std::vector<HalfSpring>>& springs,
-                 std::vector<std::vector<NodeInBlock>>& copies, SpringBlock<Real>& block) const {
+                 std::vector<std::vector<Place>>& copies, SpringBlock<Real>& block) const {
     const std::uint32_t first = order_.first[number];
     block.own = order_.first[number + 1] - first;
     std::map<std::uint32_t, std::uint32_t> halo;  // rank -> place, in rising order of rank
@@ -132,7 +132,7 @@ class Laying {
     block.damping.push_back(0);
   }
 
-  void list_copies(std::uint32_t number, const std::vector<std::vector<NodeInBlock>>& copies,
+  void list_copies(std::uint32_t number, const std::vector<std::vector<Place>>& copies,
                    SpringBlock<Real>& block) const {
     for (std::uint32_t i = 0; i < block.own; ++i) {
       block.copies_first.push_back(static_cast<std::uint32_t>(block.copies.size()));
@@ -166,7 +166,7 @@ SpringBlocks<Real> make_spring_blocks(const MassSpringModel& model) {
 template <class Real>
 void set_state(SpringBlocks<Real>& blocks, const State& state) {
   for (std::size_t n = 0; n < blocks.place.size(); ++n) {
-    NodeRecord<Real>& record = blocks.blocks[blocks.place[n].block].records[blocks.place[n].place];
+    NodeRecord<Real>& record = blocks.blocks[blocks.place[n].block].records[blocks.place[n].index];
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       record.x[axis] = static_cast<Real>(state.x[n][axis]);
       record.v[axis] = static_cast<Real>(state.v[n][axis]);
@@ -180,7 +180,7 @@ void get_state(const SpringBlocks<Real>& blocks, State& state) {
   state.v.resize(blocks.place.size());
   for (std::size_t n = 0; n < blocks.place.size(); ++n) {
     const NodeRecord<Real>& record =
-        blocks.blocks[blocks.place[n].block].records[blocks.place[n].place];
+        blocks.blocks[blocks.place[n].block].records[blocks.place[n].index];
     state.x[n] = {record.x[0], record.x[1], record.x[2]};
     state.v[n] = {record.v[0], record.v[1], record.v[2]};
   }

@@ -1,4 +1,4 @@
-#include "sim/block_order.hpp"
+#include "sim/fast/block_order.hpp"
 
 #include <algorithm>
 #include <numeric>

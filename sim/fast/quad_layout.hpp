@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/mass_spring.hpp"
+#include "sim/fast/place.hpp"
 
 namespace springlod {
 
@@ -21,12 +22,6 @@ struct alignas(4 * sizeof(Real)) NodeForce {
   Real f[4] = {};  ///< [N]; the last is not used
 };
 
-/// A node of another block.
-struct NodeInBlock {
-  std::uint32_t block = 0;
-  std::uint32_t place = 0;
-};
-
 /// Neighbouring nodes and the springs that this block works out: four to a *quad*, all of them at
 /// one own node, their other ends own nodes or copies of those of other blocks (the *halo*).
 ///
@@ -35,7 +30,7 @@ struct NodeInBlock {
 template <class Real>
 struct SpringBlock {
   std::uint32_t own = 0;          ///< nodes
-  std::vector<NodeInBlock> halo;  ///< where the copies are from
+  std::vector<Place> halo;  ///< where the copies are from
   std::vector<NodeRecord<Real>> records;
   std::vector<NodeForce<Real>> forces;
 
@@ -48,7 +43,7 @@ struct SpringBlock {
   /// Copies of own node i in other blocks, whose forces are its own too: entries copies_first[i] to
   /// copies_first[i + 1] of copies.
   std::vector<std::uint32_t> copies_first;
-  std::vector<NodeInBlock> copies;
+  std::vector<Place> copies;
 };
 
 /// A model laid out for fast steps. Every spring is worked out once, by one of its ends, chosen so
@@ -57,12 +52,8 @@ struct SpringBlock {
 template <class Real>
 struct SpringBlocks {
   std::vector<SpringBlock<Real>> blocks;
-  std::vector<NodeInBlock> place;  ///< of each node of the model, N
+  std::vector<Place> place;  ///< of each node of the model, N
 };
-
-/// Nodes of a block at most: their records and those of the halo stay in a core's second cache, and
-/// blocks are enough for the threads of models that are worth them.
-inline constexpr std::uint32_t kBlockNodes = 4096;
 
 /// At rest; see set_state. Throws InputError for an invalid model.
 template <class Real>

@@ -1,12 +1,14 @@
-#include "sim/block_forces.hpp"
+#include "sim/fast/quad_kernel.hpp"
 
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sim/block_forces.cpp"
+#define HWY_TARGET_INCLUDE "sim/fast/quad_kernel.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, which includes this file again for every target.
 #include <hwy/highway.h>
+
+#include "sim/fast/inverse_root-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::HWY_NAMESPACE {
@@ -40,14 +42,6 @@ using F8 = hn::FixedTag<float, 8>;
 using F4 = hn::FixedTag<float, 4>;
 using V8 = hn::Vec<F8>;
 using V4 = hn::Vec<F4>;
-
-/// 1 / sqrt to the last bit but one or two: an estimate and a Newton step.
-HWY_INLINE V8 inverse_root(V8 square) {
-  const F8 d;
-  const V8 r = hn::ApproximateReciprocalSqrt(square);
-  const V8 half = hn::Mul(hn::Set(d, 0.5F), hn::Mul(square, r));
-  return hn::Mul(r, hn::NegMulAdd(half, r, hn::Set(d, 1.5F)));
-}
 
 /// Four records' differences, places in the lower and velocities in the upper half, with their
 /// coordinates side by side.
@@ -100,7 +94,7 @@ void add_forces(SpringBlock<float>& block) {
     const V8 vz = hn::ConcatUpperUpper(d8, b.z, a.z);
     const V8 square = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
     const V8 rate = hn::MulAdd(x, vx, hn::MulAdd(y, vy, hn::Mul(z, vz)));  // l dl/dt
-    const V8 inverse = inverse_root(square);
+    const V8 inverse = inverse_root(d8, square);
     // (k (l - L) + c dl/dt) / l
     const V8 elastic = hn::NegMulAdd(hn::LoadU(d8, &block.rest_force[4 * q]), inverse,
                                      hn::LoadU(d8, &block.stiffness[4 * q]));

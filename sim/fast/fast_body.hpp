@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+#include "sim/fast/place.hpp"
+
+namespace springlod {
+
+/// Places and velocities of one body in a layout made for speed, moved block by block. Blocks may
+/// be worked on by several threads: which does what changes no bit.
+///
+/// A step: every block finds its forces; a block moves as soon as all that it `needs` have. Between
+/// the two, forces from outside may be added to its nodes.
+class FastBody {
+ public:
+  struct BlockRange {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;  ///< included
+  };
+
+  virtual ~FastBody() = default;
+  FastBody(const FastBody&) = delete;
+  FastBody& operator=(const FastBody&) = delete;
+
+  virtual std::uint32_t block_count() const = 0;
+  /// Blocks whose forces must be found before this one may move.
+  virtual BlockRange needs(std::uint32_t block) const = 0;
+  virtual Place place(std::uint32_t node) const = 0;
+
+  /// In the model's order.
+  virtual void set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) = 0;
+  virtual void get(std::vector<Vec3>& x, std::vector<Vec3>& v) const = 0;
+
+  /// Works out the springs of a block.
+  virtual void find_forces(std::uint32_t block) = 0;
+  /// v += kick f / m, then x += drift v, for the nodes of the block; kick and drift in [s].
+  virtual void move(std::uint32_t block, double kick, double drift) = 0;
+  /// Of the nodes of the block, as of its last move [m].
+  virtual const Box3& bounds(std::uint32_t block) const = 0;
+
+  virtual Vec3 x(Place at) const = 0;                        ///< [m]
+  virtual Vec3 v(Place at) const = 0;                        ///< [m/s]
+  virtual void add_force(Place at, const Vec3& force) = 0;   ///< [N]; before its block moves
+  virtual void add_velocity(Place at, const Vec3& more) = 0;  ///< [m/s]
+  virtual void displace(Place at, const Vec3& way) = 0;      ///< [m]
+
+ protected:
+  FastBody() = default;
+};
+
+enum class Precision { single, double_ };
+
+/// A model laid out for speed, made once; its bodies share it. Lattices are laid out in rows, other
+/// models in quads.
+class FastModel {
+ public:
+  virtual ~FastModel() = default;
+  FastModel(const FastModel&) = delete;
+  FastModel& operator=(const FastModel&) = delete;
+
+  /// At rest in the rest positions. The model must outlive its bodies.
+  virtual std::unique_ptr<FastBody> new_body() const = 0;
+
+ protected:
+  FastModel() = default;
+};
+
+/// Throws InputError for an invalid model.
+std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision);
+
+}  // namespace springlod

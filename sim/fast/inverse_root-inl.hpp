@@ -1,0 +1,39 @@
+// Included once for every vector target; see Highway's foreach_target.h.
+#if defined(SPRINGLOD_INVERSE_ROOT_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPRINGLOD_INVERSE_ROOT_INL
+#undef SPRINGLOD_INVERSE_ROOT_INL
+#else
+#define SPRINGLOD_INVERSE_ROOT_INL
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace springlod::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Squares of lengths below this [m2] count as this: the force of a spring of no length is 0, not
+// infinite. Its root, 1e-15 m, is below any length of interest, and its inverse is finite in both
+// precisions.
+inline constexpr float kShortestSquare = 1e-30F;
+
+/// 1 / sqrt(square), to the last bit but one or two in single precision (an estimate and a Newton
+/// step), to the last bit but one in double.
+template <class D>
+HWY_INLINE hn::Vec<D> inverse_root(D d, hn::Vec<D> square) {
+  using Real = hn::TFromD<D>;
+  const hn::Vec<D> s = hn::Max(square, hn::Set(d, static_cast<Real>(kShortestSquare)));
+  if constexpr (sizeof(Real) == sizeof(float)) {
+    const hn::Vec<D> r = hn::ApproximateReciprocalSqrt(s);
+    const hn::Vec<D> half = hn::Mul(hn::Set(d, 0.5F), hn::Mul(s, r));
+    return hn::Mul(r, hn::NegMulAdd(half, r, hn::Set(d, 1.5F)));
+  } else {
+    return hn::Div(hn::Set(d, 1.0), hn::Sqrt(s));
+  }
+}
+
+}  // namespace springlod::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

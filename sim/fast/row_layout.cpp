@@ -1,0 +1,167 @@
+#include "sim/fast/row_layout.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+#include <unordered_map>
+
+#include <xxhash.h>
+
+namespace springlod {
+namespace {
+
+// A block has at least this many times the places that its longest spring leads ahead [1]: what it
+// works out for the next block then is little beside its own.
+constexpr std::uint32_t kBlocksReach = 4;
+
+/// A spring between places.
+struct PlacedSpring {
+  std::uint32_t first = 0;
+  std::uint32_t ahead = 0;
+  std::uint32_t spring = 0;
+};
+
+// Layers across the longest side, so that a spring leads as few places ahead as may be.
+std::vector<std::uint32_t> order_by_layers(const std::vector<Vec3>& rest) {
+  std::array<Eigen::Index, 3> axes{0, 1, 2};
+  const Vec3 size = bounds(rest).sizes();
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&](Eigen::Index i, Eigen::Index j) { return size[i] > size[j]; });
+  std::vector<std::uint32_t> order(rest.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t p, std::uint32_t q) {
+    for (const Eigen::Index axis : axes)
+      if (rest[p][axis] != rest[q][axis]) return rest[p][axis] < rest[q][axis];
+    return p < q;
+  });
+  return order;
+}
+
+/// Sorted by the eight places they begin in, then by how far they lead.
+std::vector<PlacedSpring> place_springs(const MassSpringModel& model,
+                                        const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t p = 0; p < order.size(); ++p) place[order[p]] = p;
+  std::vector<PlacedSpring> springs(model.spring_count());
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    const auto [first, second] = std::minmax(place[model.a[s]], place[model.b[s]]);
+    springs[s] = {first, second - first, s};
+  }
+  std::sort(springs.begin(), springs.end(), [](const PlacedSpring& p, const PlacedSpring& q) {
+    return std::tuple(p.first / kRowLanes, p.ahead, p.first) <
+           std::tuple(q.first / kRowLanes, q.ahead, q.first);
+  });
+  return springs;
+}
+
+bool same_row(const PlacedSpring& p, const PlacedSpring& q) {
+  return p.first / kRowLanes == q.first / kRowLanes && p.ahead == q.ahead;
+}
+
+/// Numbers equal properties alike.
+template <class Real>
+class Palette {
+ public:
+  explicit Palette(std::vector<RowProperties<Real>>& entries) : entries_(&entries) {}
+  std::uint32_t number(const RowProperties<Real>& properties) {
+    auto& same_hash = numbers_[XXH3_64bits(&properties, sizeof properties)];
+    for (const std::uint32_t n : same_hash)
+      if (std::memcmp(&(*entries_)[n], &properties, sizeof properties) == 0) return n;
+    same_hash.push_back(static_cast<std::uint32_t>(entries_->size()));
+    entries_->push_back(properties);
+    return same_hash.back();
+  }
+
+ private:
+  std::vector<RowProperties<Real>>* entries_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> numbers_;
+};
+
+// The forces of a row are added to what is there, in memory. Rows of neighbouring directions lead to
+// overlapping places: one right after the other, each would wait for the store of the one before.
+// So those that lie next to each other in `rows`, sorted by how far they lead, are taken apart.
+std::vector<SpringRow> interleave(const std::vector<SpringRow>& rows) {
+  constexpr std::size_t kApart = 3;  // directions along a line of a lattice: back, across, forward
+  std::vector<SpringRow> mixed;
+  for (std::size_t first = 0; first < kApart; ++first)
+    for (std::size_t r = first; r < rows.size(); r += kApart) mixed.push_back(rows[r]);
+  return mixed;
+}
+
+template <class Real>
+void lay_rows(const MassSpringModel& model, const std::vector<PlacedSpring>& springs,
+              RowLayout<Real>& layout) {
+  Palette<Real> palette(layout.properties);
+  const auto eights = static_cast<std::uint32_t>(layout.inverse_mass.size()) / kRowLanes;
+  auto next = springs.begin();
+  for (std::uint32_t eight = 0; eight < eights; ++eight) {
+    layout.first_row.push_back(static_cast<std::uint32_t>(layout.rows.size()));
+    std::vector<SpringRow> rows;
+    while (next != springs.end() && next->first / kRowLanes == eight) {
+      RowProperties<Real> row;
+      const PlacedSpring& leader = *next;
+      for (; next != springs.end() && same_row(*next, leader); ++next) {
+        const double k = model.stiffness[next->spring];
+        const std::uint32_t lane = next->first % kRowLanes;
+        row.stiffness[lane] = static_cast<Real>(k);
+        row.rest_force[lane] = static_cast<Real>(k * model.rest_length[next->spring]);
+        row.damping[lane] = static_cast<Real>(model.damping[next->spring]);
+      }
+      rows.push_back({leader.ahead, palette.number(row)});
+    }
+    const std::vector<SpringRow> mixed = interleave(rows);
+    layout.rows.insert(layout.rows.end(), mixed.begin(), mixed.end());
+  }
+  layout.first_row.push_back(static_cast<std::uint32_t>(layout.rows.size()));
+}
+
+template <class Real>
+void cut_blocks(RowLayout<Real>& layout) {
+  const auto n = static_cast<std::uint32_t>(layout.node.size());
+  std::uint32_t farthest = 0;
+  for (const SpringRow& row : layout.rows) farthest = std::max(farthest, row.ahead);
+  layout.block_places = std::max(kBlockNodes, kBlocksReach * farthest / kRowLanes * kRowLanes);
+  layout.place.resize(n);
+  for (std::uint32_t first = 0; first < n; first += layout.block_places) {
+    RowBlock block{first, std::min(layout.block_places, n - first), 0};
+    std::uint32_t end = first + block.places();
+    for (std::uint32_t p = first; p < first + block.own; p += kRowLanes)
+      for (std::uint32_t r = layout.first_row[p / kRowLanes];
+           r < layout.first_row[p / kRowLanes + 1]; ++r)
+        end = std::max(end, p + kRowLanes + layout.rows[r].ahead);
+    block.reach = end - (first + block.places());
+    for (std::uint32_t i = 0; i < block.own; ++i)
+      layout.place[layout.node[first + i]] = {static_cast<std::uint32_t>(layout.blocks.size()), i};
+    layout.reach = std::max(layout.reach, block.reach);
+    layout.blocks.push_back(block);
+  }
+}
+
+}  // namespace
+
+template <class Real>
+RowLayout<Real> make_row_layout(const MassSpringModel& model) {
+  RowLayout<Real> layout;
+  layout.node = order_by_layers(model.rest);
+  const std::size_t n = layout.node.size();
+  layout.inverse_mass.resize((n + kRowLanes - 1) / kRowLanes * kRowLanes);
+  for (std::size_t p = 0; p < n; ++p)
+    layout.inverse_mass[p] = static_cast<Real>(1 / model.mass[layout.node[p]]);
+  lay_rows(model, place_springs(model, layout.node), layout);
+  cut_blocks(layout);
+  return layout;
+}
+
+double springs_a_row(const MassSpringModel& model) {
+  const std::vector<PlacedSpring> springs = place_springs(model, order_by_layers(model.rest));
+  if (springs.empty()) return 0;
+  std::size_t rows = 1;
+  for (std::size_t s = 1; s < springs.size(); ++s) rows += !same_row(springs[s - 1], springs[s]);
+  return static_cast<double>(springs.size()) / static_cast<double>(rows);
+}
+
+template RowLayout<float> make_row_layout(const MassSpringModel&);
+template RowLayout<double> make_row_layout(const MassSpringModel&);
+
+}  // namespace springlod

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+#include "sim/fast/place.hpp"
+
+namespace springlod {
+
+/// Springs and nodes worked out side by side [lanes].
+inline constexpr std::uint32_t kRowLanes = 8;
+
+/// Springs from eight consecutive nodes to the eight that lie `ahead` places further on.
+struct SpringRow {
+  std::uint32_t ahead = 0;
+  std::uint32_t properties = 0;  ///< index into RowLayout::properties
+};
+
+/// Of the eight springs of a row; all 0 where there is no spring.
+template <class Real>
+struct RowProperties {
+  Real stiffness[kRowLanes] = {};   ///< k [N/m]
+  Real rest_force[kRowLanes] = {};  ///< k L [N]
+  Real damping[kRowLanes] = {};     ///< c [N s/m]
+};
+
+/// Consecutive nodes whose rows one thread works out.
+struct RowBlock {
+  std::uint32_t first = 0;  ///< place, a multiple of kRowLanes
+  std::uint32_t own = 0;    ///< places
+  std::uint32_t reach = 0;  ///< places after its own that its rows lead to
+  /// Its own, filled up to whole rows.
+  std::uint32_t places() const { return (own + kRowLanes - 1) / kRowLanes * kRowLanes; }
+};
+
+/// A lattice laid out for fast steps: nodes sorted by layer, line and column, so that neighbouring
+/// nodes have their neighbours side by side. Eight springs of one direction are a *row*: their ends
+/// are plain loads. Each spring is worked out once, from its first node. Where materials repeat,
+/// rows share their properties: 1 to 2 bytes a spring.
+template <class Real>
+struct RowLayout {
+  std::vector<std::uint32_t> node;       ///< of each place; N
+  std::vector<std::uint32_t> first_row;  ///< of each eight places, and the end
+  std::vector<SpringRow> rows;           ///< in the order of the places
+  std::vector<RowProperties<Real>> properties;
+  std::vector<RowBlock> blocks;
+  std::vector<Place> place;            ///< of each node; N
+  std::vector<Real> inverse_mass;      ///< by place, filled up with 0 to a multiple of kRowLanes [1/kg]
+  std::uint32_t reach = 0;             ///< largest of the blocks
+
+  std::uint32_t block_places = 0;      ///< of every block but the last
+
+  /// The first block whose springs may lead to this one's places.
+  std::uint32_t first_contributor(std::uint32_t block) const {
+    const std::uint32_t back = (reach + block_places - 1) / block_places;
+    return block > back ? block - back : 0;
+  }
+};
+
+template <class Real>
+RowLayout<Real> make_row_layout(const MassSpringModel& model);
+
+/// Springs a row holds on the average [1..8]: what tells lattices from the rest. 0 without springs.
+double springs_a_row(const MassSpringModel& model);
+
+}  // namespace springlod

@@ -1,0 +1,31 @@
+#include "sim/fast/row_state.hpp"
+
+#include <algorithm>
+
+namespace springlod {
+namespace {
+
+template <class Real>
+void allocate(std::size_t size, typename RowState<Real>::Coordinates& coordinates) {
+  for (auto& array : coordinates) {
+    array = hwy::AllocateAligned<Real>(size);
+    std::fill_n(array.get(), size, Real(0));
+  }
+}
+
+}  // namespace
+
+template <class Real>
+RowState<Real>::RowState(const RowLayout<Real>& layout) : bounds(layout.blocks.size()) {
+  const std::size_t size = layout.inverse_mass.size() + layout.reach;
+  allocate<Real>(size, x);
+  allocate<Real>(size, v);
+  if constexpr (sizeof(Real) == sizeof(float)) allocate<Real>(size, low);
+  for (const RowBlock& block : layout.blocks)
+    allocate<Real>(block.places() + block.reach, force.emplace_back());
+}
+
+template struct RowState<float>;
+template struct RowState<double>;
+
+}  // namespace springlod
