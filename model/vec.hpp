@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -10,5 +12,12 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 /// Axis-aligned box; default construction makes the empty box.
 using Box3 = Eigen::AlignedBox3d;
+
+/// The smallest box that holds the points.
+inline Box3 bounds(const std::vector<Vec3>& points) {
+  Box3 box;
+  for (const Vec3& point : points) box.extend(point);
+  return box;
+}
 
 }  // namespace springlod
