@@ -79,12 +79,6 @@ local function publish(name, title, rows, columns, shown, shown_columns)
   end
 end
 
-local function draw_chart(name, series, options)
-  for _, ending in ipairs{"svg", "png"} do
-    s.chart(("%s/%s.%s"):format(args.out, name, ending), series, options)
-  end
-end
-
 local function table_1(ball)
   local rows = paper_tables.rows(ball, settings)
   publish("table-1", "Table 1: how far the ball rolls", rows, paper_tables.columns,
@@ -100,7 +94,7 @@ local function table_1(ball)
       name = rows[i].model:gsub("-1$", ""), points = {point(rows[i]), point(rows[i + 1])},
     }
   end
-  draw_chart("table-1-chart", series, {
+  command.chart(args.out .. "/table-1-chart", series, {
     title = "Table 1: how far the ball rolls, mean of the starts and its 95 % interval",
     x_label = "ends of springs", y_label = "distance [m]",
   })
@@ -128,7 +122,7 @@ local function table_2(rods)
   s.csv(args.out .. "/table-2.csv", all, {columns = paper_tables.columns})
   publish("table-2-over-speeds", "Table 2 over the speeds: mean |difference from the base| [m]",
     paper_tables.over_speeds(rods))
-  draw_chart("table-2-chart", lines, {
+  command.chart(args.out .. "/table-2-chart", lines, {
     title = "Table 2: final distance from the wall, means and their 95 % intervals",
     x_label = "speed (the paper's units)", y_label = "distance [m]",
   })
