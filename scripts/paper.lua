@@ -45,14 +45,15 @@ local settings = {
   rods_materials = args.rods_materials and command.load_table(args.rods_materials),
 }
 
--- All that a run depends on, as plain values.
+-- All that a run depends on.
 local function run_settings()
   return {
     springlod = s.version, starts = settings.starts, jitter = settings.jitter,
     friction = settings.friction, seed = settings.seed, ball_speed = settings.ball_speed,
     simplifications = settings.simplifications, speed_scale = settings.speed_scale,
-    ball_materials = args.ball_materials or "samples", speeds = table.concat(settings.speeds, " "),
-    rods_materials = args.rods_materials or "samples",
+    ball_materials = settings.ball_materials or "samples",
+    rods_materials = settings.rods_materials or "samples",
+    speeds = table.concat(settings.speeds, " "),
   }
 end
 
@@ -129,8 +130,8 @@ local function table_2(rods)
 end
 
 local function paper()
+  local cases = paper_runs.cases(settings) -- first, for wrong materials must not get into a store
   local store = run_store.open(args.out .. "/runs", run_settings())
-  local cases = paper_runs.cases(settings)
   local all = {cases.ball, table.unpack(cases.rods)}
   paper_runs.run(all, settings, store)
   write_page("# The paper's tables, made again\n")
