@@ -31,9 +31,7 @@ Pieces cut(const MassSpringModel& base) {
 }
 
 void find_nearest(const MassSpringModel& coarse, Pieces& pieces) {
-  Box3 box;
-  for (const Vec3& p : pieces.at) box.extend(p);
-  for (const Vec3& p : coarse.rest) box.extend(p);
+  const Box3 box = bounds(pieces.at).merged(bounds(coarse.rest));
   const PointBins bins(coarse.rest, box, box.sizes().norm() / std::cbrt(coarse.node_count()));
   for (const Vec3& p : pieces.at) pieces.nearest.push_back(bins.nearest(p).point);
 }

@@ -55,8 +55,7 @@ class Display {
     root.rotation = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
     gltf_.nodes.push_back(root);
 
-    Box3 box = bounds(asset.surface);
-    for (const Vec3& p : asset.chain.levels[0].model.rest) box.extend(p);
+    const Box3 box = bounds(asset.surface).merged(bounds(asset.chain.levels[0].model.rest));
     // A model flat along x still needs room between its levels.
     const double step = kGap * std::max(box.sizes().x(), 0.1 * box.sizes().norm());
     double shift = 0;

@@ -7,9 +7,7 @@
 namespace springlod {
 
 Box3 bounds(const TriangleMesh& mesh) {
-  Box3 box;
-  for (const Vec3& p : mesh.positions) box.extend(p);
-  return box;
+  return bounds(mesh.positions);
 }
 
 double signed_volume(const TriangleMesh& mesh, const MeshPart& part) {

@@ -33,8 +33,7 @@ struct Bar {
 Bar measure_bar(const MassSpringModel& model, int axis) {
   if (axis < 0 || axis > 2)
     throw InputError(fmt::format("stretch test: axis {} must be 0 (x), 1 (y) or 2 (z)", axis));
-  Box3 box;
-  for (const Vec3& p : model.rest) box.extend(p);
+  const Box3 box = bounds(model.rest);
   Bar bar;
   bar.axis = axis;
   bar.low = box.min()[axis];

@@ -95,8 +95,7 @@ Camera frame_box(const Box3& box, double azimuth, double elevation, double aspec
 }
 
 Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
-  Box3 box;
-  for (const Vec3& point : points) box.extend(point);
+  const Box3 box = bounds(points);
   if (box.isEmpty() || !box.sizes().allFinite())
     throw InputError("camera: there is nothing to look at (no point, or one that is not finite)");
   if (!(framing.aspect > 0) || !(framing.fov_degrees > 0 && framing.fov_degrees < 180))

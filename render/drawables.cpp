@@ -65,8 +65,7 @@ double mean_spring_length(const MassSpringModel& model) {
     for (const double length : model.rest_length) sum += length;
     return sum / model.spring_count();
   }
-  Box3 box;
-  for (const Vec3& p : model.rest) box.extend(p);
+  const Box3 box = bounds(model.rest);
   const double size = box.isEmpty() ? 0 : box.diagonal().norm();
   return size > 0 ? size / std::cbrt(static_cast<double>(model.node_count())) : 1;
 }
@@ -175,10 +174,9 @@ std::vector<Vec3> outline(const DrawnBody& body) {
 
 Box3 drawn_bounds(const DrawnBody& body) {
   Box3 box;
-  if (body.style.surface && body.surface != nullptr)
-    for (const Vec3& p : surface_positions(body)) box.extend(p);
+  if (body.style.surface && body.surface != nullptr) box.extend(bounds(surface_positions(body)));
   if (body.model != nullptr && (body.style.nodes || body.style.springs))
-    for (const Vec3& p : node_positions(body)) box.extend(p);
+    box.extend(bounds(node_positions(body)));
   return box;
 }
 

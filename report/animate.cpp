@@ -128,8 +128,7 @@ Panel panel_frame(const LodAsset& asset, const Comparison& comparison, const Lev
 /// How far the surface reaches beyond the nodes at rest [m].
 double surface_margin(const LodAsset& asset) {
   if (asset.surface.positions.empty()) return 0;
-  Box3 nodes;
-  for (const Vec3& p : asset.chain.levels[0].model.rest) nodes.extend(p);
+  const Box3 nodes = bounds(asset.chain.levels[0].model.rest);
   const Box3 surface = bounds(asset.surface);
   return std::max(
       {0., (nodes.min() - surface.min()).maxCoeff(), (surface.max() - nodes.max()).maxCoeff()});
@@ -141,8 +140,7 @@ Box3 action_bounds(const LodAsset& asset, const Comparison& comparison,
                    const std::vector<double>& times) {
   Box3 box;
   for (const LevelRuns& runs : comparison.levels)
-    for (const double t : times)
-      for (const Vec3& p : positions_at(runs.base_frames, t)) box.extend(p);
+    for (const double t : times) box.extend(bounds(positions_at(runs.base_frames, t)));
   const Vec3 margin = Vec3::Constant(surface_margin(asset));
   box.min() -= margin;
   box.max() += margin;

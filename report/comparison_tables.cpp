@@ -38,9 +38,7 @@ double cost_per_second(const LevelRuns& runs) {
 }
 
 double base_diagonal(const LodChain& chain) {
-  Box3 box;
-  for (const Vec3& point : chain.levels.front().model.rest) box.extend(point);
-  return box.diagonal().norm();
+  return bounds(chain.levels.front().model.rest).diagonal().norm();
 }
 
 }  // namespace

@@ -46,23 +46,29 @@ void warn(Console& console, const std::vector<RunSummary>& runs) {
         crossed, runs.size(), first));
 }
 
-int compare_binding(Call& call) {
-  auto value = std::make_shared<ComparisonValue>();
-  value->chain = call.value<LodAsset>(1);
-  const auto scenario = scenario_argument(call, 2);
-  CompareOptions options;
-  TableReader reader = call.options(3);
+/// What start_parameters lists; Options are those of compare or of an ensemble.
+template <class Options>
+void read_start_options(Call& call, TableReader& reader, Options& options) {
   options.seed = call.session().settings().seed;
   options.threads = call.session().settings().threads;
   reader.read("starts", options.starts);
   reader.read("jitter", options.jitter);
   reader.read("seed", options.seed);
   reader.read("threads", options.threads);
+  read_run_options(call, reader, options.run);
+  options.progress = call.progress();
+}
+
+int compare_binding(Call& call) {
+  auto value = std::make_shared<ComparisonValue>();
+  value->chain = call.value<LodAsset>(1);
+  const auto scenario = scenario_argument(call, 2);
+  CompareOptions options;
+  TableReader reader = call.options(3);
+  read_start_options(call, reader, options);
   reader.read("error_window", options.error_window);
   reader.read("variant", options.variant);
-  read_run_options(call, reader, options.run);
   reader.finish();
-  options.progress = call.progress();
   value->comparison = compare(value->chain->chain, *scenario, options);
   std::vector<RunSummary> all;
   for (const LevelRuns& level : value->comparison.levels)
@@ -76,19 +82,12 @@ int ensemble_binding(Call& call) {
   const auto scenario = scenario_argument(call, 2);
   EnsembleOptions options;
   TableReader reader = call.options(3);
-  options.seed = call.session().settings().seed;
-  options.threads = call.session().settings().threads;
   std::uint32_t first = options.first_start + 1;
   reader.read("first", first);
   if (first == 0) reader.refuse("first", "1 or more");
   options.first_start = first - 1;
-  reader.read("starts", options.starts);
-  reader.read("jitter", options.jitter);
-  reader.read("seed", options.seed);
-  reader.read("threads", options.threads);
-  read_run_options(call, reader, options.run);
+  read_start_options(call, reader, options);
   reader.finish();
-  options.progress = call.progress();
   const std::vector<EnsembleRun> runs = run_ensemble(*model->model, *scenario, options);
   lua_State* L = call.lua();
   begin_list(L, runs.size());

@@ -131,8 +131,7 @@ std::vector<std::unique_ptr<Picture>> read_panels(Call& call, const PictureOptio
 }
 
 Vec3 middle(const std::vector<Vec3>& points) {
-  Box3 box;
-  for (const Vec3& point : points) box.extend(point);
+  const Box3 box = bounds(points);
   return box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
 }
 

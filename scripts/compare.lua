@@ -54,8 +54,7 @@ local function compare()
   s.csv(args.out .. "/starts.csv", starts, {columns = start_columns})
   local times, time_columns = runs:timings()
   s.csv(args.out .. "/timings.csv", times, {columns = time_columns})
-  s.chart(args.out .. "/chart.svg", runs)
-  s.chart(args.out .. "/chart.png", runs)
+  command.chart(args.out .. "/chart", runs)
   if args.frames > 0 then animate(runs) end
   return rows
 end

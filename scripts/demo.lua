@@ -5,33 +5,13 @@
 -- mesh -> cells -> model -> levels -> a throw at a wall -> table, chart, film. ./dev demo runs it.
 
 local s = require "springlod"
+local paper_numbers = require "lib.paper_numbers"
+local paper_variants = require "lib.paper_variants"
 
 local folder = arg[1] or "out/demo"
 local samples = s.samples
 local starts = tonumber(arg[2]) or 8 -- a single run of a bouncing body says little
 local frame_count = tonumber(arg[3]) or 60
-
--- What the paper's table 2 counts: nodes, spring ends.
-local paper = {
-  base = {368, 4724},
-  ["LOD-b-1"] = {154, 1828},
-  ["LOD-b-2"] = {65, 640},
-  ["LOD-hb-1"] = {154, 1746},
-  ["LOD-hb-2"] = {67, 658},
-}
-
--- The paper's names: b = weak border, h = priority.
-local variants = {
-  {name = "", grouping = "standard", border = "none"},
-  {name = "b", grouping = "standard", border = "weak"},
-  {name = "h", grouping = "priority", border = "none"},
-  {name = "hb", grouping = "priority", border = "weak"},
-}
-
-local function label(variant, level)
-  if level == 0 then return "base" end
-  return "LOD-" .. (variant.name == "" and "" or variant.name .. "-") .. level
-end
 
 -- 1. From the mesh to the model. The paper puts its nodes at the centres of the cells.
 local mesh = s.import(samples .. "/dumbbell.obj", {unit = "dm", up = "z"})
@@ -43,20 +23,21 @@ local base = s.lattice(grid, {style = "centers"})
 print(base)
 
 -- 2. Two levels for each variant, saved as assets.
-local counts = {}
+local counts, chains = {}, {}
 local function count(name, model)
-  local theirs = paper[name] or {}
+  local theirs = paper_numbers.rods[name] or {}
   counts[#counts + 1] = {
-    name, model.node_count, model.end_count, theirs[1] or "-", theirs[2] or "-",
+    name, model.node_count, model.end_count, theirs.nodes or "-", theirs.ends or "-",
   }
 end
 count("base", base)
-for _, variant in ipairs(variants) do
-  variant.chain = s.simplify(base, {
+for _, variant in ipairs(paper_variants) do
+  local chain = s.simplify(base, {
     levels = 2, grouping = variant.grouping, border = variant.border, seed = s.seed,
   })
-  for level = 1, 2 do count(label(variant, level), variant.chain[level]) end
-  s.save(("%s/%s.glb"):format(folder, label(variant, "chain"):lower()), variant.chain)
+  for level = 1, 2 do count(paper_variants.label(variant.name, level), chain[level]) end
+  s.save(("%s/%s-chain.glb"):format(folder, paper_variants.label(variant.name):lower()), chain)
+  chains[variant.name] = chain
 end
 local count_columns = {"model", "nodes", "ends", "paper: nodes", "paper: ends"}
 s.csv(folder .. "/counts.csv", counts, {columns = count_columns})
@@ -66,23 +47,22 @@ print(s.format_table(counts, {columns = count_columns}))
 -- 3. Every level from the same starts.
 local scene = s.scenario(dofile(samples .. "/throw_at_wall.lua"))
 local rows, columns, timings, timing_columns = {}, nil, {}, nil
-local series = {}
-for _, variant in ipairs(variants) do
-  local runs = s.compare(variant.chain, scene,
+local series, compared = {}, {}
+for i, variant in ipairs(paper_variants) do
+  local runs = s.compare(chains[variant.name], scene,
     {starts = starts, jitter = 0.02, seed = s.seed, variant = variant.name})
-  variant.runs = runs
+  compared[variant.name] = runs
   local table_rows
   table_rows, columns = runs:table()
   local points = {}
   for _, row in ipairs(table_rows) do
     -- The base is the same in every comparison.
-    if row.level > 0 or variant == variants[1] then rows[#rows + 1] = row end
+    if row.level > 0 or i == 1 then rows[#rows + 1] = row end
     points[#points + 1] = {
       1 / row.cost_ratio, row.surface_error_percent, label = row.level > 0 and row.label or nil,
     }
   end
-  local name = variant.name == "" and "LOD" or "LOD-" .. variant.name
-  series[#series + 1] = {name = name, points = points}
+  series[#series + 1] = {name = paper_variants.label(variant.name), points = points}
   local measured
   measured, timing_columns = runs:timings()
   for _, row in ipairs(measured) do timings[#timings + 1] = row end
@@ -105,8 +85,8 @@ for _, ending in ipairs {"svg", "png"} do
 end
 
 -- 5. The film: base and the two levels of LOD-hb on one clock.
-local film = variants[4].runs
-local frames = s.animate(folder .. "/frames", film, {frames = frame_count, camera = "follow"})
+local frames = s.animate(folder .. "/frames", compared.hb,
+  {frames = frame_count, camera = "follow"})
 s.video(folder .. "/comparison.mp4", folder .. "/frames")
 s.say(("%d frames, table.csv, counts.csv, chart.svg, comparison.mp4 and four assets are in %s")
   :format(frames, folder))

@@ -45,14 +45,15 @@ local settings = {
   rods_materials = args.rods_materials and command.load_table(args.rods_materials),
 }
 
--- All that a run depends on, as plain values.
+-- All that a run depends on.
 local function run_settings()
   return {
     springlod = s.version, starts = settings.starts, jitter = settings.jitter,
     friction = settings.friction, seed = settings.seed, ball_speed = settings.ball_speed,
     simplifications = settings.simplifications, speed_scale = settings.speed_scale,
-    ball_materials = args.ball_materials or "samples", speeds = table.concat(settings.speeds, " "),
-    rods_materials = args.rods_materials or "samples",
+    ball_materials = settings.ball_materials or "samples",
+    rods_materials = settings.rods_materials or "samples",
+    speeds = table.concat(settings.speeds, " "),
   }
 end
 
@@ -79,12 +80,6 @@ local function publish(name, title, rows, columns, shown, shown_columns)
   end
 end
 
-local function draw_chart(name, series, options)
-  for _, ending in ipairs{"svg", "png"} do
-    s.chart(("%s/%s.%s"):format(args.out, name, ending), series, options)
-  end
-end
-
 local function table_1(ball)
   local rows = paper_tables.rows(ball, settings)
   publish("table-1", "Table 1: how far the ball rolls", rows, paper_tables.columns,
@@ -100,7 +95,7 @@ local function table_1(ball)
       name = rows[i].model:gsub("-1$", ""), points = {point(rows[i]), point(rows[i + 1])},
     }
   end
-  draw_chart("table-1-chart", series, {
+  command.chart(args.out .. "/table-1-chart", series, {
     title = "Table 1: how far the ball rolls, mean of the starts and its 95 % interval",
     x_label = "ends of springs", y_label = "distance [m]",
   })
@@ -128,15 +123,15 @@ local function table_2(rods)
   s.csv(args.out .. "/table-2.csv", all, {columns = paper_tables.columns})
   publish("table-2-over-speeds", "Table 2 over the speeds: mean |difference from the base| [m]",
     paper_tables.over_speeds(rods))
-  draw_chart("table-2-chart", lines, {
+  command.chart(args.out .. "/table-2-chart", lines, {
     title = "Table 2: final distance from the wall, means and their 95 % intervals",
     x_label = "speed (the paper's units)", y_label = "distance [m]",
   })
 end
 
 local function paper()
+  local cases = paper_runs.cases(settings) -- first, for wrong materials must not get into a store
   local store = run_store.open(args.out .. "/runs", run_settings())
-  local cases = paper_runs.cases(settings)
   local all = {cases.ball, table.unpack(cases.rods)}
   paper_runs.run(all, settings, store)
   write_page("# The paper's tables, made again\n")

@@ -238,13 +238,11 @@ local function draw(folder, of_style)
   local finest = of_style.corners[#of_style.corners].cells
   local function guide(x) return {x, 28 * x ^ 2} end -- below all others
   series[#series + 1] = {name = "slope of order 2", points = {guide(0.5), guide(1 / finest)}}
-  for _, ending in ipairs{"svg", "png"} do
-    s.chart(folder .. "/chart." .. ending, series, {
-      title = "Cantilever, length 20 heights: error against Timoshenko's beam",
-      x_label = "cell / height", y_label = "error of deflection and frequencies [%]",
-      log_x = true, log_y = true,
-    })
-  end
+  command.chart(folder .. "/chart", series, {
+    title = "Cantilever, length 20 heights: error against Timoshenko's beam",
+    x_label = "cell / height", y_label = "error of deflection and frequencies [%]",
+    log_x = true, log_y = true,
+  })
 end
 
 local function report(rows, of_style)

@@ -56,9 +56,7 @@ local function stability()
     local file = name == "table" and "map" or name
     s.csv(("%s/%s.csv"):format(args.out, file), rows, {columns = columns})
   end
-  local title = "Stability of " .. command.base_name(args.asset)
-  s.chart(args.out .. "/map.svg", map, {title = title})
-  s.chart(args.out .. "/map.png", map, {title = title})
+  command.chart(args.out .. "/map", map, {title = "Stability of " .. command.base_name(args.asset)})
   return map
 end
 

@@ -20,9 +20,7 @@ constexpr double kMeanSquare = 1. / 3;
 }  // namespace
 
 ProbeMotion probe_motion(const MassSpringModel& base, double omega, double duration) {
-  Box3 box;
-  for (const Vec3& point : base.rest) box.extend(point);
-  const Vec3 size = box.sizes();
+  const Vec3 size = bounds(base.rest).sizes();
   std::array<Eigen::Index, 3> axes{0, 1, 2};
   for (int pass = 0; pass < 2; ++pass)  // three sides, the longest first; equal ones stay in order
     for (std::size_t i = 0; i < 2; ++i)

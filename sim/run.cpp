@@ -19,9 +19,9 @@
 namespace springlod {
 namespace {
 
-// Steps between two looks at the whole body (energy watch, stop rule, progress) [steps]. One look
-// costs about as much as a tenth of a step; a step at ten times the limit multiplies speeds by 400
-// a step, so that 16 of them still stay far from overflow.
+// Steps between two looks at the whole body (energy, crossings, stop rule, progress) [steps]. One
+// look costs some 0.7 of an explicit step, 4 % of a run; a step at ten times the limit multiplies
+// speeds by 400 a step, so that 16 of them still stay far from overflow.
 constexpr std::uint64_t kLookEvery = 16;
 
 // A step is not longer than this part of the duration [1], so that a body without any stiffness has

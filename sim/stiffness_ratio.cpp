@@ -33,10 +33,8 @@ StiffPart by_material(const MassSpringModel& base, double softest) {
 }
 
 StiffPart by_half(const MassSpringModel& base, double young) {
-  Box3 box;
-  for (const Vec3& point : base.rest) box.extend(point);
   Eigen::Index axis = 0;
-  box.sizes().maxCoeff(&axis);
+  bounds(base.rest).sizes().maxCoeff(&axis);
   const double middle = mass_properties(base).center[axis];
   StiffPart part;
   part.softest = young;

@@ -94,9 +94,7 @@ void fit(MassSpringModel& model, const GridSums& target) {
 
 /// Every node of the base to the nearest of `nodes`.
 Groups nearest_groups(const MassSpringModel& base, const std::vector<Vec3>& nodes) {
-  Box3 box;
-  for (const auto* points : {&base.rest, &nodes})
-    for (const Vec3& p : *points) box.extend(p);
+  const Box3 box = bounds(base.rest).merged(bounds(nodes));
   const auto count = static_cast<std::uint32_t>(nodes.size());
   const double spacing = box.sizes().norm() / std::cbrt(count);
   const PointBins bins(nodes, box, spacing);

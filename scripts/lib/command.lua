@@ -1,5 +1,5 @@
--- What the stock commands share: a parser that exits 2 on wrong use, errors in one plain line, and
--- files that return a table.
+-- What the stock commands share: a parser that exits 2 on wrong use, errors in one plain line,
+-- files that return a table, and charts.
 
 local argparse = require "argparse"
 local s = require "springlod"
@@ -113,6 +113,11 @@ function command.load_table(path)
     error(("%s must return a table, got a %s"):format(path, type(value)), 0)
   end
   return value
+end
+
+-- s.chart as stem.svg and stem.png.
+function command.chart(stem, data, options)
+  for _, ending in ipairs{"svg", "png"} do s.chart(stem .. "." .. ending, data, options) end
 end
 
 -- The file name of a path, with and without its ending.

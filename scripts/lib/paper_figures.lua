@@ -4,6 +4,7 @@
 local s = require "springlod"
 local paper_numbers = require "lib.paper_numbers"
 local paper_scenes = require "lib.paper_scenes"
+local paper_variants = require "lib.paper_variants"
 
 local figures = {}
 
@@ -32,17 +33,13 @@ local function heading(name, model, counts)
   return text
 end
 
-local function level_name(variant, level)
-  if level == 0 then return "base" end
-  return ("LOD-%s%d"):format(variant, level)
-end
-
 -- A panel for each level of a chain, its heading with the paper's counts; `options` go into each.
 local function level_panels(chain, variant, counts, options)
   local panels = {}
   for level, model in ipairs(chain.levels) do
-    local panel = {model, title = heading(level_name(variant, level - 1), model, counts[level])}
-    for name, value in pairs(options or {}) do panel[name] = value end
+    local name = paper_variants.label(variant, level - 1)
+    local panel = {model, title = heading(name, model, counts[level])}
+    for key, value in pairs(options or {}) do panel[key] = value end
     panels[level] = panel
   end
   return panels
@@ -175,7 +172,7 @@ end
 local function core_and_shell(context)
   return context:draw("figure-6",
     "Figure 6: dense core, soft shell\nCut open: core red, shell green",
-    level_panels(context.bodies.ball, "hb-", paper.ball), {cut = cut_open})
+    level_panels(context.bodies.ball, "hb", paper.ball), {cut = cut_open})
 end
 
 local function rods_solid_and_wire(context)
@@ -185,7 +182,7 @@ local function rods_solid_and_wire(context)
       local model = context.bodies.rods[level]
       panels[#panels + 1] = {
         model, surface = solid, nodes = not solid, springs = not solid,
-        title = heading(level_name("hb-", level), model, paper.rods[level + 1]),
+        title = heading(paper_variants.label("hb", level), model, paper.rods[level + 1]),
       }
     end
   end
@@ -207,7 +204,7 @@ local function throw_at_wall(context)
       local model = rods[level - 1]
       panels[#panels + 1] = {
         run, time = time,
-        title = ("%s, %d nodes"):format(level_name("hb-", level - 1), model.node_count),
+        title = ("%s, %d nodes"):format(paper_variants.label("hb", level - 1), model.node_count),
       }
     end
   end
@@ -221,7 +218,7 @@ end
 local function eq2_on_nodes(context, name, chain, counts, options)
   local panels = {}
   for _, quantity in ipairs {"young", "density"} do
-    for _, panel in ipairs(level_panels(chain, "hb-", counts, {node_colour = quantity})) do
+    for _, panel in ipairs(level_panels(chain, "hb", counts, {node_colour = quantity})) do
       panels[#panels + 1] = panel
     end
   end

@@ -2,22 +2,11 @@
 
 local s = require "springlod"
 local paper_scenes = require "lib.paper_scenes"
+local paper_variants = require "lib.paper_variants"
 
 local paper_runs = {}
 
 local columns = {"start", "distance", "simulated", "spring_updates", "first_crossing"}
-
--- The paper's names: b = weak border, h = priority, number = level.
-paper_runs.variants = {
-  {name = "", grouping = "standard", border = "none"},
-  {name = "b", grouping = "standard", border = "weak"},
-  {name = "h", grouping = "priority", border = "none"},
-  {name = "hb", grouping = "priority", border = "weak"},
-}
-
-function paper_runs.label(variant, level)
-  return "LOD-" .. (variant.name == "" and "" or variant.name .. "-") .. level
-end
 
 -- How far the base is from itself: other starts, and what a method's own error does.
 local noise_sources = {
@@ -40,11 +29,11 @@ function paper_runs.cases(settings)
   local rods = paper_scenes.rods{materials = settings.rods_materials}
   local cases = {ball = case("ball", ball, paper_scenes.roll{
     speed = settings.ball_speed, friction = settings.friction,
-  }, paper_runs.variants), rods = {}}
+  }, paper_variants), rods = {}}
   for i, speed in ipairs(settings.speeds) do
     cases.rods[i] = case("rods-" .. speed, rods, paper_scenes.wall{
       speed = speed * settings.speed_scale, friction = settings.friction,
-    }, {paper_runs.variants[4], paper_runs.variants[2]})
+    }, {paper_variants[4], paper_variants[2]})
     cases.rods[i].speed = speed
   end
   return cases
@@ -53,7 +42,7 @@ end
 -- Calls visit(label, variant, level) for the levels of a case, variant by variant.
 function paper_runs.each_level(one, visit)
   for _, variant in ipairs(one.variants) do
-    for level = 1, 2 do visit(paper_runs.label(variant, level), variant, level) end
+    for level = 1, 2 do visit(paper_variants.label(variant.name, level), variant, level) end
   end
 end
 

@@ -6,6 +6,7 @@ local averages = require "lib.averages"
 local paper_numbers = require "lib.paper_numbers"
 local paper_runs = require "lib.paper_runs"
 local paper_scenes = require "lib.paper_scenes"
+local paper_variants = require "lib.paper_variants"
 
 local paper_studies = {}
 
@@ -166,7 +167,7 @@ function paper_studies.sensitivity(settings, store)
     end
     for _, entry in ipairs(scenes) do
       local name, base, scene = table.unpack(entry)
-      local level = paper_runs.chain(base, paper_runs.variants[4], settings.seed)[1]
+      local level = paper_runs.chain(base, paper_variants[4], settings.seed)[1]
       scene.measure_from = nil -- the way from the start, in all of them
       for _, time in ipairs{0.25, 0.5, 1, 2, 4} do
         local of_base, of_level = ways(base, cut(scene, time)), ways(level, cut(scene, time))
@@ -197,9 +198,9 @@ local function ways(base, grid)
       return s.simplify(base, options)
     end}
   end
-  for _, variant in ipairs(paper_runs.variants) do
-    local name = "LOD" .. (variant.name == "" and "" or "-" .. variant.name)
-    add(name, {grouping = variant.grouping, border = variant.border})
+  for _, variant in ipairs(paper_variants) do
+    add(paper_variants.label(variant.name),
+      {grouping = variant.grouping, border = variant.border})
   end
   add("LOD-h by gradient alone", {grouping = "priority_hard"})
   add("LOD with mass by proximity", {mass = "proximity"})

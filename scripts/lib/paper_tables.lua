@@ -5,6 +5,7 @@ local s = require "springlod"
 local averages = require "lib.averages"
 local paper_numbers = require "lib.paper_numbers"
 local paper_runs = require "lib.paper_runs"
+local paper_variants = require "lib.paper_variants"
 
 local mean = averages.mean
 
@@ -51,7 +52,7 @@ local function base_row(one)
 end
 
 local function level_row(one, variant, level, floor, settings)
-  local label = paper_runs.label(variant, level)
+  local label = paper_variants.label(variant.name, level)
   local seeds = one.levels[label]
   local c = s.compare_samples(one.base_distances, by_start(seeds),
     {paired = true, margin = settings.margin})

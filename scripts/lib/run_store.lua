@@ -33,19 +33,32 @@ local function read_rows(path)
   return rows
 end
 
+-- A value, or a table of values in the order of their keys, as one cell that read_rows takes.
+local function as_text(value)
+  if type(value) ~= "table" then
+    return (tostring(value):gsub("[%c,\"%%]", function(c) return ("%%%02x"):format(c:byte()) end))
+  end
+  local entries = {}
+  for key, entry in pairs(value) do
+    entries[#entries + 1] = ("%s = %s"):format(as_text(key), as_text(entry))
+  end
+  table.sort(entries)
+  return "{" .. table.concat(entries, "; ") .. "}"
+end
+
 local function check_settings(path, settings)
   local kept = {}
   for _, row in ipairs(read_rows(path)) do kept[row.name] = tostring(row.value) end
   for name, value in pairs(settings) do
-    if kept[name] ~= tostring(value) then
+    if kept[name] ~= as_text(value) then
       error(("%s holds runs with %s = %s, not %s; take another folder, or remove that one")
-        :format(path:match("(.*)/"), name, kept[name] or "nothing", value), 0)
+        :format(path:match("(.*)/"), name, kept[name] or "nothing", as_text(value)), 0)
     end
   end
 end
 
--- The store in `folder`. `settings` are plain values by name, all on which a result depends; a
--- folder with others is refused.
+-- The store in `folder`. `settings` are values or tables of them by name, all on which a result
+-- depends; a folder with others is refused.
 function run_store.open(folder, settings)
   local path = folder .. "/settings.csv"
   if exists(path) then
@@ -53,7 +66,7 @@ function run_store.open(folder, settings)
   else
     local rows = {}
     for name, value in pairs(settings) do
-      rows[#rows + 1] = {name = name, value = tostring(value)}
+      rows[#rows + 1] = {name = name, value = as_text(value)}
     end
     table.sort(rows, function(a, b) return a.name < b.name end)
     s.csv(path, rows, {columns = {"name", "value"}})

@@ -8,6 +8,7 @@ using Catch::Matchers::Contains;
 using springlod::test::Ran;
 using springlod::test::Scratch;
 using springlod::test::slurp;
+using springlod::test::spit;
 using springlod::test::springlod_interrupted;
 using springlod::test::springlod_run;
 
@@ -43,4 +44,32 @@ TEST_CASE("paper goes on where it was stopped, and comes to the same tables on a
   const Ran mixed = springlod_run(paper(scratch / "whole", "6", "2"));
   CHECK(mixed.exit_code == 1);
   CHECK_THAT(mixed.err, Contains("holds runs with starts = 5, not 6; take another folder"));
+}
+
+TEST_CASE("paper knows the materials of kept runs by their content, wherever the file is") {
+  const Scratch scratch;
+  const auto with_materials = [&](const std::string& file, const std::string& shell) {
+    // Soft, for a long step; the unused one's name has all that a CSV file quotes.
+    const std::string core = "core = {young = '10 kPa', density = 1000, colour = {0.5, 0.2, 0.2}}";
+    const std::string spare = R"(['spare, "100 %"\n'] = {young = 1e6, density = 1000})";
+    spit(scratch / file,
+         "return {" + core + ", " + spare + ", shell = {young = '" + shell + "', density = 200}}");
+    std::vector<std::string> arguments = paper(scratch / "out", "5", "1");
+    arguments.insert(arguments.end(), {"--ball-materials", (scratch / file).string()});
+    return arguments;
+  };
+  const Ran wrong = springlod_run(with_materials("ball.lua", "5 kg"));
+  CHECK(wrong.exit_code == 1);
+  CHECK_FALSE(std::filesystem::exists(scratch / "out/runs"));
+
+  const Ran stopped = springlod_interrupted(with_materials("ball.lua", "5 kPa"), "ball/base");
+  CHECK(stopped.exit_code == 130);
+  const Ran changed = springlod_run(with_materials("ball.lua", "6 kPa"));
+  CHECK(changed.exit_code == 1);
+  CHECK_THAT(changed.err, Contains("holds runs with ball_materials = {core = {") &&
+                              Contains("young = 5 kPa") && Contains("young = 6 kPa") &&
+                              Contains("take another folder"));
+  const Ran moved = springlod_interrupted(with_materials("moved.lua", "5 kPa"), "other-starts");
+  CHECK(moved.exit_code == 130);
+  CHECK(moved.err.find("ball/base") == std::string::npos);
 }

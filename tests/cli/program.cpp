@@ -256,6 +256,16 @@ std::string obj_of_boxes(const std::vector<BoxPart>& parts, double width) {
   return text;
 }
 
+void make_bar_asset(const fs::path& asset, double length, const std::vector<std::string>& options) {
+  const fs::path mesh = fs::path(asset).replace_extension("obj");
+  spit(mesh, obj_of_boxes({{"bar", 0, length}}));
+  std::vector<std::string> arguments{"convert", mesh.string(), "-o", asset.string(), "-q"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Ran ran = springlod_run(arguments);
+  if (ran.exit_code != 0)
+    throw std::runtime_error("cannot make " + asset.string() + ": " + ran.err);
+}
+
 std::string obj_of_open_box() {
   std::string text = obj_of_boxes({{"tub", 0, 1}});
   return text.erase(text.find("f 5 6 8 7\n"), 10);

@@ -70,6 +70,10 @@ struct BoxPart {
   double x1 = 1;
 };
 std::string obj_of_boxes(const std::vector<BoxPart>& parts, double width = 1);
+/// Makes `asset`, a .glb, of a bar `length` x 1 x 1 by `springlod convert` with `options`; the mesh
+/// stays beside it.
+void make_bar_asset(const std::filesystem::path& asset, double length,
+                    const std::vector<std::string>& options);
 /// A unit box without its lid.
 std::string obj_of_open_box();
 

@@ -6,7 +6,7 @@
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
-using springlod::test::obj_of_boxes;
+using springlod::test::make_bar_asset;
 using springlod::test::Ran;
 using springlod::test::Scratch;
 using springlod::test::slurp;
@@ -17,12 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void make_asset(const Scratch& scratch, const std::string& lattice = "corners") {
-  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
-  REQUIRE(springlod_run({"convert", (scratch / "bar.obj").string(), "-o",
-                         (scratch / "bar.glb").string(), "--cell", "0.5", "--lattice", lattice,
-                         "--levels", "1", "-q"})
-              .exit_code == 0);
+void make_asset(const Scratch& scratch) {
+  make_bar_asset(scratch / "bar.glb", 3,
+                 {"--cell", "0.5", "--lattice", "corners", "--levels", "1"});
 }
 
 std::vector<std::string> arguments(const Scratch& scratch, const std::string& out,
@@ -93,11 +90,7 @@ TEST_CASE("stability says in one line what is wrong with an option or asset") {
 
 TEST_CASE("stability names the mechanism of a bar one cell thick instead of running it") {
   const Scratch scratch;
-  spit(scratch / "thin.obj", obj_of_boxes({{"bar", 0, 6}}));
-  REQUIRE(springlod_run({"convert", (scratch / "thin.obj").string(), "-o",
-                         (scratch / "bar.glb").string(), "--cell", "1", "--lattice", "centers",
-                         "--levels", "0", "-q"})
-              .exit_code == 0);
+  make_bar_asset(scratch / "bar.glb", 6, {"--cell", "1", "--lattice", "centers", "--levels", "0"});
   const Ran ran = springlod_run(arguments(scratch, "out"));
   CAPTURE(ran.err);
   CHECK(ran.exit_code == 1);

@@ -15,8 +15,7 @@ namespace {
 /// Forces of a uniform stress on the surface of a box of cells of edge a: each outer face of a cell
 /// gives its corners a quarter of stress times area.
 StaticLoad surface_load(const MassSpringModel& m, double a, const Mat3& stress) {
-  Box3 box;
-  for (const Vec3& p : m.rest) box.extend(p);
+  const Box3 box = bounds(m.rest);
   StaticLoad load{"surface", {}};
   for (const Vec3& p : m.rest) {
     Vec3 area = Vec3::Zero();

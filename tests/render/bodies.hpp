@@ -114,10 +114,4 @@ inline std::vector<Vec3> moved(const std::vector<Vec3>& points, const Vec3& move
   return out;
 }
 
-inline Box3 box_of(const std::vector<Vec3>& points) {
-  Box3 box;
-  for (const Vec3& p : points) box.extend(p);
-  return box;
-}
-
 }  // namespace springlod::test

@@ -37,7 +37,7 @@ std::array<int, 3> pixel(const Image& image, std::uint32_t x, std::uint32_t y) {
 struct BallScene {
   MassSpringModel model = ball();
   std::vector<Vec3> x = moved(model.rest, {0, 0, 0.45});
-  Box3 box = box_of(x);
+  Box3 box = bounds(x);
   DrawnBody body() const {
     DrawnBody b;
     b.model = &model;
@@ -51,7 +51,7 @@ struct BallScene {
 struct DumbbellScene {
   TriangleMesh mesh = dumbbell_mesh(32);
   std::vector<Vec3> x = bent(mesh.positions, 1.4, {0.3, 0, 0.32});
-  Box3 box = box_of(x);
+  Box3 box = bounds(x);
   DrawnBody body() const {
     DrawnBody b;
     b.surface = &mesh;
@@ -85,7 +85,7 @@ TEST_CASE("springs inside a transparent surface look as they did") {
   const BallScene scene;
   const TriangleMesh skin = sphere_mesh(0.5, 48, 24);
   const auto skin_x = moved(skin.positions, {0, 0, 0.5});
-  Panel panel = studio(box_of(skin_x));
+  Panel panel = studio(bounds(skin_x));
   DrawnBody body = scene.body();
   body.surface = &skin;
   body.surface_positions = &skin_x;
@@ -98,7 +98,7 @@ TEST_CASE("springs inside a transparent surface look as they did") {
 TEST_CASE("strain colours with their scale, a box and bold inner nodes look as they did") {
   const MassSpringModel model = bar();
   const auto x = bent(model.rest, 1.4, {0, 0, 0.3});
-  Panel panel = studio(box_of(x));
+  Panel panel = studio(bounds(x));
   DrawnBody body;
   body.model = &model;
   body.node_positions = &x;
