@@ -51,24 +51,4 @@ class FastBody {
   FastBody() = default;
 };
 
-enum class Precision { single, double_ };
-
-/// A model laid out for speed, made once; its bodies share it. Lattices are laid out in rows, other
-/// models in quads.
-class FastModel {
- public:
-  virtual ~FastModel() = default;
-  FastModel(const FastModel&) = delete;
-  FastModel& operator=(const FastModel&) = delete;
-
-  /// At rest in the rest positions. The model must outlive its bodies.
-  virtual std::unique_ptr<FastBody> new_body() const = 0;
-
- protected:
-  FastModel() = default;
-};
-
-/// Throws InputError for an invalid model.
-std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision);
-
 }  // namespace springlod

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "sim/fast/block_order.hpp"
 
 namespace springlod {
 namespace {
 
-constexpr std::uint32_t kQuad = 4;
-
-// A gap's other end: so far off that its length is neither 0 nor infinite in single precision. [m]
-constexpr double kFarAway = 1e6;
+// Damping times this close count as one: c was c / k times k, rounded. [1]
+constexpr double kSameDamping = 1e-12;
 
 /// A spring as seen from the node that works it out.
 struct HalfSpring {
@@ -48,6 +47,18 @@ std::vector<std::vector<HalfSpring>> assign_springs(const MassSpringModel& model
   return kept;
 }
 
+/// c / k of every spring, if they all have the same [s].
+std::optional<double> common_damping_time(const MassSpringModel& model) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    least = std::min(least, model.damping[s] / model.stiffness[s]);
+    most = std::max(most, model.damping[s] / model.stiffness[s]);
+  }
+  if (model.spring_count() == 0) return 0;
+  return most - least <= kSameDamping * most ? std::optional(most) : std::nullopt;
+}
+
 /// Fills the blocks of one model.
 template <class Real>
 class Laying {
@@ -56,141 +67,100 @@ class Laying {
       : model_(model),
         order_(order_in_blocks(model.rest, kBlockNodes)),
         rank_(model.node_count()),
-        block_of_(model.node_count()) {
+        block_of_(model.node_count()),
+        damping_time_(common_damping_time(model)) {
     for (std::uint32_t i = 0; i < model.node_count(); ++i) rank_[order_.point[i]] = i;
     for (std::uint32_t b = 0; b + 1 < order_.first.size(); ++b)
       std::fill(block_of_.begin() + order_.first[b], block_of_.begin() + order_.first[b + 1], b);
   }
 
-  SpringBlocks<Real> lay() {
+  QuadLayout<Real> lay() {
     const auto springs = assign_springs(model_, rank_);
-    SpringBlocks<Real> laid;
-    laid.blocks.resize(order_.first.size() - 1);
+    QuadLayout<Real> layout;
+    layout.damping_time = damping_time_.value_or(0);
+    layout.blocks.resize(order_.first.size() - 1);
     std::vector<std::vector<Place>> copies(model_.node_count());  // by rank
-    for (std::uint32_t b = 0; b < laid.blocks.size(); ++b)
-      lay_block(b, springs, copies, laid.blocks[b]);
-    for (std::uint32_t b = 0; b < laid.blocks.size(); ++b) list_copies(b, copies, laid.blocks[b]);
+    for (std::uint32_t b = 0; b < layout.blocks.size(); ++b)
+      lay_block(b, springs, copies, layout.blocks[b]);
+    for (std::uint32_t b = 0; b < layout.blocks.size(); ++b)
+      for (std::uint32_t i = 0; i < layout.blocks[b].own; ++i)
+        for (const Place& copy : copies[order_.first[b] + i])
+          layout.blocks[b].copied.push_back({i, copy});
     for (std::uint32_t n = 0; n < model_.node_count(); ++n)
-      laid.place.push_back(in_block(rank_[n]));
-    return laid;
+      layout.place.push_back(place(rank_[n]));
+    return layout;
   }
 
  private:
-  Place in_block(std::uint32_t rank) const {
+  Place place(std::uint32_t rank) const {
     const std::uint32_t block = block_of_[rank];
     return {block, rank - order_.first[block]};
   }
 
   void lay_block(std::uint32_t number, const std::vector<std::vector<HalfSpring>>& springs,
-                 std::vector<std::vector<Place>>& copies, SpringBlock<Real>& block) const {
+                 std::vector<std::vector<Place>>& copies, QuadBlock<Real>& block) const {
     const std::uint32_t first = order_.first[number];
     block.own = order_.first[number + 1] - first;
-    std::map<std::uint32_t, std::uint32_t> halo;  // rank -> place, in rising order of rank
+    std::map<std::uint32_t, std::uint32_t> halo;  // rank -> index, in rising order of rank
     for (std::uint32_t i = 0; i < block.own; ++i)
       for (const HalfSpring& half : springs[first + i])
         if (block_of_[half.other] != number) halo.emplace(half.other, 0);
-    for (auto& [rank, place] : halo) {
-      place = block.own + static_cast<std::uint32_t>(block.halo.size());
-      block.halo.push_back(in_block(rank));
-      copies[rank].push_back({number, place});
+    for (auto& [rank, index] : halo) {
+      index = block.nowhere();
+      block.halo.push_back(place(rank));
+      copies[rank].push_back({number, index});
     }
-    const auto nowhere = static_cast<std::uint32_t>(block.own + block.halo.size());
-    block.records.resize(nowhere + 1);
-    block.forces.resize(nowhere + 1);
-    std::fill(std::begin(block.records[nowhere].x), std::end(block.records[nowhere].x),
-              static_cast<Real>(kFarAway));
-    const auto place_of = [&](std::uint32_t rank) {
+    const auto index_of = [&](std::uint32_t rank) {
       return block_of_[rank] == number ? rank - first : halo.at(rank);
     };
     for (std::uint32_t i = 0; i < block.own; ++i) {
-      fill_record(order_.point[first + i], block.records[i]);
+      block.inverse_mass.push_back(static_cast<Real>(1 / model_.mass[order_.point[first + i]]));
       for (const HalfSpring& half : springs[first + i]) {
         if (block.other_end.size() % kQuad == 0) begin_quad(i, block);
-        add_spring(place_of(half.other), half.spring, block);
+        add_spring(index_of(half.other), half.spring, block);
       }
-      while (block.other_end.size() % kQuad != 0) add_gap(nowhere, block);
+      fill_up(block);
     }
     if (block.quad_node.size() % 2 == 0) return;
     begin_quad(0, block);
-    for (std::uint32_t i = 0; i < kQuad; ++i) add_gap(nowhere, block);
+    add_gap(block);
+    fill_up(block);
   }
 
-  static void begin_quad(std::uint32_t own, SpringBlock<Real>& block) {
+  static void begin_quad(std::uint32_t own, QuadBlock<Real>& block) {
     block.quad_node.push_back(static_cast<std::uint16_t>(own));
   }
-  void add_spring(std::uint32_t other, std::uint32_t spring, SpringBlock<Real>& block) const {
+  void add_spring(std::uint32_t other, std::uint32_t spring, QuadBlock<Real>& block) const {
+    const double k = model_.stiffness[spring];
+    add(other, k, k * model_.rest_length[spring], model_.damping[spring], block);
+  }
+  void add_gap(QuadBlock<Real>& block) const { add(block.nowhere(), 0, 0, 0, block); }
+  void fill_up(QuadBlock<Real>& block) const {
+    while (block.other_end.size() % kQuad != 0) add_gap(block);
+  }
+  void add(std::uint32_t other, double stiffness, double rest_force, double damping,
+           QuadBlock<Real>& block) const {
     block.other_end.push_back(static_cast<std::uint16_t>(other));
-    block.stiffness.push_back(static_cast<Real>(model_.stiffness[spring]));
-    block.rest_force.push_back(
-        static_cast<Real>(model_.stiffness[spring] * model_.rest_length[spring]));
-    block.damping.push_back(static_cast<Real>(model_.damping[spring]));
-  }
-  static void add_gap(std::uint32_t nowhere, SpringBlock<Real>& block) {
-    block.other_end.push_back(static_cast<std::uint16_t>(nowhere));
-    block.stiffness.push_back(0);
-    block.rest_force.push_back(0);
-    block.damping.push_back(0);
-  }
-
-  void list_copies(std::uint32_t number, const std::vector<std::vector<Place>>& copies,
-                   SpringBlock<Real>& block) const {
-    for (std::uint32_t i = 0; i < block.own; ++i) {
-      block.copies_first.push_back(static_cast<std::uint32_t>(block.copies.size()));
-      const auto& of_node = copies[order_.first[number] + i];
-      block.copies.insert(block.copies.end(), of_node.begin(), of_node.end());
-    }
-    block.copies_first.push_back(static_cast<std::uint32_t>(block.copies.size()));
-  }
-
-  void fill_record(std::uint32_t node, NodeRecord<Real>& record) const {
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-      record.x[axis] = static_cast<Real>(model_.rest[node][axis]);
-    record.inverse_mass = static_cast<Real>(1 / model_.mass[node]);
-    record.contact_area = static_cast<Real>(model_.contact_area[node]);
+    block.stiffness.push_back(static_cast<Real>(stiffness));
+    block.rest_force.push_back(static_cast<Real>(rest_force));
+    if (!damping_time_) block.damping.push_back(static_cast<Real>(damping));
   }
 
   const MassSpringModel& model_;
   BlockOrder order_;
   std::vector<std::uint32_t> rank_;      // node -> place in the order
   std::vector<std::uint32_t> block_of_;  // by rank
+  std::optional<double> damping_time_;
 };
 
 }  // namespace
 
 template <class Real>
-SpringBlocks<Real> make_spring_blocks(const MassSpringModel& model) {
-  validate(model);
+QuadLayout<Real> make_quad_layout(const MassSpringModel& model) {
   return Laying<Real>(model).lay();
 }
 
-template <class Real>
-void set_state(SpringBlocks<Real>& blocks, const State& state) {
-  for (std::size_t n = 0; n < blocks.place.size(); ++n) {
-    NodeRecord<Real>& record = blocks.blocks[blocks.place[n].block].records[blocks.place[n].index];
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      record.x[axis] = static_cast<Real>(state.x[n][axis]);
-      record.v[axis] = static_cast<Real>(state.v[n][axis]);
-    }
-  }
-}
-
-template <class Real>
-void get_state(const SpringBlocks<Real>& blocks, State& state) {
-  state.x.resize(blocks.place.size());
-  state.v.resize(blocks.place.size());
-  for (std::size_t n = 0; n < blocks.place.size(); ++n) {
-    const NodeRecord<Real>& record =
-        blocks.blocks[blocks.place[n].block].records[blocks.place[n].index];
-    state.x[n] = {record.x[0], record.x[1], record.x[2]};
-    state.v[n] = {record.v[0], record.v[1], record.v[2]};
-  }
-}
-
-template SpringBlocks<float> make_spring_blocks(const MassSpringModel&);
-template SpringBlocks<double> make_spring_blocks(const MassSpringModel&);
-template void set_state(SpringBlocks<float>&, const State&);
-template void set_state(SpringBlocks<double>&, const State&);
-template void get_state(const SpringBlocks<float>&, State&);
-template void get_state(const SpringBlocks<double>&, State&);
+template QuadLayout<float> make_quad_layout(const MassSpringModel&);
+template QuadLayout<double> make_quad_layout(const MassSpringModel&);
 
 }  // namespace springlod

@@ -8,62 +8,49 @@
 
 namespace springlod {
 
-/// What a step needs of one node, in one load: 32 bytes (float) or 64 (double).
-template <class Real>
-struct alignas(8 * sizeof(Real)) NodeRecord {
-  Real x[3] = {};         ///< [m]
-  Real inverse_mass = 0;  ///< [1/kg]
-  Real v[3] = {};         ///< [m/s]
-  Real contact_area = 0;  ///< [m2]
-};
+/// Springs worked out side by side, all at one node.
+inline constexpr std::uint32_t kQuad = 4;
 
-template <class Real>
-struct alignas(4 * sizeof(Real)) NodeForce {
-  Real f[4] = {};  ///< [N]; the last is not used
+/// The force on the copy of a node in another block: it belongs to the node itself.
+struct CopiedForce {
+  std::uint32_t own = 0;  ///< index of the node in its block
+  Place copy;
 };
 
 /// Neighbouring nodes and the springs that this block works out: four to a *quad*, all of them at
 /// one own node, their other ends own nodes or copies of those of other blocks (the *halo*).
 ///
-/// records and forces: own nodes, then the halo, then one that nothing touches, for the springs
+/// Indices within a block: own nodes, then the halo, then one that nothing touches, for the springs
 /// without stiffness that fill a quad up.
 template <class Real>
-struct SpringBlock {
-  std::uint32_t own = 0;          ///< nodes
-  std::vector<Place> halo;  ///< where the copies are from
-  std::vector<NodeRecord<Real>> records;
-  std::vector<NodeForce<Real>> forces;
+struct QuadBlock {
+  std::uint32_t own = 0;  ///< nodes
+  std::vector<Real> inverse_mass;  ///< of own nodes [1/kg]
+  std::vector<Place> halo;         ///< where the copies are from
 
   std::vector<std::uint16_t> quad_node;  ///< own end of each quad; an even number of quads
-  std::vector<std::uint16_t> other_end;  ///< place of the other end, 4 a quad
-  std::vector<Real> stiffness;           ///< k [N/m], 4 a quad
-  std::vector<Real> rest_force;          ///< k L [N], 4 a quad
-  std::vector<Real> damping;             ///< c [N s/m], 4 a quad
+  std::vector<std::uint16_t> other_end;  ///< index of the other end, kQuad a quad
+  std::vector<Real> stiffness;           ///< k [N/m], kQuad a quad
+  std::vector<Real> rest_force;          ///< k L [N], kQuad a quad
+  std::vector<Real> damping;             ///< c [N s/m], kQuad a quad; empty if all are damping_time k
 
-  /// Copies of own node i in other blocks, whose forces are its own too: entries copies_first[i] to
-  /// copies_first[i + 1] of copies.
-  std::vector<std::uint32_t> copies_first;
-  std::vector<Place> copies;
+  std::vector<CopiedForce> copied;  ///< own nodes rising
+
+  std::uint32_t nowhere() const { return own + static_cast<std::uint32_t>(halo.size()); }
 };
 
-/// A model laid out for fast steps. Every spring is worked out once, by one of its ends, chosen so
-/// that hardly a quad has a gap. Which block does what depends on the model alone, never on the
-/// number of threads, and neither does the order of any sum.
+/// A model of any shape laid out for fast steps. Every spring is worked out once, by one of its
+/// ends, chosen so that hardly a quad has a gap. Which block does what depends on the model alone,
+/// never on the number of threads, and neither does the order of any sum.
 template <class Real>
-struct SpringBlocks {
-  std::vector<SpringBlock<Real>> blocks;
-  std::vector<Place> place;  ///< of each node of the model, N
+struct QuadLayout {
+  std::vector<QuadBlock<Real>> blocks;
+  std::vector<Place> place;  ///< of each node; N
+  /// c / k of every spring, where they all have the same [s].
+  double damping_time = 0;
 };
 
-/// At rest; see set_state. Throws InputError for an invalid model.
 template <class Real>
-SpringBlocks<Real> make_spring_blocks(const MassSpringModel& model);
-
-/// Places and velocities into the records of own nodes.
-template <class Real>
-void set_state(SpringBlocks<Real>& blocks, const State& state);
-/// Out of them; the time is left as it is.
-template <class Real>
-void get_state(const SpringBlocks<Real>& blocks, State& state);
+QuadLayout<Real> make_quad_layout(const MassSpringModel& model);
 
 }  // namespace springlod

@@ -1,25 +1,46 @@
 #pragma once
 
-#include <array>
-#include <memory>
-#include <vector>
-
-#include <hwy/aligned_allocator.h>
-
 #include "sim/fast/fast_body.hpp"
-#include "sim/fast/row_layout.hpp"
+#include "sim/fast/row_state.hpp"
 
 namespace springlod {
 
-/// What moves of a body laid out in rows, by place. One array a coordinate, filled up so that a row
-/// may be loaded whole anywhere.
+/// A body laid out in rows. Springs lead ahead only: a block moves as soon as those up to it have
+/// found their forces.
 template <class Real>
-struct RowState {
-  using Array = std::vector<Real, hwy::AlignedAllocator<Real>>;
-  using Coordinates = std::array<Array, 3>;
-  Coordinates x;    ///< [m]
-  Coordinates v;    ///< [m/s]
-  Coordinates low;  ///< what x is too coarse to hold [m]; single precision only
-  /// Forces that a block works out on the places of its own and its reach [N]; by block.
-  std::vector<Coordinates> force;
+class RowBody final : public FastBody {
+ public:
+  /// The layout must outlive the body.
+  explicit RowBody(const RowLayout<Real>& layout) : layout_(&layout), state_(layout) {}
+
+  std::uint32_t block_count() const override {
+    return static_cast<std::uint32_t>(layout_->blocks.size());
+  }
+  BlockRange needs(std::uint32_t block) const override {
+    return {layout_->first_contributor(block), block};
+  }
+  Place place(std::uint32_t node) const override { return layout_->place[node]; }
+
+  void set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) override;
+  void get(std::vector<Vec3>& x, std::vector<Vec3>& v) const override;
+
+  void find_forces(std::uint32_t block) override { find_row_forces(*layout_, block, state_); }
+  void move(std::uint32_t block, double kick, double drift) override {
+    move_rows(*layout_, block, kick, drift, state_);
+  }
+  const Box3& bounds(std::uint32_t block) const override { return state_.bounds[block]; }
+
+  Vec3 x(Place at) const override;
+  Vec3 v(Place at) const override;
+  void add_force(Place at, const Vec3& force) override;
+  void add_velocity(Place at, const Vec3& more) override;
+  void displace(Place at, const Vec3& way) override;
+
+ private:
+  std::uint32_t position(Place at) const { return layout_->blocks[at.block].first + at.index; }
+
+  const RowLayout<Real>* layout_;
+  RowState<Real> state_;
 };
+
+}  // namespace springlod

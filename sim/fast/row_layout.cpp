@@ -153,14 +153,6 @@ RowLayout<Real> make_row_layout(const MassSpringModel& model) {
   return layout;
 }
 
-double springs_a_row(const MassSpringModel& model) {
-  const std::vector<PlacedSpring> springs = place_springs(model, order_by_layers(model.rest));
-  if (springs.empty()) return 0;
-  std::size_t rows = 1;
-  for (std::size_t s = 1; s < springs.size(); ++s) rows += !same_row(springs[s - 1], springs[s]);
-  return static_cast<double>(springs.size()) / static_cast<double>(rows);
-}
-
 template RowLayout<float> make_row_layout(const MassSpringModel&);
 template RowLayout<double> make_row_layout(const MassSpringModel&);
 

@@ -61,7 +61,4 @@ struct RowLayout {
 template <class Real>
 RowLayout<Real> make_row_layout(const MassSpringModel& model);
 
-/// Springs a row holds on the average [1..8]: what tells lattices from the rest. 0 without springs.
-double springs_a_row(const MassSpringModel& model);
-
 }  // namespace springlod

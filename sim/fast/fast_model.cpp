@@ -1,0 +1,39 @@
+#include "sim/fast/fast_model.hpp"
+
+#include <utility>
+
+#include "sim/fast/quad_body.hpp"
+#include "sim/fast/row_body.hpp"
+
+namespace springlod {
+namespace {
+
+// Rows with fewer of their eight springs than this on the average cost more than quads [1]: a whole
+// row takes as long as some 3.5 springs in quads (bench_step).
+constexpr std::uint64_t kLeastFill = 4;
+
+template <class Layout, class Body>
+class Laid final : public FastModel {
+ public:
+  explicit Laid(Layout layout) : layout_(std::move(layout)) {}
+  std::unique_ptr<FastBody> new_body() const override { return std::make_unique<Body>(layout_); }
+
+ private:
+  Layout layout_;
+};
+
+template <class Real>
+std::unique_ptr<FastModel> lay_out(const MassSpringModel& model) {
+  RowLayout<Real> rows = make_row_layout<Real>(model);
+  if (model.spring_count() >= kLeastFill * rows.rows.size())
+    return std::make_unique<Laid<RowLayout<Real>, RowBody<Real>>>(std::move(rows));
+  return std::make_unique<Laid<QuadLayout<Real>, QuadBody<Real>>>(make_quad_layout<Real>(model));
+}
+
+}  // namespace
+
+std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision) {
+  return precision == Precision::single_precision ? lay_out<float>(model) : lay_out<double>(model);
+}
+
+}  // namespace springlod

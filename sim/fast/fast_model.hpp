@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "model/mass_spring.hpp"
+#include "sim/fast/fast_body.hpp"
+#include "sim/fast/precision.hpp"
+
+namespace springlod {
+
+/// A model laid out for speed, made once and shared by its bodies: in rows if it is a lattice, in
+/// quads if not.
+class FastModel {
+ public:
+  virtual ~FastModel() = default;
+  FastModel(const FastModel&) = delete;
+  FastModel& operator=(const FastModel&) = delete;
+
+  /// Its places and velocities are yet to be set. Must not outlive the model.
+  virtual std::unique_ptr<FastBody> new_body() const = 0;
+
+ protected:
+  FastModel() = default;
+};
+
+/// `model` must be valid.
+std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision);
+
+/// "AVX3", "AVX2", ...: the vectors that bodies move with on this processor.
+const char* vector_target();
+
+}  // namespace springlod

@@ -1,0 +1,79 @@
+#include "sim/fast/row_body.hpp"
+
+#include "sim/fast/compensated.hpp"
+
+namespace springlod {
+namespace {
+
+template <class Real>
+Vec3 read(const typename RowState<Real>::Coordinates& from, std::uint32_t position) {
+  return {static_cast<double>(from[0][position]), static_cast<double>(from[1][position]),
+          static_cast<double>(from[2][position])};
+}
+
+}  // namespace
+
+template <class Real>
+void RowBody<Real>::set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
+  const std::size_t last = layout_->node.size() - 1;
+  for (std::size_t p = 0; p < layout_->inverse_mass.size(); ++p) {
+    const std::uint32_t node = layout_->node[std::min(p, last)];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = x[node][static_cast<Eigen::Index>(axis)];
+      state_.x[axis][p] = static_cast<Real>(place);
+      state_.v[axis][p] =
+          p <= last ? static_cast<Real>(v[node][static_cast<Eigen::Index>(axis)]) : Real(0);
+      if (state_.low[axis]) state_.low[axis][p] = remainder_of<Real>(place);
+    }
+  }
+  for (std::uint32_t b = 0; b < block_count(); ++b) {
+    state_.bounds[b].setEmpty();
+    for (std::uint32_t i = 0; i < layout_->blocks[b].own; ++i)
+      state_.bounds[b].extend(this->x({b, i}));
+  }
+}
+
+template <class Real>
+void RowBody<Real>::get(std::vector<Vec3>& x, std::vector<Vec3>& v) const {
+  for (std::uint32_t p = 0; p < layout_->node.size(); ++p) {
+    x[layout_->node[p]] = read<Real>(state_.x, p);
+    if (state_.low[0]) x[layout_->node[p]] += read<Real>(state_.low, p);
+    v[layout_->node[p]] = read<Real>(state_.v, p);
+  }
+}
+
+template <class Real>
+Vec3 RowBody<Real>::x(Place at) const {
+  return read<Real>(state_.x, position(at));
+}
+
+template <class Real>
+Vec3 RowBody<Real>::v(Place at) const {
+  return read<Real>(state_.v, position(at));
+}
+
+template <class Real>
+void RowBody<Real>::add_force(Place at, const Vec3& force) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    state_.force[at.block][axis][at.index] +=
+        static_cast<Real>(force[static_cast<Eigen::Index>(axis)]);
+}
+
+template <class Real>
+void RowBody<Real>::add_velocity(Place at, const Vec3& more) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    state_.v[axis][position(at)] += static_cast<Real>(more[static_cast<Eigen::Index>(axis)]);
+}
+
+template <class Real>
+void RowBody<Real>::displace(Place at, const Vec3& way) {
+  const std::uint32_t p = position(at);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    add_compensated(static_cast<Real>(way[static_cast<Eigen::Index>(axis)]), state_.x[axis][p],
+                    state_.low[axis] ? &state_.low[axis][p] : nullptr);
+}
+
+template class RowBody<float>;
+template class RowBody<double>;
+
+}  // namespace springlod
