@@ -47,15 +47,17 @@ template <Precision precision, bool merged>
 void fast(benchmark::State& state) {
   const MassSpringModel& model = body(merged, state.range(0));
   const auto laid = make_fast_model(model, precision);
-  const auto moving = laid->new_body();
+  const auto moving = laid->new_body(false);
   moving->set(model.rest, std::vector<Vec3>(model.node_count(), Vec3::Zero()));
   const double step = kSafety * stable_step(model);
   for (auto _ : state) {
     std::uint32_t next = 0;
     for (std::uint32_t b = 0; b < moving->block_count(); ++b) {
       moving->find_forces(b);
-      while (next < moving->block_count() && moving->needs(next).last <= b)
-        moving->move(next++, step, step);
+      for (; next < moving->block_count() && moving->needs(next).last <= b; ++next) {
+        moving->collect_forces(next);
+        moving->move(next, step, step);
+      }
     }
   }
   count_springs(state, model);

@@ -12,8 +12,8 @@ namespace springlod {
 /// Places and velocities of one body in a layout made for speed, moved block by block. Blocks may
 /// be worked on by several threads: which does what changes no bit.
 ///
-/// A step: every block finds its forces; a block moves as soon as all that it `needs` have. Between
-/// the two, forces from outside may be added to its nodes.
+/// A step: every block finds its forces; as soon as all that a block `needs` have, it collects them
+/// and moves. Between the two, forces from outside may be added to its nodes.
 class FastBody {
  public:
   struct BlockRange {
@@ -36,7 +36,13 @@ class FastBody {
 
   /// Works out the springs of a block.
   virtual void find_forces(std::uint32_t block) = 0;
-  /// v += kick f / m, then x += drift v, for the nodes of the block; kick and drift in [s].
+  /// Adds what other blocks worked out on this one's nodes.
+  virtual void collect_forces(std::uint32_t block) = 0;
+  /// Sum of damping force times velocity over the block's nodes [W], once collected; only of a body
+  /// made with damping.
+  virtual double damping_power(std::uint32_t block) const = 0;
+  /// v += kick f / m, then x += drift v, for the nodes of the block; kick and drift in [s], and
+  /// with 0 of either, that part is left out.
   virtual void move(std::uint32_t block, double kick, double drift) = 0;
   /// Of the nodes of the block, as of its last move [m].
   virtual const Box3& bounds(std::uint32_t block) const = 0;
@@ -45,7 +51,6 @@ class FastBody {
   virtual Vec3 v(Place at) const = 0;                        ///< [m/s]
   virtual void add_force(Place at, const Vec3& force) = 0;   ///< [N]; before its block moves
   virtual void add_velocity(Place at, const Vec3& more) = 0;  ///< [m/s]
-  virtual void displace(Place at, const Vec3& way) = 0;      ///< [m]
 
  protected:
   FastBody() = default;

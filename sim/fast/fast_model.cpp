@@ -16,7 +16,9 @@ template <class Layout, class Body>
 class Laid final : public FastModel {
  public:
   explicit Laid(Layout layout) : layout_(std::move(layout)) {}
-  std::unique_ptr<FastBody> new_body() const override { return std::make_unique<Body>(layout_); }
+  std::unique_ptr<FastBody> new_body(bool with_damping) const override {
+    return std::make_unique<Body>(layout_, with_damping);
+  }
 
  private:
   Layout layout_;

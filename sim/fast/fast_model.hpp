@@ -16,8 +16,9 @@ class FastModel {
   FastModel(const FastModel&) = delete;
   FastModel& operator=(const FastModel&) = delete;
 
-  /// Its places and velocities are yet to be set. Must not outlive the model.
-  virtual std::unique_ptr<FastBody> new_body() const = 0;
+  /// Its places and velocities are yet to be set. Must not outlive the model. With damping, it
+  /// keeps account of damping_power.
+  virtual std::unique_ptr<FastBody> new_body(bool with_damping) const = 0;
 
  protected:
   FastModel() = default;

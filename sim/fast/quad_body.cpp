@@ -1,9 +1,13 @@
 #include "sim/fast/quad_body.hpp"
 
-#include "sim/fast/compensated.hpp"
-
 namespace springlod {
 namespace {
+
+/// What a number loses when it is rounded to Real.
+template <class Real>
+Real rounding_of(double number) {
+  return static_cast<Real>(number - static_cast<double>(static_cast<Real>(number)));
+}
 
 template <class Real>
 Vec3 read(const Real (&from)[4]) {
@@ -18,12 +22,13 @@ void add(const Vec3& more, Real (&to)[4]) {
 }  // namespace
 
 template <class Real>
-QuadBody<Real>::QuadBody(const QuadLayout<Real>& layout)
+QuadBody<Real>::QuadBody(const QuadLayout<Real>& layout, bool with_damping)
     : layout_(&layout), state_(layout.blocks.size()) {
   for (std::size_t b = 0; b < state_.size(); ++b) {
     const QuadBlock<Real>& block = layout.blocks[b];
     state_[b].records.resize(block.nowhere() + 1);
     state_[b].forces.resize(block.nowhere() + 1);
+    if (with_damping) state_[b].damping_forces.resize(block.nowhere() + 1);
     if constexpr (sizeof(Real) == sizeof(float)) state_[b].low.resize(block.own);
   }
 }
@@ -38,7 +43,7 @@ void QuadBody<Real>::set(const std::vector<Vec3>& x, const std::vector<Vec3>& v)
     for (int axis = 0; axis < 3; ++axis) {
       record.x[axis] = static_cast<Real>(x[n][axis]);
       record.v[axis] = static_cast<Real>(v[n][axis]);
-      if (!block.low.empty()) block.low[at.index].at[axis] = remainder_of<Real>(x[n][axis]);
+      if (!block.low.empty()) block.low[at.index].at[axis] = rounding_of<Real>(x[n][axis]);
     }
     block.bounds.extend(read(record.x));
   }
@@ -73,14 +78,6 @@ void QuadBody<Real>::add_force(Place at, const Vec3& force) {
 template <class Real>
 void QuadBody<Real>::add_velocity(Place at, const Vec3& more) {
   add(more, state_[at.block].records[at.index].v);
-}
-
-template <class Real>
-void QuadBody<Real>::displace(Place at, const Vec3& way) {
-  QuadBlockState<Real>& block = state_[at.block];
-  for (int axis = 0; axis < 3; ++axis)
-    add_compensated(static_cast<Real>(way[axis]), block.records[at.index].x[axis],
-                    block.low.empty() ? nullptr : &block.low[at.index].at[axis]);
 }
 
 template class QuadBody<float>;

@@ -11,7 +11,7 @@ template <class Real>
 class QuadBody final : public FastBody {
  public:
   /// The layout must outlive the body.
-  explicit QuadBody(const QuadLayout<Real>& layout);
+  QuadBody(const QuadLayout<Real>& layout, bool with_damping);
 
   std::uint32_t block_count() const override {
     return static_cast<std::uint32_t>(state_.size());
@@ -23,6 +23,12 @@ class QuadBody final : public FastBody {
   void get(std::vector<Vec3>& x, std::vector<Vec3>& v) const override;
 
   void find_forces(std::uint32_t block) override { find_quad_forces(*layout_, block, state_); }
+  void collect_forces(std::uint32_t block) override {
+    collect_quad_forces(*layout_, block, state_);
+  }
+  double damping_power(std::uint32_t block) const override {
+    return quad_damping_power(*layout_, block, state_);
+  }
   void move(std::uint32_t block, double kick, double drift) override {
     move_quads(*layout_, block, kick, drift, state_);
   }
@@ -32,7 +38,6 @@ class QuadBody final : public FastBody {
   Vec3 v(Place at) const override;
   void add_force(Place at, const Vec3& force) override;
   void add_velocity(Place at, const Vec3& more) override;
-  void displace(Place at, const Vec3& way) override;
 
  private:
   const QuadLayout<Real>* layout_;

@@ -24,7 +24,8 @@ struct alignas(4 * sizeof(Real)) NodeVector {
 template <class Real>
 struct QuadBlockState {
   std::vector<NodeRecord<Real>> records;
-  std::vector<NodeVector<Real>> forces;  ///< [N]; 0 before forces are found
+  std::vector<NodeVector<Real>> forces;  ///< [N]
+  std::vector<NodeVector<Real>> damping_forces;  ///< the part of them that is damping; may be empty
   /// What x of own nodes is too coarse to hold [m]: a step's way is often less than the last bit of
   /// a place. Empty in double precision.
   std::vector<NodeVector<Real>> low;
@@ -34,18 +35,22 @@ struct QuadBlockState {
 template <class Real>
 using QuadState = std::vector<QuadBlockState<Real>>;
 
-/// Copies the halo of a block and works out its springs: k (l - L) + c dl/dt along each, added to
-/// the forces of both ends.
-void find_quad_forces(const QuadLayout<float>& layout, std::uint32_t block,
-                      QuadState<float>& state);
-void find_quad_forces(const QuadLayout<double>& layout, std::uint32_t block,
-                      QuadState<double>& state);
-
-/// Once all forces are known: v += kick f / m, then x += drift v for the block's nodes, and their
-/// bounds. kick and drift: [s].
-void move_quads(const QuadLayout<float>& layout, std::uint32_t block, double kick, double drift,
-                QuadState<float>& state);
-void move_quads(const QuadLayout<double>& layout, std::uint32_t block, double kick, double drift,
-                QuadState<double>& state);
+/// Copies the halo of a block and works out its springs: k (l - L) + c dl/dt along each, into the
+/// forces of both ends.
+template <class Real>
+void find_quad_forces(const QuadLayout<Real>& layout, std::uint32_t block, QuadState<Real>& state);
+/// Adds what other blocks worked out on their copies of this one's nodes to its own.
+template <class Real>
+void collect_quad_forces(const QuadLayout<Real>& layout, std::uint32_t block,
+                         QuadState<Real>& state);
+/// Sum of damping force times velocity over the nodes of the block [W], once collected.
+template <class Real>
+double quad_damping_power(const QuadLayout<Real>& layout, std::uint32_t block,
+                          const QuadState<Real>& state);
+/// v += kick f / m, then x += drift v for the block's nodes, and their bounds; with 0 seconds of
+/// either, that part is left out.
+template <class Real>
+void move_quads(const QuadLayout<Real>& layout, std::uint32_t block, double kick, double drift,
+                QuadState<Real>& state);
 
 }  // namespace springlod

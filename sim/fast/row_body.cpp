@@ -1,9 +1,13 @@
 #include "sim/fast/row_body.hpp"
 
-#include "sim/fast/compensated.hpp"
-
 namespace springlod {
 namespace {
+
+/// What a number loses when it is rounded to Real.
+template <class Real>
+Real rounding_of(double number) {
+  return static_cast<Real>(number - static_cast<double>(static_cast<Real>(number)));
+}
 
 template <class Real>
 Vec3 read(const typename RowState<Real>::Coordinates& from, std::uint32_t position) {
@@ -23,7 +27,7 @@ void RowBody<Real>::set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) 
       state_.x[axis][p] = static_cast<Real>(place);
       state_.v[axis][p] =
           p <= last ? static_cast<Real>(v[node][static_cast<Eigen::Index>(axis)]) : Real(0);
-      if (state_.low[axis]) state_.low[axis][p] = remainder_of<Real>(place);
+      if (state_.low[axis]) state_.low[axis][p] = rounding_of<Real>(place);
     }
   }
   for (std::uint32_t b = 0; b < block_count(); ++b) {
@@ -63,14 +67,6 @@ template <class Real>
 void RowBody<Real>::add_velocity(Place at, const Vec3& more) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     state_.v[axis][position(at)] += static_cast<Real>(more[static_cast<Eigen::Index>(axis)]);
-}
-
-template <class Real>
-void RowBody<Real>::displace(Place at, const Vec3& way) {
-  const std::uint32_t p = position(at);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    add_compensated(static_cast<Real>(way[static_cast<Eigen::Index>(axis)]), state_.x[axis][p],
-                    state_.low[axis] ? &state_.low[axis][p] : nullptr);
 }
 
 template class RowBody<float>;

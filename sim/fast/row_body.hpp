@@ -11,7 +11,8 @@ template <class Real>
 class RowBody final : public FastBody {
  public:
   /// The layout must outlive the body.
-  explicit RowBody(const RowLayout<Real>& layout) : layout_(&layout), state_(layout) {}
+  RowBody(const RowLayout<Real>& layout, bool with_damping)
+      : layout_(&layout), state_(layout, with_damping) {}
 
   std::uint32_t block_count() const override {
     return static_cast<std::uint32_t>(layout_->blocks.size());
@@ -25,6 +26,12 @@ class RowBody final : public FastBody {
   void get(std::vector<Vec3>& x, std::vector<Vec3>& v) const override;
 
   void find_forces(std::uint32_t block) override { find_row_forces(*layout_, block, state_); }
+  void collect_forces(std::uint32_t block) override {
+    collect_row_forces(*layout_, block, state_);
+  }
+  double damping_power(std::uint32_t block) const override {
+    return row_damping_power(*layout_, block, state_);
+  }
   void move(std::uint32_t block, double kick, double drift) override {
     move_rows(*layout_, block, kick, drift, state_);
   }
@@ -34,7 +41,6 @@ class RowBody final : public FastBody {
   Vec3 v(Place at) const override;
   void add_force(Place at, const Vec3& force) override;
   void add_velocity(Place at, const Vec3& more) override;
-  void displace(Place at, const Vec3& way) override;
 
  private:
   std::uint32_t position(Place at) const { return layout_->blocks[at.block].first + at.index; }

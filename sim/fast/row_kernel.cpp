@@ -41,61 +41,87 @@ HWY_INLINE Vector3<D> operator-(const Vector3<D>& p, const Vector3<D>& q) {
   return {hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
 }
 template <class D>
+HWY_INLINE Vector3<D> operator+(const Vector3<D>& p, const Vector3<D>& q) {
+  return {hn::Add(p.x, q.x), hn::Add(p.y, q.y), hn::Add(p.z, q.z)};
+}
+/// p + factor q
+template <class D>
+HWY_INLINE Vector3<D> add_scaled(const Vector3<D>& p, hn::Vec<D> factor, const Vector3<D>& q) {
+  return {hn::MulAdd(factor, q.x, p.x), hn::MulAdd(factor, q.y, p.y), hn::MulAdd(factor, q.z, p.z)};
+}
+/// p - factor q
+template <class D>
+HWY_INLINE Vector3<D> subtract_scaled(const Vector3<D>& p, hn::Vec<D> factor,
+                                      const Vector3<D>& q) {
+  return {hn::NegMulAdd(factor, q.x, p.x), hn::NegMulAdd(factor, q.y, p.y),
+          hn::NegMulAdd(factor, q.z, p.z)};
+}
+template <class D>
 HWY_INLINE hn::Vec<D> dot(const Vector3<D>& p, const Vector3<D>& q) {
   return hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::Mul(p.z, q.z)));
 }
 
 template <class Real>
+std::uint32_t lane_count() {
+  return static_cast<std::uint32_t>(hn::Lanes(Lanes<Real>()));
+}
+
+template <class Real>
+void clear(const RowBlock& block, typename RowState<Real>::Coordinates& force) {
+  for (auto& array : force) std::fill_n(array.get(), block.places() + block.reach, Real(0));
+}
+
+template <bool with_damping, class Real>
 void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<Real>& state) {
-  const Lanes<Real> d;
   using D = Lanes<Real>;
+  const D d;
+  const Vector3<D> none{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   const RowBlock& block = layout.blocks[number];
   auto& force = state.force[number];
-  for (auto& array : force)
-    std::fill_n(array.get(), block.places() + block.reach, Real(0));
-  for (std::uint32_t p = 0; p < block.places(); p += kRowLanes) {
-    const std::uint32_t eight = (block.first + p) / kRowLanes;
-    const SpringRow* const end = layout.rows.data() + layout.first_row[eight + 1];
-    for (std::uint32_t lane = 0; lane < kRowLanes; lane += static_cast<std::uint32_t>(hn::Lanes(d))) {
-      const std::uint32_t place = block.first + p + lane;
-      const Vector3<D> own_x = load<D, Real>(d, state.x, place);
-      const Vector3<D> own_v = load<D, Real>(d, state.v, place);
-      Vector3<D> own_force{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-      for (const SpringRow* row = layout.rows.data() + layout.first_row[eight]; row != end; ++row) {
-        const RowProperties<Real>& properties = layout.properties[row->properties];
-        const Vector3<D> along = load<D, Real>(d, state.x, place + row->ahead) - own_x;
-        const Vector3<D> apart = load<D, Real>(d, state.v, place + row->ahead) - own_v;
-        const hn::Vec<D> square = dot<D>(along, along);
-        const hn::Vec<D> inverse = inverse_root(d, square);
-        const hn::Vec<D> rate = hn::Mul(dot<D>(along, apart), hn::Mul(inverse, inverse));
-        const hn::Vec<D> scale =
-            hn::MulAdd(hn::LoadU(d, properties.damping + lane), rate,
-                       hn::NegMulAdd(hn::LoadU(d, properties.rest_force + lane), inverse,
-                                     hn::LoadU(d, properties.stiffness + lane)));
-        own_force = {hn::MulAdd(scale, along.x, own_force.x),
-                     hn::MulAdd(scale, along.y, own_force.y),
-                     hn::MulAdd(scale, along.z, own_force.z)};
-        const std::size_t other = p + lane + row->ahead;
-        Vector3<D> other_force = load<D, Real>(d, force, other);
-        other_force = {hn::NegMulAdd(scale, along.x, other_force.x),
-                       hn::NegMulAdd(scale, along.y, other_force.y),
-                       hn::NegMulAdd(scale, along.z, other_force.z)};
-        store<D, Real>(d, other_force, force, other);
+  auto& damping_force = with_damping ? state.damping_force[number] : force;
+  clear<Real>(block, force);
+  if (with_damping) clear<Real>(block, damping_force);
+  for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
+    const std::uint32_t place = block.first + p;
+    const std::uint32_t lane = place % kRowLanes;
+    const SpringRow* row = layout.rows.data() + layout.first_row[place / kRowLanes];
+    const SpringRow* const end = layout.rows.data() + layout.first_row[place / kRowLanes + 1];
+    const Vector3<D> own_x = load<D, Real>(d, state.x, place);
+    const Vector3<D> own_v = load<D, Real>(d, state.v, place);
+    Vector3<D> own_force = none;
+    Vector3<D> own_damping = none;
+    for (; row != end; ++row) {
+      const RowProperties<Real>& properties = layout.properties[row->properties];
+      const Vector3<D> along = load<D, Real>(d, state.x, place + row->ahead) - own_x;
+      const Vector3<D> apart = load<D, Real>(d, state.v, place + row->ahead) - own_v;
+      const hn::Vec<D> inverse = inverse_root(d, dot<D>(along, along));
+      const hn::Vec<D> rate = hn::Mul(dot<D>(along, apart), hn::Mul(inverse, inverse));
+      // Forces over length.
+      const hn::Vec<D> elastic = hn::NegMulAdd(hn::LoadU(d, properties.rest_force + lane), inverse,
+                                               hn::LoadU(d, properties.stiffness + lane));
+      const hn::Vec<D> damping = hn::Mul(hn::LoadU(d, properties.damping + lane), rate);
+      const hn::Vec<D> both = hn::Add(elastic, damping);
+      own_force = add_scaled<D>(own_force, both, along);
+      const std::uint32_t other = p + row->ahead;
+      store<D, Real>(d, subtract_scaled<D>(load<D, Real>(d, force, other), both, along), force,
+                     other);
+      if constexpr (with_damping) {
+        own_damping = add_scaled<D>(own_damping, damping, along);
+        store<D, Real>(d, subtract_scaled<D>(load<D, Real>(d, damping_force, other), damping, along),
+                       damping_force, other);
       }
-      const Vector3<D> so_far = load<D, Real>(d, force, p + lane);
-      store<D, Real>(d,
-                     {hn::Add(so_far.x, own_force.x), hn::Add(so_far.y, own_force.y),
-                      hn::Add(so_far.z, own_force.z)},
-                     force, p + lane);
     }
+    store<D, Real>(d, load<D, Real>(d, force, p) + own_force, force, p);
+    if constexpr (with_damping)
+      store<D, Real>(d, load<D, Real>(d, damping_force, p) + own_damping, damping_force, p);
   }
 }
 
-/// What earlier blocks worked out on this one's places, added to its own.
 template <class Real>
-void collect(const RowLayout<Real>& layout, std::uint32_t number, RowState<Real>& state) {
-  const Lanes<Real> d;
+void collect(const RowLayout<Real>& layout, std::uint32_t number,
+             std::vector<typename RowState<Real>::Coordinates>& force) {
   using D = Lanes<Real>;
+  const D d;
   const RowBlock& block = layout.blocks[number];
   for (std::uint32_t from = layout.first_contributor(number); from < number; ++from) {
     const RowBlock& earlier = layout.blocks[from];
@@ -103,67 +129,114 @@ void collect(const RowLayout<Real>& layout, std::uint32_t number, RowState<Real>
     const std::uint32_t size = earlier.places() + earlier.reach;
     if (size <= offset) continue;
     const std::uint32_t count = std::min(block.places(), size - offset);
-    for (std::uint32_t p = 0; p < count; p += static_cast<std::uint32_t>(hn::Lanes(d))) {
-      const Vector3<D> mine = load<D, Real>(d, state.force[number], p);
-      const Vector3<D> more = load<D, Real>(d, state.force[from], offset + p);
+    for (std::uint32_t p = 0; p < count; p += lane_count<Real>())
       store<D, Real>(
-          d, {hn::Add(mine.x, more.x), hn::Add(mine.y, more.y), hn::Add(mine.z, more.z)},
-          state.force[number], p);
-    }
+          d, load<D, Real>(d, force[number], p) + load<D, Real>(d, force[from], offset + p),
+          force[number], p);
   }
+}
+
+template <class Real>
+double damping_power(const RowLayout<Real>& layout, std::uint32_t number,
+                     const RowState<Real>& state) {
+  using D = Lanes<Real>;
+  const D d;
+  const RowBlock& block = layout.blocks[number];
+  double power = 0;
+  for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>())
+    power += static_cast<double>(hn::GetLane(
+        hn::SumOfLanes(d, dot<D>(load<D, Real>(d, state.damping_force[number], p),
+                                 load<D, Real>(d, state.v, block.first + p)))));
+  return power;
+}
+
+template <class Real>
+void kick_axis(const RowLayout<Real>& layout, const RowBlock& block, Real time,
+               const Real* HWY_RESTRICT force, Real* HWY_RESTRICT v) {
+  const Lanes<Real> d;
+  const Real* HWY_RESTRICT inverse_mass = layout.inverse_mass.data() + block.first;
+  for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
+    const auto factor = hn::Mul(hn::Set(d, time), hn::LoadU(d, inverse_mass + p));
+    hn::StoreU(hn::MulAdd(factor, hn::LoadU(d, force + p), hn::LoadU(d, v + p)), d, v + p);
+  }
+}
+
+template <class Real>
+void drift_axis(const RowBlock& block, Real time, std::size_t axis, RowState<Real>& state,
+                Box3& bounds) {
+  const Lanes<Real> d;
+  Real* HWY_RESTRICT x = state.x[axis].get() + block.first;
+  const Real* HWY_RESTRICT v = state.v[axis].get() + block.first;
+  auto least = hn::Set(d, std::numeric_limits<Real>::max());
+  auto most = hn::Set(d, std::numeric_limits<Real>::lowest());
+  for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
+    const auto way = hn::Mul(hn::Set(d, time), hn::LoadU(d, v + p));
+    const auto from = hn::LoadU(d, x + p);
+    auto to = hn::Add(from, way);
+    if constexpr (sizeof(Real) == sizeof(float)) {
+      Real* HWY_RESTRICT low = state.low[axis].get() + block.first + p;
+      const auto whole = hn::Add(way, hn::LoadU(d, low));
+      to = hn::Add(from, whole);
+      hn::StoreU(hn::Sub(whole, hn::Sub(to, from)), d, low);
+    }
+    hn::StoreU(to, d, x + p);
+    least = hn::Min(least, to);
+    most = hn::Max(most, to);
+  }
+  const auto i = static_cast<Eigen::Index>(axis);
+  bounds.min()[i] = static_cast<double>(hn::GetLane(hn::MinOfLanes(d, least)));
+  bounds.max()[i] = static_cast<double>(hn::GetLane(hn::MaxOfLanes(d, most)));
 }
 
 template <class Real>
 void move(const RowLayout<Real>& layout, std::uint32_t number, double kick, double drift,
           RowState<Real>& state) {
-  const Lanes<Real> d;
-  collect(layout, number, state);
   const RowBlock& block = layout.blocks[number];
-  const auto kick_time = hn::Set(d, static_cast<Real>(kick));
-  const auto drift_time = hn::Set(d, static_cast<Real>(drift));
-  const auto step = static_cast<std::uint32_t>(hn::Lanes(d));
-  for (int axis = 0; axis < 3; ++axis) {
-    Real* HWY_RESTRICT x = state.x[axis].get() + block.first;
-    Real* HWY_RESTRICT v = state.v[axis].get() + block.first;
-    const Real* HWY_RESTRICT f = state.force[number][axis].get();
-    const Real* HWY_RESTRICT inverse_mass = layout.inverse_mass.data() + block.first;
-    auto least = hn::Set(d, std::numeric_limits<Real>::max());
-    auto most = hn::Set(d, std::numeric_limits<Real>::lowest());
-    for (std::uint32_t p = 0; p < block.places(); p += step) {
-      const auto factor = hn::Mul(kick_time, hn::LoadU(d, inverse_mass + p));
-      const auto speed = hn::MulAdd(factor, hn::LoadU(d, f + p), hn::LoadU(d, v + p));
-      hn::StoreU(speed, d, v + p);
-      const auto from = hn::LoadU(d, x + p);
-      auto to = hn::MulAdd(drift_time, speed, from);
-      if constexpr (sizeof(Real) == sizeof(float)) {
-        Real* HWY_RESTRICT low = state.low[axis].get() + block.first;
-        const auto way = hn::MulAdd(drift_time, speed, hn::LoadU(d, low + p));
-        to = hn::Add(from, way);
-        hn::StoreU(hn::Sub(way, hn::Sub(to, from)), d, low + p);
-      }
-      hn::StoreU(to, d, x + p);
-      least = hn::Min(least, to);
-      most = hn::Max(most, to);
-    }
-    state.bounds[number].min()[axis] = static_cast<double>(hn::GetLane(hn::MinOfLanes(d, least)));
-    state.bounds[number].max()[axis] = static_cast<double>(hn::GetLane(hn::MaxOfLanes(d, most)));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (kick != 0)
+      kick_axis(layout, block, static_cast<Real>(kick), state.force[number][axis].get(),
+                state.v[axis].get() + block.first);
+    if (drift != 0)
+      drift_axis(block, static_cast<Real>(drift), axis, state, state.bounds[number]);
   }
 }
 
 void find_forces_float(const RowLayout<float>& layout, std::uint32_t block,
-                       RowState<float>& state) {
-  find_forces(layout, block, state);
+                 RowState<float>& state) {
+  if (state.damping_force.empty())
+    find_forces<false>(layout, block, state);
+  else
+    find_forces<true>(layout, block, state);
 }
-void find_forces_double(const RowLayout<double>& layout, std::uint32_t block,
-                        RowState<double>& state) {
-  find_forces(layout, block, state);
+void collect_float(const RowLayout<float>& layout, std::uint32_t block, RowState<float>& state) {
+  collect(layout, block, state.force);
+  if (!state.damping_force.empty()) collect(layout, block, state.damping_force);
+}
+double damping_power_float(const RowLayout<float>& layout, std::uint32_t block,
+                     const RowState<float>& state) {
+  return damping_power(layout, block, state);
 }
 void move_float(const RowLayout<float>& layout, std::uint32_t block, double kick, double drift,
-                RowState<float>& state) {
+          RowState<float>& state) {
   move(layout, block, kick, drift, state);
 }
-void move_double(const RowLayout<double>& layout, std::uint32_t block, double kick, double drift,
+void find_forces_double(const RowLayout<double>& layout, std::uint32_t block,
                  RowState<double>& state) {
+  if (state.damping_force.empty())
+    find_forces<false>(layout, block, state);
+  else
+    find_forces<true>(layout, block, state);
+}
+void collect_double(const RowLayout<double>& layout, std::uint32_t block, RowState<double>& state) {
+  collect(layout, block, state.force);
+  if (!state.damping_force.empty()) collect(layout, block, state.damping_force);
+}
+double damping_power_double(const RowLayout<double>& layout, std::uint32_t block,
+                     const RowState<double>& state) {
+  return damping_power(layout, block, state);
+}
+void move_double(const RowLayout<double>& layout, std::uint32_t block, double kick, double drift,
+          RowState<double>& state) {
   move(layout, block, kick, drift, state);
 }
 
@@ -174,21 +247,48 @@ HWY_AFTER_NAMESPACE();
 namespace springlod {
 
 HWY_EXPORT(find_forces_float);
-HWY_EXPORT(find_forces_double);
+HWY_EXPORT(collect_float);
+HWY_EXPORT(damping_power_float);
 HWY_EXPORT(move_float);
+HWY_EXPORT(find_forces_double);
+HWY_EXPORT(collect_double);
+HWY_EXPORT(damping_power_double);
 HWY_EXPORT(move_double);
 
+template <>
 void find_row_forces(const RowLayout<float>& layout, std::uint32_t block, RowState<float>& state) {
   HWY_DYNAMIC_DISPATCH(find_forces_float)(layout, block, state);
 }
-void find_row_forces(const RowLayout<double>& layout, std::uint32_t block,
-                     RowState<double>& state) {
-  HWY_DYNAMIC_DISPATCH(find_forces_double)(layout, block, state);
+template <>
+void collect_row_forces(const RowLayout<float>& layout, std::uint32_t block,
+                        RowState<float>& state) {
+  HWY_DYNAMIC_DISPATCH(collect_float)(layout, block, state);
 }
+template <>
+double row_damping_power(const RowLayout<float>& layout, std::uint32_t block,
+                         const RowState<float>& state) {
+  return HWY_DYNAMIC_DISPATCH(damping_power_float)(layout, block, state);
+}
+template <>
 void move_rows(const RowLayout<float>& layout, std::uint32_t block, double kick, double drift,
                RowState<float>& state) {
   HWY_DYNAMIC_DISPATCH(move_float)(layout, block, kick, drift, state);
 }
+template <>
+void find_row_forces(const RowLayout<double>& layout, std::uint32_t block, RowState<double>& state) {
+  HWY_DYNAMIC_DISPATCH(find_forces_double)(layout, block, state);
+}
+template <>
+void collect_row_forces(const RowLayout<double>& layout, std::uint32_t block,
+                        RowState<double>& state) {
+  HWY_DYNAMIC_DISPATCH(collect_double)(layout, block, state);
+}
+template <>
+double row_damping_power(const RowLayout<double>& layout, std::uint32_t block,
+                         const RowState<double>& state) {
+  return HWY_DYNAMIC_DISPATCH(damping_power_double)(layout, block, state);
+}
+template <>
 void move_rows(const RowLayout<double>& layout, std::uint32_t block, double kick, double drift,
                RowState<double>& state) {
   HWY_DYNAMIC_DISPATCH(move_double)(layout, block, kick, drift, state);

@@ -16,13 +16,16 @@ void allocate(std::size_t size, typename RowState<Real>::Coordinates& coordinate
 }  // namespace
 
 template <class Real>
-RowState<Real>::RowState(const RowLayout<Real>& layout) : bounds(layout.blocks.size()) {
+RowState<Real>::RowState(const RowLayout<Real>& layout, bool with_damping)
+    : bounds(layout.blocks.size()) {
   const std::size_t size = layout.inverse_mass.size() + layout.reach;
   allocate<Real>(size, x);
   allocate<Real>(size, v);
   if constexpr (sizeof(Real) == sizeof(float)) allocate<Real>(size, low);
-  for (const RowBlock& block : layout.blocks)
+  for (const RowBlock& block : layout.blocks) {
     allocate<Real>(block.places() + block.reach, force.emplace_back());
+    if (with_damping) allocate<Real>(block.places() + block.reach, damping_force.emplace_back());
+  }
 }
 
 template struct RowState<float>;

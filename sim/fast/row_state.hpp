@@ -17,7 +17,7 @@ struct RowState {
   using Array = hwy::AlignedFreeUniquePtr<Real[]>;
   using Coordinates = std::array<Array, 3>;
 
-  explicit RowState(const RowLayout<Real>& layout);
+  RowState(const RowLayout<Real>& layout, bool with_damping);
 
   Coordinates x;  ///< [m]
   Coordinates v;  ///< [m/s]
@@ -26,18 +26,24 @@ struct RowState {
   Coordinates low;
   /// Forces that a block works out on its own places and those of its reach [N]; by block.
   std::vector<Coordinates> force;
+  std::vector<Coordinates> damping_force;  ///< the part of it that is damping; empty if not asked for
   std::vector<Box3> bounds;  ///< of the places of each block [m]
 };
 
-/// Works out the springs of a block: k (l - L) + c dl/dt along each, into `force` of the block.
-void find_row_forces(const RowLayout<float>& layout, std::uint32_t block, RowState<float>& state);
-void find_row_forces(const RowLayout<double>& layout, std::uint32_t block, RowState<double>& state);
-
-/// Once all forces are known: v += kick f / m, then x += drift v for the block's nodes, and their
-/// bounds. kick and drift: [s].
-void move_rows(const RowLayout<float>& layout, std::uint32_t block, double kick, double drift,
-               RowState<float>& state);
-void move_rows(const RowLayout<double>& layout, std::uint32_t block, double kick, double drift,
-               RowState<double>& state);
+/// Works out the springs of a block: k (l - L) + c dl/dt along each, into its forces.
+template <class Real>
+void find_row_forces(const RowLayout<Real>& layout, std::uint32_t block, RowState<Real>& state);
+/// Adds what earlier blocks worked out on this one's places to its own.
+template <class Real>
+void collect_row_forces(const RowLayout<Real>& layout, std::uint32_t block, RowState<Real>& state);
+/// Sum of damping force times velocity over the places of the block [W], once collected.
+template <class Real>
+double row_damping_power(const RowLayout<Real>& layout, std::uint32_t block,
+                         const RowState<Real>& state);
+/// v += kick f / m, then x += drift v for the block's nodes, and their bounds; with 0 seconds of
+/// either, that part is left out.
+template <class Real>
+void move_rows(const RowLayout<Real>& layout, std::uint32_t block, double kick, double drift,
+               RowState<Real>& state);
 
 }  // namespace springlod
