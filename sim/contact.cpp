@@ -40,73 +40,78 @@ ContactFinder::ContactFinder(const MassSpringModel& model, const std::vector<Obs
       area_.push_back(model.contact_area[i]);
     }
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
-    const auto* box = std::get_if<SolidBox>(&obstacles[o].shape);
-    if (box == nullptr) continue;
-    for (const std::uint32_t node : node_) {
-      const Vec3 local = box->local(x[node]);
-      sides_[o].push_back({side_of(local[0]), side_of(local[1]), side_of(local[2])});
-    }
+    if (!std::holds_alternative<SolidBox>(obstacles[o].shape)) continue;
+    sides_[o].resize(node_.size());
+    for (std::size_t n = 0; n < node_.size(); ++n) take_sides(o, n, x[node_[n]]);
   }
+}
+
+void ContactFinder::take_sides(std::size_t obstacle, std::size_t number, const Vec3& x) {
+  const auto* box = std::get_if<SolidBox>(&(*obstacles_)[obstacle].shape);
+  if (box == nullptr) return;
+  const Vec3 local = box->local(x);
+  sides_[obstacle][number] = {side_of(local[0]), side_of(local[1]), side_of(local[2])};
 }
 
 void ContactFinder::find(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                          std::vector<Contact>& contacts) {
   contacts.clear();
-  for (std::size_t o = 0; o < obstacles_->size(); ++o) {
-    const Obstacle& obstacle = (*obstacles_)[o];
-    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
-      find_plane(obstacle, *plane, x, v, contacts);
-    else
-      find_box(obstacle, std::get<SolidBox>(obstacle.shape), sides_[o], x, v, contacts);
-  }
+  for (std::size_t o = 0; o < obstacles_->size(); ++o)
+    for (std::size_t n = 0; n < node_.size(); ++n)
+      if (const auto contact = find_one(o, n, x[node_[n]], v[node_[n]]))
+        contacts.push_back(*contact);
 }
 
-void ContactFinder::find_plane(const Obstacle& obstacle, const Plane& plane,
-                               const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                               std::vector<Contact>& contacts) const {
-  for (std::size_t n = 0; n < node_.size(); ++n) {
-    const std::uint32_t node = node_[n];
-    const double depth = plane.offset - plane.normal.dot(x[node]);
-    if (depth > 0)
-      contacts.push_back(make_contact(obstacle, node, area_[n], depth, plane.normal, v[node]));
-  }
+std::optional<Contact> ContactFinder::find_one(std::size_t obstacle, std::size_t number,
+                                               const Vec3& x, const Vec3& v) {
+  const Obstacle& thing = (*obstacles_)[obstacle];
+  if (const auto* plane = std::get_if<Plane>(&thing.shape))
+    return touch_plane(thing, *plane, number, x, v);
+  return touch_box(thing, std::get<SolidBox>(thing.shape), sides_[obstacle][number], number, x, v);
 }
 
-void ContactFinder::find_box(const Obstacle& obstacle, const SolidBox& box,
-                             std::vector<Sides>& sides, const std::vector<Vec3>& x,
-                             const std::vector<Vec3>& v, std::vector<Contact>& contacts) const {
-  for (std::size_t n = 0; n < node_.size(); ++n) {
-    const std::uint32_t node = node_[n];
-    Sides& side = sides[n];
-    const Vec3 local = box.local(x[node]);
-    Eigen::Index axis = 0;
-    const double depth =
-        (box.half_size - Vec3(side[0] * local[0], side[1] * local[1], side[2] * local[2]))
-            .minCoeff(&axis);
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      // Another side may be taken wherever that leaves the depth as it is: outside, and along the
-      // axes that do not decide.
-      const bool free_to_change = depth <= 0 || box.half_size[i] - std::abs(local[i]) >= depth;
-      if (free_to_change) side[static_cast<std::size_t>(i)] = side_of(local[i]);
-    }
-    if (depth > 0) {
-      const Vec3 normal = side[static_cast<std::size_t>(axis)] * box.rotation.col(axis);
-      contacts.push_back(make_contact(obstacle, node, area_[n], depth, normal, v[node]));
-    }
+std::optional<Contact> ContactFinder::touch_plane(const Obstacle& obstacle, const Plane& plane,
+                                                  std::size_t number, const Vec3& x,
+                                                  const Vec3& v) const {
+  const double depth = plane.offset - plane.normal.dot(x);
+  if (!(depth > 0)) return std::nullopt;
+  return make_contact(obstacle, node_[number], area_[number], depth, plane.normal, v);
+}
+
+std::optional<Contact> ContactFinder::touch_box(const Obstacle& obstacle, const SolidBox& box,
+                                                Sides& side, std::size_t number, const Vec3& x,
+                                                const Vec3& v) const {
+  const Vec3 local = box.local(x);
+  Eigen::Index axis = 0;
+  const double depth =
+      (box.half_size - Vec3(side[0] * local[0], side[1] * local[1], side[2] * local[2]))
+          .minCoeff(&axis);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    // Another side may be taken wherever that leaves the depth as it is: outside, and along the
+    // axes that do not decide.
+    const bool free_to_change = depth <= 0 || box.half_size[i] - std::abs(local[i]) >= depth;
+    if (free_to_change) side[static_cast<std::size_t>(i)] = side_of(local[i]);
   }
+  if (!(depth > 0)) return std::nullopt;
+  const Vec3 normal = side[static_cast<std::size_t>(axis)] * box.rotation.col(axis);
+  return make_contact(obstacle, node_[number], area_[number], depth, normal, v);
 }
 
 void add_normal_forces(const std::vector<Contact>& contacts, std::vector<Vec3>& force) {
   for (const Contact& c : contacts) force[c.node] += c.normal_force * c.normal;
 }
 
+Vec3 friction_slip_change(const Contact& contact, double mass, double step, const Vec3& v) {
+  const Vec3 slip = v - contact.normal.dot(v) * contact.normal;
+  const double speed = slip.norm();
+  const double most = contact.friction * contact.normal_force * step / mass;
+  return most < speed ? Vec3(slip * (-most / speed)) : Vec3(-slip);
+}
+
 void apply_friction(const MassSpringModel& model, double step, std::vector<Contact>& contacts,
                     std::vector<Vec3>& v) {
   for (Contact& c : contacts) {
-    const Vec3 slip = v[c.node] - c.normal.dot(v[c.node]) * c.normal;
-    const double speed = slip.norm();
-    const double most = c.friction * c.normal_force * step / model.mass[c.node];
-    c.slip_change = most < speed ? Vec3(slip * (-most / speed)) : Vec3(-slip);
+    c.slip_change = friction_slip_change(c, model.mass[c.node], step, v[c.node]);
     v[c.node] += c.slip_change;
   }
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "model/mass_spring.hpp"
@@ -39,14 +40,21 @@ class ContactFinder {
   /// rising.
   void find(const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Contact>& contacts);
 
+  /// The same for one obstacle and one of nodes().
+  std::optional<Contact> find_one(std::size_t obstacle, std::size_t number, const Vec3& x,
+                                  const Vec3& v);
+  /// For a node that was not looked at on its last steps: it was at x, outside of the obstacle.
+  void take_sides(std::size_t obstacle, std::size_t number, const Vec3& x);
+  /// Those with an area, rising.
+  const std::vector<std::uint32_t>& nodes() const { return node_; }
+
  private:
   using Sides = std::array<std::int8_t, 3>;  // -1 or 1 along each box axis
 
-  void find_plane(const Obstacle& obstacle, const Plane& plane, const std::vector<Vec3>& x,
-                  const std::vector<Vec3>& v, std::vector<Contact>& contacts) const;
-  void find_box(const Obstacle& obstacle, const SolidBox& box, std::vector<Sides>& sides,
-                const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                std::vector<Contact>& contacts) const;
+  std::optional<Contact> touch_plane(const Obstacle& obstacle, const Plane& plane,
+                                     std::size_t number, const Vec3& x, const Vec3& v) const;
+  std::optional<Contact> touch_box(const Obstacle& obstacle, const SolidBox& box, Sides& sides,
+                                   std::size_t number, const Vec3& x, const Vec3& v) const;
 
   const std::vector<Obstacle>* obstacles_;
   std::vector<std::uint32_t> node_;        // nodes with an area
@@ -55,6 +63,9 @@ class ContactFinder {
 };
 
 void add_normal_forces(const std::vector<Contact>& contacts, std::vector<Vec3>& force);
+
+/// Change of the velocity v of a node by friction over a step: see apply_friction.
+Vec3 friction_slip_change(const Contact& contact, double mass, double step, const Vec3& v);
 
 /// Coulomb friction as a cap on slip: takes from the tangential velocity at most
 /// mu f_n dt / m and never more than there is, so that no step reverses a slip. `v` are the

@@ -1,8 +1,8 @@
 #include "sim/leapfrog.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "sim/contact_losses.hpp"
 #include "sim/kernel.hpp"
 
 namespace springlod {
@@ -58,15 +58,8 @@ void Leapfrog::book_half_step(const std::vector<Vec3>& v, double to_neighbour) {
   double damping = 0;
   for (std::size_t i = 0; i < x_.size(); ++i) damping -= damping_force_[i].dot(v[i]);
   losses_.lost_damping += 0.5 * step_ * damping;
-  for (const Contact& c : contacts_) {
-    const double speed = c.normal.dot(v[c.node]);
-    losses_.lost_contact -= 0.5 * step_ * c.damping_force * speed;
-    losses_.lost_friction -= 0.5 * model_->mass[c.node] * c.slip_change.dot(v[c.node]);
-    // Free at the neighbouring step: the trapezoid rule cuts the corner of the force there.
-    const double gap = to_neighbour * speed - c.depth;
-    if (gap > 0)
-      losses_.lost_contact -= std::copysign(0.5 * c.stiffness * c.depth * gap, to_neighbour);
-  }
+  for (const Contact& c : contacts_)
+    book_contact(c, model_->mass[c.node], step_, v[c.node], to_neighbour, losses_);
 }
 
 std::vector<Vec3> Leapfrog::positions_at(double time) const {

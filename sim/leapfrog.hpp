@@ -30,8 +30,6 @@ class Leapfrog final : public Stepper {
 
   /// Kick: takes v- to v+ at x_n and books the first half of the step's losses.
   void prepare() override;
-  /// Drift: takes x_n to x_{n+1} and books the second half.
-  void commit() override;
 
   std::uint64_t spring_updates() const override { return n_ * model_->spring_count(); }
   /// x_n + (t - t_n) v+
@@ -42,6 +40,8 @@ class Leapfrog final : public Stepper {
   LedgerEntry ledger_entry() const override;
 
  private:
+  /// Drift: takes x_n to x_{n+1} and books the second half.
+  void commit() override;
   const std::vector<Vec3>& velocities_after() const override { return v_plus_; }
   void find_forces(bool with_damping);
   /// Half of a step's losses, with the velocity v- (to_neighbour = -dt) or v+ (dt).

@@ -14,7 +14,6 @@
 #include "sim/crossing_watch.hpp"
 #include "sim/energy_watch.hpp"
 #include "sim/stepper.hpp"
-#include "sim/tunnel_watch.hpp"
 
 namespace springlod {
 namespace {
@@ -79,6 +78,12 @@ class Recorder {
       ++count_;
     }
   }
+  /// Steps after which the next frame falls into the step that follows; 1 or more.
+  std::uint64_t steps_to_next(double time, double step) const {
+    const double steps = std::floor((next_time() - time) / step);
+    if (!(steps > 1)) return 1;
+    return steps < kFar ? static_cast<std::uint64_t>(steps) : static_cast<std::uint64_t>(kFar);
+  }
   /// The last state, unless it is a frame already.
   void record_end(const Stepper& body, double step) {
     // Steps and frame times are rounded differently: what lies this close is the same instant.
@@ -102,6 +107,8 @@ class Recorder {
     if (ledger_) trajectory_->ledger.push_back(body.ledger_entry());
   }
 
+  static constexpr double kFar = 1e9;  // steps: more than anyone asks for at once
+
   double rate_;
   bool ledger_;
   Trajectory* trajectory_;
@@ -115,7 +122,11 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Sta
   const auto last_step = static_cast<std::uint64_t>(std::ceil(scenario.duration / step - 1e-6));
   const std::unique_ptr<Stepper> stepper = make_stepper(
       model, scenario, start, step,
-      {.integrator = options.integrator, .solver = options.solver, .ledger = options.ledger});
+      {.integrator = options.integrator,
+       .solver = options.solver,
+       .ledger = options.ledger,
+       .precision = options.precision,
+       .threads = options.threads});
   Stepper& body = *stepper;
   Recorder recorder(options.frame_rate, options.ledger, trajectory);
   StopWatch stop(scenario.stop);
@@ -123,14 +134,10 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Sta
 
   body.prepare();
   EnergyWatch watch(model, body, step, limit);
-  TunnelWatch walls(model, scenario.obstacles, start.x);
   CrossingWatch crossings(model, start);
   const Vec3 weight = scenario.gravity * std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
   const Vec3 first_center = body.center_of_mass();
-  for (;;) {
-    if (!trajectory.first_contact && !body.contacts().empty())
-      trajectory.first_contact = body.time();
-    if (body.step_number() == last_step) break;
+  while (body.step_number() < last_step) {
     if (body.step_number() % kLookEvery == 0) {
       watch.look(body, weight.dot(body.center_of_mass() - first_center));
       if (!trajectory.first_crossing) trajectory.first_crossing = crossings.look(body.state());
@@ -138,14 +145,15 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Sta
       task.advance(std::min(kLookEvery, last_step - body.step_number()));
     }
     recorder.record(body, step);
-    body.commit();
-    walls.look(body.positions(), body.time(), step);
-    body.prepare();
+    const std::uint64_t next_look = kLookEvery - body.step_number() % kLookEvery;
+    body.advance(std::min({next_look, last_step - body.step_number(),
+                           recorder.steps_to_next(body.time(), step)}));
   }
   watch.look(body, weight.dot(body.center_of_mass() - first_center));
   recorder.record_end(body, step);
 
   trajectory.final = body.state();
+  trajectory.first_contact = body.first_contact();
   trajectory.steps = body.step_number();
   trajectory.unconverged_steps = body.unconverged_steps();
   trajectory.spring_updates = body.spring_updates();

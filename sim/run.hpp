@@ -7,6 +7,7 @@
 
 #include "model/mass_spring.hpp"
 #include "model/progress.hpp"
+#include "sim/fast/precision.hpp"
 #include "sim/integrator.hpp"
 #include "sim/ledger.hpp"
 #include "sim/scenario.hpp"
@@ -25,6 +26,10 @@ struct RunOptions {
   double frame_rate = 60;
   /// Record the energy ledger (costs about half as much again).
   bool ledger = true;
+  /// Of the numbers that symplectic Euler moves the body with; see docs/precision.md.
+  Precision precision = Precision::double_precision;
+  /// Threads for symplectic Euler; 0: as many as the body is worth. Never changes the result.
+  std::uint32_t threads = 1;
   Progress* progress = nullptr;
 };
 

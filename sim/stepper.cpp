@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "sim/backward_euler.hpp"
+#include "sim/fast/fast_leapfrog.hpp"
 #include "sim/leapfrog.hpp"
 #include "sim/projective_dynamics.hpp"
 #include "sim/runge_kutta.hpp"
@@ -17,8 +18,19 @@ Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const S
       step_(step),
       x_(start.x),
       finder_(model, scenario.obstacles, start.x),
+      walls_(model, scenario.obstacles, start.x),
       total_mass_(std::accumulate(model.mass.begin(), model.mass.end(), 0.0)),
       first_center_(center_of_mass()) {}
+
+void Stepper::advance(std::uint64_t steps) {
+  for (std::uint64_t i = 0; i < steps; ++i) {
+    if (!first_contact_ && !contacts_.empty()) first_contact_ = time();
+    commit();
+    walls_.look(x_, time(), step_);
+    prepare();
+  }
+  if (!first_contact_ && !contacts_.empty()) first_contact_ = time();
+}
 
 Vec3 Stepper::center_of_mass() const {
   Vec3 moment = Vec3::Zero();
@@ -57,6 +69,7 @@ std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenar
                                       const StepperOptions& options) {
   switch (options.integrator) {
     case Integrator::symplectic_euler:
+      return std::make_unique<FastLeapfrog>(model, scenario, start, step, options);
     case Integrator::velocity_verlet:
       return std::make_unique<Leapfrog>(model, scenario, start, step, options);
     case Integrator::runge_kutta_4:

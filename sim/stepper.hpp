@@ -2,22 +2,26 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "model/mass_spring.hpp"
 #include "sim/contact.hpp"
+#include "sim/fast/fast_model.hpp"
 #include "sim/integrator.hpp"
 #include "sim/ledger.hpp"
 #include "sim/scenario.hpp"
+#include "sim/tunnel_watch.hpp"
 
 namespace springlod {
 
 /// One scheme at work on one body, step by step, as `run` drives it:
 ///
-///   prepare(); { look at step n; commit(); prepare(); } ...
+///   prepare(); { look at step n; advance(steps); } ...
 ///
-/// prepare() works out the way to x_{n+1}, commit() goes it. Between the two everything below is
-/// valid and speaks of the time t_n = n dt. Model and scenario must outlive the stepper.
+/// prepare() works out the way to x_{n+1}; advance() goes it and works out the next, as often as it
+/// is told. In between everything below is valid and speaks of the time t_n = n dt. Model and
+/// scenario must outlive the stepper.
 class Stepper {
  public:
   virtual ~Stepper() = default;
@@ -25,7 +29,8 @@ class Stepper {
   Stepper& operator=(const Stepper&) = delete;
 
   virtual void prepare() = 0;
-  virtual void commit() = 0;
+  /// Throws TunnelError as soon as a node has gone through a box.
+  virtual void advance(std::uint64_t steps);
 
   std::uint64_t step_number() const { return n_; }
   double time() const { return static_cast<double>(n_) * step_; }
@@ -37,6 +42,8 @@ class Stepper {
 
   const std::vector<Vec3>& positions() const { return x_; }
   const std::vector<Contact>& contacts() const { return contacts_; }
+  /// When nodes first touched an obstacle [s].
+  std::optional<double> first_contact() const { return first_contact_; }
   /// Positions on the way that the scheme draws from x_n to x_{n+1} (t_n <= time <= t_{n+1}).
   virtual std::vector<Vec3> positions_at(double time) const = 0;
   virtual State state() const = 0;
@@ -51,6 +58,8 @@ class Stepper {
  protected:
   Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start, double step);
 
+  /// Goes the way to x_{n+1}.
+  virtual void commit() = 0;
   /// The velocities with which the body goes on from x_n.
   virtual const std::vector<Vec3>& velocities_after() const = 0;
   /// Gravity's potential against the start [J].
@@ -63,6 +72,8 @@ class Stepper {
   std::vector<Vec3> x_;
   ContactFinder finder_;
   std::vector<Contact> contacts_;
+  TunnelWatch walls_;
+  std::optional<double> first_contact_;  // [s]
 
  private:
   double total_mass_ = 0;
@@ -73,6 +84,10 @@ struct StepperOptions {
   Integrator integrator = Integrator::symplectic_euler;
   SolverOptions solver = {};
   bool ledger = true;  ///< keep account of the losses
+  Precision precision = Precision::double_precision;  ///< of symplectic Euler
+  std::uint32_t threads = 1;                          ///< for symplectic Euler; never change the result
+  /// The model laid out for `precision`, for many runs of it; made for this one if there is none.
+  std::shared_ptr<const FastModel> layout = nullptr;
 };
 
 std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenario& scenario,

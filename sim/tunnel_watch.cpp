@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -32,30 +31,36 @@ TunnelWatch::TunnelWatch(const MassSpringModel& model, const std::vector<Obstacl
   for (const Obstacle& obstacle : obstacles) {
     const auto* box = std::get_if<SolidBox>(&obstacle.shape);
     if (box == nullptr) continue;
-    Wall& wall = walls_.emplace_back(Wall{obstacle.name, *box, {}, {}});
-    for (const std::uint32_t node : node_) {
-      wall.at.push_back(box->local(x[node]));
-      wall.entry.push_back(nearest_face(box->half_size, wall.at.back()));
-    }
+    Wall& wall = walls_.emplace_back(Wall{obstacle.name, *box, {}});
+    for (const std::uint32_t node : node_)
+      wall.entry.push_back(nearest_face(box->half_size, box->local(x[node])));
   }
+  if (walls_.empty()) return;
+  for (const std::uint32_t node : node_) at_.push_back(x[node]);
 }
 
 void TunnelWatch::look(const std::vector<Vec3>& x, double time, double step) {
-  for (Wall& wall : walls_)
-    for (std::size_t n = 0; n < node_.size(); ++n) {
-      const Vec3 to = wall.box.local(x[node_[n]]);
-      const Vec3 from = std::exchange(wall.at[n], to);
-      const Pass way = pass(wall.box.half_size, from, to);
-      if (!way.hits) {
-        wall.entry[n] = 0;
-        continue;
-      }
-      if (way.in != 0) wall.entry[n] = way.in;
-      if (way.out == 0) continue;
-      if (way.out == -wall.entry[n])
-        throw_tunnelled(wall, node_[n], way.out, to - from, time, step);
-      wall.entry[n] = 0;
-    }
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    for (std::size_t n = 0; n < node_.size(); ++n)
+      if (goes_through(w, n, at_[n], x[node_[n]]))
+        throw_tunnelled(w, n, at_[n], x[node_[n]], time, step);
+  for (std::size_t n = 0; n < at_.size(); ++n) at_[n] = x[node_[n]];
+}
+
+bool TunnelWatch::goes_through(std::size_t wall, std::size_t number, const Vec3& from,
+                               const Vec3& to) {
+  const SolidBox& box = walls_[wall].box;
+  Face& entry = walls_[wall].entry[number];
+  const Pass way = pass(box.half_size, box.local(from), box.local(to));
+  if (!way.hits) {
+    entry = 0;
+    return false;
+  }
+  if (way.in != 0) entry = way.in;
+  if (way.out == 0) return false;
+  const bool through = way.out == -entry;
+  if (!through) entry = 0;
+  return through;
 }
 
 // The straight way from `from` to `to` cut by the three pairs of faces in turn.
@@ -85,11 +90,14 @@ TunnelWatch::Pass TunnelWatch::pass(const Vec3& half_size, const Vec3& from, con
   return pass;
 }
 
-void TunnelWatch::throw_tunnelled(const Wall& wall, std::uint32_t node, Face out, const Vec3& way,
-                                  double time, double step) {
-  const Eigen::Index axis = std::abs(out) - 1;
-  const double thickness = 2 * wall.box.half_size[axis];
-  const double moved = std::abs(way[axis]);
+void TunnelWatch::throw_tunnelled(std::size_t wall, std::size_t number, const Vec3& from,
+                                  const Vec3& to, double time, double step) const {
+  const SolidBox& box = walls_[wall].box;
+  const Vec3 start = box.local(from);
+  const Vec3 end = box.local(to);
+  const Eigen::Index axis = std::abs(pass(box.half_size, start, end).out) - 1;
+  const double thickness = 2 * box.half_size[axis];
+  const double moved = std::abs(end[axis] - start[axis]);
   // At half the thickness a step a node still comes to be pushed back on the side it came from.
   const bool too_fast = moved > thickness / 2;
   const std::string advice =
@@ -101,8 +109,8 @@ void TunnelWatch::throw_tunnelled(const Wall& wall, std::uint32_t node, Face out
   throw TunnelError(
       fmt::format("node {} went through obstacle \"{}\" by t = {:.6g} s: it moved {:.3g} m in a "
                   "step of {:.3g} s, and the obstacle is {:.3g} m thick; {}",
-                  node, wall.name, time, moved, step, thickness, advice),
-      node, wall.name, time);
+                  node_[number], walls_[wall].name, time, moved, step, thickness, advice),
+      node_[number], walls_[wall].name, time);
 }
 
 }  // namespace springlod

@@ -24,6 +24,16 @@ class TunnelWatch {
   /// through.
   void look(const std::vector<Vec3>& x, double time, double step);
 
+  /// The same for one box and one of nodes(), from where it was to where it is: whether it went
+  /// through. A node that stays outside need not be looked at.
+  bool goes_through(std::size_t wall, std::size_t number, const Vec3& from, const Vec3& to);
+  [[noreturn]] void throw_tunnelled(std::size_t wall, std::size_t number, const Vec3& from,
+                                    const Vec3& to, double time, double step) const;
+  std::size_t wall_count() const { return walls_.size(); }
+  const SolidBox& wall(std::size_t number) const { return walls_[number].box; }
+  /// Those with an area, rising.
+  const std::vector<std::uint32_t>& nodes() const { return node_; }
+
  private:
   /// A face of a box: 1 to 3 for those at the positive end of its axes, -1 to -3 for the others.
   using Face = std::int8_t;
@@ -31,7 +41,6 @@ class TunnelWatch {
   struct Wall {
     std::string name;
     SolidBox box;
-    std::vector<Vec3> at;     // where the nodes are, in the axes of the box [m]
     std::vector<Face> entry;  // by which face they came in; 0 outside
   };
   struct Pass {
@@ -40,10 +49,9 @@ class TunnelWatch {
     bool hits = false;
   };
   static Pass pass(const Vec3& half_size, const Vec3& from, const Vec3& to);
-  [[noreturn]] static void throw_tunnelled(const Wall& wall, std::uint32_t node, Face out,
-                                           const Vec3& way, double time, double step);
 
-  std::vector<std::uint32_t> node_;  // nodes with an area
+  std::vector<std::uint32_t> node_;
+  std::vector<Vec3> at_;  // where they are [m]; nothing without walls
   std::vector<Wall> walls_;
 };
 

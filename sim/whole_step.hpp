@@ -18,7 +18,6 @@ namespace springlod {
 class WholeStep : public Stepper {
  public:
   void prepare() final;
-  void commit() final;
 
   std::uint64_t spring_updates() const final { return spring_updates_; }
   /// On the straight line from x_n to x_{n+1}.
@@ -44,6 +43,7 @@ class WholeStep : public Stepper {
   double lost_damping_ = 0;  // [J]
 
  private:
+  void commit() final;
   const std::vector<Vec3>& velocities_after() const final { return v_next_; }
   void add_friction();
 

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sim/contact.hpp"
+#include "sim/fast/fast_body.hpp"
+#include "sim/tunnel_watch.hpp"
+
+namespace springlod {
+
+/// Where a body's coordinates are measured from.
+struct MovingFrame {
+  Vec3 origin = Vec3::Zero();    ///< [m]
+  Vec3 velocity = Vec3::Zero();  ///< [m/s]
+};
+
+/// A node that went through a wall.
+struct Passage {
+  std::uint64_t step = 0;    ///< number of the step at which it was behind it
+  std::size_t wall = 0;      ///< as TunnelWatch numbers them
+  std::size_t number = 0;    ///< among the nodes with an area
+  Vec3 from = Vec3::Zero();  ///< [m]
+  Vec3 to = Vec3::Zero();    ///< [m]
+};
+
+/// What the nodes of one block touch. An obstacle costs nothing while the block's bounds are clear
+/// of it.
+class BlockContacts {
+ public:
+  /// Finder and watch are those of the whole body, which the blocks share; they and the body must
+  /// outlive this.
+  BlockContacts(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
+                std::uint32_t block, FastBody& body, ContactFinder& finder, TunnelWatch& walls);
+
+  /// Finds the contacts at the places of step number n, and adds their normal forces to the body.
+  /// `step`: dt [s].
+  void press(std::uint64_t n, const MovingFrame& frame, double step);
+  /// Friction, after the kick; `frame` as of then.
+  void rub(const MovingFrame& frame, double step);
+  /// Before the drift: keeps the bounds.
+  void leave() { bounds_before_ = body_->bounds(block_); }
+  /// After the drift to step number n: whether nodes went through a wall. `before`, `after`: the
+  /// frame at its ends.
+  void watch(std::uint64_t n, const MovingFrame& before, const MovingFrame& after, double step);
+
+  const std::vector<Contact>& now() const { return contacts_; }
+  /// Number of the first step with a contact.
+  const std::optional<std::uint64_t>& first_step() const { return first_step_; }
+  /// The first node that went through a wall.
+  const std::optional<Passage>& passage() const { return passage_; }
+  /// Of the node of a contact [m/s].
+  Vec3 velocity(const Contact& contact, const MovingFrame& frame) const;
+
+ private:
+  bool is_near(std::size_t obstacle, const Box3& bounds) const;
+
+  const MassSpringModel* model_;
+  const std::vector<Obstacle>* obstacles_;
+  std::uint32_t block_;
+  FastBody* body_;
+  ContactFinder* finder_;
+  TunnelWatch* walls_;
+  std::vector<std::uint32_t> numbers_;    // the block's nodes among those with an area
+  std::vector<char> was_near_;            // by obstacle: looked at in the last step
+  std::vector<Contact> contacts_;
+  std::optional<std::uint64_t> first_step_;
+  std::optional<Passage> passage_;
+  Box3 bounds_before_;
+};
+
+}  // namespace springlod
