@@ -62,10 +62,26 @@ void fast(benchmark::State& state) {
   }
   count_springs(state, model);
 }
-BENCHMARK((fast<Precision::single_precision, false>))->Name("lattice/f32")->Arg(4096)->Arg(39304)->Arg(300763);
-BENCHMARK((fast<Precision::double_precision, false>))->Name("lattice/f64")->Arg(4096)->Arg(39304)->Arg(300763);
-BENCHMARK((fast<Precision::single_precision, true>))->Name("merged/f32")->Arg(4096)->Arg(40000)->Arg(300000);
-BENCHMARK((fast<Precision::double_precision, true>))->Name("merged/f64")->Arg(4096)->Arg(40000)->Arg(300000);
+BENCHMARK((fast<Precision::single_precision, false>))
+    ->Name("lattice/f32")
+    ->Arg(4096)
+    ->Arg(39304)
+    ->Arg(300763);
+BENCHMARK((fast<Precision::double_precision, false>))
+    ->Name("lattice/f64")
+    ->Arg(4096)
+    ->Arg(39304)
+    ->Arg(300763);
+BENCHMARK((fast<Precision::single_precision, true>))
+    ->Name("merged/f32")
+    ->Arg(4096)
+    ->Arg(40000)
+    ->Arg(300000);
+BENCHMARK((fast<Precision::double_precision, true>))
+    ->Name("merged/f64")
+    ->Arg(4096)
+    ->Arg(40000)
+    ->Arg(300000);
 
 }  // namespace
 

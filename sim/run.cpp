@@ -120,13 +120,12 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Sta
   const double step = trajectory.step;
   // A duration that is a whole number of steps must not get one more from rounding.
   const auto last_step = static_cast<std::uint64_t>(std::ceil(scenario.duration / step - 1e-6));
-  const std::unique_ptr<Stepper> stepper = make_stepper(
-      model, scenario, start, step,
-      {.integrator = options.integrator,
-       .solver = options.solver,
-       .ledger = options.ledger,
-       .precision = options.precision,
-       .threads = options.threads});
+  const std::unique_ptr<Stepper> stepper = make_stepper(model, scenario, start, step,
+                                                        {.integrator = options.integrator,
+                                                         .solver = options.solver,
+                                                         .ledger = options.ledger,
+                                                         .precision = options.precision,
+                                                         .threads = options.threads});
   Stepper& body = *stepper;
   Recorder recorder(options.frame_rate, options.ledger, trajectory);
   StopWatch stop(scenario.stop);
@@ -146,8 +145,8 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Sta
     }
     recorder.record(body, step);
     const std::uint64_t next_look = kLookEvery - body.step_number() % kLookEvery;
-    body.advance(std::min({next_look, last_step - body.step_number(),
-                           recorder.steps_to_next(body.time(), step)}));
+    body.advance(std::min(
+        {next_look, last_step - body.step_number(), recorder.steps_to_next(body.time(), step)}));
   }
   watch.look(body, weight.dot(body.center_of_mass() - first_center));
   recorder.record_end(body, step);

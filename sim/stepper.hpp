@@ -83,9 +83,9 @@ class Stepper {
 struct StepperOptions {
   Integrator integrator = Integrator::symplectic_euler;
   SolverOptions solver = {};
-  bool ledger = true;  ///< keep account of the losses
+  bool ledger = true;                                 ///< keep account of the losses
   Precision precision = Precision::double_precision;  ///< of symplectic Euler
-  std::uint32_t threads = 1;                          ///< for symplectic Euler; never change the result
+  std::uint32_t threads = 1;  ///< for symplectic Euler; never change the result
   /// The model laid out for `precision`, for many runs of it; made for this one if there is none.
   std::shared_ptr<const FastModel> layout = nullptr;
 };

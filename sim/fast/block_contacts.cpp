@@ -78,8 +78,8 @@ void BlockContacts::rub(const MovingFrame& frame, double step) {
 void BlockContacts::watch(std::uint64_t n, const MovingFrame& before, const MovingFrame& after,
                           double step) {
   if (walls_->wall_count() == 0 || numbers_.empty()) return;
-  const Box3 swept = moved(bounds_before_, before.origin)
-                         .merged(moved(body_->bounds(block_), after.origin));
+  const Box3 swept =
+      moved(bounds_before_, before.origin).merged(moved(body_->bounds(block_), after.origin));
   for (std::size_t w = 0; w < walls_->wall_count(); ++w) {
     if (!bounds_of(walls_->wall(w)).intersects(swept)) continue;
     for (const std::uint32_t number : numbers_) {

@@ -62,8 +62,8 @@ class BlockContacts {
   FastBody* body_;
   ContactFinder* finder_;
   TunnelWatch* walls_;
-  std::vector<std::uint32_t> numbers_;    // the block's nodes among those with an area
-  std::vector<char> was_near_;            // by obstacle: looked at in the last step
+  std::vector<std::uint32_t> numbers_;  // the block's nodes among those with an area
+  std::vector<char> was_near_;          // by obstacle: looked at in the last step
   std::vector<Contact> contacts_;
   std::optional<std::uint64_t> first_step_;
   std::optional<Passage> passage_;

@@ -153,8 +153,7 @@ void FastLeapfrog::find_and_move(const Pass& pass, const MovingFrame& frame,
   for (; next < end; ++next) kick_and_drift(pass, frame, next);
 }
 
-void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame,
-                                  std::uint32_t block) {
+void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block) {
   BlockContacts& contacts = contacts_of_[block];
   const MovingFrame next = after(pass, frame);
   const MovingFrame kicked{frame.origin, next.velocity};
@@ -182,8 +181,7 @@ void FastLeapfrog::kick(const Pass& pass, const MovingFrame& frame, const Moving
   std::vector<Vec3> v_minus;  // of the nodes in contact
   if (with_ledger_) {
     for (const Contact& c : contacts.now()) v_minus.push_back(contacts.velocity(c, frame));
-    if (pass.number > 0)
-      losses.until_now.lost_damping -= 0.5 * step_ * body_->damping_power(block);
+    if (pass.number > 0) losses.until_now.lost_damping -= 0.5 * step_ * body_->damping_power(block);
   }
   body_->move(block, pass.kick, 0);
   contacts.rub(kicked, step_);

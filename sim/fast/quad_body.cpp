@@ -11,8 +11,7 @@ Real rounding_of(double number) {
 
 template <class Real>
 Vec3 read(const Real (&from)[4]) {
-  return {static_cast<double>(from[0]), static_cast<double>(from[1]),
-          static_cast<double>(from[2])};
+  return {static_cast<double>(from[0]), static_cast<double>(from[1]), static_cast<double>(from[2])};
 }
 template <class Real>
 void add(const Vec3& more, Real (&to)[4]) {

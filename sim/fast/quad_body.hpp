@@ -13,9 +13,7 @@ class QuadBody final : public FastBody {
   /// The layout must outlive the body.
   QuadBody(const QuadLayout<Real>& layout, bool with_damping);
 
-  std::uint32_t block_count() const override {
-    return static_cast<std::uint32_t>(state_.size());
-  }
+  std::uint32_t block_count() const override { return static_cast<std::uint32_t>(state_.size()); }
   BlockRange needs(std::uint32_t /*block*/) const override { return {0, block_count() - 1}; }
   Place place(std::uint32_t node) const override { return layout_->place[node]; }
 

@@ -27,10 +27,9 @@ void add_forces_plainly(const QuadBlock<Real>& block, Real damping_time,
     const NodeRecord<Real>& p = state.records[a];
     const NodeRecord<Real>& q = state.records[b];
     const Real x[3] = {q.x[0] - p.x[0], q.x[1] - p.x[1], q.x[2] - p.x[2]};
-    const Real square = std::max(x[0] * x[0] + x[1] * x[1] + x[2] * x[2],
-                                 static_cast<Real>(kShortestSquare));
-    const Real way =
-        x[0] * (q.v[0] - p.v[0]) + x[1] * (q.v[1] - p.v[1]) + x[2] * (q.v[2] - p.v[2]);
+    const Real square =
+        std::max(x[0] * x[0] + x[1] * x[1] + x[2] * x[2], static_cast<Real>(kShortestSquare));
+    const Real way = x[0] * (q.v[0] - p.v[0]) + x[1] * (q.v[1] - p.v[1]) + x[2] * (q.v[2] - p.v[2]);
     const Real elastic = block.stiffness[s] - block.rest_force[s] / std::sqrt(square);
     const Real damping =
         (block.damping.empty() ? damping_time * block.stiffness[s] : block.damping[s]) * way /
@@ -143,11 +142,10 @@ void add_forces(const QuadBlock<float>& block, float damping_time, QuadBlockStat
     const std::uint16_t own1 = block.quad_node[q + 1];
     const V8 record0 = record(own0);
     const V8 record1 = record(own1);
-    const V8 apart[8] = {
-        hn::Sub(record(other[0]), record0), hn::Sub(record(other[1]), record0),
-        hn::Sub(record(other[2]), record0), hn::Sub(record(other[3]), record0),
-        hn::Sub(record(other[4]), record1), hn::Sub(record(other[5]), record1),
-        hn::Sub(record(other[6]), record1), hn::Sub(record(other[7]), record1)};
+    const V8 apart[8] = {hn::Sub(record(other[0]), record0), hn::Sub(record(other[1]), record0),
+                         hn::Sub(record(other[2]), record0), hn::Sub(record(other[3]), record0),
+                         hn::Sub(record(other[4]), record1), hn::Sub(record(other[5]), record1),
+                         hn::Sub(record(other[6]), record1), hn::Sub(record(other[7]), record1)};
     const Side<V8> a = transpose(apart[0], apart[1], apart[2], apart[3]);
     const Side<V8> b = transpose(apart[4], apart[5], apart[6], apart[7]);
     const Side<V8> x{hn::ConcatLowerLower(d, b.x, a.x), hn::ConcatLowerLower(d, b.y, a.y),
@@ -229,8 +227,9 @@ void find_forces(const QuadLayout<Real>& layout, std::uint32_t number, QuadState
 }
 
 template <class Real>
-void collect(const QuadBlock<Real>& block, std::vector<NodeVector<Real>> QuadBlockState<Real>::*forces,
-             std::uint32_t number, QuadState<Real>& state) {
+void collect(const QuadBlock<Real>& block,
+             std::vector<NodeVector<Real>> QuadBlockState<Real>::*forces, std::uint32_t number,
+             QuadState<Real>& state) {
   for (const CopiedForce& c : block.copied)
     for (int i = 0; i < 3; ++i)
       (state[number].*forces)[c.own].at[i] += (state[c.copy.block].*forces)[c.copy.index].at[i];
@@ -295,7 +294,7 @@ void drift_nodes(const QuadBlock<Real>& block, Real time, QuadBlockState<Real>& 
 }
 
 void find_forces_float(const QuadLayout<float>& layout, std::uint32_t block,
-                 QuadState<float>& state) {
+                       QuadState<float>& state) {
   find_forces(layout, block, state);
 }
 void collect_float(const QuadLayout<float>& layout, std::uint32_t block, QuadState<float>& state) {
@@ -304,29 +303,30 @@ void collect_float(const QuadLayout<float>& layout, std::uint32_t block, QuadSta
     collect(layout.blocks[block], &QuadBlockState<float>::damping_forces, block, state);
 }
 double damping_power_float(const QuadLayout<float>& layout, std::uint32_t block,
-                     const QuadState<float>& state) {
+                           const QuadState<float>& state) {
   return damping_power(layout.blocks[block], state[block]);
 }
 void move_float(const QuadLayout<float>& layout, std::uint32_t block, double kick, double drift,
-          QuadState<float>& state) {
+                QuadState<float>& state) {
   if (kick != 0) kick_nodes(layout.blocks[block], static_cast<float>(kick), state[block]);
   if (drift != 0) drift_nodes(layout.blocks[block], static_cast<float>(drift), state[block]);
 }
 void find_forces_double(const QuadLayout<double>& layout, std::uint32_t block,
-                 QuadState<double>& state) {
+                        QuadState<double>& state) {
   find_forces(layout, block, state);
 }
-void collect_double(const QuadLayout<double>& layout, std::uint32_t block, QuadState<double>& state) {
+void collect_double(const QuadLayout<double>& layout, std::uint32_t block,
+                    QuadState<double>& state) {
   collect(layout.blocks[block], &QuadBlockState<double>::forces, block, state);
   if (!state[block].damping_forces.empty())
     collect(layout.blocks[block], &QuadBlockState<double>::damping_forces, block, state);
 }
 double damping_power_double(const QuadLayout<double>& layout, std::uint32_t block,
-                     const QuadState<double>& state) {
+                            const QuadState<double>& state) {
   return damping_power(layout.blocks[block], state[block]);
 }
 void move_double(const QuadLayout<double>& layout, std::uint32_t block, double kick, double drift,
-          QuadState<double>& state) {
+                 QuadState<double>& state) {
   if (kick != 0) kick_nodes(layout.blocks[block], static_cast<double>(kick), state[block]);
   if (drift != 0) drift_nodes(layout.blocks[block], static_cast<double>(drift), state[block]);
 }

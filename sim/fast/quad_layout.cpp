@@ -86,8 +86,7 @@ class Laying {
       for (std::uint32_t i = 0; i < layout.blocks[b].own; ++i)
         for (const Place& copy : copies[order_.first[b] + i])
           layout.blocks[b].copied.push_back({i, copy});
-    for (std::uint32_t n = 0; n < model_.node_count(); ++n)
-      layout.place.push_back(place(rank_[n]));
+    for (std::uint32_t n = 0; n < model_.node_count(); ++n) layout.place.push_back(place(rank_[n]));
     return layout;
   }
 

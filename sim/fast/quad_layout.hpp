@@ -24,7 +24,7 @@ struct CopiedForce {
 /// without stiffness that fill a quad up.
 template <class Real>
 struct QuadBlock {
-  std::uint32_t own = 0;  ///< nodes
+  std::uint32_t own = 0;           ///< nodes
   std::vector<Real> inverse_mass;  ///< of own nodes [1/kg]
   std::vector<Place> halo;         ///< where the copies are from
 
@@ -32,7 +32,7 @@ struct QuadBlock {
   std::vector<std::uint16_t> other_end;  ///< index of the other end, kQuad a quad
   std::vector<Real> stiffness;           ///< k [N/m], kQuad a quad
   std::vector<Real> rest_force;          ///< k L [N], kQuad a quad
-  std::vector<Real> damping;             ///< c [N s/m], kQuad a quad; empty if all are damping_time k
+  std::vector<Real> damping;  ///< c [N s/m], kQuad a quad; empty if all are damping_time k
 
   std::vector<CopiedForce> copied;  ///< own nodes rising
 

@@ -26,9 +26,7 @@ class RowBody final : public FastBody {
   void get(std::vector<Vec3>& x, std::vector<Vec3>& v) const override;
 
   void find_forces(std::uint32_t block) override { find_row_forces(*layout_, block, state_); }
-  void collect_forces(std::uint32_t block) override {
-    collect_row_forces(*layout_, block, state_);
-  }
+  void collect_forces(std::uint32_t block) override { collect_row_forces(*layout_, block, state_); }
   double damping_power(std::uint32_t block) const override {
     return row_damping_power(*layout_, block, state_);
   }

@@ -51,8 +51,7 @@ HWY_INLINE Vector3<D> add_scaled(const Vector3<D>& p, hn::Vec<D> factor, const V
 }
 /// p - factor q
 template <class D>
-HWY_INLINE Vector3<D> subtract_scaled(const Vector3<D>& p, hn::Vec<D> factor,
-                                      const Vector3<D>& q) {
+HWY_INLINE Vector3<D> subtract_scaled(const Vector3<D>& p, hn::Vec<D> factor, const Vector3<D>& q) {
   return {hn::NegMulAdd(factor, q.x, p.x), hn::NegMulAdd(factor, q.y, p.y),
           hn::NegMulAdd(factor, q.z, p.z)};
 }
@@ -107,7 +106,8 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
                      other);
       if constexpr (with_damping) {
         own_damping = add_scaled<D>(own_damping, damping, along);
-        store<D, Real>(d, subtract_scaled<D>(load<D, Real>(d, damping_force, other), damping, along),
+        store<D, Real>(d,
+                       subtract_scaled<D>(load<D, Real>(d, damping_force, other), damping, along),
                        damping_force, other);
       }
     }
@@ -130,9 +130,9 @@ void collect(const RowLayout<Real>& layout, std::uint32_t number,
     if (size <= offset) continue;
     const std::uint32_t count = std::min(block.places(), size - offset);
     for (std::uint32_t p = 0; p < count; p += lane_count<Real>())
-      store<D, Real>(
-          d, load<D, Real>(d, force[number], p) + load<D, Real>(d, force[from], offset + p),
-          force[number], p);
+      store<D, Real>(d,
+                     load<D, Real>(d, force[number], p) + load<D, Real>(d, force[from], offset + p),
+                     force[number], p);
   }
 }
 
@@ -144,9 +144,9 @@ double damping_power(const RowLayout<Real>& layout, std::uint32_t number,
   const RowBlock& block = layout.blocks[number];
   double power = 0;
   for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>())
-    power += static_cast<double>(hn::GetLane(
-        hn::SumOfLanes(d, dot<D>(load<D, Real>(d, state.damping_force[number], p),
-                                 load<D, Real>(d, state.v, block.first + p)))));
+    power += static_cast<double>(
+        hn::GetLane(hn::SumOfLanes(d, dot<D>(load<D, Real>(d, state.damping_force[number], p),
+                                             load<D, Real>(d, state.v, block.first + p)))));
   return power;
 }
 
@@ -196,13 +196,12 @@ void move(const RowLayout<Real>& layout, std::uint32_t number, double kick, doub
     if (kick != 0)
       kick_axis(layout, block, static_cast<Real>(kick), state.force[number][axis].get(),
                 state.v[axis].get() + block.first);
-    if (drift != 0)
-      drift_axis(block, static_cast<Real>(drift), axis, state, state.bounds[number]);
+    if (drift != 0) drift_axis(block, static_cast<Real>(drift), axis, state, state.bounds[number]);
   }
 }
 
 void find_forces_float(const RowLayout<float>& layout, std::uint32_t block,
-                 RowState<float>& state) {
+                       RowState<float>& state) {
   if (state.damping_force.empty())
     find_forces<false>(layout, block, state);
   else
@@ -213,15 +212,15 @@ void collect_float(const RowLayout<float>& layout, std::uint32_t block, RowState
   if (!state.damping_force.empty()) collect(layout, block, state.damping_force);
 }
 double damping_power_float(const RowLayout<float>& layout, std::uint32_t block,
-                     const RowState<float>& state) {
+                           const RowState<float>& state) {
   return damping_power(layout, block, state);
 }
 void move_float(const RowLayout<float>& layout, std::uint32_t block, double kick, double drift,
-          RowState<float>& state) {
+                RowState<float>& state) {
   move(layout, block, kick, drift, state);
 }
 void find_forces_double(const RowLayout<double>& layout, std::uint32_t block,
-                 RowState<double>& state) {
+                        RowState<double>& state) {
   if (state.damping_force.empty())
     find_forces<false>(layout, block, state);
   else
@@ -232,11 +231,11 @@ void collect_double(const RowLayout<double>& layout, std::uint32_t block, RowSta
   if (!state.damping_force.empty()) collect(layout, block, state.damping_force);
 }
 double damping_power_double(const RowLayout<double>& layout, std::uint32_t block,
-                     const RowState<double>& state) {
+                            const RowState<double>& state) {
   return damping_power(layout, block, state);
 }
 void move_double(const RowLayout<double>& layout, std::uint32_t block, double kick, double drift,
-          RowState<double>& state) {
+                 RowState<double>& state) {
   move(layout, block, kick, drift, state);
 }
 
@@ -275,7 +274,8 @@ void move_rows(const RowLayout<float>& layout, std::uint32_t block, double kick,
   HWY_DYNAMIC_DISPATCH(move_float)(layout, block, kick, drift, state);
 }
 template <>
-void find_row_forces(const RowLayout<double>& layout, std::uint32_t block, RowState<double>& state) {
+void find_row_forces(const RowLayout<double>& layout, std::uint32_t block,
+                     RowState<double>& state) {
   HWY_DYNAMIC_DISPATCH(find_forces_double)(layout, block, state);
 }
 template <>

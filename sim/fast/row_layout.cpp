@@ -78,9 +78,10 @@ class Palette {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> numbers_;
 };
 
-// The forces of a row are added to what is there, in memory. Rows of neighbouring directions lead to
-// overlapping places: one right after the other, each would wait for the store of the one before.
-// So those that lie next to each other in `rows`, sorted by how far they lead, are taken apart.
+// The forces of a row are added to what is there, in memory. Rows of neighbouring directions lead
+// to overlapping places: one right after the other, each would wait for the store of the one
+// before. So those that lie next to each other in `rows`, sorted by how far they lead, are taken
+// apart.
 std::vector<SpringRow> interleave(const std::vector<SpringRow>& rows) {
   constexpr std::size_t kApart = 3;  // directions along a line of a lattice: back, across, forward
   std::vector<SpringRow> mixed;

@@ -45,11 +45,11 @@ struct RowLayout {
   std::vector<SpringRow> rows;           ///< in the order of the places
   std::vector<RowProperties<Real>> properties;
   std::vector<RowBlock> blocks;
-  std::vector<Place> place;            ///< of each node; N
-  std::vector<Real> inverse_mass;      ///< by place, filled up with 0 to a multiple of kRowLanes [1/kg]
-  std::uint32_t reach = 0;             ///< largest of the blocks
+  std::vector<Place> place;        ///< of each node; N
+  std::vector<Real> inverse_mass;  ///< by place, filled up with 0 to a multiple of kRowLanes [1/kg]
+  std::uint32_t reach = 0;         ///< largest of the blocks
 
-  std::uint32_t block_places = 0;      ///< of every block but the last
+  std::uint32_t block_places = 0;  ///< of every block but the last
 
   /// The first block whose springs may lead to this one's places.
   std::uint32_t first_contributor(std::uint32_t block) const {

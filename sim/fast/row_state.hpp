@@ -26,7 +26,8 @@ struct RowState {
   Coordinates low;
   /// Forces that a block works out on its own places and those of its reach [N]; by block.
   std::vector<Coordinates> force;
-  std::vector<Coordinates> damping_force;  ///< the part of it that is damping; empty if not asked for
+  std::vector<Coordinates>
+      damping_force;         ///< the part of it that is damping; empty if not asked for
   std::vector<Box3> bounds;  ///< of the places of each block [m]
 };
 

@@ -1,0 +1,207 @@
+// Fast layouts held to the plain kernel.
+
+#include <random>
+
+#include <catch2/catch.hpp>
+
+#include "lod/build.hpp"
+#include "model/error.hpp"
+#include "model/stable_step.hpp"
+#include "sim/fast/fast_leapfrog.hpp"
+#include "sim/fast/row_layout.hpp"
+#include "sim/leapfrog.hpp"
+#include "sim/step_limit.hpp"
+#include "tests/sim/bodies.hpp"
+#include "voxelize/lattice.hpp"
+
+using namespace springlod;
+
+namespace {
+
+/// A block of cells of two materials with a bite taken out of it.
+MassSpringModel two_material_block(int side) {
+  MaterialGrid grid;
+  grid.cell = 0.01;
+  grid.materials = {Material{.name = "soft", .young = 1e5, .damping = 0.002},
+                    Material{.name = "hard", .young = 8e5, .damping = 0.001}};
+  for (int z = 0; z < side; ++z)
+    for (int y = 0; y < side + 1; ++y)
+      for (int x = 0; x < side + 3; ++x) {
+        if (x < 2 && y < 2) continue;
+        grid.cells.push_back({x, y, z});
+        grid.material.push_back(x > side / 2 ? 1 : 0);
+      }
+  return build_lattice(grid).model;
+}
+
+/// Falls onto a floor, slides into a turned block, spinning.
+Scenario rough_scene(const MassSpringModel& model) {
+  Scenario scene;
+  Obstacle floor = bodies::floor(2e6, 0.4);
+  floor.damping = 1e-4;
+  Obstacle block;
+  block.name = "block";
+  block.stiffness = 2e6;
+  block.friction = 0.3;
+  const Box3 box = bounds(model.rest);
+  std::get<Plane>(floor.shape).offset = box.min().z() - 1e-4;
+  block.shape = SolidBox{.center = box.center() + Vec3(0.55 * box.sizes().x() + 0.02, 0, 0),
+                         .half_size = {0.02, 0.2, 0.2},
+                         .rotation = Eigen::AngleAxisd(0.1, Vec3::UnitZ()).toRotationMatrix()};
+  scene.obstacles = {floor, block};
+  scene.start.velocity = {1.5, 0.2, -0.5};
+  scene.start.spin = {1, 3, -2};
+  return scene;
+}
+
+struct Outcome {
+  State state;
+  LedgerEntry ledger;
+  std::size_t contacts = 0;
+  std::optional<double> first_contact;
+};
+
+template <class Scheme>
+Outcome after(const MassSpringModel& model, const Scenario& scene, std::uint64_t steps,
+              const StepperOptions& options, std::uint64_t stride) {
+  const double step = 0.5 * predicted_step(model, scene);
+  Scheme body(model, scene, initial_state(model, scene.start), step, options);
+  body.prepare();
+  while (body.step_number() < steps) body.advance(std::min(stride, steps - body.step_number()));
+  return {body.state(), body.ledger_entry(), body.contacts().size(), body.first_contact()};
+}
+
+double largest_difference(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
+  double most = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) most = std::max(most, (p[i] - q[i]).norm());
+  return most;
+}
+
+void check_same_bits(const Outcome& p, const Outcome& q) {
+  CHECK(p.state.x == q.state.x);
+  CHECK(p.state.v == q.state.v);
+  CHECK(p.ledger.total() == q.ledger.total());
+  CHECK(p.contacts == q.contacts);
+  CHECK(p.first_contact == q.first_contact);
+}
+
+constexpr std::uint64_t kSteps = 300;
+
+}  // namespace
+
+TEST_CASE("Fast steps are those of the plain kernel, to rounding, whatever the layout") {
+  const MassSpringModel lattice = two_material_block(9);
+  const bool merged = GENERATE(false, true);
+  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  const Scenario scene = rough_scene(model);
+  const Outcome plain = after<Leapfrog>(model, scene, kSteps, {}, 1);
+  REQUIRE(plain.contacts > 0);
+  REQUIRE(plain.ledger.lost_friction > 0);
+  REQUIRE(plain.ledger.lost_damping > 0);
+  const double size = bounds(model.rest).sizes().norm();
+  const double speed = 3;  // [m/s], about that of the start
+
+  const Outcome fast = after<FastLeapfrog>(model, scene, kSteps, {}, 1);
+  CHECK(largest_difference(plain.state.x, fast.state.x) < 1e-9 * size);
+  CHECK(largest_difference(plain.state.v, fast.state.v) < 1e-8 * speed);
+  CHECK(fast.contacts == plain.contacts);
+  CHECK(fast.first_contact.value() == Approx(plain.first_contact.value()));
+  const double energy = plain.ledger.total();
+  for (const auto part :
+       {&LedgerEntry::kinetic, &LedgerEntry::elastic, &LedgerEntry::gravity, &LedgerEntry::contact,
+        &LedgerEntry::lost_damping, &LedgerEntry::lost_friction, &LedgerEntry::lost_contact})
+    CHECK(fast.ledger.*part == Approx(plain.ledger.*part).margin(1e-8 * std::abs(energy)));
+
+  const Outcome single =
+      after<FastLeapfrog>(model, scene, kSteps, {.precision = Precision::single_precision}, 1);
+  CHECK(largest_difference(plain.state.x, single.state.x) < 1e-4 * size);
+  CHECK(largest_difference(plain.state.x, single.state.x) > 0);
+  CHECK(single.ledger.total() == Approx(energy).epsilon(1e-3));
+}
+
+TEST_CASE("Fast steps give the same bits, however many are taken at once, with a ledger or not") {
+  const MassSpringModel lattice = two_material_block(7);
+  const bool merged = GENERATE(false, true);
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  const Scenario scene = rough_scene(model);
+  const StepperOptions with_ledger{.precision = precision};
+  const Outcome one = after<FastLeapfrog>(model, scene, kSteps, with_ledger, 1);
+  check_same_bits(one, after<FastLeapfrog>(model, scene, kSteps, with_ledger, 37));
+  check_same_bits(one, after<FastLeapfrog>(model, scene, kSteps, with_ledger, 1000));
+  Outcome without =
+      after<FastLeapfrog>(model, scene, kSteps, {.ledger = false, .precision = precision}, 1000);
+  without.ledger = one.ledger;
+  check_same_bits(one, without);
+}
+
+TEST_CASE("Fast steps give the same bits on any number of threads") {
+  const bool merged = GENERATE(false, true);
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  const MassSpringModel lattice = two_material_block(merged ? 38 : 31);
+  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  REQUIRE(model.node_count() > 24'000);  // worth three threads
+  const Scenario scene = rough_scene(model);
+  constexpr std::uint64_t kFew = 70;  // beyond a change of the frame
+  const auto on = [&](std::uint32_t threads) {
+    return after<FastLeapfrog>(model, scene, kFew, {.precision = precision, .threads = threads},
+                               1000);
+  };
+  const Outcome one = on(1);
+  check_same_bits(one, on(2));
+  check_same_bits(one, on(3));
+}
+
+TEST_CASE("Bodies of one layout do not disturb each other") {
+  const MassSpringModel model = two_material_block(5);
+  const Scenario scene = rough_scene(model);
+  const std::shared_ptr<const FastModel> layout =
+      make_fast_model(model, Precision::double_precision);
+  const double step = 0.5 * predicted_step(model, scene);
+  const State start = initial_state(model, scene.start);
+  FastLeapfrog first(model, scene, start, step, {.layout = layout});
+  FastLeapfrog second(model, scene, start, step, {.layout = layout});
+  first.prepare();
+  second.prepare();
+  first.advance(50);
+  second.advance(20);
+  second.advance(30);
+  CHECK(first.state().x == second.state().x);
+}
+
+TEST_CASE("A fast step tells the node that went through a wall as the plain one does") {
+  const MassSpringModel model = two_material_block(4);
+  Scenario scene;
+  Obstacle wall;
+  wall.name = "wall";
+  wall.stiffness = 1e3;
+  wall.shape =
+      SolidBox{.center = bounds(model.rest).center() + Vec3(0.1, 0, 0), .half_size = {0.002, 1, 1}};
+  scene.obstacles = {wall};
+  scene.start.velocity = {20, 0, 0};
+  const auto message = [&](auto&& scheme) -> std::string {
+    try {
+      scheme();
+    } catch (const TunnelError& e) {
+      return e.what();
+    }
+    return {};
+  };
+  const std::string plain = message([&] { after<Leapfrog>(model, scene, 1000, {}, 1); });
+  CHECK(plain.find("went through") != std::string::npos);
+  CHECK(message([&] { after<FastLeapfrog>(model, scene, 1000, {}, 1); }) == plain);
+  CHECK(message([&] { after<FastLeapfrog>(model, scene, 1000, {}, 1000); }) == plain);
+}
+
+TEST_CASE("Rows hold every spring once and are nearly full on a lattice") {
+  const MassSpringModel model = two_material_block(16);
+  const auto layout = make_row_layout<double>(model);
+  CHECK(static_cast<double>(model.spring_count()) > 6.5 * static_cast<double>(layout.rows.size()));
+  CHECK(layout.properties.size() < layout.rows.size() / 4);
+  double stiffness = 0;
+  double expected = 0;
+  for (const SpringRow& row : layout.rows)
+    for (const double k : layout.properties[row.properties].stiffness) stiffness += k;
+  for (const double k : model.stiffness) expected += k;
+  CHECK(stiffness == Approx(expected));
+}
