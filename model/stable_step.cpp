@@ -99,21 +99,46 @@ double largest_eigenvalue_lanczos(const MassWeightedStiffness& op, std::uint64_t
   return ritz + (product - ritz * v).norm() / v.norm();
 }
 
-/// omega^2 <= max_i (2 lambda_max(A_i) + ground_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
-double squared_bound(const MassSpringModel& model, const std::vector<double>& ground) {
-  std::vector<Mat3> tensor(model.node_count(), Mat3::Zero());
+/// A_i of each node, from the stiffness of each spring between its ends [N/m].
+template <class StiffnessOf>
+std::vector<Mat3> node_stiffness(const MassSpringModel& model, const StiffnessOf& stiffness_of) {
+  std::vector<Mat3> sums(model.node_count(), Mat3::Zero());
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    const Vec3 u = spring_direction(model, s);
-    const Mat3 k = model.stiffness[s] * u * u.transpose();
-    tensor[model.a[s]] += k;
-    tensor[model.b[s]] += k;
+    const Mat3 k = stiffness_of(s);
+    sums[model.a[s]] += k;
+    sums[model.b[s]] += k;
   }
+  return sums;
+}
+
+std::vector<Mat3> node_stiffness_at_rest(const MassSpringModel& model) {
+  return node_stiffness(model, [&](std::uint32_t s) -> Mat3 {
+    const Vec3 u = spring_direction(model, s);
+    return model.stiffness[s] * u * u.transpose();
+  });
+}
+
+std::vector<Mat3> node_stiffness_at(const MassSpringModel& model, const std::vector<Vec3>& x) {
+  return node_stiffness(model, [&](std::uint32_t s) -> Mat3 {
+    const Vec3 along = x[model.b[s]] - x[model.a[s]];
+    const double length = along.norm();
+    if (!(length > 0)) return Mat3::Zero();  // no direction
+    const Mat3 lengthwise = along * along.transpose() / (length * length);
+    const double across = std::max(0.0, 1 - model.rest_length[s] / length);
+    return model.stiffness[s] * (lengthwise + across * (Mat3::Identity() - lengthwise));
+  });
+}
+
+/// omega^2 <= max_i (2 lambda_max(A_i) + ground_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
+double squared_bound(const std::vector<Mat3>& node_stiffness, const std::vector<double>& ground,
+                     const std::vector<double>& mass) {
   double bound = 0;
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    const double top = Eigen::SelfAdjointEigenSolver<Mat3>(tensor[i], Eigen::EigenvaluesOnly)
-                           .eigenvalues()
-                           .maxCoeff();
-    bound = std::max(bound, (2 * top + (ground.empty() ? 0 : ground[i])) / model.mass[i]);
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    const double top =
+        Eigen::SelfAdjointEigenSolver<Mat3>(node_stiffness[i], Eigen::EigenvaluesOnly)
+            .eigenvalues()
+            .maxCoeff();
+    bound = std::max(bound, (2 * top + (ground.empty() ? 0 : ground[i])) / mass[i]);
   }
   return bound;
 }
@@ -126,7 +151,7 @@ double largest_frequency(const MassSpringModel& model, const FrequencyOptions& o
     throw InputError(fmt::format("ground stiffness: {} values for {} nodes; give one a node",
                                  ground.size(), model.node_count()));
   const MassWeightedStiffness op(model, ground);
-  const double bound = squared_bound(model, ground);
+  const double bound = squared_bound(node_stiffness_at_rest(model), ground, model.mass);
   if (bound == 0) return 0;
   const double squared = op.rows() <= kDenseUnknowns ? largest_eigenvalue_dense(op)
                                                      : largest_eigenvalue_lanczos(op, options.seed);
@@ -134,7 +159,12 @@ double largest_frequency(const MassSpringModel& model, const FrequencyOptions& o
 }
 
 double frequency_bound(const MassSpringModel& model) {
-  return std::sqrt(squared_bound(model, {}));
+  return std::sqrt(squared_bound(node_stiffness_at_rest(model), {}, model.mass));
+}
+
+double frequency_bound(const MassSpringModel& model, const std::vector<Vec3>& x,
+                       const std::vector<double>& ground_stiffness) {
+  return std::sqrt(squared_bound(node_stiffness_at(model, x), ground_stiffness, model.mass));
 }
 
 double largest_damping_time(const MassSpringModel& model) {

@@ -97,6 +97,7 @@ class Comparing {
     for (StartSlot& slot : slots_) slot.users = static_cast<std::uint32_t>(chain.levels.size());
     for (std::uint32_t level = 0; level < chain.levels.size(); ++level) {
       bindings_.push_back(base_from_level(chain, level));
+      plans_.push_back(plan_runs(chain.levels[level].model, scenario, options.run));
       LevelRuns& runs = result_.levels.emplace_back();
       runs.level = level;
       runs.label = label_of(level, options.variant);
@@ -176,7 +177,7 @@ class Comparing {
     run_options.progress = &progress;
     LevelRuns& runs = result_.levels[level];
     Trajectory trajectory =
-        run_start(model, scenario, base_center_, run_options,
+        run_start(model, scenario, base_center_, run_options, plans_[level],
                   fmt::format("{}, start {}", runs.label, start + 1), runs.starts[start]);
     progress.finish();
     return trajectory;
@@ -194,6 +195,7 @@ class Comparing {
   const CompareOptions& options_;
   std::vector<StartSlot> slots_;
   std::vector<Binding> bindings_;  // level 0 from each level
+  std::vector<RunPlan> plans_;     // by level
   Vec3 base_center_;
   Comparison result_;
 };

@@ -18,6 +18,7 @@ std::vector<EnsembleRun> run_ensemble(const MassSpringModel& model, const Scenar
   if (!(options.jitter >= 0 && options.jitter < 1))
     throw InputError(fmt::format("ensemble: jitter = {} must lie in [0, 1)", options.jitter));
   const Vec3 center = center_of_mass(model, model.rest);
+  const RunPlan plan = plan_runs(model, scenario, options.run);
   std::vector<EnsembleRun> runs(options.starts);
   Task task(options.progress, "ensemble", options.starts * RunProgress::kUnits);
   run_jobs(options.starts, options.threads,
@@ -30,8 +31,8 @@ std::vector<EnsembleRun> run_ensemble(const MassSpringModel& model, const Scenar
              RunProgress progress(options.progress, stopped);
              RunOptions run_options = options.run;
              run_options.progress = &progress;
-             run_start(model, own, center, run_options, fmt::format("start {}", result.start + 1),
-                       result);
+             run_start(model, own, center, run_options, plan,
+                       fmt::format("start {}", result.start + 1), result);
              progress.finish();
            });
   return runs;

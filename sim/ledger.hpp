@@ -32,7 +32,7 @@ struct LedgerEntry {
   double lost_damping = 0;  ///< to spring damping
   double lost_friction = 0;
   double lost_contact = 0;  ///< to contact damping and to contact beginning or ending in mid-step
-  double lost_switch = 0;   ///< to a level switch
+  double lost_switch = 0;   ///< to a switch of the level, or of the step (K_n depends on it)
   /// What is still there and could move the body.
   double mechanical() const { return kinetic + elastic + gravity + contact; }
   double total() const {

@@ -2,12 +2,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "model/mass_spring.hpp"
 #include "model/progress.hpp"
-#include "sim/fast/precision.hpp"
+#include "sim/fast/fast_model.hpp"
 #include "sim/integrator.hpp"
 #include "sim/ledger.hpp"
 #include "sim/scenario.hpp"
@@ -19,9 +20,14 @@ struct RunOptions {
   Integrator integrator = Integrator::symplectic_euler;
   SolverOptions solver = {};  ///< for the implicit schemes
   /// Step [s]; left out: 1 ms for the implicit schemes, for the others `safety` times the predicted
-  /// stable step, contact stiffness included.
+  /// stable step, contact stiffness included; symplectic Euler halves it where springs are
+  /// stretched or flattened so far that it would not hold, and doubles it again afterwards.
   std::optional<double> step = std::nullopt;
   double safety = 0.8;
+  /// A body that touches an obstacle is left to sleep, at no cost, once its nodes' mean speed has
+  /// stayed below this part of sqrt(|g| size), about that of a fall through its own size [1]; 0:
+  /// never.
+  double sleep = 1e-5;
   /// Frames kept a second of simulated time; 0: only the first and last state.
   double frame_rate = 60;
   /// Record the energy ledger (costs about half as much again).
@@ -48,7 +54,8 @@ struct Frame {
 
 /// One run of one model: deterministic, single-threaded.
 struct Trajectory {
-  double step = 0;            ///< [s]
+  double step = 0;            ///< at rest [s]
+  double shortest_step = 0;   ///< where springs were strained hard [s]
   double predicted_step = 0;  ///< stable step predicted for the model and its contacts [s]
   std::uint64_t steps = 0;
   /// Springs evaluated, in every step and iteration: the deterministic measure of cost. (A sparse
@@ -61,10 +68,21 @@ struct Trajectory {
   std::vector<Frame> frames;            ///< at the frame times, first and last included
   std::vector<LedgerEntry> ledger;      ///< one a frame; empty if not asked for
   std::optional<double> first_contact;  ///< [s]
+  std::optional<double> asleep_since;   ///< [s]; from there on it was not moved any more
   /// The first springs to turn over: from there on the body is inside out at that place.
   std::optional<Crossing> first_crossing;
   State final;
 };
+
+/// What runs of one model have in common, whatever their start: may be shared between threads.
+struct RunPlan {
+  StepLimit limit;
+  std::shared_ptr<const FastModel> layout = nullptr;  ///< for symplectic Euler
+};
+/// For all runs with these options and obstacles. Throws InputError for a wrong model, scenario or
+/// option.
+RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
+                  const RunOptions& options);
 
 /// Runs the model under the scenario. The step is `safety` times the predicted one, shortened so
 /// that the duration is a whole number of steps, or exactly the one given. Frames lie exactly at
@@ -77,6 +95,9 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario,
 /// From positions and velocities of its own instead of the scenario's throw.
 Trajectory run(const MassSpringModel& model, const Scenario& scenario, const State& start,
                const RunOptions& options);
+/// With what was planned for this model, these obstacles and these options.
+Trajectory run(const MassSpringModel& model, const Scenario& scenario, const State& start,
+               const RunOptions& options, const RunPlan& plan);
 
 /// What Scenario::measure_from asks for [m], from the way of the centre of mass.
 double measured_distance(const Scenario& scenario, const Vec3& first_center,

@@ -27,9 +27,11 @@ Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint6
 }
 
 Trajectory run_start(const MassSpringModel& model, const Scenario& scenario, const Vec3& center,
-                     const RunOptions& options, const std::string& name, RunSummary& summary) {
+                     const RunOptions& options, const RunPlan& plan, const std::string& name,
+                     RunSummary& summary) {
   try {
-    Trajectory trajectory = run(model, scenario, options);
+    Trajectory trajectory =
+        run(model, scenario, initial_state(model, scenario.start), options, plan);
     summary.distance =
         measured_distance(scenario, scenario.start.placed ? scenario.start.position : center,
                           center_of_mass(model, trajectory.final.x));

@@ -27,8 +27,10 @@ struct RunSummary {
 };
 
 /// Runs the model from the scenario's start and sums it up. `center`: where the body's centre of
-/// mass is if the start does not place it. Errors are those of run, led by `name`.
+/// mass is if the start does not place it. `plan`: of the model under this scenario, whatever the
+/// start. Errors are those of run, led by `name`.
 Trajectory run_start(const MassSpringModel& model, const Scenario& scenario, const Vec3& center,
-                     const RunOptions& options, const std::string& name, RunSummary& summary);
+                     const RunOptions& options, const RunPlan& plan, const std::string& name,
+                     RunSummary& summary);
 
 }  // namespace springlod

@@ -1,6 +1,7 @@
 #include "sim/step_limit.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "model/stable_step.hpp"
 #include "sim/contact.hpp"
@@ -36,7 +37,10 @@ StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario,
   for (const Obstacle& obstacle : scenario.obstacles)
     damping_time = std::max(damping_time, obstacle.damping);
   return {.step = limit(omega, damping_time, integrator),
-          .without_damping = limit(omega, 0, integrator)};
+          .without_damping = limit(omega, 0, integrator),
+          .omega = omega,
+          .damping_time = damping_time,
+          .ground_stiffness = std::move(contact.ground_stiffness)};
 }
 
 double predicted_step(const MassSpringModel& model, const Scenario& scenario,

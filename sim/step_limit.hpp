@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "model/mass_spring.hpp"
 #include "sim/integrator.hpp"
@@ -13,6 +14,11 @@ namespace springlod {
 struct StepLimit {
   double step = std::numeric_limits<double>::infinity();             ///< [s]
   double without_damping = std::numeric_limits<double>::infinity();  ///< if nothing were damped [s]
+
+  double omega = 0;         ///< highest frequency of springs and contacts [rad/s]
+  double damping_time = 0;  ///< largest of springs and obstacles [s]
+  /// What obstacles may add to the stiffness of each node [N/m]; empty for the implicit schemes.
+  std::vector<double> ground_stiffness = {};
 
   /// Whether damping, and not how stiff springs and contacts are, costs most of the step.
   bool set_by_damping() const;

@@ -31,9 +31,12 @@ class Stepper {
   virtual void prepare() = 0;
   /// Throws TunnelError as soon as a node has gone through a box.
   virtual void advance(std::uint64_t steps);
+  /// Goes on from x_n with steps of another length [s]. Returns whether the scheme can.
+  virtual bool change_step(double /*step*/) { return false; }
 
   std::uint64_t step_number() const { return n_; }
-  double time() const { return static_cast<double>(n_) * step_; }
+  double time() const { return time_of(n_); }
+  double step() const { return step_; }
   /// Springs evaluated so far, every one of every iteration counted: the deterministic cost.
   virtual std::uint64_t spring_updates() const = 0;
   /// Steps whose solver used up its iterations short of its tolerance. Schemes that take a fixed
@@ -58,6 +61,9 @@ class Stepper {
  protected:
   Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start, double step);
 
+  double time_of(std::uint64_t n) const {
+    return start_time_ + static_cast<double>(n - start_n_) * step_;
+  }
   /// Goes the way to x_{n+1}.
   virtual void commit() = 0;
   /// The velocities with which the body goes on from x_n.
@@ -69,6 +75,9 @@ class Stepper {
   Vec3 gravity_;
   double step_;
   std::uint64_t n_ = 0;
+  // Where steps of this length began.
+  std::uint64_t start_n_ = 0;
+  double start_time_ = 0;  // [s]
   std::vector<Vec3> x_;
   ContactFinder finder_;
   std::vector<Contact> contacts_;

@@ -75,18 +75,19 @@ void FastLeapfrog::read_state(std::vector<Vec3>& x, std::vector<Vec3>& v) const 
 }
 
 void FastLeapfrog::prepare() {
-  if (n_ > 0) {
+  const bool first = n_ == start_n_;
+  if (!first) {
     read_state(x_, v_minus_);
     if (n_ % kFrameEvery == 0) take_new_frame();
     go({{.number = n_, .kick = step_}});
   } else {
-    // Forces and damping of the start itself: v+- = v_0 +- dt/2 a.
+    // Forces and damping with the velocities of the start itself: v+- = v_0 +- dt/2 a.
     go({{.number = n_, .kick = 0.5 * step_}});
   }
   std::vector<Vec3> x(x_.size());
   read_state(x, v_plus_);
   gather_contacts();
-  if (n_ > 0) return;
+  if (!first) return;
   for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
   for (const Contact& c : contacts_) v_minus_[c.node] += c.slip_change;  // no part of a
 }
@@ -103,6 +104,19 @@ void FastLeapfrog::advance(std::uint64_t steps) {
     throw_if_tunnelled();
     prepare();
   }
+}
+
+bool FastLeapfrog::change_step(double step) {
+  const double before = kinetic();
+  v_minus_ = state().v;
+  start_time_ = time();
+  start_n_ = n_;
+  step_ = step;
+  for (Losses& losses : losses_) losses.next = {};
+  take_new_frame();
+  prepare();
+  lost_to_new_steps_ += before - kinetic();
+  return true;
 }
 
 void FastLeapfrog::commit() {
@@ -181,7 +195,8 @@ void FastLeapfrog::kick(const Pass& pass, const MovingFrame& frame, const Moving
   std::vector<Vec3> v_minus;  // of the nodes in contact
   if (with_ledger_) {
     for (const Contact& c : contacts.now()) v_minus.push_back(contacts.velocity(c, frame));
-    if (pass.number > 0) losses.until_now.lost_damping -= 0.5 * step_ * body_->damping_power(block);
+    if (pass.number > start_n_)
+      losses.until_now.lost_damping -= 0.5 * step_ * body_->damping_power(block);
   }
   body_->move(block, pass.kick, 0);
   contacts.rub(kicked, step_);
@@ -190,7 +205,7 @@ void FastLeapfrog::kick(const Pass& pass, const MovingFrame& frame, const Moving
   for (std::size_t i = 0; i < v_minus.size(); ++i) {
     const Contact& c = contacts.now()[i];
     const double mass = model_->mass[c.node];
-    if (pass.number > 0) book_contact(c, mass, step_, v_minus[i], -step_, losses.until_now);
+    if (pass.number > start_n_) book_contact(c, mass, step_, v_minus[i], -step_, losses.until_now);
     book_contact(c, mass, step_, contacts.velocity(c, kicked), step_, losses.next);
   }
 }
@@ -203,7 +218,7 @@ void FastLeapfrog::gather_contacts() {
     const auto& step = block.first_step();
     if (step && (!first || *step < *first)) first = step;
   }
-  if (first && !first_contact_) first_contact_ = static_cast<double>(*first) * step_;
+  if (first && !first_contact_) first_contact_ = time_of(*first);
 }
 
 void FastLeapfrog::throw_if_tunnelled() const {
@@ -216,7 +231,7 @@ void FastLeapfrog::throw_if_tunnelled() const {
   }
   if (earliest != nullptr)
     walls_.throw_tunnelled(earliest->wall, earliest->number, earliest->from, earliest->to,
-                           static_cast<double>(earliest->step) * step_, step_);
+                           time_of(earliest->step), step_);
 }
 
 std::vector<Vec3> FastLeapfrog::positions_at(double time) const {
@@ -232,12 +247,19 @@ State FastLeapfrog::state() const {
   return state;
 }
 
+double FastLeapfrog::kinetic() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    sum += 0.5 * model_->mass[i] * v_minus_[i].dot(v_plus_[i]);
+  return sum;
+}
+
 LedgerEntry FastLeapfrog::ledger_entry() const {
   LedgerEntry entry;
   for (const Losses& losses : losses_) add_losses(losses.until_now, entry);
+  entry.lost_switch = lost_to_new_steps_;
   entry.time = time();
-  for (std::size_t i = 0; i < x_.size(); ++i)
-    entry.kinetic += 0.5 * model_->mass[i] * v_minus_[i].dot(v_plus_[i]);
+  entry.kinetic = kinetic();
   entry.elastic = elastic_energy(*model_, x_);
   entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);

@@ -26,6 +26,7 @@ class FastLeapfrog final : public Stepper {
 
   void prepare() override;
   void advance(std::uint64_t steps) override;
+  bool change_step(double step) override;
 
   std::uint64_t spring_updates() const override { return n_ * model_->spring_count(); }
   /// x_n + (t - t_n) v+
@@ -57,6 +58,7 @@ class FastLeapfrog final : public Stepper {
   MovingFrame after(const Pass& pass, const MovingFrame& frame) const;
   void take_new_frame();
   void read_state(std::vector<Vec3>& x, std::vector<Vec3>& v) const;
+  double kinetic() const;
   void gather_contacts();
   void throw_if_tunnelled() const;
 
@@ -67,6 +69,7 @@ class FastLeapfrog final : public Stepper {
   MovingFrame frame_;
   std::vector<BlockContacts> contacts_of_;  // by block
   std::vector<Losses> losses_;              // by block
+  double lost_to_new_steps_ = 0;            // [J]
   std::vector<Vec3> v_minus_, v_plus_;
 };
 
