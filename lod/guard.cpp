@@ -21,8 +21,6 @@ constexpr std::uint32_t kSimplexNodes = 4;
 struct FineGraph {
   const MassSpringModel& model;
   const Components& parts;
-  const std::vector<std::uint32_t>& a = model.a;
-  const std::vector<std::uint32_t>& b = model.b;
 
   std::uint32_t size() const { return model.node_count(); }
   double mass(std::uint32_t i) const { return model.mass[i]; }
@@ -37,29 +35,23 @@ struct FineGraph {
 // the graph can be coarsened again and again without looking back at the fine model.
 class CoarseGraph {
  public:
-  std::vector<std::uint32_t> a, b;  // edges, a < b, sorted
-
   CoarseGraph() = default;
   template <class Fine>
-  CoarseGraph(const Fine& fine, const Groups& groups) {
+  CoarseGraph(const Fine& fine, const Groups& groups, const Relinking& links) {
     add_up_nodes(fine, groups);
-    Relinking links = relink(fine.a, fine.b, groups);
-    a = std::move(links.a);
-    b = std::move(links.b);
-    tension_.assign(a.size(), 0);
-    for (std::uint32_t s = 0; s < fine.a.size(); ++s)
+    tension_.assign(links.a.size(), 0);
+    for (std::uint32_t s = 0; s < links.into.size(); ++s)
       if (links.into[s] != Relinking::kInside) tension_[links.into[s]] += fine.tension(s);
   }
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(mass_.size()); }
-  std::uint32_t edge_count() const { return static_cast<std::uint32_t>(a.size()); }
   double mass(std::uint32_t g) const { return mass_[g]; }
   const Vec3& moment(std::uint32_t g) const { return moment_[g]; }
   const Vec3& center(std::uint32_t g) const { return center_[g]; }
   std::uint8_t border(std::uint32_t g) const { return border_[g]; }
   std::uint32_t part(std::uint32_t g) const { return part_[g]; }
   double tension(std::uint32_t e) const { return tension_[e]; }
-  Vec3 offset(std::uint32_t e) const { return center_[b[e]] - center_[a[e]]; }
+  Vec3 offset(std::uint32_t g, std::uint32_t h) const { return center_[h] - center_[g]; }
 
  private:
   template <class Fine>
@@ -118,9 +110,9 @@ std::vector<bool> solid_parts(const FineGraph& fine, const FloppyRule& rule) {
   for (std::uint32_t i = 0; i < fine.size() && untold > 0; ++i) {
     if (nodes.size() <= i) nodes.resize(i + 1);
     const std::uint32_t part = fine.part(i);
-    for (; s < fine.a.size() && fine.a[s] == i; ++s) {
+    for (; s < fine.model.spring_count() && fine.model.a[s] == i; ++s) {
       if (solid[part]) continue;
-      const std::uint32_t j = fine.b[s];
+      const std::uint32_t j = fine.model.b[s];
       if (nodes.size() <= j) nodes.resize(j + 1);
       const Vec3 d = fine.center(j) - fine.center(i);
       nodes[i].add_spring(d, fine.tension(s));
@@ -144,7 +136,8 @@ class Guard {
     for (const double length : fine.rest_length) mean_length_ += length;
     mean_length_ /= std::max(1U, fine.spring_count());
     result_.groups = groups;
-    graph_ = CoarseGraph(base, groups);
+    result_.links = relink(fine.a, fine.b, groups);
+    graph_ = CoarseGraph(base, groups, result_.links);
   }
 
   GuardedGroups run() {
@@ -154,6 +147,12 @@ class Guard {
   }
 
  private:
+  struct Edge {
+    std::uint32_t a, b;
+  };
+  std::uint32_t edge_count() const { return static_cast<std::uint32_t>(result_.links.a.size()); }
+  Edge edge(std::uint32_t e) const { return {result_.links.a[e], result_.links.b[e]}; }
+
   bool may_fuse(std::uint32_t g) const {
     return options_.border != BorderRule::strong || graph_.border(g) == 0;
   }
@@ -162,8 +161,10 @@ class Guard {
     if (fused == 0) return false;
     DisjointSets::Numbers numbers = clusters.numbers();
     const Groups groups{std::move(numbers.of), numbers.count};
-    graph_ = CoarseGraph(graph_, groups);
+    Relinking links = relink(result_.links.a, result_.links.b, groups);
+    graph_ = CoarseGraph(graph_, groups, links);
     result_.groups = compose(result_.groups, groups);
+    result_.links = compose(std::move(result_.links), std::move(links));
     return true;
   }
 
@@ -172,11 +173,10 @@ class Guard {
     DisjointSets clusters(graph_.size());
     std::vector<bool> taken(graph_.size(), false);
     std::uint32_t fused = 0;
-    for (std::uint32_t e = 0; e < graph_.edge_count(); ++e) {
-      if (!(graph_.offset(e).norm() < least)) continue;
+    for (std::uint32_t e = 0; e < edge_count(); ++e) {
+      const auto [a, b] = edge(e);
+      if (!(graph_.offset(a, b).norm() < least)) continue;
       // One fusion a node and pass: a fused pair has a new centre, which decides anew.
-      const std::uint32_t a = graph_.a[e];
-      const std::uint32_t b = graph_.b[e];
       if (taken[a] || taken[b] || !may_fuse(a) || !may_fuse(b)) continue;
       taken[a] = taken[b] = true;
       fused += clusters.unite(a, b) ? 1 : 0;
@@ -219,11 +219,10 @@ class Guard {
       const bool better = other_kind != b.other_kind ? b.other_kind : length < b.length;
       if (b.node == kNone || better) b = {other, other_kind, length};
     };
-    for (std::uint32_t e = 0; e < graph_.edge_count(); ++e) {
-      const std::uint32_t a = graph_.a[e];
-      const std::uint32_t b = graph_.b[e];
+    for (std::uint32_t e = 0; e < edge_count(); ++e) {
+      const auto [a, b] = edge(e);
       if (!floppy[a] && !floppy[b]) continue;
-      const double length = graph_.offset(e).norm();
+      const double length = graph_.offset(a, b).norm();
       offer(a, b, length);
       offer(b, a, length);
     }
@@ -234,10 +233,11 @@ class Guard {
 
   std::vector<bool> floppy_nodes() const {
     std::vector<Rigidity> nodes(graph_.size());
-    for (std::uint32_t e = 0; e < graph_.edge_count(); ++e) {
-      const Vec3 d = graph_.offset(e);
-      nodes[graph_.a[e]].add_spring(d, graph_.tension(e));
-      nodes[graph_.b[e]].add_spring(d, graph_.tension(e));
+    for (std::uint32_t e = 0; e < edge_count(); ++e) {
+      const auto [a, b] = edge(e);
+      const Vec3 d = graph_.offset(a, b);
+      nodes[a].add_spring(d, graph_.tension(e));
+      nodes[b].add_spring(d, graph_.tension(e));
     }
     const std::vector<std::uint32_t> part_size =
         part_sizes(graph_, static_cast<std::uint32_t>(solid_part_.size()));

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "lod/grouping.hpp"
+#include "lod/relink.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
@@ -22,6 +23,7 @@ struct GuardOptions {
 
 struct GuardedGroups {
   Groups groups;
+  Relinking links;                     ///< of the fine springs by `groups`
   std::uint32_t fused_coincident = 0;  ///< fusions of near centroids
   std::uint32_t fused_floppy = 0;      ///< fusions of floppy nodes
 };

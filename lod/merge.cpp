@@ -11,6 +11,13 @@
 namespace springlod {
 namespace {
 
+void require_groups_of(const MassSpringModel& fine, const Groups& groups) {
+  if (groups.of.size() != fine.node_count())
+    throw InputError(fmt::format("merge: the groups are of {} nodes, the model has {}",
+                                 groups.of.size(), fine.node_count()));
+  validate(groups);
+}
+
 std::vector<std::uint32_t> group_sizes(const Groups& groups) {
   std::vector<std::uint32_t> size(groups.count, 0);
   for (const std::uint32_t g : groups.of) ++size[g];
@@ -94,15 +101,16 @@ void add_up_springs(const MassSpringModel& fine, const std::vector<std::uint32_t
 }  // namespace
 
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups) {
-  if (groups.of.size() != fine.node_count())
-    throw InputError(fmt::format("merge: the groups are of {} nodes, the model has {}",
-                                 groups.of.size(), fine.node_count()));
-  validate(groups);
+  require_groups_of(fine, groups);
+  return merge(fine, groups, relink(fine.a, fine.b, groups));
+}
+
+MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links) {
+  require_groups_of(fine, groups);
   const std::vector<std::uint32_t> size = group_sizes(groups);
   MassSpringModel coarse;
   coarse.materials = fine.materials;
   merge_nodes(fine, groups, size, coarse);
-  Relinking links = relink(fine.a, fine.b, groups);
   coarse.a = std::move(links.a);
   coarse.b = std::move(links.b);
   lay_springs(fine, links.into, size, coarse);

@@ -22,4 +22,7 @@ struct Relinking {
 Relinking relink(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b,
                  const Groups& groups);
 
+/// `finer` first, then `coarser`, which relinked the pairs of `finer`.
+Relinking compose(Relinking finer, Relinking coarser);
+
 }  // namespace springlod
