@@ -1,6 +1,5 @@
 #include "lod/build.hpp"
 
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,15 +19,17 @@ std::string told_from(const SimplifyOptions& options) {
                      options.guards ? "" : ", no guards");
 }
 
-Groups raw_groups(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
+Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
+                  std::uint32_t level) {
   return options.groups ? options.groups(finer.model, finer.of_base, level)
-                        : group_nodes(finer.model, options.grouping);
+                        : group_nodes(finer.model, springs, options.grouping);
 }
 
-GuardedGroups guarded(const Level& finer, const Groups& groups, const SimplifyOptions& options) {
+GuardedGroups guarded(const Level& finer, const SpringRows& springs, const Groups& groups,
+                      const SimplifyOptions& options) {
   GuardOptions guard = options.guard;
   guard.border = options.grouping.border;
-  return guard_groups(finer.model, groups, guard);
+  return guard_groups(finer.model, springs, groups, guard);
 }
 
 void require_coarser(const Level& finer, const Groups& groups, const SimplifyOptions& options,
@@ -41,17 +42,27 @@ void require_coarser(const Level& finer, const Groups& groups, const SimplifyOpt
       options.grouping.border == BorderRule::strong ? " or for border = \"weak\"" : ""));
 }
 
-Level next_level(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
-  Groups groups = raw_groups(finer, options, level);
-  std::optional<Relinking> links;
+struct Step {
+  Groups groups;
+  Relinking links;
+};
+
+Step next_step(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
+  const SpringRows springs(finer.model);
+  Groups groups = raw_groups(finer, springs, options, level);
   if (options.guards) {
-    GuardedGroups sound = guarded(finer, groups, options);
-    groups = std::move(sound.groups);
-    links = std::move(sound.links);
+    GuardedGroups sound = guarded(finer, springs, groups, options);
+    return {std::move(sound.groups), std::move(sound.links)};
   }
-  require_coarser(finer, groups, options, level);
-  return {links ? merge(finer.model, groups, std::move(*links)) : merge(finer.model, groups),
-          compose(finer.of_base, groups),
+  Relinking links = relink(springs, groups);
+  return {std::move(groups), std::move(links)};
+}
+
+Level next_level(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
+  Step step = next_step(finer, options, level);
+  require_coarser(finer, step.groups, options, level);
+  return {merge(finer.model, step.groups, std::move(step.links)),
+          compose(finer.of_base, step.groups),
           options.made_by.empty() ? told_from(options) : options.made_by};
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -65,8 +66,8 @@ Groups numbered(const std::vector<std::uint32_t>& leader) {
 
 class Grouper {
  public:
-  Grouper(const MassSpringModel& model, const GroupingOptions& options)
-      : Grouper(model, options,
+  Grouper(const MassSpringModel& model, const SpringRows& springs, const GroupingOptions& options)
+      : Grouper(model, springs, options,
                 options.grouping == Grouping::standard ? std::vector<double>{}
                                                        : spring_gradients(model)) {}
 
@@ -79,16 +80,14 @@ class Grouper {
   }
 
  private:
-  Grouper(const MassSpringModel& model, const GroupingOptions& options,
+  Grouper(const MassSpringModel& model, const SpringRows& springs, const GroupingOptions& options,
           std::vector<double> gradient)
       : model_(model),
         border_(options.border),
         chance_(options.seed),
-        rows_(model),
-        gradient_(std::move(gradient)),
-        keys_(model, options, gradient_),
-        order_(visit_order(model.node_count(), visit_priority(model, options, rows_, gradient_),
-                           chance_)),
+        springs_(springs),
+        order_(visit_order(model.node_count(), visit_priority(model, options, gradient), chance_)),
+        keys_(model, options, std::move(gradient)),
         free_(model.node_count(), true),
         leader_(model.node_count()) {
     std::iota(leader_.begin(), leader_.end(), 0U);
@@ -103,10 +102,10 @@ class Grouper {
       if (visit + ahead < order_.size() && free_[order_[visit + ahead]])
         prefetch(order_[visit + ahead]);
     };
-    stage(3 * kAhead, [&](std::uint32_t i) { rows_.prefetch_start(i); });
-    stage(2 * kAhead, [&](std::uint32_t i) { rows_.prefetch_row(i); });
+    stage(3 * kAhead, [&](std::uint32_t i) { springs_.prefetch_start(i); });
+    stage(2 * kAhead, [&](std::uint32_t i) { springs_.prefetch_row(i); });
     stage(kAhead, [&](std::uint32_t i) {
-      rows_.for_each(i, [&](std::uint32_t j, std::uint32_t spring) {
+      springs_.for_each(i, [&](std::uint32_t j, std::uint32_t spring) {
         if (free_[j]) keys_.prefetch(spring);
       });
     });
@@ -122,7 +121,7 @@ class Grouper {
       std::uint32_t node = kUngrouped;
     } best;
     const std::uint64_t chance = chance_.state(Draw::tie, i);
-    rows_.for_each(i, [&](std::uint32_t j, std::uint32_t spring) {
+    springs_.for_each(i, [&](std::uint32_t j, std::uint32_t spring) {
       if (!free_[j]) return;
       const double first = keys_.first(spring);
       if (first > best.first || first == kForbidden) return;
@@ -151,10 +150,9 @@ class Grouper {
   const MassSpringModel& model_;
   BorderRule border_;
   Chance chance_;
-  SpringRows rows_;
-  std::vector<double> gradient_;  // of each spring; empty for standard grouping
-  PairKeys keys_;
+  const SpringRows& springs_;
   std::vector<std::uint32_t> order_;
+  PairKeys keys_;
   std::vector<bool> free_;
   std::vector<std::uint32_t> leader_;  // first node of the group
 };
@@ -180,7 +178,12 @@ void require_joined(const Adjacency& adj, const std::vector<std::uint32_t>& set,
 }  // namespace
 
 Groups group_nodes(const MassSpringModel& model, const GroupingOptions& options) {
-  return Grouper(model, options).run();
+  return group_nodes(model, SpringRows(model), options);
+}
+
+Groups group_nodes(const MassSpringModel& model, const SpringRows& springs,
+                   const GroupingOptions& options) {
+  return Grouper(model, springs, options).run();
 }
 
 Groups groups_from_sets(const MassSpringModel& model,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace springlod {
 namespace {
@@ -34,12 +35,17 @@ std::vector<double> node_stiffness(const MassSpringModel& m) {
   return work;
 }
 
-// Short springs and low gradients first, in one key.
-std::vector<double> soft_keys(const MassSpringModel& m, const std::vector<double>& gradient) {
-  std::vector<double> key(m.spring_count());
+// Mean gradient of the springs of each node.
+std::vector<double> node_gradients(const MassSpringModel& m, const std::vector<double>& gradient) {
+  std::vector<double> mean_of(m.node_count(), 0);
+  std::vector<std::uint32_t> springs(m.node_count(), 0);
   for (std::uint32_t s = 0; s < m.spring_count(); ++s)
-    key[s] = m.rest_length[s] * (1 + kGradientWeight * gradient[s] * m.rest_length[s]);
-  return key;
+    for (const std::uint32_t i : {m.a[s], m.b[s]}) {
+      mean_of[i] += gradient[s];
+      ++springs[i];
+    }
+  for (std::uint32_t i = 0; i < m.node_count(); ++i) mean_of[i] /= std::max(1U, springs[i]);
+  return mean_of;
 }
 
 }  // namespace
@@ -76,12 +82,13 @@ std::vector<double> spring_gradients(const MassSpringModel& m) {
 }
 
 PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options,
-                   const std::vector<double>& gradient) {
+                   std::vector<double> gradient)
+    : own_(std::move(gradient)) {
   if (options.pair_cost) {
-    cost_.resize(model.spring_count());
+    own_.resize(model.spring_count());
     for (std::uint32_t s = 0; s < model.spring_count(); ++s)
-      cost_[s] = options.pair_cost(model.a[s], model.b[s]);
-    first_ = RoundedKeys(cost_);
+      own_[s] = options.pair_cost(model.a[s], model.b[s]);
+    first_ = RoundedKeys(own_);
     return;
   }
   switch (options.grouping) {
@@ -89,11 +96,12 @@ PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options,
       first_ = RoundedKeys(model.rest_length);
       break;
     case Grouping::priority_soft:
-      cost_ = soft_keys(model, gradient);
-      first_ = RoundedKeys(cost_);
+      for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+        own_[s] = model.rest_length[s] * (1 + kGradientWeight * own_[s] * model.rest_length[s]);
+      first_ = RoundedKeys(own_);
       break;
     case Grouping::priority_hard:
-      first_ = RoundedKeys(gradient);
+      first_ = RoundedKeys(own_);
       second_ = RoundedKeys(model.rest_length);
       has_second_ = true;
       break;
@@ -101,19 +109,14 @@ PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options,
 }
 
 std::vector<double> visit_priority(const MassSpringModel& model, const GroupingOptions& options,
-                                   const SpringRows& rows, const std::vector<double>& gradient) {
-  std::vector<double> priority;
-  if (!options.node_priority && options.grouping == Grouping::standard) return priority;
-  priority.assign(model.node_count(), 0);
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    if (options.node_priority) {
-      priority[i] = options.node_priority(i);
-      continue;
-    }
-    rows.for_each(i, [&](std::uint32_t, std::uint32_t spring) { priority[i] += gradient[spring]; });
-    priority[i] /= std::max(1U, rows.count(i));
+                                   const std::vector<double>& gradient) {
+  if (options.node_priority) {
+    std::vector<double> priority(model.node_count());
+    for (std::uint32_t i = 0; i < model.node_count(); ++i) priority[i] = options.node_priority(i);
+    return priority;
   }
-  return priority;
+  if (options.grouping == Grouping::standard) return {};
+  return node_gradients(model, gradient);
 }
 
 }  // namespace springlod

@@ -7,7 +7,6 @@
 
 #include "lod/grouping.hpp"
 #include "model/prefetch.hpp"
-#include "model/spring_rows.hpp"
 
 namespace springlod {
 
@@ -33,14 +32,21 @@ std::vector<double> spring_gradients(const MassSpringModel& model);
 /// What decides between neighbours: first key, then second, then chance.
 class PairKeys {
  public:
+  /// `gradient` as spring_gradients tells; not needed for standard grouping.
   PairKeys(const MassSpringModel& model, const GroupingOptions& options,
-           const std::vector<double>& gradient);
+           std::vector<double> gradient);
+  PairKeys(const PairKeys&) = delete;
+  PairKeys& operator=(const PairKeys&) = delete;
+
   double first(std::uint32_t spring) const { return first_[spring]; }
   double second(std::uint32_t spring) const { return has_second_ ? second_[spring] : 0; }
-  void prefetch(std::uint32_t spring) const { first_.prefetch(spring); }
+  void prefetch(std::uint32_t spring) const {
+    first_.prefetch(spring);
+    if (has_second_) second_.prefetch(spring);
+  }
 
  private:
-  std::vector<double> cost_;  // where the keys are neither the model's lengths nor the gradients
+  std::vector<double> own_;  // keys that are not the model's lengths
   RoundedKeys first_;
   RoundedKeys second_;
   bool has_second_ = false;
@@ -48,6 +54,6 @@ class PairKeys {
 
 /// Key of each node, lower goes first; empty if chance alone decides.
 std::vector<double> visit_priority(const MassSpringModel& model, const GroupingOptions& options,
-                                   const SpringRows& rows, const std::vector<double>& gradient);
+                                   const std::vector<double>& gradient);
 
 }  // namespace springlod

@@ -127,7 +127,8 @@ std::vector<bool> solid_parts(const FineGraph& fine, const FloppyRule& rule) {
 
 class Guard {
  public:
-  Guard(const MassSpringModel& fine, const Groups& groups, const GuardOptions& options)
+  Guard(const MassSpringModel& fine, const SpringRows& springs, const Groups& groups,
+        const GuardOptions& options)
       : options_(options), rule_(options) {
     const Components parts = connected_components(fine);
     const FineGraph base{fine, parts};
@@ -136,7 +137,7 @@ class Guard {
     for (const double length : fine.rest_length) mean_length_ += length;
     mean_length_ /= std::max(1U, fine.spring_count());
     result_.groups = groups;
-    result_.links = relink(fine.a, fine.b, groups);
+    result_.links = relink(springs, groups);
     graph_ = CoarseGraph(base, groups, result_.links);
   }
 
@@ -161,7 +162,7 @@ class Guard {
     if (fused == 0) return false;
     DisjointSets::Numbers numbers = clusters.numbers();
     const Groups groups{std::move(numbers.of), numbers.count};
-    Relinking links = relink(result_.links.a, result_.links.b, groups);
+    Relinking links = relink(SpringRows(graph_.size(), result_.links.a, result_.links.b), groups);
     graph_ = CoarseGraph(graph_, groups, links);
     result_.groups = compose(result_.groups, groups);
     result_.links = compose(std::move(result_.links), std::move(links));
@@ -259,10 +260,15 @@ class Guard {
 
 }  // namespace
 
+GuardedGroups guard_groups(const MassSpringModel& fine, const SpringRows& springs,
+                           const Groups& groups, const GuardOptions& options) {
+  validate(groups);
+  return Guard(fine, springs, groups, options).run();
+}
+
 GuardedGroups guard_groups(const MassSpringModel& fine, const Groups& groups,
                            const GuardOptions& options) {
-  validate(groups);
-  return Guard(fine, groups, options).run();
+  return guard_groups(fine, SpringRows(fine), groups, options);
 }
 
 }  // namespace springlod

@@ -6,6 +6,7 @@
 #include "lod/relink.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
+#include "model/spring_rows.hpp"
 
 namespace springlod {
 
@@ -34,5 +35,8 @@ struct GuardedGroups {
 /// a whole part.
 GuardedGroups guard_groups(const MassSpringModel& fine, const Groups& groups,
                            const GuardOptions& options);
+/// The same for whom has the rows of its springs at hand.
+GuardedGroups guard_groups(const MassSpringModel& fine, const SpringRows& springs,
+                           const Groups& groups, const GuardOptions& options);
 
 }  // namespace springlod

@@ -102,7 +102,7 @@ void add_up_springs(const MassSpringModel& fine, const std::vector<std::uint32_t
 
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups) {
   require_groups_of(fine, groups);
-  return merge(fine, groups, relink(fine.a, fine.b, groups));
+  return merge(fine, groups, relink(SpringRows(fine), groups));
 }
 
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links) {

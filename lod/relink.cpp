@@ -1,7 +1,6 @@
 #include "lod/relink.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -9,76 +8,86 @@
 namespace springlod {
 namespace {
 
-// Springs between groups by the lower group of their ends: entries start[g] .. start[g+1]-1 belong
-// to group g.
-struct Rows {
-  struct Entry {
-    std::uint32_t spring;
-    std::uint32_t high;  // the other group
-  };
-  std::vector<std::uint32_t> start;
-  std::unique_ptr<Entry[]> entries;
-
-  std::span<const Entry> of(std::uint32_t group) const {
-    return {&entries[start[group]], &entries[start[group + 1]]};
+// The nodes of each group, rising.
+class Members {
+ public:
+  explicit Members(const Groups& groups) : start_(groups.count + 1, 0), node_(groups.of.size()) {
+    for (const std::uint32_t g : groups.of) ++start_[g];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    // Ends of the groups by now, which come down to their starts as they are filled from behind.
+    for (auto i = static_cast<std::uint32_t>(node_.size()); i-- > 0;)
+      node_[--start_[groups.of[i]]] = i;
   }
+  std::span<const std::uint32_t> of(std::uint32_t group) const {
+    return {&node_[start_[group]], start_[group + 1] - start_[group]};
+  }
+
+ private:
+  std::vector<std::uint32_t> start_;
+  std::vector<std::uint32_t> node_;
 };
 
-Rows rows_by_lower_group(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b,
-                         const Groups& groups) {
-  Rows rows;
-  // One place ahead: start[g+1] counts up from the start of row g to its end while rows are filled.
-  rows.start.assign(groups.count + 2, 0);
-  for (std::size_t s = 0; s < a.size(); ++s) {
-    const std::uint32_t group_a = groups.of[a[s]];
-    const std::uint32_t group_b = groups.of[b[s]];
-    if (group_a != group_b) ++rows.start[std::min(group_a, group_b) + 2];
+struct RowEntry {
+  std::uint32_t spring;
+  std::uint32_t high;  // group at its other end
+};
+
+// The springs from the nodes of group `low` to higher groups.
+void gather_row(const SpringRows& springs, const Groups& groups,
+                std::span<const std::uint32_t> members, std::uint32_t low,
+                std::vector<RowEntry>& row) {
+  std::size_t ends = 0;
+  for (const std::uint32_t i : members) ends += springs.count(i);
+  row.resize(ends);
+  std::size_t count = 0;
+  for (const std::uint32_t i : members)
+    springs.for_each(i, [&](std::uint32_t j, std::uint32_t spring) {
+      row[count] = {spring, groups.of[j]};
+      count += groups.of[j] > low ? 1 : 0;
+    });
+  row.resize(count);
+}
+
+// Numbers the pairs of a row from highs.size() on by their higher group, which are appended sorted,
+// and sets pair_end of each to one more than its number. What is lower there is of rows before.
+void append_pairs(const std::vector<RowEntry>& row, std::vector<std::uint32_t>& highs,
+                  std::vector<std::uint32_t>& pair_end) {
+  const std::size_t first = highs.size();
+  std::size_t end = first;
+  highs.resize(first + row.size());
+  for (const RowEntry& entry : row) {
+    highs[end] = entry.high;
+    end += pair_end[entry.high] > first ? 0 : 1;  // no branch: it would be a toss-up
+    pair_end[entry.high] = static_cast<std::uint32_t>(first) + 1;
   }
-  std::partial_sum(rows.start.begin(), rows.start.end(), rows.start.begin());
-  rows.entries = std::make_unique_for_overwrite<Rows::Entry[]>(rows.start.back());
-  for (std::size_t s = 0; s < a.size(); ++s) {
-    const std::uint32_t group_a = groups.of[a[s]];
-    const std::uint32_t group_b = groups.of[b[s]];
-    if (group_a == group_b) continue;
-    const std::uint32_t low = std::min(group_a, group_b);
-    rows.entries[rows.start[low + 1]++] = {static_cast<std::uint32_t>(s),
-                                           std::max(group_a, group_b)};
-  }
-  rows.start.pop_back();
-  return rows;
+  highs.resize(end);
+  std::sort(highs.begin() + static_cast<std::ptrdiff_t>(first), highs.end());
+  for (std::size_t pair = first; pair < end; ++pair)
+    pair_end[highs[pair]] = static_cast<std::uint32_t>(pair) + 1;
 }
 
 }  // namespace
 
-Relinking relink(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b,
-                 const Groups& groups) {
-  const Rows rows = rows_by_lower_group(a, b, groups);
+Relinking relink(const SpringRows& springs, const Groups& groups) {
+  constexpr std::uint32_t kAhead = 8;  // rows from the request for memory to its use
+  const Members members(groups);
   Relinking links;
-  links.into.assign(a.size(), Relinking::kInside);
-  // Pairs by row, each row sorted; `high` has room for one more than there can be.
-  std::vector<std::uint32_t> row_start{0};
-  row_start.reserve(groups.count + 1);
-  const auto high = std::make_unique_for_overwrite<std::uint32_t[]>(rows.start.back() + 1);
-  std::uint32_t pairs = 0;
-  // One more than the number of a group's pair in the row at hand; what is lower is of rows before.
+  links.into.assign(springs.spring_count(), Relinking::kInside);
+  links.b.reserve(springs.spring_count());
+  std::vector<RowEntry> row;
   std::vector<std::uint32_t> pair_end(groups.count, 0);
+  std::vector<std::uint32_t> row_end(groups.count);
   for (std::uint32_t low = 0; low < groups.count; ++low) {
-    const std::uint32_t first = pairs;
-    for (const Rows::Entry& entry : rows.of(low)) {
-      high[pairs] = entry.high;
-      pairs += pair_end[entry.high] > first ? 0 : 1;  // no branch: it would be a toss-up
-      pair_end[entry.high] = first + 1;
-    }
-    std::sort(&high[first], &high[pairs]);
-    for (std::uint32_t pair = first; pair < pairs; ++pair) pair_end[high[pair]] = pair + 1;
-    for (const Rows::Entry& entry : rows.of(low))
-      links.into[entry.spring] = pair_end[entry.high] - 1;
-    row_start.push_back(pairs);
+    if (low + kAhead < groups.count)
+      for (const std::uint32_t i : members.of(low + kAhead)) springs.prefetch_row(i);
+    gather_row(springs, groups, members.of(low), low, row);
+    append_pairs(row, links.b, pair_end);
+    for (const RowEntry& entry : row) links.into[entry.spring] = pair_end[entry.high] - 1;
+    row_end[low] = static_cast<std::uint32_t>(links.b.size());
   }
-  links.b.assign(&high[0], &high[pairs]);
-  links.a.resize(pairs);
-  for (std::uint32_t low = 0; low < groups.count; ++low)
-    std::fill(links.a.begin() + row_start[low], links.a.begin() + row_start[low + 1], low);
+  links.b.shrink_to_fit();
+  links.a.reserve(links.b.size());
+  for (std::uint32_t low = 0; low < groups.count; ++low) links.a.resize(row_end[low], low);
   return links;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/chain.hpp"
+#include "model/spring_rows.hpp"
 
 namespace springlod {
 
@@ -17,10 +18,9 @@ struct Relinking {
 
 /// Finds the joined pairs; summing up what the springs carry is left to the caller, who goes
 /// through `into`. This is the symbolic half of the sparse product P^T A P, row by row (Gustavson
-/// 1978): linear in the number of springs, but for the sort of each node's few neighbours.
-/// `a` and `b` are the ends of the springs; every one is below groups.of.size().
-Relinking relink(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b,
-                 const Groups& groups);
+/// 1978): linear in the number of springs, but for the sort of each group's few neighbours.
+/// `groups` must be valid and of the nodes of `springs`.
+Relinking relink(const SpringRows& springs, const Groups& groups);
 
 /// `finer` first, then `coarser`, which relinked the pairs of `finer`.
 Relinking compose(Relinking finer, Relinking coarser);

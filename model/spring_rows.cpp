@@ -2,13 +2,14 @@
 
 namespace springlod {
 
-SpringRows::SpringRows(const MassSpringModel& model)
-    : model_(model),
-      start_(model.node_count() + 1, Start{0, 0}),
-      lower_(std::make_unique_for_overwrite<Lower[]>(model.spring_count())) {
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    ++start_[model.b[s]].lower;
-    ++start_[model.a[s]].higher;
+SpringRows::SpringRows(std::uint32_t node_count, const std::vector<std::uint32_t>& a,
+                       const std::vector<std::uint32_t>& b)
+    : b_(b),
+      start_(node_count + 1, Start{0, 0}),
+      lower_(std::make_unique_for_overwrite<Lower[]>(b.size())) {
+  for (std::uint32_t s = 0; s < spring_count(); ++s) {
+    ++start_[b[s]].lower;
+    ++start_[a[s]].higher;
   }
   Start end{0, 0};
   for (Start& start : start_) {
@@ -18,8 +19,7 @@ SpringRows::SpringRows(const MassSpringModel& model)
   }
   // `lower` is the end of each row by now, and comes down to its start as the row is filled from
   // behind.
-  for (std::uint32_t s = model.spring_count(); s-- > 0;)
-    lower_[--start_[model.b[s]].lower] = {model.a[s], s};
+  for (std::uint32_t s = spring_count(); s-- > 0;) lower_[--start_[b[s]].lower] = {a[s], s};
 }
 
 }  // namespace springlod

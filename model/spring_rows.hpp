@@ -10,11 +10,18 @@
 namespace springlod {
 
 /// The springs of each node, as Adjacency tells them and in the same order, in half the memory: a
-/// node's springs to higher nodes stand side by side in the model, so that only those to lower
-/// nodes are listed. Refers to the model, which must outlive it.
+/// node's springs to higher nodes stand side by side, sorted as they are, so that only those to
+/// lower nodes are listed. Refers to the ends of the springs, which must outlive it.
 class SpringRows {
  public:
-  explicit SpringRows(const MassSpringModel& model);
+  explicit SpringRows(const MassSpringModel& model)
+      : SpringRows(model.node_count(), model.a, model.b) {}
+  /// Springs from a to b, a < b < node_count, sorted by (a, b).
+  SpringRows(std::uint32_t node_count, const std::vector<std::uint32_t>& a,
+             const std::vector<std::uint32_t>& b);
+
+  std::uint32_t node_count() const { return static_cast<std::uint32_t>(start_.size() - 1); }
+  std::uint32_t spring_count() const { return static_cast<std::uint32_t>(b_.size()); }
 
   std::uint32_t count(std::uint32_t node) const {
     const Start& start = start_[node];
@@ -29,7 +36,7 @@ class SpringRows {
     const Start& end = start_[node + 1];
     for (std::uint32_t e = start.lower; e < end.lower; ++e)
       visit(lower_[e].neighbour, lower_[e].spring);
-    for (std::uint32_t s = start.higher; s < end.higher; ++s) visit(model_.b[s], s);
+    for (std::uint32_t s = start.higher; s < end.higher; ++s) visit(b_[s], s);
   }
 
   /// Who goes through nodes in no order waits for memory at each, unless it is asked for ahead:
@@ -39,7 +46,7 @@ class SpringRows {
     const Start& start = start_[node];
     const Start& end = start_[node + 1];
     prefetch(&lower_[start.lower], &lower_[end.lower]);
-    prefetch(&model_.b[start.higher], &model_.b[end.higher]);
+    prefetch(&b_[start.higher], &b_[end.higher]);
   }
 
  private:
@@ -49,7 +56,7 @@ class SpringRows {
   struct Start {
     std::uint32_t lower, higher;  // into lower_, and number of a spring
   };
-  const MassSpringModel& model_;
+  const std::vector<std::uint32_t>& b_;
   std::vector<Start> start_;        // N + 1
   std::unique_ptr<Lower[]> lower_;  // S
 };
