@@ -130,14 +130,14 @@ class Guard {
   Guard(const MassSpringModel& fine, const SpringRows& springs, const Groups& groups,
         const GuardOptions& options)
       : options_(options), rule_(options) {
+    result_.links = relink(springs, groups);
+    result_.groups = groups;
     const Components parts = connected_components(fine);
     const FineGraph base{fine, parts};
     // A rope or a cloth is floppy by its nature; only parts that were solid are kept solid.
     solid_part_ = solid_parts(base, rule_);
     for (const double length : fine.rest_length) mean_length_ += length;
     mean_length_ /= std::max(1U, fine.spring_count());
-    result_.groups = groups;
-    result_.links = relink(springs, groups);
     graph_ = CoarseGraph(base, groups, result_.links);
   }
 
@@ -262,7 +262,6 @@ class Guard {
 
 GuardedGroups guard_groups(const MassSpringModel& fine, const SpringRows& springs,
                            const Groups& groups, const GuardOptions& options) {
-  validate(groups);
   return Guard(fine, springs, groups, options).run();
 }
 

@@ -11,13 +11,6 @@
 namespace springlod {
 namespace {
 
-void require_groups_of(const MassSpringModel& fine, const Groups& groups) {
-  if (groups.of.size() != fine.node_count())
-    throw InputError(fmt::format("merge: the groups are of {} nodes, the model has {}",
-                                 groups.of.size(), fine.node_count()));
-  validate(groups);
-}
-
 std::vector<std::uint32_t> group_sizes(const Groups& groups) {
   std::vector<std::uint32_t> size(groups.count, 0);
   for (const std::uint32_t g : groups.of) ++size[g];
@@ -101,12 +94,10 @@ void add_up_springs(const MassSpringModel& fine, const std::vector<std::uint32_t
 }  // namespace
 
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups) {
-  require_groups_of(fine, groups);
   return merge(fine, groups, relink(SpringRows(fine), groups));
 }
 
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links) {
-  require_groups_of(fine, groups);
   const std::vector<std::uint32_t> size = group_sizes(groups);
   MassSpringModel coarse;
   coarse.materials = fine.materials;

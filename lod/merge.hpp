@@ -23,8 +23,7 @@ enum class MassRule {
 /// This is the raw merge, without guards. Throws InputError if two joined groups have the same
 /// centre of mass (L = 0): see guard_groups.
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups);
-/// The same where it is known what becomes of the springs: `links` = relink(fine.a, fine.b,
-/// groups).
+/// The same with what relink told of the springs of `fine` and these groups.
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links);
 
 /// MassRule::proximity: masses and volumes of `base`, cut into pieces, shared out anew among the

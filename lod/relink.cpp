@@ -5,6 +5,10 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
 namespace springlod {
 namespace {
 
@@ -69,6 +73,10 @@ void append_pairs(const std::vector<RowEntry>& row, std::vector<std::uint32_t>& 
 }  // namespace
 
 Relinking relink(const SpringRows& springs, const Groups& groups) {
+  if (groups.of.size() != springs.node_count())
+    throw InputError(fmt::format("groups: they are of {} nodes, the model has {}", groups.of.size(),
+                                 springs.node_count()));
+  validate(groups);
   constexpr std::uint32_t kAhead = 8;  // rows from the request for memory to its use
   const Members members(groups);
   Relinking links;

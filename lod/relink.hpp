@@ -19,7 +19,7 @@ struct Relinking {
 /// Finds the joined pairs; summing up what the springs carry is left to the caller, who goes
 /// through `into`. This is the symbolic half of the sparse product P^T A P, row by row (Gustavson
 /// 1978): linear in the number of springs, but for the sort of each group's few neighbours.
-/// `groups` must be valid and of the nodes of `springs`.
+/// Throws InputError unless `groups` are valid and of the nodes of `springs`.
 Relinking relink(const SpringRows& springs, const Groups& groups);
 
 /// `finer` first, then `coarser`, which relinked the pairs of `finer`.

@@ -24,7 +24,7 @@ class Rigidity {
   }
 
   std::uint32_t springs() const { return springs_; }
-  /// Whether lambda_min is at least `ratio` times lambda_max; false for a node without springs.
+  /// Whether lambda_min is at least `ratio` times lambda_max; 0 is at least 0 (no springs).
   bool at_least(double ratio) const;
 
  private:

@@ -45,8 +45,8 @@ class SpringRows {
   void prefetch_row(std::uint32_t node) const {
     const Start& start = start_[node];
     const Start& end = start_[node + 1];
-    prefetch(&lower_[start.lower], &lower_[end.lower]);
-    prefetch(&b_[start.higher], &b_[end.higher]);
+    prefetch(lower_.get() + start.lower, lower_.get() + end.lower);
+    prefetch(b_.data() + start.higher, b_.data() + end.higher);
   }
 
  private:
