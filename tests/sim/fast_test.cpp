@@ -221,10 +221,14 @@ TEST_CASE("A fast step tells the node that went through a wall as the plain one 
 }
 
 TEST_CASE("Rows hold every spring once and are nearly full on a lattice") {
-  const MassSpringModel model = two_material_block(16);
+  const MassSpringModel model = two_material_block(23);
   const auto layout = make_row_layout<double>(model);
   CHECK(static_cast<double>(model.spring_count()) > 6.5 * static_cast<double>(layout.rows.size()));
   CHECK(layout.properties.size() < layout.rows.size() / 4);
+  for (const RowBlock& block : layout.blocks) {
+    CHECK(block.first % kRowLanes == 0);
+    CHECK(block.reach % kRowLanes == 0);
+  }
   double stiffness = 0;
   double expected = 0;
   for (const SpringRow& row : layout.rows)
