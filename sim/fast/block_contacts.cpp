@@ -1,5 +1,8 @@
 #include "sim/fast/block_contacts.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace springlod {
 namespace {
 
@@ -9,17 +12,34 @@ Box3 bounds_of(const SolidBox& box) {
   return {box.center - reach, box.center + reach};
 }
 
-/// How far the box's lowest corner lies along a plane's normal [m].
-double lowest(const Box3& box, const Vec3& normal) {
-  double sum = 0;
+/// Bounds of the part of the box that lies behind the plane.
+Box3 part_behind(const Plane& plane, const Box3& box) {
+  Vec3 least;  // of each term of normal . x
   for (int axis = 0; axis < 3; ++axis)
-    sum += normal[axis] * (normal[axis] > 0 ? box.min()[axis] : box.max()[axis]);
-  return sum;
+    least[axis] = plane.normal[axis] * (plane.normal[axis] > 0 ? box.min()[axis] : box.max()[axis]);
+  Box3 part = box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double normal = plane.normal[axis];
+    if (normal == 0) continue;
+    const double end = (plane.offset - (least.sum() - least[axis])) / normal;
+    if (normal > 0)
+      part.max()[axis] = std::min(part.max()[axis], end);
+    else
+      part.min()[axis] = std::max(part.min()[axis], end);
+  }
+  return least.sum() < plane.offset ? part : Box3();
 }
 
 Box3 moved(const Box3& box, const Vec3& way) {
   return {box.min() + way, box.max() + way};
 }
+
+// Nodes without an area have no number.
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+// Regions are widened by this part of the block's size [1], so that rounding to single precision
+// leaves none out.
+constexpr double kRounding = 1e-6;
 
 }  // namespace
 
@@ -31,41 +51,55 @@ BlockContacts::BlockContacts(const MassSpringModel& model, const std::vector<Obs
       block_(block),
       body_(&body),
       finder_(&finder),
-      walls_(&walls),
-      was_near_(obstacles.size(), 0) {
+      walls_(&walls) {
   const std::vector<std::uint32_t>& nodes = finder.nodes();
-  for (std::uint32_t number = 0; number < nodes.size(); ++number)
-    if (body.place(nodes[number]).block == block) numbers_.push_back(number);
+  for (std::uint32_t number = 0; number < nodes.size(); ++number) {
+    const Place at = body.place(nodes[number]);
+    if (at.block != block) continue;
+    numbers_.push_back(number);
+    if (number_of_.size() <= at.index) number_of_.resize(at.index + 1, kNone);
+    number_of_[at.index] = number;
+  }
+  looked_at_.assign(obstacles.size(), std::vector<std::uint64_t>(number_of_.size(), 0));
 }
 
-bool BlockContacts::is_near(std::size_t obstacle, const Box3& bounds) const {
+Box3 BlockContacts::region(std::size_t obstacle, const Box3& bounds) const {
   const Obstacle& thing = (*obstacles_)[obstacle];
-  if (const auto* plane = std::get_if<Plane>(&thing.shape))
-    return lowest(bounds, plane->normal) < plane->offset;
-  return bounds_of(std::get<SolidBox>(thing.shape)).intersects(bounds);
+  if (const auto* plane = std::get_if<Plane>(&thing.shape)) return part_behind(*plane, bounds);
+  return bounds_of(std::get<SolidBox>(thing.shape)).intersection(bounds);
 }
 
 void BlockContacts::press(std::uint64_t n, const MovingFrame& frame, double step) {
   contacts_.clear();
   if (numbers_.empty()) return;
-  const Box3 bounds = moved(body_->bounds(block_), frame.origin);
+  const Box3& bounds = body_->bounds(block_);
+  const Vec3 margin = Vec3::Constant(kRounding * bounds.sizes().maxCoeff());
   for (std::size_t o = 0; o < obstacles_->size(); ++o) {
-    const bool near = is_near(o, bounds);
-    const bool new_here = near && was_near_[o] == 0;
-    was_near_[o] = near ? 1 : 0;
-    if (!near) continue;
-    for (const std::uint32_t number : numbers_) {
-      const Place at = body_->place(finder_->nodes()[number]);
-      const Vec3 x = frame.origin + body_->x(at);
-      const Vec3 v = frame.velocity + body_->v(at);
-      if (new_here) finder_->take_sides(o, number, x - step * v);
-      const std::optional<Contact> contact = finder_->find_one(o, number, x, v);
-      if (!contact) continue;
-      contacts_.push_back(*contact);
-      body_->add_force(at, contact->normal_force * contact->normal);
-    }
+    const Box3 near = region(o, moved(bounds, frame.origin));
+    if (near.isEmpty()) continue;
+    found_.clear();
+    body_->nodes_in(block_,
+                    Box3(near.min() - frame.origin - margin, near.max() - frame.origin + margin),
+                    found_);
+    for (const std::uint32_t index : found_) press_node(n, o, index, frame, step);
   }
   if (!first_step_ && !contacts_.empty()) first_step_ = n;
+}
+
+void BlockContacts::press_node(std::uint64_t n, std::size_t obstacle, std::uint32_t index,
+                               const MovingFrame& frame, double step) {
+  if (index >= number_of_.size() || number_of_[index] == kNone) return;
+  const std::uint32_t number = number_of_[index];
+  const Place at{block_, index};
+  const Vec3 x = frame.origin + body_->x(at);
+  const Vec3 v = frame.velocity + body_->v(at);
+  std::uint64_t& looked_at = looked_at_[obstacle][index];
+  if (looked_at != n) finder_->take_sides(obstacle, number, x - step * v);
+  looked_at = n + 1;
+  const std::optional<Contact> contact = finder_->find_one(obstacle, number, x, v);
+  if (!contact) return;
+  contacts_.push_back(*contact);
+  body_->add_force(at, contact->normal_force * contact->normal);
 }
 
 void BlockContacts::rub(const MovingFrame& frame, double step) {

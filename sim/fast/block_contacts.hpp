@@ -54,7 +54,10 @@ class BlockContacts {
   Vec3 velocity(const Contact& contact, const MovingFrame& frame) const;
 
  private:
-  bool is_near(std::size_t obstacle, const Box3& bounds) const;
+  /// Where nodes of the block that touch the obstacle must be, all in world axes; may be empty.
+  Box3 region(std::size_t obstacle, const Box3& bounds) const;
+  void press_node(std::uint64_t n, std::size_t obstacle, std::uint32_t index,
+                  const MovingFrame& frame, double step);
 
   const MassSpringModel* model_;
   const std::vector<Obstacle>* obstacles_;
@@ -62,8 +65,10 @@ class BlockContacts {
   FastBody* body_;
   ContactFinder* finder_;
   TunnelWatch* walls_;
-  std::vector<std::uint32_t> numbers_;  // the block's nodes among those with an area
-  std::vector<char> was_near_;          // by obstacle: looked at in the last step
+  std::vector<std::uint32_t> numbers_;                 // the block's nodes among those with an area
+  std::vector<std::uint32_t> number_of_;               // by index in the block; kNone
+  std::vector<std::vector<std::uint64_t>> looked_at_;  // by obstacle and index: last step, plus 1
+  std::vector<std::uint32_t> found_;                   // indices, kept for their memory
   std::vector<Contact> contacts_;
   std::optional<std::uint64_t> first_step_;
   std::optional<Passage> passage_;

@@ -47,6 +47,10 @@ class FastBody {
   /// Of the nodes of the block, as of its last move [m].
   virtual const Box3& bounds(std::uint32_t block) const = 0;
 
+  /// Appends the indices of the block's nodes within `region` [m], rising.
+  virtual void nodes_in(std::uint32_t block, const Box3& region,
+                        std::vector<std::uint32_t>& indices) const = 0;
+
   virtual Vec3 x(Place at) const = 0;                         ///< [m]
   virtual Vec3 v(Place at) const = 0;                         ///< [m/s]
   virtual void add_force(Place at, const Vec3& force) = 0;    ///< [N]; before its block moves

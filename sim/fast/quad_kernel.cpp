@@ -274,6 +274,23 @@ double damping_power(const QuadBlock<Real>& block, const QuadBlockState<Real>& o
 }
 
 template <class Real>
+void find_nodes(const QuadBlock<Real>& block, const QuadBlockState<Real>& own, const Box3& region,
+                std::vector<std::uint32_t>& indices) {
+  Real low[3];
+  Real high[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = static_cast<Real>(region.min()[axis]);
+    high[axis] = static_cast<Real>(region.max()[axis]);
+  }
+  for (std::uint32_t i = 0; i < block.own; ++i) {
+    const Real* x = own.records[i].x;
+    const bool inside = ((x[0] >= low[0]) & (x[0] <= high[0]) & (x[1] >= low[1]) &
+                         (x[1] <= high[1]) & (x[2] >= low[2]) & (x[2] <= high[2])) != 0;
+    if (inside) indices.push_back(i);
+  }
+}
+
+template <class Real>
 using Corner = hn::CappedTag<Real, 4>;
 
 template <class Real>
@@ -334,6 +351,11 @@ double damping_power_float(const QuadLayout<float>& layout, std::uint32_t block,
                            const QuadState<float>& state) {
   return damping_power(layout.blocks[block], state[block]);
 }
+void find_nodes_float(const QuadLayout<float>& layout, std::uint32_t block,
+                      const QuadState<float>& state, const Box3& region,
+                      std::vector<std::uint32_t>& indices) {
+  find_nodes(layout.blocks[block], state[block], region, indices);
+}
 void move_float(const QuadLayout<float>& layout, std::uint32_t block, double kick, double drift,
                 QuadState<float>& state) {
   if (kick != 0) kick_nodes(layout.blocks[block], static_cast<float>(kick), state[block]);
@@ -352,6 +374,11 @@ void collect_double(const QuadLayout<double>& layout, std::uint32_t block,
 double damping_power_double(const QuadLayout<double>& layout, std::uint32_t block,
                             const QuadState<double>& state) {
   return damping_power(layout.blocks[block], state[block]);
+}
+void find_nodes_double(const QuadLayout<double>& layout, std::uint32_t block,
+                       const QuadState<double>& state, const Box3& region,
+                       std::vector<std::uint32_t>& indices) {
+  find_nodes(layout.blocks[block], state[block], region, indices);
 }
 void move_double(const QuadLayout<double>& layout, std::uint32_t block, double kick, double drift,
                  QuadState<double>& state) {
@@ -372,10 +399,12 @@ HWY_EXPORT(find_forces_float);
 HWY_EXPORT(collect_float);
 HWY_EXPORT(damping_power_float);
 HWY_EXPORT(move_float);
+HWY_EXPORT(find_nodes_float);
 HWY_EXPORT(find_forces_double);
 HWY_EXPORT(collect_double);
 HWY_EXPORT(damping_power_double);
 HWY_EXPORT(move_double);
+HWY_EXPORT(find_nodes_double);
 HWY_EXPORT(target_name);
 
 template <>
@@ -392,6 +421,12 @@ template <>
 double quad_damping_power(const QuadLayout<float>& layout, std::uint32_t block,
                           const QuadState<float>& state) {
   return HWY_DYNAMIC_DISPATCH(damping_power_float)(layout, block, state);
+}
+template <>
+void find_quad_nodes(const QuadLayout<float>& layout, std::uint32_t block,
+                     const QuadState<float>& state, const Box3& region,
+                     std::vector<std::uint32_t>& indices) {
+  HWY_DYNAMIC_DISPATCH(find_nodes_float)(layout, block, state, region, indices);
 }
 template <>
 void move_quads(const QuadLayout<float>& layout, std::uint32_t block, double kick, double drift,
@@ -412,6 +447,12 @@ template <>
 double quad_damping_power(const QuadLayout<double>& layout, std::uint32_t block,
                           const QuadState<double>& state) {
   return HWY_DYNAMIC_DISPATCH(damping_power_double)(layout, block, state);
+}
+template <>
+void find_quad_nodes(const QuadLayout<double>& layout, std::uint32_t block,
+                     const QuadState<double>& state, const Box3& region,
+                     std::vector<std::uint32_t>& indices) {
+  HWY_DYNAMIC_DISPATCH(find_nodes_double)(layout, block, state, region, indices);
 }
 template <>
 void move_quads(const QuadLayout<double>& layout, std::uint32_t block, double kick, double drift,

@@ -53,4 +53,10 @@ template <class Real>
 void move_quads(const QuadLayout<Real>& layout, std::uint32_t block, double kick, double drift,
                 QuadState<Real>& state);
 
+/// Appends the indices of the block's own nodes that lie within the region, rising.
+template <class Real>
+void find_quad_nodes(const QuadLayout<Real>& layout, std::uint32_t block,
+                     const QuadState<Real>& state, const Box3& region,
+                     std::vector<std::uint32_t>& indices);
+
 }  // namespace springlod

@@ -35,6 +35,11 @@ class RowBody final : public FastBody {
   }
   const Box3& bounds(std::uint32_t block) const override { return state_.bounds[block]; }
 
+  void nodes_in(std::uint32_t block, const Box3& region,
+                std::vector<std::uint32_t>& indices) const override {
+    find_row_nodes(*layout_, block, state_, region, indices);
+  }
+
   Vec3 x(Place at) const override;
   Vec3 v(Place at) const override;
   void add_force(Place at, const Vec3& force) override;

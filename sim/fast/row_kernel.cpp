@@ -151,6 +151,30 @@ double damping_power(const RowLayout<Real>& layout, std::uint32_t number,
 }
 
 template <class Real>
+void find_nodes(const RowLayout<Real>& layout, std::uint32_t number, const RowState<Real>& state,
+                const Box3& region, std::vector<std::uint32_t>& indices) {
+  using D = Lanes<Real>;
+  const D d;
+  const RowBlock& block = layout.blocks[number];
+  const auto set = [&](double value) { return hn::Set(d, static_cast<Real>(value)); };
+  const Vector3<D> low{set(region.min().x()), set(region.min().y()), set(region.min().z())};
+  const Vector3<D> high{set(region.max().x()), set(region.max().y()), set(region.max().z())};
+  const auto within = [](auto value, auto least, auto most) {
+    return hn::And(hn::Ge(value, least), hn::Le(value, most));
+  };
+  for (std::uint32_t p = 0; p < block.own; p += lane_count<Real>()) {
+    const Vector3<D> x = load<D, Real>(d, state.x, block.first + p);
+    const auto inside = hn::And(hn::And(within(x.x, low.x, high.x), within(x.y, low.y, high.y)),
+                                within(x.z, low.z, high.z));
+    if (hn::AllFalse(d, inside)) continue;
+    std::uint8_t bits[8] = {};  // a bit a lane; Highway writes 8 bytes at least
+    hn::StoreMaskBits(d, inside, bits);
+    for (std::uint32_t lane = 0; lane < lane_count<Real>() && p + lane < block.own; ++lane)
+      if ((bits[0] >> lane & 1U) != 0) indices.push_back(p + lane);
+  }
+}
+
+template <class Real>
 void kick_axis(const RowLayout<Real>& layout, const RowBlock& block, Real time,
                const Real* HWY_RESTRICT force, Real* HWY_RESTRICT v) {
   const Lanes<Real> d;
@@ -215,6 +239,11 @@ double damping_power_float(const RowLayout<float>& layout, std::uint32_t block,
                            const RowState<float>& state) {
   return damping_power(layout, block, state);
 }
+void find_nodes_float(const RowLayout<float>& layout, std::uint32_t block,
+                      const RowState<float>& state, const Box3& region,
+                      std::vector<std::uint32_t>& indices) {
+  find_nodes(layout, block, state, region, indices);
+}
 void move_float(const RowLayout<float>& layout, std::uint32_t block, double kick, double drift,
                 RowState<float>& state) {
   move(layout, block, kick, drift, state);
@@ -234,6 +263,11 @@ double damping_power_double(const RowLayout<double>& layout, std::uint32_t block
                             const RowState<double>& state) {
   return damping_power(layout, block, state);
 }
+void find_nodes_double(const RowLayout<double>& layout, std::uint32_t block,
+                       const RowState<double>& state, const Box3& region,
+                       std::vector<std::uint32_t>& indices) {
+  find_nodes(layout, block, state, region, indices);
+}
 void move_double(const RowLayout<double>& layout, std::uint32_t block, double kick, double drift,
                  RowState<double>& state) {
   move(layout, block, kick, drift, state);
@@ -249,10 +283,12 @@ HWY_EXPORT(find_forces_float);
 HWY_EXPORT(collect_float);
 HWY_EXPORT(damping_power_float);
 HWY_EXPORT(move_float);
+HWY_EXPORT(find_nodes_float);
 HWY_EXPORT(find_forces_double);
 HWY_EXPORT(collect_double);
 HWY_EXPORT(damping_power_double);
 HWY_EXPORT(move_double);
+HWY_EXPORT(find_nodes_double);
 
 template <>
 void find_row_forces(const RowLayout<float>& layout, std::uint32_t block, RowState<float>& state) {
@@ -267,6 +303,12 @@ template <>
 double row_damping_power(const RowLayout<float>& layout, std::uint32_t block,
                          const RowState<float>& state) {
   return HWY_DYNAMIC_DISPATCH(damping_power_float)(layout, block, state);
+}
+template <>
+void find_row_nodes(const RowLayout<float>& layout, std::uint32_t block,
+                    const RowState<float>& state, const Box3& region,
+                    std::vector<std::uint32_t>& indices) {
+  HWY_DYNAMIC_DISPATCH(find_nodes_float)(layout, block, state, region, indices);
 }
 template <>
 void move_rows(const RowLayout<float>& layout, std::uint32_t block, double kick, double drift,
@@ -287,6 +329,12 @@ template <>
 double row_damping_power(const RowLayout<double>& layout, std::uint32_t block,
                          const RowState<double>& state) {
   return HWY_DYNAMIC_DISPATCH(damping_power_double)(layout, block, state);
+}
+template <>
+void find_row_nodes(const RowLayout<double>& layout, std::uint32_t block,
+                    const RowState<double>& state, const Box3& region,
+                    std::vector<std::uint32_t>& indices) {
+  HWY_DYNAMIC_DISPATCH(find_nodes_double)(layout, block, state, region, indices);
 }
 template <>
 void move_rows(const RowLayout<double>& layout, std::uint32_t block, double kick, double drift,

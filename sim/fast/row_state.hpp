@@ -47,4 +47,9 @@ template <class Real>
 void move_rows(const RowLayout<Real>& layout, std::uint32_t block, double kick, double drift,
                RowState<Real>& state);
 
+/// Appends the indices of the block's own nodes that lie within the region, rising.
+template <class Real>
+void find_row_nodes(const RowLayout<Real>& layout, std::uint32_t block, const RowState<Real>& state,
+                    const Box3& region, std::vector<std::uint32_t>& indices);
+
 }  // namespace springlod
