@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 
 #include <benchmark/benchmark.h>
@@ -101,6 +102,33 @@ void animate_60_frames(benchmark::State& state) {
   std::filesystem::remove_all(folder);
 }
 BENCHMARK(animate_60_frames)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();
+
+// A still of 640 x 480 of a surface of 20,000 triangles; with 1 the context of the one before is
+// kept.
+void draw_still(benchmark::State& state) {
+  const TriangleMesh surface = sphere_mesh(100, 100, 0.04, Vec3::Zero());
+  DrawnBody body;
+  body.surface = &surface;
+  Panel panel;
+  panel.bodies = {body};
+  panel.camera = frame_box(bounds(surface), -70, 15, 4. / 3);
+  const PanelGrid grid{.panel_width = 640, .panel_height = 480};
+  auto renderer = std::make_unique<Renderer>(grid);
+  for (auto _ : state) {
+    if (state.range(0) == 1)
+      renderer->lay_out(grid);
+    else
+      renderer = std::make_unique<Renderer>(grid);
+    benchmark::DoNotOptimize(renderer->draw({panel}));
+  }
+}
+BENCHMARK(draw_still)
+    ->ArgName("kept")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 }  // namespace
 

@@ -80,7 +80,7 @@ end
 
 local csv_columns = {"program", "benchmark", "vectors", "nodes", "springs", "ns_per_spring",
                      "vector_instructions_per_spring", "vector_bound_ns", "memory_bound_ns",
-                     "real_ms", "cpu_ms", "spread", "others", "processor", "compiler"}
+                     "ms", "spread", "others", "processor", "compiler"}
 
 local function write_csv(rows, context)
   local cells, name = {}, processor()
@@ -90,7 +90,7 @@ local function write_csv(rows, context)
       cells[#cells + 1] = {row.program, row.name, row.label, c.nodes or "", c.springs or "",
                            rounded(c.ns_per_spring), rounded(row.vectors),
                            rounded(row.vector_bound), rounded(row.memory_bound),
-                           rounded(row.real_ms), rounded(row.cpu_ms), rounded(row.spread, 2),
+                           rounded(row.ms), rounded(row.spread, 2),
                            other_counters(row), name, context.compiler or ""}
     end
   end
@@ -212,9 +212,8 @@ local function time_rows(rows)
   local cells = {}
   for _, row in ipairs(rows) do
     if row.program ~= "bench_step" and not row.failed then
-      local ms = math.max(row.real_ms, row.cpu_ms)
-      cells[#cells + 1] = {row.name, ms >= 1000 and ("%.3g s"):format(ms / 1000)
-                           or ("%.3g ms"):format(ms), other_counters(row)}
+      cells[#cells + 1] = {row.name, row.ms >= 1000 and ("%.3g s"):format(row.ms / 1000)
+                           or ("%.3g ms"):format(row.ms), other_counters(row)}
     end
   end
   return cells

@@ -22,8 +22,7 @@ template <class Real>
 Traffic step_traffic(const QuadLayout<Real>& layout, double springs) {
   Traffic sum;
   for (const QuadBlock<Real>& block : layout.blocks) {
-    sum.read += bytes(block.inverse_mass) + bytes(block.halo) + bytes(block.quad_node) +
-                bytes(block.other_end) + bytes(block.stiffness) + bytes(block.rest_force) +
+    sum.read += bytes(block.inverse_mass) + bytes(block.halo) + bytes(block.pairs) +
                 bytes(block.damping) + bytes(block.copied);
     const double touched = block.own + static_cast<double>(block.halo.size());
     sum.changed += touched * (sizeof(NodeRecord<Real>) + sizeof(NodeVector<Real>));

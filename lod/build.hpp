@@ -28,6 +28,6 @@ struct SimplifyOptions {
 
 /// Level 0 = `base`, level n merged from level n-1. Throws InputError if a level cannot get any
 /// coarser (says which and why).
-LodChain simplify(const MassSpringModel& base, const SimplifyOptions& options);
+LodChain simplify(MassSpringModel base, const SimplifyOptions& options);
 
 }  // namespace springlod

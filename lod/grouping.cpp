@@ -1,12 +1,15 @@
 #include "lod/grouping.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "lod/grouping_keys.hpp"
+#include "lod/radix_sort.hpp"
 #include "model/chance.hpp"
 #include "model/error.hpp"
 
@@ -14,14 +17,6 @@ namespace springlod {
 namespace {
 
 constexpr std::uint32_t kUngrouped = std::numeric_limits<std::uint32_t>::max();
-constexpr double kForbidden = std::numeric_limits<double>::infinity();
-
-// Weight of the gradient against the length in the soft key; the prototype's choice (spec 3).
-constexpr double kGradientWeight = 4;
-
-// Keys that differ by less than this part of the mean are equal, and chance decides: on a lattice
-// equal lengths differ in their last bits, and rounding must not choose the groups.
-constexpr double kTieFraction = 1e-9;
 
 enum class Draw : std::uint64_t { order = 1, size = 2, tie = 3 };
 
@@ -30,126 +25,29 @@ enum class Draw : std::uint64_t { order = 1, size = 2, tie = 3 };
 class Chance {
  public:
   explicit Chance(std::uint64_t seed) : seed_(mix(seed)) {}
-  std::uint64_t operator()(Draw what, std::uint64_t x, std::uint64_t y = 0) const {
-    return mix(mix(mix(seed_ ^ static_cast<std::uint64_t>(what)) ^ x) ^ y);
+  std::uint64_t operator()(Draw what, std::uint64_t x) const { return mix(state(what, x)); }
+  /// Mixed with y, the number drawn for (x, y).
+  std::uint64_t state(Draw what, std::uint64_t x) const {
+    return mix(mix(seed_ ^ static_cast<std::uint64_t>(what)) ^ x);
   }
 
  private:
   std::uint64_t seed_;
 };
 
-// A key rounded so that ties are ties, or the forbidden key.
-std::vector<double> rounded(std::vector<double> keys) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (const double key : keys)
-    if (std::isfinite(key)) {
-      sum += std::abs(key);
-      ++count;
-    }
-  const double quantum = count == 0 ? 0 : kTieFraction * sum / static_cast<double>(count);
-  for (double& key : keys) {
-    if (std::isnan(key)) key = kForbidden;
-    if (quantum > 0 && std::isfinite(key)) key = std::round(key / quantum);
+// By priority, then by chance; without priorities by chance alone.
+std::vector<std::uint32_t> visit_order(std::uint32_t count, const std::vector<double>& priority,
+                                       const Chance& chance) {
+  std::vector<KeyedNode> visits(count);
+  for (std::uint32_t i = 0; i < count; ++i) visits[i] = {chance(Draw::order, i), i};
+  radix_sort(visits);
+  if (!priority.empty()) {
+    const RoundedKeys keys(priority);
+    for (KeyedNode& visit : visits) visit.key = radix_key(keys[visit.node]);
+    radix_sort(visits);
   }
-  return keys;
-}
-
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-// Young's modulus of a node up to a factor that is the same for all: the mean k weighted by L^2,
-// which a node on the border, with fewer springs, does not bias.
-std::vector<double> node_stiffness(const MassSpringModel& m) {
-  std::vector<double> work(m.node_count(), 0);
-  std::vector<double> weight(m.node_count(), 0);
-  for (std::uint32_t s = 0; s < m.spring_count(); ++s) {
-    const double l2 = m.rest_length[s] * m.rest_length[s];
-    for (const std::uint32_t i : {m.a[s], m.b[s]}) {
-      work[i] += m.stiffness[s] * l2;
-      weight[i] += l2;
-    }
-  }
-  for (std::uint32_t i = 0; i < m.node_count(); ++i)
-    work[i] = weight[i] > 0 ? work[i] / weight[i] : 0;
-  return work;
-}
-
-// g of each spring: |dE| / mean E + |drho| / mean rho per length [1/m] (the paper, section 5.2).
-std::vector<double> spring_gradients(const MassSpringModel& m) {
-  const std::vector<double> young = node_stiffness(m);
-  std::vector<double> density(m.node_count());
-  for (std::uint32_t i = 0; i < m.node_count(); ++i) density[i] = m.mass[i] / m.volume[i];
-  const double mean_young = mean(young);
-  const double mean_density = mean(density);
-  std::vector<double> gradient(m.spring_count());
-  for (std::uint32_t s = 0; s < m.spring_count(); ++s)
-    gradient[s] = (std::abs(young[m.a[s]] - young[m.b[s]]) / mean_young +
-                   std::abs(density[m.a[s]] - density[m.b[s]]) / mean_density) /
-                  m.rest_length[s];
-  return gradient;
-}
-
-// What decides between neighbours: first key, then second, then chance.
-struct PairKeys {
-  std::vector<double> first;
-  std::vector<double> second;  // empty: none
-};
-
-PairKeys pair_keys(const MassSpringModel& m, const GroupingOptions& options,
-                   const std::vector<double>& gradient) {
-  if (options.pair_cost) {
-    std::vector<double> cost(m.spring_count());
-    for (std::uint32_t s = 0; s < m.spring_count(); ++s)
-      cost[s] = options.pair_cost(m.a[s], m.b[s]);
-    return {rounded(std::move(cost)), {}};
-  }
-  switch (options.grouping) {
-    case Grouping::priority_soft: {
-      std::vector<double> key(m.spring_count());
-      for (std::uint32_t s = 0; s < m.spring_count(); ++s)
-        key[s] = m.rest_length[s] * (1 + kGradientWeight * gradient[s] * m.rest_length[s]);
-      return {rounded(std::move(key)), {}};
-    }
-    case Grouping::priority_hard:
-      return {rounded(gradient), rounded(m.rest_length)};
-    case Grouping::standard:
-      break;
-  }
-  return {rounded(m.rest_length), {}};
-}
-
-std::vector<double> visit_priority(const MassSpringModel& m, const GroupingOptions& options,
-                                   const Adjacency& adj, const std::vector<double>& gradient) {
-  std::vector<double> priority(m.node_count(), 0);
-  if (options.node_priority) {
-    for (std::uint32_t i = 0; i < m.node_count(); ++i) priority[i] = options.node_priority(i);
-  } else if (options.grouping != Grouping::standard) {
-    for (std::uint32_t i = 0; i < m.node_count(); ++i) {
-      for (std::uint32_t e = adj.start[i]; e < adj.start[i + 1]; ++e)
-        priority[i] += gradient[adj.spring[e]];
-      priority[i] /= std::max(1U, adj.start[i + 1] - adj.start[i]);
-    }
-  }
-  return rounded(std::move(priority));
-}
-
-std::vector<std::uint32_t> visit_order(const std::vector<double>& priority, const Chance& chance) {
-  struct Visit {
-    double priority;
-    std::uint64_t tie;
-    std::uint32_t node;
-  };
-  std::vector<Visit> visits(priority.size());
-  for (std::uint32_t i = 0; i < visits.size(); ++i)
-    visits[i] = {priority[i], chance(Draw::order, i), i};
-  std::sort(visits.begin(), visits.end(), [](const Visit& x, const Visit& y) {
-    if (x.priority != y.priority) return x.priority < y.priority;
-    return x.tie != y.tie ? x.tie < y.tie : x.node < y.node;
-  });
-  std::vector<std::uint32_t> order(visits.size());
-  for (std::size_t i = 0; i < visits.size(); ++i) order[i] = visits[i].node;
+  std::vector<std::uint32_t> order(count);
+  for (std::uint32_t i = 0; i < count; ++i) order[i] = visits[i].node;
   return order;
 }
 
@@ -168,78 +66,94 @@ Groups numbered(const std::vector<std::uint32_t>& leader) {
 
 class Grouper {
  public:
-  Grouper(const MassSpringModel& model, const GroupingOptions& options)
-      : model_(model),
-        border_(options.border),
-        chance_(options.seed),
-        adj_(adjacency(model)),
-        leader_(model.node_count(), kUngrouped) {
-    std::vector<double> gradient;
-    if (options.grouping != Grouping::standard) gradient = spring_gradients(model);
-    keys_ = pair_keys(model, options, gradient);
-    order_ = visit_order(visit_priority(model, options, adj_, gradient), chance_);
-  }
+  Grouper(const MassSpringModel& model, const SpringRows& springs, const GroupingOptions& options)
+      : Grouper(model, springs, options,
+                options.grouping == Grouping::standard ? std::vector<double>{}
+                                                       : spring_gradients(model)) {}
 
   Groups run() {
-    for (const std::uint32_t i : order_)
-      if (leader_[i] == kUngrouped && mergeable(i)) grow(i);
-    for (std::uint32_t i = 0; i < model_.node_count(); ++i)
-      if (leader_[i] == kUngrouped) leader_[i] = i;
+    for (std::size_t visit = 0; visit < order_.size(); ++visit) {
+      prefetch_after(visit);
+      if (free_[order_[visit]]) grow(order_[visit]);
+    }
     return numbered(leader_);
   }
 
  private:
-  bool mergeable(std::uint32_t i) const {
-    return border_ != BorderRule::strong || model_.border[i] == 0;
+  Grouper(const MassSpringModel& model, const SpringRows& springs, const GroupingOptions& options,
+          std::vector<double> gradient)
+      : model_(model),
+        border_(options.border),
+        chance_(options.seed),
+        springs_(springs),
+        order_(visit_order(model.node_count(), visit_priority(model, options, gradient), chance_)),
+        keys_(model, options, std::move(gradient)),
+        free_(model.node_count(), true),
+        leader_(model.node_count()) {
+    std::iota(leader_.begin(), leader_.end(), 0U);
+    if (border_ == BorderRule::strong)
+      for (std::uint32_t i = 0; i < model.node_count(); ++i) free_[i] = model.border[i] == 0;
+  }
+
+  // Visits jump about in memory; without this they would wait for it nearly all the time.
+  void prefetch_after(std::size_t visit) const {
+    constexpr std::size_t kAhead = 8;  // visits from one stage to the next
+    const auto stage = [&](std::size_t ahead, const auto& prefetch) {
+      if (visit + ahead < order_.size() && free_[order_[visit + ahead]])
+        prefetch(order_[visit + ahead]);
+    };
+    stage(3 * kAhead, [&](std::uint32_t i) { springs_.prefetch_start(i); });
+    stage(2 * kAhead, [&](std::uint32_t i) { springs_.prefetch_row(i); });
+    stage(kAhead, [&](std::uint32_t i) {
+      springs_.for_each(i, [&](std::uint32_t j, std::uint32_t spring) {
+        if (free_[j]) keys_.prefetch(spring);
+      });
+    });
   }
 
   // Nearest free neighbour of the first node by the keys; under a weak border a best candidate of
   // the other kind ends the turn (the paper, section 5.3: no further candidate is tried).
   std::uint32_t candidate(std::uint32_t i) const {
-    std::uint32_t best = kUngrouped;
-    std::uint32_t best_spring = 0;
-    std::uint64_t best_tie = 0;
-    for (std::uint32_t e = adj_.start[i]; e < adj_.start[i + 1]; ++e) {
-      const std::uint32_t j = adj_.neighbour[e];
-      const std::uint32_t s = adj_.spring[e];
-      if (leader_[j] != kUngrouped || !mergeable(j) || keys_.first[s] == kForbidden) continue;
-      const std::uint64_t tie = chance_(Draw::tie, i, j);
-      if (best == kUngrouped || before(s, tie, best_spring, best_tie)) {
-        best = j;
-        best_spring = s;
-        best_tie = tie;
-      }
-    }
-    if (best != kUngrouped && border_ == BorderRule::weak &&
-        model_.border[best] != model_.border[i])
+    struct Candidate {
+      double first = kForbidden;
+      double second = 0;
+      std::uint64_t tie = 0;
+      std::uint32_t node = kUngrouped;
+    } best;
+    const std::uint64_t chance = chance_.state(Draw::tie, i);
+    springs_.for_each(i, [&](std::uint32_t j, std::uint32_t spring) {
+      if (!free_[j]) return;
+      const double first = keys_.first(spring);
+      if (first > best.first || first == kForbidden) return;
+      const double second = keys_.second(spring);
+      const std::uint64_t tie = mix(chance ^ j);
+      if (std::tie(first, second, tie) < std::tie(best.first, best.second, best.tie))
+        best = {first, second, tie, j};
+    });
+    if (best.node != kUngrouped && border_ == BorderRule::weak &&
+        model_.border[best.node] != model_.border[i])
       return kUngrouped;
-    return best;
+    return best.node;
   }
 
-  bool before(std::uint32_t s, std::uint64_t s_tie, std::uint32_t t, std::uint64_t t_tie) const {
-    if (keys_.first[s] != keys_.first[t]) return keys_.first[s] < keys_.first[t];
-    if (!keys_.second.empty() && keys_.second[s] != keys_.second[t])
-      return keys_.second[s] < keys_.second[t];
-    return s_tie < t_tie;
-  }
-
+  // The first node is no candidate of its own: no spring joins a node to itself.
   void grow(std::uint32_t i) {
     const std::uint32_t size = chance_(Draw::size, i) % 2 == 0 ? 2 : 3;
-    const std::uint32_t second = candidate(i);
-    if (second == kUngrouped) return;
-    leader_[i] = i;
-    leader_[second] = i;
-    if (size == 2) return;
-    const std::uint32_t third = candidate(i);
-    if (third != kUngrouped) leader_[third] = i;
+    for (std::uint32_t members = 1; members < size; ++members) {
+      const std::uint32_t next = candidate(i);
+      if (next == kUngrouped) return;
+      free_[i] = free_[next] = false;
+      leader_[next] = i;
+    }
   }
 
   const MassSpringModel& model_;
   BorderRule border_;
   Chance chance_;
-  Adjacency adj_;
-  PairKeys keys_;
+  const SpringRows& springs_;
   std::vector<std::uint32_t> order_;
+  PairKeys keys_;
+  std::vector<bool> free_;
   std::vector<std::uint32_t> leader_;  // first node of the group
 };
 
@@ -264,7 +178,12 @@ void require_joined(const Adjacency& adj, const std::vector<std::uint32_t>& set,
 }  // namespace
 
 Groups group_nodes(const MassSpringModel& model, const GroupingOptions& options) {
-  return Grouper(model, options).run();
+  return group_nodes(model, SpringRows(model), options);
+}
+
+Groups group_nodes(const MassSpringModel& model, const SpringRows& springs,
+                   const GroupingOptions& options) {
+  return Grouper(model, springs, options).run();
 }
 
 Groups groups_from_sets(const MassSpringModel& model,

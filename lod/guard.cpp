@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
+#include <utility>
 
-#include <Eigen/Eigenvalues>
-
-#include "model/error.hpp"
+#include "lod/relink.hpp"
+#include "lod/rigidity.hpp"
+#include "model/disjoint_sets.hpp"
 
 namespace springlod {
 namespace {
@@ -17,159 +17,180 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 // pair is joined, though each node has fewer than 4 springs.
 constexpr std::uint32_t kSimplexNodes = 4;
 
-// The merged model as far as the guards need it. Fusing groups keeps k L of every spring, so that
-// the graph can be coarsened again and again without looking back at the fine model.
-struct Graph {
-  struct Edge {
-    std::uint32_t a, b;  // a < b
-    double tension;      // sum of k L [N]
-  };
-  std::vector<Vec3> moment;  // mass times centre [kg m]
-  std::vector<double> mass;
-  std::vector<std::uint8_t> border;
-  std::vector<std::uint32_t> part;  // connected part of the fine model
-  std::vector<Edge> edges;          // sorted by (a, b)
+// The fine model as far as the guards need it.
+struct FineGraph {
+  const MassSpringModel& model;
+  const Components& parts;
 
-  std::uint32_t size() const { return static_cast<std::uint32_t>(mass.size()); }
-  Vec3 center(std::uint32_t g) const { return moment[g] / mass[g]; }
-  double length(const Edge& e) const { return (center(e.b) - center(e.a)).norm(); }
+  std::uint32_t size() const { return model.node_count(); }
+  double mass(std::uint32_t i) const { return model.mass[i]; }
+  Vec3 moment(std::uint32_t i) const { return model.mass[i] * model.rest[i]; }
+  Vec3 center(std::uint32_t i) const { return moment(i) / mass(i); }
+  std::uint8_t border(std::uint32_t i) const { return model.border[i]; }
+  std::uint32_t part(std::uint32_t i) const { return parts.of_node[i]; }
+  double tension(std::uint32_t s) const { return model.stiffness[s] * model.rest_length[s]; }
 };
 
-void add_up_edges(std::vector<Graph::Edge>& edges) {
-  std::stable_sort(edges.begin(), edges.end(), [](const Graph::Edge& x, const Graph::Edge& y) {
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  });
-  std::size_t last = 0;
-  for (std::size_t e = 1; e < edges.size(); ++e) {
-    if (edges[e].a == edges[last].a && edges[e].b == edges[last].b)
-      edges[last].tension += edges[e].tension;
-    else
-      edges[++last] = edges[e];
-  }
-  if (!edges.empty()) edges.resize(last + 1);
-}
-
-Graph fine_graph(const MassSpringModel& fine, const Components& parts) {
-  Graph graph;
-  graph.mass = fine.mass;
-  graph.border = fine.border;
-  graph.part = parts.of_node;
-  graph.moment.resize(fine.node_count());
-  for (std::uint32_t i = 0; i < fine.node_count(); ++i)
-    graph.moment[i] = fine.mass[i] * fine.rest[i];
-  graph.edges.resize(fine.spring_count());
-  for (std::uint32_t s = 0; s < fine.spring_count(); ++s)
-    graph.edges[s] = {fine.a[s], fine.b[s], fine.stiffness[s] * fine.rest_length[s]};
-  return graph;
-}
-
-Graph coarsened(const Graph& fine, const Groups& groups) {
-  Graph coarse;
-  coarse.mass.assign(groups.count, 0);
-  coarse.moment.assign(groups.count, Vec3::Zero());
-  coarse.border.assign(groups.count, 0);
-  coarse.part.assign(groups.count, 0);
-  for (std::uint32_t i = 0; i < fine.size(); ++i) {
-    const std::uint32_t g = groups.of[i];
-    coarse.mass[g] += fine.mass[i];
-    coarse.moment[g] += fine.moment[i];
-    coarse.border[g] |= fine.border[i];
-    coarse.part[g] = fine.part[i];
-  }
-  coarse.edges.reserve(fine.edges.size());
-  for (const Graph::Edge& e : fine.edges) {
-    const auto [low, high] = std::minmax(groups.of[e.a], groups.of[e.b]);
-    if (low != high) coarse.edges.push_back({low, high, e.tension});
-  }
-  add_up_edges(coarse.edges);
-  return coarse;
-}
-
-// Nodes joined into clusters, numbered by their lowest member.
-class Clusters {
+// The merged model as far as the guards need it. Fusing groups keeps k L of every spring, so that
+// the graph can be coarsened again and again without looking back at the fine model.
+class CoarseGraph {
  public:
-  explicit Clusters(std::uint32_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
+  CoarseGraph() = default;
+  template <class Fine>
+  CoarseGraph(const Fine& fine, const Groups& groups, const Relinking& links) {
+    add_up_nodes(fine, groups);
+    tension_.assign(links.a.size(), 0);
+    for (std::uint32_t s = 0; s < links.into.size(); ++s)
+      if (links.into[s] != Relinking::kInside) tension_[links.into[s]] += fine.tension(s);
   }
-  bool unite(std::uint32_t x, std::uint32_t y) {
-    x = root(x);
-    y = root(y);
-    if (x == y) return false;
-    parent_[std::max(x, y)] = std::min(x, y);
-    return true;
-  }
-  Groups groups() {
-    Groups result{std::vector<std::uint32_t>(parent_.size()), 0};
-    for (std::uint32_t i = 0; i < parent_.size(); ++i) {
-      const std::uint32_t r = root(i);
-      result.of[i] = r == i ? result.count++ : result.of[r];
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(mass_.size()); }
+  double mass(std::uint32_t g) const { return mass_[g]; }
+  const Vec3& moment(std::uint32_t g) const { return moment_[g]; }
+  const Vec3& center(std::uint32_t g) const { return center_[g]; }
+  std::uint8_t border(std::uint32_t g) const { return border_[g]; }
+  std::uint32_t part(std::uint32_t g) const { return part_[g]; }
+  double tension(std::uint32_t e) const { return tension_[e]; }
+  Vec3 offset(std::uint32_t g, std::uint32_t h) const { return center_[h] - center_[g]; }
+
+ private:
+  template <class Fine>
+  void add_up_nodes(const Fine& fine, const Groups& groups) {
+    mass_.assign(groups.count, 0);
+    moment_.assign(groups.count, Vec3::Zero());
+    border_.assign(groups.count, 0);
+    part_.assign(groups.count, 0);
+    for (std::uint32_t i = 0; i < fine.size(); ++i) {
+      const std::uint32_t g = groups.of[i];
+      mass_[g] += fine.mass(i);
+      moment_[g] += fine.moment(i);
+      border_[g] |= fine.border(i);
+      part_[g] = fine.part(i);
     }
-    return result;
+    center_.resize(groups.count);
+    for (std::uint32_t g = 0; g < groups.count; ++g) center_[g] = moment_[g] / mass_[g];
+  }
+
+  std::vector<double> mass_;
+  std::vector<Vec3> moment_;  // mass times centre [kg m]
+  std::vector<Vec3> center_;
+  std::vector<std::uint8_t> border_;
+  std::vector<std::uint32_t> part_;  // connected part of the fine model
+  std::vector<double> tension_;      // of each edge, sum of k L [N]
+};
+
+// Tells floppy nodes by their springs and the size of their part.
+class FloppyRule {
+ public:
+  explicit FloppyRule(const GuardOptions& options) : options_(options) {}
+  bool floppy(const Rigidity& node, std::uint32_t part_size) const {
+    if (part_size <= kSimplexNodes) return node.springs() + 1 < part_size;
+    return node.springs() < options_.least_springs || !node.at_least(options_.least_rigidity);
   }
 
  private:
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::vector<std::uint32_t> parent_;
+  GuardOptions options_;
 };
+
+template <class Graph>
+std::vector<std::uint32_t> part_sizes(const Graph& graph, std::uint32_t parts) {
+  std::vector<std::uint32_t> size(parts, 0);
+  for (std::uint32_t i = 0; i < graph.size(); ++i) ++size[graph.part(i)];
+  return size;
+}
+
+// Parts with at least one sound node. Springs are sorted by their lower end, so that a node has met
+// all its springs when those it is the lower end of are through: mostly the first few nodes tell.
+std::vector<bool> solid_parts(const FineGraph& fine, const FloppyRule& rule) {
+  const std::vector<std::uint32_t> part_size = part_sizes(fine, fine.parts.count);
+  std::vector<bool> solid(fine.parts.count, false);
+  std::uint32_t untold = fine.parts.count;
+  std::vector<Rigidity> nodes;  // grows as far as the springs met reach
+  std::uint32_t s = 0;
+  for (std::uint32_t i = 0; i < fine.size() && untold > 0; ++i) {
+    if (nodes.size() <= i) nodes.resize(i + 1);
+    const std::uint32_t part = fine.part(i);
+    for (; s < fine.model.spring_count() && fine.model.a[s] == i; ++s) {
+      if (solid[part]) continue;
+      const std::uint32_t j = fine.model.b[s];
+      if (nodes.size() <= j) nodes.resize(j + 1);
+      const Vec3 d = fine.center(j) - fine.center(i);
+      nodes[i].add_spring(d, fine.tension(s));
+      nodes[j].add_spring(d, fine.tension(s));
+    }
+    if (solid[part] || rule.floppy(nodes[i], part_size[part])) continue;
+    solid[part] = true;
+    --untold;
+  }
+  return solid;
+}
 
 class Guard {
  public:
-  Guard(const MassSpringModel& fine, const Groups& groups, const GuardOptions& options)
-      : options_(options) {
+  Guard(const MassSpringModel& fine, const SpringRows& springs, const Groups& groups,
+        const GuardOptions& options)
+      : options_(options), rule_(options) {
+    result_.links = relink(springs, groups);
+    result_.groups = groups;
     const Components parts = connected_components(fine);
-    const Graph base = fine_graph(fine, parts);
+    const FineGraph base{fine, parts};
     // A rope or a cloth is floppy by its nature; only parts that were solid are kept solid.
-    solid_part_.assign(parts.count, false);
-    const std::vector<bool> floppy = floppy_nodes(base, std::vector<bool>(parts.count, true));
-    for (std::uint32_t i = 0; i < base.size(); ++i)
-      if (!floppy[i]) solid_part_[base.part[i]] = true;
+    solid_part_ = solid_parts(base, rule_);
     for (const double length : fine.rest_length) mean_length_ += length;
     mean_length_ /= std::max(1U, fine.spring_count());
-    result_.groups = groups;
-    graph_ = coarsened(base, groups);
+    graph_ = CoarseGraph(base, groups, result_.links);
   }
 
   GuardedGroups run() {
     while (fuse_coincident() || fuse_floppy()) {
     }
-    return result_;
+    return std::move(result_);
   }
 
  private:
+  struct Edge {
+    std::uint32_t a, b;
+  };
+  std::uint32_t edge_count() const { return static_cast<std::uint32_t>(result_.links.a.size()); }
+  Edge edge(std::uint32_t e) const { return {result_.links.a[e], result_.links.b[e]}; }
+
   bool may_fuse(std::uint32_t g) const {
-    return options_.border != BorderRule::strong || graph_.border[g] == 0;
+    return options_.border != BorderRule::strong || graph_.border(g) == 0;
   }
 
-  bool apply(Clusters& clusters, std::uint32_t fused) {
+  bool apply(DisjointSets& clusters, std::uint32_t fused) {
     if (fused == 0) return false;
-    const Groups groups = clusters.groups();
-    graph_ = coarsened(graph_, groups);
+    DisjointSets::Numbers numbers = clusters.numbers();
+    const Groups groups{std::move(numbers.of), numbers.count};
+    Relinking links = relink(SpringRows(graph_.size(), result_.links.a, result_.links.b), groups);
+    graph_ = CoarseGraph(graph_, groups, links);
     result_.groups = compose(result_.groups, groups);
+    result_.links = compose(std::move(result_.links), std::move(links));
     return true;
   }
 
   bool fuse_coincident() {
-    Clusters clusters(graph_.size());
+    const double least = options_.coincident_fraction * mean_length_;
+    DisjointSets clusters(graph_.size());
     std::vector<bool> taken(graph_.size(), false);
     std::uint32_t fused = 0;
-    for (const Graph::Edge& e : graph_.edges) {
+    for (std::uint32_t e = 0; e < edge_count(); ++e) {
+      const auto [a, b] = edge(e);
+      if (!(graph_.offset(a, b).norm() < least)) continue;
       // One fusion a node and pass: a fused pair has a new centre, which decides anew.
-      if (taken[e.a] || taken[e.b] || !may_fuse(e.a) || !may_fuse(e.b)) continue;
-      if (!(graph_.length(e) < options_.coincident_fraction * mean_length_)) continue;
-      taken[e.a] = taken[e.b] = true;
-      fused += clusters.unite(e.a, e.b) ? 1 : 0;
+      if (taken[a] || taken[b] || !may_fuse(a) || !may_fuse(b)) continue;
+      taken[a] = taken[b] = true;
+      fused += clusters.unite(a, b) ? 1 : 0;
     }
     result_.fused_coincident += fused;
     return apply(clusters, fused);
   }
 
   bool fuse_floppy() {
-    const std::vector<bool> floppy = floppy_nodes(graph_, solid_part_);
+    const std::vector<bool> floppy = floppy_nodes();
+    if (std::find(floppy.begin(), floppy.end(), true) == floppy.end()) return false;
     const std::vector<std::uint32_t> partner = partners(floppy);
-    Clusters clusters(graph_.size());
+    DisjointSets clusters(graph_.size());
     std::vector<bool> taken(graph_.size(), false);
     std::uint32_t fused = 0;
     for (std::uint32_t g = 0; g < graph_.size(); ++g) {
@@ -194,57 +215,44 @@ class Guard {
     const auto offer = [&](std::uint32_t g, std::uint32_t other, double length) {
       if (!floppy[g] || !may_fuse(g) || !may_fuse(other)) return;
       const bool other_kind =
-          options_.border == BorderRule::weak && graph_.border[g] != graph_.border[other];
+          options_.border == BorderRule::weak && graph_.border(g) != graph_.border(other);
       Best& b = best[g];
       const bool better = other_kind != b.other_kind ? b.other_kind : length < b.length;
       if (b.node == kNone || better) b = {other, other_kind, length};
     };
-    for (const Graph::Edge& e : graph_.edges) {
-      if (!floppy[e.a] && !floppy[e.b]) continue;
-      const double length = graph_.length(e);
-      offer(e.a, e.b, length);
-      offer(e.b, e.a, length);
+    for (std::uint32_t e = 0; e < edge_count(); ++e) {
+      const auto [a, b] = edge(e);
+      if (!floppy[a] && !floppy[b]) continue;
+      const double length = graph_.offset(a, b).norm();
+      offer(a, b, length);
+      offer(b, a, length);
     }
     std::vector<std::uint32_t> partner(graph_.size());
     for (std::uint32_t g = 0; g < graph_.size(); ++g) partner[g] = best[g].node;
     return partner;
   }
 
-  std::vector<bool> floppy_nodes(const Graph& graph, const std::vector<bool>& solid_part) const {
-    std::vector<std::uint32_t> part_size(solid_part.size(), 0);
-    for (const std::uint32_t p : graph.part) ++part_size[p];
-    std::vector<std::uint32_t> springs(graph.size(), 0);
-    std::vector<Mat3> rigidity(graph.size(), Mat3::Zero());
-    for (const Graph::Edge& e : graph.edges) {
-      ++springs[e.a];
-      ++springs[e.b];
-      const Vec3 d = graph.center(e.b) - graph.center(e.a);
-      const double length = d.norm();
-      if (!(length > 0)) continue;
-      const Mat3 k_uu = e.tension / (length * length * length) * d * d.transpose();
-      rigidity[e.a] += k_uu;
-      rigidity[e.b] += k_uu;
+  std::vector<bool> floppy_nodes() const {
+    std::vector<Rigidity> nodes(graph_.size());
+    for (std::uint32_t e = 0; e < edge_count(); ++e) {
+      const auto [a, b] = edge(e);
+      const Vec3 d = graph_.offset(a, b);
+      nodes[a].add_spring(d, graph_.tension(e));
+      nodes[b].add_spring(d, graph_.tension(e));
     }
-    std::vector<bool> floppy(graph.size(), false);
-    for (std::uint32_t g = 0; g < graph.size(); ++g) {
-      if (!solid_part[graph.part[g]]) continue;
-      const std::uint32_t nodes = part_size[graph.part[g]];
-      if (nodes <= kSimplexNodes)
-        floppy[g] = springs[g] + 1 < nodes;
-      else
-        floppy[g] = springs[g] < options_.least_springs || nearly_flat(rigidity[g]);
+    const std::vector<std::uint32_t> part_size =
+        part_sizes(graph_, static_cast<std::uint32_t>(solid_part_.size()));
+    std::vector<bool> floppy(graph_.size(), false);
+    for (std::uint32_t g = 0; g < graph_.size(); ++g) {
+      const std::uint32_t part = graph_.part(g);
+      floppy[g] = solid_part_[part] && rule_.floppy(nodes[g], part_size[part]);
     }
     return floppy;
   }
 
-  bool nearly_flat(const Mat3& rigidity) const {
-    Eigen::SelfAdjointEigenSolver<Mat3> solver;
-    solver.computeDirect(rigidity, Eigen::EigenvaluesOnly);
-    return !(solver.eigenvalues()[0] >= options_.least_rigidity * solver.eigenvalues()[2]);
-  }
-
   GuardOptions options_;
-  Graph graph_;
+  FloppyRule rule_;
+  CoarseGraph graph_;
   double mean_length_ = 0;  // of the fine model [m]
   std::vector<bool> solid_part_;
   GuardedGroups result_;
@@ -252,10 +260,14 @@ class Guard {
 
 }  // namespace
 
+GuardedGroups guard_groups(const MassSpringModel& fine, const SpringRows& springs,
+                           const Groups& groups, const GuardOptions& options) {
+  return Guard(fine, springs, groups, options).run();
+}
+
 GuardedGroups guard_groups(const MassSpringModel& fine, const Groups& groups,
                            const GuardOptions& options) {
-  validate(groups);
-  return Guard(fine, groups, options).run();
+  return guard_groups(fine, SpringRows(fine), groups, options);
 }
 
 }  // namespace springlod

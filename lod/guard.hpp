@@ -3,8 +3,10 @@
 #include <cstdint>
 
 #include "lod/grouping.hpp"
+#include "lod/relink.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
+#include "model/spring_rows.hpp"
 
 namespace springlod {
 
@@ -22,6 +24,7 @@ struct GuardOptions {
 
 struct GuardedGroups {
   Groups groups;
+  Relinking links;                     ///< of the fine springs by `groups`
   std::uint32_t fused_coincident = 0;  ///< fusions of near centroids
   std::uint32_t fused_floppy = 0;      ///< fusions of floppy nodes
 };
@@ -32,5 +35,8 @@ struct GuardedGroups {
 /// a whole part.
 GuardedGroups guard_groups(const MassSpringModel& fine, const Groups& groups,
                            const GuardOptions& options);
+/// The same for whom has the rows of its springs at hand.
+GuardedGroups guard_groups(const MassSpringModel& fine, const SpringRows& springs,
+                           const Groups& groups, const GuardOptions& options);
 
 }  // namespace springlod

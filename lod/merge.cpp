@@ -1,10 +1,11 @@
 #include "lod/merge.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "lod/relink.hpp"
 #include "model/error.hpp"
 
 namespace springlod {
@@ -53,74 +54,58 @@ void merge_nodes(const MassSpringModel& fine, const Groups& groups,
   coarse.material = main_materials(fine, groups);
 }
 
-struct Reattached {
-  std::uint32_t a, b;
-  std::uint32_t spring;  // of the fine model
-};
-
-// Springs between groups, sorted by (a, b) and then by their fine number. Two counting passes sort
-// by the pair in linear time.
-std::vector<Reattached> reattached_springs(const MassSpringModel& fine, const Groups& groups) {
-  std::vector<Reattached> springs;
-  springs.reserve(fine.spring_count());
-  for (std::uint32_t s = 0; s < fine.spring_count(); ++s) {
-    const auto [low, high] = std::minmax(groups.of[fine.a[s]], groups.of[fine.b[s]]);
-    if (low != high) springs.push_back({low, high, s});
+// A spring none of whose ends merged stays the only one of its pair and keeps its length; the
+// others run from centre to centre.
+void lay_springs(const MassSpringModel& fine, const std::vector<std::uint32_t>& into,
+                 const std::vector<std::uint32_t>& size, MassSpringModel& coarse) {
+  coarse.rest_length.resize(coarse.spring_count());
+  for (std::uint32_t p = 0; p < coarse.spring_count(); ++p) {
+    const std::uint32_t a = coarse.a[p];
+    const std::uint32_t b = coarse.b[p];
+    coarse.rest_length[p] = (coarse.rest[b] - coarse.rest[a]).norm();
+    if (!(coarse.rest_length[p] > 0))
+      throw InputError(fmt::format(
+          "merge: groups {} and {} are joined and have the same centre of mass, so their spring "
+          "would be infinitely stiff; fuse them (guards = true does)",
+          a, b));
   }
-  std::vector<Reattached> sorted(springs.size());
-  const auto counting_pass = [&](std::uint32_t Reattached::*key) {
-    std::vector<std::uint32_t> next(groups.count + 1, 0);
-    for (const Reattached& r : springs) ++next[r.*key + 1];
-    for (std::uint32_t g = 0; g < groups.count; ++g) next[g + 1] += next[g];
-    for (const Reattached& r : springs) sorted[next[r.*key]++] = r;
-    springs.swap(sorted);
-  };
-  counting_pass(&Reattached::b);
-  counting_pass(&Reattached::a);
-  return springs;
+  for (std::uint32_t s = 0; s < fine.spring_count(); ++s) {
+    const std::uint32_t p = into[s];
+    if (p == Relinking::kInside) continue;
+    if (size[coarse.a[p]] == 1 && size[coarse.b[p]] == 1)
+      coarse.rest_length[p] = fine.rest_length[s];
+  }
 }
 
-void append_spring(MassSpringModel& model, std::uint32_t a, std::uint32_t b, double length) {
-  model.a.push_back(a);
-  model.b.push_back(b);
-  model.rest_length.push_back(length);
-  model.stiffness.push_back(0);
-  model.damping.push_back(0);
-}
-
-void merge_springs(const MassSpringModel& fine, const Groups& groups,
-                   const std::vector<std::uint32_t>& size, MassSpringModel& coarse) {
-  for (const Reattached& r : reattached_springs(fine, groups)) {
-    const bool unmerged = size[r.a] == 1 && size[r.b] == 1;
-    if (coarse.a.empty() || coarse.a.back() != r.a || coarse.b.back() != r.b) {
-      const double length =
-          unmerged ? fine.rest_length[r.spring] : (coarse.rest[r.b] - coarse.rest[r.a]).norm();
-      if (!(length > 0))
-        throw InputError(fmt::format(
-            "merge: groups {} and {} are joined and have the same centre of mass, so their spring "
-            "would be infinitely stiff; fuse them (guards = true does)",
-            r.a, r.b));
-      append_spring(coarse, r.a, r.b, length);
-    }
-    // The paper: k = k0 L0 / L. For an unmerged spring the factor is exactly 1.
-    const double factor = unmerged ? 1 : fine.rest_length[r.spring] / coarse.rest_length.back();
-    coarse.stiffness.back() += fine.stiffness[r.spring] * factor;
-    coarse.damping.back() += fine.damping[r.spring] * factor;
+// The paper: k = k0 L0 / L. For a spring that keeps its length the factor is exactly 1.
+void add_up_springs(const MassSpringModel& fine, const std::vector<std::uint32_t>& into,
+                    MassSpringModel& coarse) {
+  coarse.stiffness.assign(coarse.spring_count(), 0);
+  coarse.damping.assign(coarse.spring_count(), 0);
+  for (std::uint32_t s = 0; s < fine.spring_count(); ++s) {
+    const std::uint32_t p = into[s];
+    if (p == Relinking::kInside) continue;
+    const double factor = fine.rest_length[s] / coarse.rest_length[p];
+    coarse.stiffness[p] += fine.stiffness[s] * factor;
+    coarse.damping[p] += fine.damping[s] * factor;
   }
 }
 
 }  // namespace
 
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups) {
-  if (groups.of.size() != fine.node_count())
-    throw InputError(fmt::format("merge: the groups are of {} nodes, the model has {}",
-                                 groups.of.size(), fine.node_count()));
-  validate(groups);
+  return merge(fine, groups, relink(SpringRows(fine), groups));
+}
+
+MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links) {
   const std::vector<std::uint32_t> size = group_sizes(groups);
   MassSpringModel coarse;
   coarse.materials = fine.materials;
   merge_nodes(fine, groups, size, coarse);
-  merge_springs(fine, groups, size, coarse);
+  coarse.a = std::move(links.a);
+  coarse.b = std::move(links.b);
+  lay_springs(fine, links.into, size, coarse);
+  add_up_springs(fine, links.into, coarse);
   return coarse;
 }
 

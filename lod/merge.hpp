@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lod/relink.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
@@ -22,6 +23,8 @@ enum class MassRule {
 /// This is the raw merge, without guards. Throws InputError if two joined groups have the same
 /// centre of mass (L = 0): see guard_groups.
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups);
+/// The same with what relink told of the springs of `fine` and these groups.
+MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links);
 
 /// MassRule::proximity: masses and volumes of `base`, cut into pieces, shared out anew among the
 /// nodes of `coarse`, which stay where they are. The pieces are those of the nodes of `base`, each

@@ -1,11 +1,12 @@
 #include "model/mass_spring.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "model/disjoint_sets.hpp"
 #include "model/error.hpp"
 
 namespace springlod {
@@ -112,27 +113,10 @@ std::uint32_t border_count(const MassSpringModel& model) {
 }
 
 Components connected_components(const MassSpringModel& model) {
-  constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
-  const Adjacency adj = adjacency(model);
-  Components components{std::vector<std::uint32_t>(model.node_count(), kNone), 0};
-  std::vector<std::uint32_t> stack;
-  for (std::uint32_t seed = 0; seed < model.node_count(); ++seed) {
-    if (components.of_node[seed] != kNone) continue;
-    components.of_node[seed] = components.count;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const std::uint32_t i = stack.back();
-      stack.pop_back();
-      for (std::uint32_t e = adj.start[i]; e < adj.start[i + 1]; ++e) {
-        const std::uint32_t j = adj.neighbour[e];
-        if (components.of_node[j] != kNone) continue;
-        components.of_node[j] = components.count;
-        stack.push_back(j);
-      }
-    }
-    ++components.count;
-  }
-  return components;
+  DisjointSets parts(model.node_count());
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) parts.unite(model.a[s], model.b[s]);
+  DisjointSets::Numbers numbers = parts.numbers();
+  return {std::move(numbers.of), numbers.count};
 }
 
 double spring_work(const MassSpringModel& model) {

@@ -129,18 +129,25 @@ std::vector<Mat3> node_stiffness_at(const MassSpringModel& model, const std::vec
   });
 }
 
-/// omega^2 <= max_i (2 lambda_max(A_i) + ground_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
-double squared_bound(const std::vector<Mat3>& node_stiffness, const std::vector<double>& ground,
-                     const std::vector<double>& mass) {
-  double bound = 0;
+/// (2 lambda_max(A_i) + ground_i) / m_i: omega^2 is not above the largest, for
+/// (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
+std::vector<double> squared_bounds(const std::vector<Mat3>& node_stiffness,
+                                   const std::vector<double>& ground,
+                                   const std::vector<double>& mass) {
+  std::vector<double> bounds(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i) {
     const double top =
         Eigen::SelfAdjointEigenSolver<Mat3>(node_stiffness[i], Eigen::EigenvaluesOnly)
             .eigenvalues()
             .maxCoeff();
-    bound = std::max(bound, (2 * top + (ground.empty() ? 0 : ground[i])) / mass[i]);
+    bounds[i] = (2 * top + (ground.empty() ? 0 : ground[i])) / mass[i];
   }
-  return bound;
+  return bounds;
+}
+
+double squared_bound(const MassSpringModel& model, const std::vector<double>& ground) {
+  const auto bounds = squared_bounds(node_stiffness_at_rest(model), ground, model.mass);
+  return bounds.empty() ? 0 : *std::max_element(bounds.begin(), bounds.end());
 }
 
 }  // namespace
@@ -151,7 +158,7 @@ double largest_frequency(const MassSpringModel& model, const FrequencyOptions& o
     throw InputError(fmt::format("ground stiffness: {} values for {} nodes; give one a node",
                                  ground.size(), model.node_count()));
   const MassWeightedStiffness op(model, ground);
-  const double bound = squared_bound(node_stiffness_at_rest(model), ground, model.mass);
+  const double bound = squared_bound(model, ground);
   if (bound == 0) return 0;
   const double squared = op.rows() <= kDenseUnknowns ? largest_eigenvalue_dense(op)
                                                      : largest_eigenvalue_lanczos(op, options.seed);
@@ -159,12 +166,12 @@ double largest_frequency(const MassSpringModel& model, const FrequencyOptions& o
 }
 
 double frequency_bound(const MassSpringModel& model) {
-  return std::sqrt(squared_bound(node_stiffness_at_rest(model), {}, model.mass));
+  return std::sqrt(squared_bound(model, {}));
 }
 
-double frequency_bound(const MassSpringModel& model, const std::vector<Vec3>& x,
-                       const std::vector<double>& ground_stiffness) {
-  return std::sqrt(squared_bound(node_stiffness_at(model, x), ground_stiffness, model.mass));
+std::vector<double> node_frequency_bounds(const MassSpringModel& model, const std::vector<Vec3>& x,
+                                          const std::vector<double>& ground_stiffness) {
+  return squared_bounds(node_stiffness_at(model, x), ground_stiffness, model.mass);
 }
 
 double largest_damping_time(const MassSpringModel& model) {

@@ -22,11 +22,12 @@ double largest_frequency(const MassSpringModel& model, const FrequencyOptions& o
 /// Bound without iterating: omega^2 <= 2 max_i lambda_max(A_i) / m_i, A_i = sum_j k_ij u u^T
 /// [rad/s].
 double frequency_bound(const MassSpringModel& model);
-/// The same where springs are turned, stretched and compressed, nodes at x:
-/// A_i = sum_j k_ij (u u^T + max(0, 1 - L/l) (1 - u u^T)); a stretched spring is stiff across, too.
+/// What each node adds to that bound where springs are turned, stretched and compressed, nodes at
+/// x: (2 lambda_max(A_i) + ground_i) / m_i [rad2/s2], N, with
+/// A_i = sum_j k_ij (u u^T + max(0, 1 - L/l) (1 - u u^T)): a stretched spring is stiff across, too.
 /// `ground_stiffness` as in FrequencyOptions.
-double frequency_bound(const MassSpringModel& model, const std::vector<Vec3>& x,
-                       const std::vector<double>& ground_stiffness);
+std::vector<double> node_frequency_bounds(const MassSpringModel& model, const std::vector<Vec3>& x,
+                                          const std::vector<double>& ground_stiffness);
 
 /// Largest damping time c/k of the springs [s].
 double largest_damping_time(const MassSpringModel& model);

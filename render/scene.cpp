@@ -159,6 +159,15 @@ Renderer::Renderer(const PanelGrid& grid) {
 
 Renderer::~Renderer() = default;
 
+void Renderer::lay_out(const PanelGrid& grid) {
+  require_drawable(grid);
+  const PanelGrid& before = impl_->layout.grid;
+  if (grid.panel_width == before.panel_width && grid.panel_height == before.panel_height)
+    impl_->layout = Layout(grid);
+  else
+    impl_ = std::make_unique<Impl>(grid);
+}
+
 Image Renderer::draw(std::vector<Panel> panels, const PictureText& text) {
   Impl& im = *impl_;
   const PanelGrid& grid = im.layout.grid;

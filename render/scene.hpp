@@ -136,6 +136,9 @@ class Renderer {
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
+  /// For pictures of another layout from now on. Where their panels have the size of those before,
+  /// context, shaders and font are kept, which saves most of the time a still picture takes.
+  void lay_out(const PanelGrid& grid);
   /// Throws InputError for bodies, styles or cameras that cannot be drawn.
   Image draw(std::vector<Panel> panels, const PictureText& text = {});
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <future>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "model/error.hpp"
 #include "model/units.hpp"
+#include "render/frame_writer.hpp"
 #include "render/frames.hpp"
 #include "report/playback.hpp"
 
@@ -306,21 +306,16 @@ Animation animate(const LodAsset& asset, const Comparison& comparison, const fs:
     players.emplace_back(asset, comparison, runs, times, options);
 
   Task task(options.progress, "drawing frames", times.size());
-  std::future<void> writing;  // its destructor waits, so an exception leaves no thread behind
+  FrameWriter writer;
   for (std::size_t k = 0; k < times.size(); ++k) {
     std::vector<Panel> panels;
     for (PanelPlayer& player : players) panels.push_back(player.at(k, times[k]));
-    Image picture =
-        renderer.draw(std::move(panels), {.footer = fmt::format("t = {:.3f} s", times[k])});
-    if (writing.valid()) writing.get();
-    writing = std::async(
-        std::launch::async,
-        [image = std::move(picture), path = frame_path(folder, static_cast<std::uint32_t>(k))] {
-          save_png(image, path);
-        });
+    writer.write(
+        renderer.draw(std::move(panels), {.footer = fmt::format("t = {:.3f} s", times[k])}),
+        frame_path(folder, static_cast<std::uint32_t>(k)));
     task.advance();
   }
-  writing.get();
+  writer.finish();
   remove_stale_frames(folder, times.size());
   return {static_cast<std::uint32_t>(times.size()), folder};
 }

@@ -35,8 +35,8 @@ struct Animation {
   std::filesystem::path folder;
 };
 
-/// Draws base and levels side by side on one clock as folder/frame_0000.png ... Each frame is
-/// written while the next is drawn. Positions between the frames of a trajectory are interpolated
+/// Draws base and levels side by side on one clock as folder/frame_0000.png ... Frames are
+/// written while the next are drawn. Positions between the frames of a trajectory are interpolated
 /// linearly; a run that ended early holds its last frame. A style that asks for nothing that is
 /// there (a surface where the asset has none) draws nodes and springs. frame_*.png of an earlier,
 /// longer animation are removed. Throws InputError (no runs, asset and runs that do not belong

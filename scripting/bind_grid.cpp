@@ -131,7 +131,7 @@ int grid_binding(Call& call) {
 }
 
 int save_vdb_binding(Call& call) {
-  save_vdb(call.value<GridValue>(2)->grid, call.path(1));
+  save_vdb(with_depth(*call.value<GridValue>(2)), call.path(1));
   return 0;
 }
 
@@ -173,7 +173,7 @@ void describe_grid_type(Api& api) {
   type.table_field("cells", "list of {x, y, z, depth=, material=}",
                    "centre [m], depth under the surface [m] and material's name of every cell",
                    [](lua_State* L, const GridValue& value) {
-                     const MaterialGrid& grid = value.grid;
+                     const MaterialGrid grid = with_depth(value);
                      begin_list(L, grid.cells.size());
                      for (std::size_t i = 0; i < grid.cells.size(); ++i) {
                        const CellIndex& cell = grid.cells[i];

@@ -11,6 +11,7 @@
 #include "scripting/call.hpp"
 #include "scripting/draw_style.hpp"
 #include "scripting/picture.hpp"
+#include "scripting/still_pictures.hpp"
 
 namespace springlod {
 
@@ -194,11 +195,12 @@ int render_binding(Call& call) {
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < pictures.size(); ++i)
     panels.push_back(pictures[i]->panel(cameras[i]));
-  Renderer renderer({.panel_width = options.width,
-                     .panel_height = options.height,
-                     .panel_count = static_cast<std::uint32_t>(panels.size()),
-                     .columns = options.columns});
-  save_png(renderer.draw(std::move(panels), options.text), call.path(1));
+  const PanelGrid grid{.panel_width = options.width,
+                       .panel_height = options.height,
+                       .panel_count = static_cast<std::uint32_t>(panels.size()),
+                       .columns = options.columns};
+  save_png(call.session().still_pictures().draw(grid, std::move(panels), options.text),
+           call.path(1));
   return 0;
 }
 

@@ -38,8 +38,10 @@ int run_binding(Call& call) {
   value->model = call.value<ModelValue>(1);
   value->scenario = scenario_argument(call, 2);
   RunOptions options;
+  options.threads = call.session().settings().threads;
   TableReader reader = call.options(3);
   read_run_options(call, reader, options);
+  reader.read("threads", options.threads);
   bool quiet = false;
   reader.read("quiet", quiet);
   reader.finish();
@@ -97,6 +99,10 @@ void push_crossing(lua_State* L, const TrajectoryValue& value) {
   set_field(L, "time", crossing->time);
 }
 
+void push_optional(lua_State* L, const std::optional<double>& number) {
+  number ? push(L, *number) : lua_pushnil(L);
+}
+
 void describe_trajectory(Api& api) {
   TypeBuilder<TrajectoryValue> type(
       "One run of one model; trajectory[i] is frame i, #trajectory their number.",
@@ -109,7 +115,9 @@ void describe_trajectory(Api& api) {
     type.field(name, "number", help,
                [get](const TrajectoryValue& value) { return get(value.trajectory); });
   };
-  number("step", "time step [s]", [](const Trajectory& t) { return t.step; });
+  number("step", "time step, as at rest [s]", [](const Trajectory& t) { return t.step; });
+  number("shortest_step", "time step where springs were strained hardest [s]",
+         [](const Trajectory& t) { return t.shortest_step; });
   number("predicted_step", "predicted stable step, contacts included [s]",
          [](const Trajectory& t) { return t.predicted_step; });
   number("simulated", "simulated time [s]", [](const Trajectory& t) { return t.simulated; });
@@ -128,8 +136,12 @@ void describe_trajectory(Api& api) {
              [](const TrajectoryValue& value) { return value.trajectory.frames.size(); });
   type.table_field("first_contact", "number", "time of the first contact [s], or nil",
                    [](lua_State* L, const TrajectoryValue& value) {
-                     const auto& time = value.trajectory.first_contact;
-                     time ? push(L, *time) : lua_pushnil(L);
+                     push_optional(L, value.trajectory.first_contact);
+                   });
+  type.table_field("asleep_since", "number",
+                   "time from which on the body lay still and was not moved [s], or nil",
+                   [](lua_State* L, const TrajectoryValue& value) {
+                     push_optional(L, value.trajectory.asleep_since);
                    });
   type.table_field("first_crossing", "table",
                    "the first two nodes of a spring that went past each other: a, b (from 1), time "
@@ -161,6 +173,11 @@ void describe_trajectory(Api& api) {
 
 std::vector<Parameter> single_run_parameters() {
   std::vector<Parameter> parameters = run_parameters(RunOptions{});
+  parameters.push_back({.name = "threads",
+                        .type = "integer",
+                        .fallback = "s.threads",
+                        .help = "of symplectic_euler; 0: as many as the model is worth; never "
+                                "changes a result"});
   parameters.push_back({.name = "quiet",
                         .type = "boolean",
                         .fallback = "false",

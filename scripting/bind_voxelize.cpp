@@ -101,6 +101,7 @@ int voxelize_binding(Call& call) {
     options.paint = paint_function(call.lua(), function);
   }
   reader.finish();
+  options.threads = call.session().settings().threads;
   options.progress = call.progress();
 
   VoxelizedMesh result = voxelize(mesh->mesh, options);
@@ -112,6 +113,7 @@ int voxelize_binding(Call& call) {
   auto value = std::make_shared<GridValue>();
   value->grid = std::move(result.grid);
   value->mesh = mesh;
+  value->voxelized = true;
   value->provenance = mesh->provenance;
   value->provenance.set("cell", fmt::format("{} m", value->grid.cell));
   return call.give(std::shared_ptr<const GridValue>(value));

@@ -33,6 +33,17 @@ std::vector<Parameter> run_parameters(const RunOptions& usual) {
            .type = "number",
            .fallback = fmt::format("{}", usual.safety),
            .help = "part of the predicted stable step that is taken"},
+          {.name = "precision",
+           .type = "one of",
+           .fallback = "\"double\"",
+           .help = "of the numbers symplectic_euler moves a body with; single is up to twice as "
+                   "fast, docs/precision.md tells what it costs",
+           .choices = {"double", "single"}},
+          {.name = "sleep",
+           .type = "number",
+           .fallback = fmt::format("{}", usual.sleep),
+           .help = "a body that touches something sleeps, at no cost, once its mean speed stays "
+                   "below this part of that of a fall through its own size; 0: never"},
           {.name = "frame_rate",
            .type = "number",
            .fallback = fmt::format("{}", usual.frame_rate),
@@ -50,6 +61,9 @@ void read_run_options(Call& call, TableReader& reader, RunOptions& options) {
   reader.read("linear_iterations", options.solver.linear_iterations);
   reader.read("step", options.step);
   reader.read("safety", options.safety);
+  reader.choose("precision", options.precision,
+                {{"double", Precision::double_precision}, {"single", Precision::single_precision}});
+  reader.read("sleep", options.sleep);
   reader.read("frame_rate", options.frame_rate);
   reader.read("ledger", options.ledger);
   options.progress = call.progress();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct lua_State;
 namespace springlod {
 
 class Api;
+class StillPictures;
 
 /// What the command line settles for a whole run.
 struct Settings {
@@ -23,18 +25,22 @@ struct Settings {
 /// What bindings need besides their arguments.
 class Session {
  public:
-  Session(Settings settings, const Api& api)
-      : settings_(settings), console_(settings.verbosity), api_(api) {}
+  Session(Settings settings, const Api& api);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
 
   const Settings& settings() const { return settings_; }
   const Api& api() const { return api_; }
   Console& console() { return console_; }
   Progress* progress() { return &console_; }
+  StillPictures& still_pictures() { return *still_pictures_; }
 
  private:
   Settings settings_;
   Console console_;
   const Api& api_;
+  std::unique_ptr<StillPictures> still_pictures_;
 };
 
 /// The session of a Lua state (every coroutine of it included).

@@ -10,6 +10,7 @@
 #include "scripting/interrupt.hpp"
 #include "scripting/paths.hpp"
 #include "scripting/script_error.hpp"
+#include "scripting/still_pictures.hpp"
 #include "scripting/suggest.hpp"
 
 namespace springlod {
@@ -87,6 +88,14 @@ Outcome failed(lua_State* L, bool with_traceback) {
 Session& session_of(lua_State* L) {
   return **static_cast<Session**>(lua_getextraspace(L));
 }
+
+Session::Session(Settings settings, const Api& api)
+    : settings_(settings),
+      console_(settings.verbosity),
+      api_(api),
+      still_pictures_(std::make_unique<StillPictures>()) {}
+
+Session::~Session() = default;
 
 void set_session(lua_State* L, Session* session) {
   *static_cast<Session**>(lua_getextraspace(L)) = session;

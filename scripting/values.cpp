@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "lod/transfer.hpp"
+#include "voxelize/depth.hpp"
 
 namespace springlod {
 
@@ -20,6 +21,12 @@ std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const LodAss
   value->made_by = found.made_by;
   value->provenance = chain->provenance;
   return value;
+}
+
+MaterialGrid with_depth(const GridValue& value) {
+  MaterialGrid grid = value.grid;
+  if (value.voxelized && grid.depth.empty()) grid.depth = measure_depth(grid, value.mesh->mesh);
+  return grid;
 }
 
 Binding surface_binding(const ModelValue& model) {

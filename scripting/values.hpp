@@ -32,9 +32,12 @@ inline constexpr const char* kValueName<MeshValue> = "Mesh";
 
 struct GridValue {
   MaterialGrid grid;
-  std::shared_ptr<const MeshValue> mesh;  ///< it was filled from; null for a loaded grid
+  std::shared_ptr<const MeshValue> mesh;  ///< shown in its place; null for a loaded grid
+  bool voxelized = false;                 ///< filled from `mesh`, so depths can be measured
   Provenance provenance;
 };
+/// The grid with the depths of its cells, if they are known or can be measured.
+MaterialGrid with_depth(const GridValue& value);
 template <>
 inline constexpr const char* kValueName<GridValue> = "Grid";
 

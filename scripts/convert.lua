@@ -28,6 +28,14 @@ parser:option("--grouping", "which nodes merge")
   :choices{"standard", "priority", "priority_hard"}:default("standard")
 parser:option("--border", "how border nodes merge")
   :choices{"none", "weak", "strong"}:default("none")
+parser:option("--calibrate", "how the coarser levels are fitted to the base; so far only none: "
+  .. "they stay as they were merged")
+  :argname("none"):default("none")
+  :convert(function(way)
+    if way == "none" then return way end
+    return nil, ("--calibrate: '%s' is not there: this version of springlod cannot calibrate yet; "
+      .. "leave it out or give none"):format(way)
+  end)
 local args = parser:parse()
 
 -- Mesh -> cells -> lattice -> levels -> asset. This is all there is to it.

@@ -21,13 +21,22 @@ StepWatch::StepWatch(const MassSpringModel& model, const StepLimit& limit, doubl
     : model_(&model),
       limit_(limit),
       step_(step),
-      rest_bound_(frequency_bound(model, model.rest, limit.ground_stiffness)) {}
+      at_rest_(node_frequency_bounds(model, model.rest, limit.ground_stiffness)) {}
+
+// The bounds of the nodes lie above the highest frequency, of light ones far above. So none counts
+// for more than by how much it grew.
+double StepWatch::frequency(const std::vector<Vec3>& x) const {
+  const std::vector<double> now = node_frequency_bounds(*model_, x, limit_.ground_stiffness);
+  const double square = limit_.omega * limit_.omega;
+  double most = square;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (at_rest_[i] > 0) most = std::max(most, std::min(now[i], square * now[i] / at_rest_[i]));
+  return std::sqrt(most);
+}
 
 double StepWatch::step_for(const std::vector<Vec3>& x, double strain) {
-  double growth = 1;
-  if (strain > kSmallStrain)
-    growth = std::max(1.0, frequency_bound(*model_, x, limit_.ground_stiffness) / rest_bound_);
-  const double limit = stable_step(growth * limit_.omega, limit_.damping_time);
+  const double omega = strain > kSmallStrain ? frequency(x) : limit_.omega;
+  const double limit = stable_step(omega, limit_.damping_time);
   const auto step = [&] { return std::ldexp(step_, -static_cast<int>(halvings_)); };
   while (halvings_ < kMostHalvings && step() > kTooLong * limit) ++halvings_;
   while (halvings_ > 0 && 2 * step() < kShortEnough * limit) --halvings_;

@@ -25,10 +25,13 @@ class StepWatch {
   double step_for(const std::vector<Vec3>& x, double strain);
 
  private:
+  /// Highest frequency with nodes at x [rad/s].
+  double frequency(const std::vector<Vec3>& x) const;
+
   const MassSpringModel* model_;
   StepLimit limit_;
   double step_;
-  double rest_bound_;  // [rad/s]
+  std::vector<double> at_rest_;  // bounds of the nodes [rad2/s2]
   std::uint32_t halvings_ = 0;
 };
 

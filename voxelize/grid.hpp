@@ -26,7 +26,8 @@ struct MaterialGrid {
   Vec3 origin = Vec3::Zero();  ///< [m]
   std::vector<CellIndex> cells;
   std::vector<std::uint16_t> material;  ///< a number into materials for each cell
-  std::vector<float> depth;  ///< of the cell's centre under the surface [m]; empty: not known
+  /// Of the cell's centre under the surface [m]; empty: not measured (measure_depth() does).
+  std::vector<float> depth;
   std::vector<Material> materials;
   std::shared_ptr<const DistanceField>
       distance;  ///< of the whole solid; null for grids from tables
@@ -57,6 +58,7 @@ struct VoxelizeOptions {
   };
   std::optional<CoreShell> core_shell;
   PaintFunction paint;
+  std::uint32_t threads = 0;  ///< 0: all cores. Never changes the result
   Progress* progress = nullptr;
 };
 
@@ -76,11 +78,11 @@ struct VoxelizedMesh {
 /// Fills the cells whose centre is inside or on the surface, solid by solid (check_solid; OpenVDB
 /// meshToVolume), on a grid that is centred on the bounding box. Shells that face inwards within
 /// another are cavities and stay empty. In a solid of several materials each cell takes that of the
-/// nearest triangle. Depths count from the surface of all solids together, not from where they
-/// touch: exact next to the surface, about 0.2 of a cell at most too large deep inside. Throws
-/// InputError: an open solid (names part and hole), a cell too large (nothing filled) or so small
-/// that the grid would not fit (says the smallest that does), NaN, a mesh too far from the origin,
-/// a flat one, names in `priority` or from `paint` that do not exist, materials that clash.
+/// nearest triangle. Depths are measured if a core or a paint function asks for them
+/// (measure_depth). Throws InputError: an open solid (names part and hole), a cell too large
+/// (nothing filled) or so small that the grid would not fit (says the smallest that does), NaN, a
+/// mesh too far from the origin, a flat one, names in `priority` or from `paint` that do not exist,
+/// materials that clash.
 VoxelizedMesh voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options);
 
 }  // namespace springlod

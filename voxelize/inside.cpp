@@ -1,10 +1,14 @@
 #include "voxelize/inside.hpp"
 
+#include <cstddef>
+#include <functional>
 #include <mutex>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Composite.h>
 #include <openvdb/tools/MeshToVolume.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include "voxelize/distance_field.hpp"
 
@@ -22,6 +26,83 @@ openvdb::Coord coord(const CellIndex& c) {
   return {c[0], c[1], c[2]};
 }
 
+/// A mesh as meshToVolume reads it.
+struct SurfaceInCells {
+  const std::vector<Vec3>& positions;
+  const std::vector<Triangle>& triangles;
+
+  std::size_t polygonCount() const { return triangles.size(); }
+  std::size_t pointCount() const { return positions.size(); }
+  std::size_t vertexCount(std::size_t /*polygon*/) const { return 3; }
+  void getIndexSpacePoint(std::size_t polygon, std::size_t corner, openvdb::Vec3d& point) const {
+    const Vec3& p = positions[triangles[polygon][corner]];
+    point = {p.x(), p.y(), p.z()};
+  }
+};
+
+using Leaf = openvdb::FloatTree::LeafNodeType;
+
+// Cells are claimed row by row: x is what changes fastest in a frame.
+class Claim {
+ public:
+  Claim(const CellFrame& frame, std::uint16_t claimant, std::vector<std::uint16_t>& owner)
+      : frame_(frame),
+        box_({0, 0, 0}, coord(frame.size).offsetBy(-1)),
+        limit_(static_cast<float>(kOnSurface * frame.cell)),
+        claimant_(claimant),
+        owner_(owner) {}
+
+  bool holds(float distance) const { return distance <= limit_; }
+
+  std::size_t claim_box(openvdb::CoordBBox box) const {
+    box.intersect(box_);
+    return claim_rows(box, [](const openvdb::Coord&) { return true; });
+  }
+  std::size_t claim_leaf(const Leaf& leaf) const {
+    openvdb::CoordBBox box = leaf.getNodeBoundingBox();
+    box.intersect(box_);
+    const float* distances = leaf.buffer().data();
+    return claim_rows(
+        box, [&](const openvdb::Coord& c) { return holds(distances[Leaf::coordToOffset(c)]); });
+  }
+
+ private:
+  template <typename Inside>
+  std::size_t claim_rows(const openvdb::CoordBBox& box, Inside inside) const {
+    std::size_t count = 0;
+    openvdb::Coord c = box.min();
+    for (c.z() = box.min().z(); c.z() <= box.max().z(); ++c.z())
+      for (c.y() = box.min().y(); c.y() <= box.max().y(); ++c.y()) {
+        std::uint16_t* row = owner_.data() + frame_.number({0, c.y(), c.z()});
+        for (c.x() = box.min().x(); c.x() <= box.max().x(); ++c.x()) {
+          if (!inside(c)) continue;
+          ++count;
+          if (row[c.x()] == 0) row[c.x()] = claimant_;
+        }
+      }
+    return count;
+  }
+
+  const CellFrame& frame_;
+  openvdb::CoordBBox box_;
+  float limit_;
+  std::uint16_t claimant_;
+  std::vector<std::uint16_t>& owner_;
+};
+
+// The items must not overlap.
+template <typename Item, typename Work>
+std::size_t sum_over(const std::vector<Item>& items, Work work) {
+  using Range = tbb::blocked_range<std::size_t>;
+  return tbb::parallel_reduce(
+      Range(0, items.size()), std::size_t{0},
+      [&](const Range& range, std::size_t sum) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) sum += work(items[i]);
+        return sum;
+      },
+      std::plus<>());
+}
+
 }  // namespace
 
 void start_openvdb() {
@@ -33,22 +114,11 @@ std::shared_ptr<DistanceField> level_set(const std::vector<Vec3>& positions,
                                          const std::vector<Triangle>& triangles,
                                          const CellFrame& frame) {
   start_openvdb();
-  std::vector<openvdb::Vec3d> points;
-  points.reserve(positions.size());
-  for (const Vec3& position : positions) {
-    const Vec3 p = frame.to_index(position);
-    points.emplace_back(p.x(), p.y(), p.z());
-  }
-  std::vector<openvdb::Vec3I> faces;
-  faces.reserve(triangles.size());
-  for (const Triangle& t : triangles) faces.emplace_back(t[0], t[1], t[2]);
   const auto transform = openvdb::math::Transform::createLinearTransform(frame.cell);
   const Vec3 first = frame.center({0, 0, 0});
   transform->postTranslate({first.x(), first.y(), first.z()});
-  const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3d, openvdb::Vec3I> mesh(points,
-                                                                                        faces);
-  return std::make_shared<DistanceField>(
-      openvdb::tools::meshToVolume<openvdb::FloatGrid>(mesh, *transform, kBand, kBand));
+  return std::make_shared<DistanceField>(openvdb::tools::meshToVolume<openvdb::FloatGrid>(
+      SurfaceInCells{positions, triangles}, *transform, kBand, kBand));
 }
 
 void unite(DistanceField& a, DistanceField& b) {
@@ -59,28 +129,20 @@ void subtract(DistanceField& a, DistanceField& b) {
   openvdb::tools::csgDifference(*a.grid, *b.grid);
 }
 
-std::vector<std::uint32_t> inside_cells(const DistanceField& field, const CellFrame& frame) {
-  const auto limit = static_cast<float>(kOnSurface * frame.cell);
-  std::vector<std::uint32_t> inside;
-  const openvdb::CoordBBox box({0, 0, 0}, coord(frame.size).offsetBy(-1));
+std::size_t claim_cells(const DistanceField& field, const CellFrame& frame, std::uint16_t claimant,
+                        std::vector<std::uint16_t>& owner) {
+  const Claim claim(frame, claimant, owner);
   const openvdb::FloatTree& tree = field.grid->tree();
-  for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf)
-    for (auto value = leaf->cbeginValueAll(); value; ++value) {
-      if (*value > limit) continue;
-      const openvdb::Coord c = value.getCoord();
-      if (box.isInside(c)) inside.push_back(frame.number({c.x(), c.y(), c.z()}));
-    }
+  std::vector<const Leaf*> leaves;
+  tree.getNodes(leaves);
   // What lies deeper than the band is held by tiles of one negative value, not active.
+  std::vector<openvdb::CoordBBox> boxes;
   auto tile = tree.cbeginValueAll();
   tile.setMaxDepth(openvdb::FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
-  for (; tile; ++tile) {
-    if (*tile > limit) continue;
-    openvdb::CoordBBox region = tile.getBoundingBox();
-    region.intersect(box);
-    for (auto c = region.begin(); c; ++c)
-      inside.push_back(frame.number({(*c).x(), (*c).y(), (*c).z()}));
-  }
-  return inside;
+  for (; tile; ++tile)
+    if (claim.holds(*tile)) boxes.push_back(tile.getBoundingBox());
+  return sum_over(leaves, [&](const Leaf* leaf) { return claim.claim_leaf(*leaf); }) +
+         sum_over(boxes, [&](const openvdb::CoordBBox& box) { return claim.claim_box(box); });
 }
 
 }  // namespace springlod

@@ -10,7 +10,8 @@
 namespace springlod {
 
 /// Level set of the volume enclosed by the triangles, which must be closed (OpenVDB meshToVolume:
-/// orientation does not matter, what lies within another shell is filled).
+/// orientation does not matter, what lies within another shell is filled). `positions` are in cells
+/// (CellFrame::to_index).
 std::shared_ptr<DistanceField> level_set(const std::vector<Vec3>& positions,
                                          const std::vector<Triangle>& triangles,
                                          const CellFrame& frame);
@@ -19,7 +20,10 @@ std::shared_ptr<DistanceField> level_set(const std::vector<Vec3>& positions,
 void unite(DistanceField& a, DistanceField& b);
 void subtract(DistanceField& a, DistanceField& b);
 
-/// Numbers of the cells whose centre is inside or on the surface, each once.
-std::vector<std::uint32_t> inside_cells(const DistanceField& field, const CellFrame& frame);
+/// Gives the cells whose centre is inside or on the surface to `claimant`, unless they belong to
+/// another already. `owner` has one number for each cell of the frame, 0 for cells of nobody.
+/// Returns how many cells are inside, whosever they are.
+std::size_t claim_cells(const DistanceField& field, const CellFrame& frame, std::uint16_t claimant,
+                        std::vector<std::uint16_t>& owner);
 
 }  // namespace springlod

@@ -25,12 +25,12 @@ constexpr float kNotFound = std::numeric_limits<float>::infinity();
 // Place of each cell in the list, with a margin of one empty cell so that neighbours need no test.
 class CellTable {
  public:
-  CellTable(const CellFrame& frame, const std::vector<std::uint32_t>& cells)
+  CellTable(const CellFrame& frame, const std::vector<CellIndex>& cells)
       : nx_(frame.size[0] + 2), ny_(frame.size[1] + 2) {
     table_.assign(static_cast<std::size_t>(nx_ * ny_ * (frame.size[2] + 2)), kNoIndex);
     slots_.reserve(cells.size());
     for (std::uint32_t n = 0; n < cells.size(); ++n) {
-      slots_.push_back(slot(frame.index(cells[n])));
+      slots_.push_back(slot(cells[n]));
       table_[static_cast<std::size_t>(slots_.back())] = n;
     }
     std::size_t i = 0;
@@ -79,8 +79,7 @@ struct Face {
 
 class Search {
  public:
-  Search(const CellFrame& frame, const std::vector<std::uint32_t>& cells,
-         std::uint32_t default_label)
+  Search(const CellFrame& frame, const std::vector<CellIndex>& cells, std::uint32_t default_label)
       : frame_(frame),
         cells_(cells),
         table_(frame, cells),
@@ -141,7 +140,7 @@ class Search {
 
  private:
   Eigen::Vector3f center(std::uint32_t n) const {
-    const CellIndex c = frame_.index(cells_[n]);
+    const CellIndex& c = cells_[n];
     return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
   }
 
@@ -195,7 +194,7 @@ class Search {
   }
 
   const CellFrame& frame_;
-  const std::vector<std::uint32_t>& cells_;
+  const std::vector<CellIndex>& cells_;
   CellTable table_;
   std::vector<SurfacePoint> found_;
   std::vector<float> squared_;
@@ -205,7 +204,7 @@ class Search {
 }  // namespace
 
 std::vector<SurfacePoint> nearest_surface(const CellFrame& frame,
-                                          const std::vector<std::uint32_t>& cells,
+                                          const std::vector<CellIndex>& cells,
                                           const std::vector<Vec3>& positions,
                                           const std::vector<Triangle>& triangles,
                                           const std::vector<std::uint32_t>& labels) {

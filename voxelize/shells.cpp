@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_map>
+#include <utility>
 
 namespace springlod {
 namespace {
@@ -14,11 +14,14 @@ struct Shell {
   Box3 box;
 };
 
-// Joins vertices that share a triangle (union-find over the vertices of one solid).
+// Joins vertices that share a triangle (union-find). Serves one solid after the other, so that many
+// small ones cost no more than one large one.
 class VertexSets {
  public:
+  explicit VertexSets(std::size_t vertices) : parent_(vertices) {}
+  /// Forgets what `v` was joined to.
+  void reset(std::uint32_t v) { parent_[v] = v; }
   std::uint32_t find(std::uint32_t v) {
-    parent_.try_emplace(v, v);
     while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
     return v;
   }
@@ -29,7 +32,7 @@ class VertexSets {
   }
 
  private:
-  std::unordered_map<std::uint32_t, std::uint32_t> parent_;
+  std::vector<std::uint32_t> parent_;
 };
 
 template <typename Visit>
@@ -40,8 +43,10 @@ void for_each_triangle(const TriangleMesh& mesh, const SolidReport& solid, Visit
 }
 
 std::vector<Shell> split(const TriangleMesh& mesh, const SolidReport& solid,
-                         const std::vector<std::uint32_t>& welded) {
-  VertexSets sets;
+                         const std::vector<std::uint32_t>& welded, VertexSets& sets) {
+  for_each_triangle(mesh, solid, [&](const Triangle& t) {
+    for (const std::uint32_t v : t) sets.reset(welded[v]);
+  });
   for_each_triangle(mesh, solid, [&](const Triangle& t) {
     sets.join(welded[t[0]], welded[t[1]]);
     sets.join(welded[t[0]], welded[t[2]]);
@@ -63,11 +68,7 @@ std::vector<Shell> split(const TriangleMesh& mesh, const SolidReport& solid,
   return list;
 }
 
-}  // namespace
-
-Shells sort_shells(const TriangleMesh& mesh, const SolidReport& solid,
-                   const std::vector<std::uint32_t>& welded) {
-  std::vector<Shell> all = split(mesh, solid, welded);
+Shells sort(std::vector<Shell> all, const SolidReport& solid) {
   Shells sorted;
   const double facing = solid.volume < 0 ? -1 : 1;
   sorted.turned = facing < 0;
@@ -77,13 +78,28 @@ Shells sort_shells(const TriangleMesh& mesh, const SolidReport& solid,
              return other.volume * facing > 0 && other.box.contains(shell.box);
            });
   };
-  for (const Shell& shell : all) {
+  for (Shell& shell : all) {
     const bool cavity = is_cavity(shell);
     if (!cavity && shell.volume * facing < 0) sorted.turned = true;
     sorted.volume += (cavity ? -1 : 1) * std::abs(shell.volume);
     auto& into = cavity ? sorted.cavity : sorted.outer;
-    into.insert(into.end(), shell.triangles.begin(), shell.triangles.end());
+    if (into.empty())
+      into = std::move(shell.triangles);
+    else
+      into.insert(into.end(), shell.triangles.begin(), shell.triangles.end());
   }
+  return sorted;
+}
+
+}  // namespace
+
+std::vector<Shells> sort_shells(const TriangleMesh& mesh, const std::vector<SolidReport>& solids,
+                                const std::vector<std::uint32_t>& welded) {
+  VertexSets sets(mesh.positions.size());
+  std::vector<Shells> sorted;
+  sorted.reserve(solids.size());
+  for (const SolidReport& solid : solids)
+    sorted.push_back(sort(split(mesh, solid, welded, sets), solid));
   return sorted;
 }
 

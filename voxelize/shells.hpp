@@ -16,10 +16,10 @@ struct Shells {
   bool turned = false;           ///< a shell was inside out and not taken for a cavity
 };
 
-/// A shell that faces inwards while the solid as a whole faces outwards is a cavity if its bounding
-/// box lies in that of an outer shell, and else an outer shell the wrong way round. `welded` is
-/// weld_vertices(mesh).
-Shells sort_shells(const TriangleMesh& mesh, const SolidReport& solid,
-                   const std::vector<std::uint32_t>& welded);
+/// Those of each solid. A shell that faces inwards while the solid as a whole faces outwards is a
+/// cavity if its bounding box lies in that of an outer shell, and else an outer shell the wrong way
+/// round. `welded` is weld_vertices(mesh).
+std::vector<Shells> sort_shells(const TriangleMesh& mesh, const std::vector<SolidReport>& solids,
+                                const std::vector<std::uint32_t>& welded);
 
 }  // namespace springlod

@@ -21,11 +21,10 @@ struct SolidReport {
   bool closed() const { return boundary_edges == 0; }
 };
 
-/// One report a solid, in the order of their first parts. Vertices nearer than 1e-6 of the
-/// diagonal of the bounding box are one (files in single precision round).
+/// One report a solid, in the order of their first parts. Throws InputError as validate() does.
 std::vector<SolidReport> check_solid(const TriangleMesh& mesh);
-
-/// For each vertex the lowest vertex that it is welded to.
-std::vector<std::uint32_t> weld_vertices(const TriangleMesh& mesh);
+/// The same of a valid mesh; `welded` is weld_vertices(mesh).
+std::vector<SolidReport> check_solid(const TriangleMesh& mesh,
+                                     const std::vector<std::uint32_t>& welded);
 
 }  // namespace springlod

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 
 #include "model/error.hpp"
+#include "voxelize/depth.hpp"
 #include "voxelize/frame.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/inside.hpp"
@@ -12,6 +15,7 @@
 #include "voxelize/nearest_surface.hpp"
 #include "voxelize/shells.hpp"
 #include "voxelize/solid.hpp"
+#include "voxelize/weld.hpp"
 
 namespace springlod {
 namespace {
@@ -80,23 +84,32 @@ class Voxelizer {
       : mesh_(mesh), options_(options), materials_(options) {}
 
   VoxelizedMesh run() {
-    validate(mesh_);
-    choose_frame();
-    solids_ = check_solid(mesh_);
-    require_closed(solids_);
-    fill_solids();
-    gather_cells();
-    assign_part_materials();
-    measure_depth();
+    tbb::task_arena threads(options_.threads == 0 ? tbb::task_arena::automatic
+                                                  : static_cast<int>(options_.threads));
+    threads.execute([&] { fill(); });
     paint_core();
     paint_function();
     return finish();
   }
 
  private:
+  using Field = std::shared_ptr<DistanceField>;
+
   MaterialGrid& grid() { return result_.grid; }
   VoxelizeReport& report() { return result_.report; }
   void warn(std::string text) { report().warnings.push_back(std::move(text)); }
+
+  void fill() {
+    validate(mesh_);
+    choose_frame();
+    const std::vector<std::uint32_t> welded = weld_vertices(mesh_);
+    solids_ = check_solid(mesh_, welded);
+    require_closed(solids_);
+    fill_solids(sort_shells(mesh_, solids_, welded));
+    gather_cells();
+    assign_part_materials();
+    if (options_.core_shell || options_.paint) grid().depth = measure_depth(grid(), mesh_);
+  }
 
   void choose_frame() {
     const Box3 box = bounds(mesh_);
@@ -107,16 +120,49 @@ class Voxelizer {
     owner_.assign(frame_.count(), 0);
   }
 
-  void fill_solids() {
-    const std::vector<std::uint32_t> welded = weld_vertices(mesh_);
+  // Level sets are made of as many solids at once as there are threads; then the solids claim their
+  // cells one after the other, so that threads change nothing.
+  void fill_solids(const std::vector<Shells>& shells) {
+    const std::vector<std::size_t> order = claim_order(mesh_, solids_, options_.priority);
+    const std::vector<Vec3> positions = positions_in_cells();
     Task task(options_.progress, "voxelize", solids_.size());
-    for (const std::size_t s : claim_order(mesh_, solids_, options_.priority)) {
-      fill_solid(s, sort_shells(mesh_, solids_[s], welded));
+    std::size_t next = 0;
+    const auto choose = [&](tbb::flow_control& control) -> std::size_t {
+      if (next < order.size()) return order[next++];
+      control.stop();
+      return 0;
+    };
+    const auto make_field = [&](std::size_t s) {
+      return std::pair(s, field_of(shells[s], positions));
+    };
+    const auto claim = [&](std::pair<std::size_t, Field> made) {
+      fill_solid(made.first, shells[made.first], std::move(made.second));
       task.advance();
-    }
+    };
+    using tbb::filter_mode;
+    tbb::parallel_pipeline(
+        static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
+        tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, choose) &
+            tbb::make_filter<std::size_t, std::pair<std::size_t, Field>>(filter_mode::parallel,
+                                                                         make_field) &
+            tbb::make_filter<std::pair<std::size_t, Field>, void>(filter_mode::serial_in_order,
+                                                                  claim));
   }
 
-  void fill_solid(std::size_t s, const Shells& shells) {
+  std::vector<Vec3> positions_in_cells() const {
+    std::vector<Vec3> positions;
+    positions.reserve(mesh_.positions.size());
+    for (const Vec3& p : mesh_.positions) positions.push_back(frame_.to_index(p));
+    return positions;
+  }
+
+  Field field_of(const Shells& shells, const std::vector<Vec3>& positions) const {
+    Field field = level_set(positions, shells.outer, frame_);
+    if (!shells.cavity.empty()) subtract(*field, *level_set(positions, shells.cavity, frame_));
+    return field;
+  }
+
+  void fill_solid(std::size_t s, const Shells& shells, Field field) {
     const SolidReport& solid = solids_[s];
     if (shells.turned) warn(fmt::format("part \"{}\" was inside out; it was turned", solid.part));
     if (solid.nonmanifold_edges > 0)
@@ -124,13 +170,8 @@ class Voxelizer {
           fmt::format("part \"{}\" has {} edges where its triangles do not agree; look at the "
                       "result",
                       solid.part, solid.nonmanifold_edges));
-    std::shared_ptr<DistanceField> field = level_set(mesh_.positions, shells.outer, frame_);
-    if (!shells.cavity.empty())
-      subtract(*field, *level_set(mesh_.positions, shells.cavity, frame_));
-    const std::vector<std::uint32_t> inside = inside_cells(*field, frame_);
-    for (const std::uint32_t n : inside)
-      if (owner_[n] == 0) owner_[n] = static_cast<std::uint16_t>(s + 1);
-    compare_volume(solid.part, shells.volume, inside.size());
+    compare_volume(solid.part, shells.volume,
+                   claim_cells(*field, frame_, static_cast<std::uint16_t>(s + 1), owner_));
     if (distance_ == nullptr)
       distance_ = std::move(field);
     else
@@ -153,9 +194,9 @@ class Voxelizer {
   }
 
   void gather_cells() {
-    for (std::uint32_t n = 0; n < owner_.size(); ++n)
-      if (owner_[n] != 0) numbers_.push_back(n);
-    if (numbers_.empty())
+    const auto count =
+        owner_.size() - static_cast<std::size_t>(std::count(owner_.begin(), owner_.end(), 0));
+    if (count == 0)
       throw InputError(
           fmt::format("voxelize: no cell of {:.4g} m has its centre inside the mesh; use a smaller "
                       "cell, say {:.4g} m",
@@ -163,8 +204,18 @@ class Voxelizer {
     grid().cell = frame_.cell;
     grid().origin = frame_.origin;
     grid().distance = distance_;
-    grid().cells.reserve(numbers_.size());
-    for (const std::uint32_t n : numbers_) grid().cells.push_back(frame_.index(n));
+    grid().cells.reserve(count);
+    grid().material.reserve(count);  // for now the solid
+    std::size_t n = 0;
+    CellIndex c{};
+    for (c[2] = 0; c[2] < frame_.size[2]; ++c[2])
+      for (c[1] = 0; c[1] < frame_.size[1]; ++c[1])
+        for (c[0] = 0; c[0] < frame_.size[0]; ++c[0], ++n) {
+          if (owner_[n] == 0) continue;
+          grid().cells.push_back(c);
+          grid().material.push_back(static_cast<std::uint16_t>(owner_[n] - 1));
+        }
+    std::vector<std::uint16_t>().swap(owner_);
   }
 
   // A solid of one material gives it to all its cells; in a solid of several each cell takes that
@@ -172,23 +223,24 @@ class Voxelizer {
   void assign_part_materials() {
     std::vector<std::uint16_t> of_part;
     for (const MeshPart& part : mesh_.parts) of_part.push_back(materials_.of_part(part));
-    std::vector<std::vector<std::uint32_t>> cells_of(solids_.size());  // places in grid().cells
-    for (std::uint32_t c = 0; c < numbers_.size(); ++c)
-      cells_of[owner_[numbers_[c]] - 1U].push_back(c);
-    grid().material.resize(numbers_.size());
-    for (std::size_t s = 0; s < solids_.size(); ++s) {
-      const std::vector<std::uint32_t>& parts = solids_[s].parts;
-      const bool uniform = std::all_of(parts.begin(), parts.end(), [&](std::uint32_t p) {
-        return of_part[p] == of_part[parts.front()];
-      });
-      if (!uniform)
-        assign_nearest(solids_[s], cells_of[s], of_part);
-      else
-        for (const std::uint32_t c : cells_of[s]) grid().material[c] = of_part[parts.front()];
+    std::vector<std::uint16_t> of_solid;
+    std::vector<std::vector<std::uint32_t>> mixed_cells(solids_.size());  // of solids of several
+    std::vector<std::uint8_t> mixed;
+    for (const SolidReport& solid : solids_) {
+      of_solid.push_back(of_part[solid.parts.front()]);
+      mixed.push_back(std::any_of(solid.parts.begin(), solid.parts.end(),
+                                  [&](std::uint32_t p) { return of_part[p] != of_solid.back(); }));
     }
+    for (std::uint32_t c = 0; c < grid().cells.size(); ++c) {
+      const std::uint16_t s = grid().material[c];
+      grid().material[c] = of_solid[s];
+      if (mixed[s] != 0) mixed_cells[s].push_back(c);
+    }
+    for (std::size_t s = 0; s < solids_.size(); ++s)
+      if (!mixed_cells[s].empty()) assign_nearest(solids_[s], mixed_cells[s], of_part);
   }
 
-  void assign_nearest(const SolidReport& solid, const std::vector<std::uint32_t>& cells,
+  void assign_nearest(const SolidReport& solid, const std::vector<std::uint32_t>& places,
                       const std::vector<std::uint16_t>& of_part) {
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> labels;
@@ -197,26 +249,13 @@ class Voxelizer {
         triangles.push_back(mesh_.triangles[mesh_.parts[p].first_triangle + i]);
         labels.push_back(p);
       }
-    std::vector<std::uint32_t> numbers;
-    numbers.reserve(cells.size());
-    for (const std::uint32_t c : cells) numbers.push_back(numbers_[c]);
+    std::vector<CellIndex> cells;
+    cells.reserve(places.size());
+    for (const std::uint32_t c : places) cells.push_back(grid().cells[c]);
     const std::vector<SurfacePoint> nearest =
-        nearest_surface(frame_, numbers, mesh_.positions, triangles, labels);
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      grid().material[cells[i]] = of_part[nearest[i].label];
-  }
-
-  void measure_depth() {
-    const std::vector<std::uint32_t> labels(mesh_.triangles.size(), 0);
-    const std::vector<SurfacePoint> nearest =
-        nearest_surface(frame_, numbers_, mesh_.positions, mesh_.triangles, labels);
-    grid().depth.reserve(numbers_.size());
-    for (std::size_t c = 0; c < numbers_.size(); ++c) {
-      const CellIndex& index = grid().cells[c];
-      const Vec3 center(index[0], index[1], index[2]);
-      grid().depth.push_back(
-          static_cast<float>(frame_.cell * (nearest[c].point.cast<double>() - center).norm()));
-    }
+        nearest_surface(frame_, cells, mesh_.positions, triangles, labels);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      grid().material[places[i]] = of_part[nearest[i].label];
   }
 
   void paint_core() {
@@ -225,7 +264,7 @@ class Voxelizer {
     if (!(core_depth >= 0))
       throw InputError(fmt::format("voxelize: core_depth = {} m; give 0 or more", core_depth));
     bool any = false;
-    for (std::size_t c = 0; c < numbers_.size(); ++c)
+    for (std::size_t c = 0; c < grid().cells.size(); ++c)
       if (grid().depth[c] > core_depth) {
         grid().material[c] = materials_.of_core();
         any = true;
@@ -237,8 +276,8 @@ class Voxelizer {
 
   void paint_function() {
     if (!options_.paint) return;
-    Task task(options_.progress, "paint", numbers_.size());
-    for (std::size_t c = 0; c < numbers_.size(); ++c) {
+    Task task(options_.progress, "paint", grid().cells.size());
+    for (std::size_t c = 0; c < grid().cells.size(); ++c) {
       const std::string name = options_.paint(frame_.center(grid().cells[c]), grid().depth[c],
                                               materials_.name(grid().material[c]));
       if (!name.empty()) grid().material[c] = materials_.of_name(name);
@@ -251,8 +290,7 @@ class Voxelizer {
       warn(fmt::format("material \"{}\" is not used: no part or material of the file has this name",
                        key));
     grid().materials = materials_.finish(grid().material);
-    report().grid_volume = static_cast<double>(numbers_.size()) * std::pow(frame_.cell, 3);
-    validate(grid());
+    report().grid_volume = static_cast<double>(grid().cells.size()) * std::pow(frame_.cell, 3);
     return std::move(result_);
   }
 
@@ -261,9 +299,9 @@ class Voxelizer {
   MaterialChoice materials_;
   CellFrame frame_;
   std::vector<SolidReport> solids_;
-  std::vector<std::uint16_t> owner_;    // solid + 1 of each cell of the frame
-  std::vector<std::uint32_t> numbers_;  // of the filled cells
-  std::shared_ptr<DistanceField> distance_;
+  std::vector<std::uint16_t>
+      owner_;  // solid + 1 of each cell of the frame, until they are gathered
+  Field distance_;
   VoxelizedMesh result_;
 };
 

@@ -17,29 +17,43 @@ namespace springlod::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// By scaled index: 8 numbers a record, 4 a force.
+template <class Real>
+HWY_INLINE const NodeRecord<Real>& record_at(const NodeRecord<Real>* records, std::size_t index) {
+  return *reinterpret_cast<const NodeRecord<Real>*>(reinterpret_cast<const char*>(records) +
+                                                    8 * index);
+}
+template <class Real>
+HWY_INLINE Real* force_at(NodeVector<Real>* forces, std::size_t index) {
+  return reinterpret_cast<Real*>(reinterpret_cast<char*>(forces) + 4 * index);
+}
+
 /// Springs of a block without vectors.
 template <bool with_damping, class Real>
 void add_forces_plainly(const QuadBlock<Real>& block, Real damping_time,
                         QuadBlockState<Real>& state) {
-  for (std::size_t s = 0; s < block.other_end.size(); ++s) {
-    const std::uint16_t a = block.quad_node[s / kQuad];
-    const std::uint16_t b = block.other_end[s];
-    const NodeRecord<Real>& p = state.records[a];
-    const NodeRecord<Real>& q = state.records[b];
-    const Real x[3] = {q.x[0] - p.x[0], q.x[1] - p.x[1], q.x[2] - p.x[2]};
-    const Real square =
-        std::max(x[0] * x[0] + x[1] * x[1] + x[2] * x[2], static_cast<Real>(kShortestSquare));
-    const Real way = x[0] * (q.v[0] - p.v[0]) + x[1] * (q.v[1] - p.v[1]) + x[2] * (q.v[2] - p.v[2]);
-    const Real elastic = block.stiffness[s] - block.rest_force[s] / std::sqrt(square);
-    const Real damping =
-        (block.damping.empty() ? damping_time * block.stiffness[s] : block.damping[s]) * way /
-        square;
-    for (int i = 0; i < 3; ++i) {
-      state.forces[a].at[i] += (elastic + damping) * x[i];
-      state.forces[b].at[i] -= (elastic + damping) * x[i];
-      if constexpr (with_damping) {
-        state.damping_forces[a].at[i] += damping * x[i];
-        state.damping_forces[b].at[i] -= damping * x[i];
+  for (std::size_t n = 0; n < block.pairs.size(); ++n) {
+    const QuadPair<Real>& pair = block.pairs[n];
+    for (std::uint32_t s = 0; s < 2 * kQuad; ++s) {
+      const std::uint16_t a = pair.own[s / kQuad];
+      const std::uint16_t b = pair.other[s];
+      const NodeRecord<Real>& p = record_at(state.records.data(), a);
+      const NodeRecord<Real>& q = record_at(state.records.data(), b);
+      const Real x[3] = {q.x[0] - p.x[0], q.x[1] - p.x[1], q.x[2] - p.x[2]};
+      const Real square =
+          std::max(x[0] * x[0] + x[1] * x[1] + x[2] * x[2], static_cast<Real>(kShortestSquare));
+      const Real way =
+          x[0] * (q.v[0] - p.v[0]) + x[1] * (q.v[1] - p.v[1]) + x[2] * (q.v[2] - p.v[2]);
+      const Real elastic = pair.stiffness[s] - pair.rest_force[s] / std::sqrt(square);
+      const Real c = block.damping.empty() ? damping_time * pair.stiffness[s] : block.damping[n][s];
+      const Real damping = c * way / square;
+      for (int i = 0; i < 3; ++i) {
+        force_at(state.forces.data(), a)[i] += (elastic + damping) * x[i];
+        force_at(state.forces.data(), b)[i] -= (elastic + damping) * x[i];
+        if constexpr (with_damping) {
+          force_at(state.damping_forces.data(), a)[i] += damping * x[i];
+          force_at(state.damping_forces.data(), b)[i] -= damping * x[i];
+        }
       }
     }
   }
@@ -93,16 +107,15 @@ struct Pull {
   V both, damping;
 };
 template <class D, class Real, class V>
-HWY_INLINE Pull<V> pull(D d, const Side<V>& x, const Side<V>& v, const QuadBlock<Real>& block,
-                        std::size_t first, V damping_time) {
+HWY_INLINE Pull<V> pull(D d, const Side<V>& x, const Side<V>& v, const Real* all_stiffness,
+                        const Real* all_rest_force, const Real* all_damping, V damping_time) {
   const V square = hn::MulAdd(x.x, x.x, hn::MulAdd(x.y, x.y, hn::Mul(x.z, x.z)));
   const V way = hn::MulAdd(x.x, v.x, hn::MulAdd(x.y, v.y, hn::Mul(x.z, v.z)));  // l dl/dt
   const V inverse = inverse_root(d, square);
-  const V stiffness = hn::LoadU(d, &block.stiffness[first]);
-  const V elastic = hn::NegMulAdd(hn::LoadU(d, &block.rest_force[first]), inverse, stiffness);
+  const V stiffness = hn::LoadU(d, all_stiffness);
+  const V elastic = hn::NegMulAdd(hn::LoadU(d, all_rest_force), inverse, stiffness);
   const V rate = hn::Mul(way, hn::Mul(inverse, inverse));
-  const V c = block.damping.empty() ? hn::Mul(damping_time, stiffness)
-                                    : hn::LoadU(d, &block.damping[first]);
+  const V c = all_damping == nullptr ? hn::Mul(damping_time, stiffness) : hn::LoadU(d, all_damping);
   const V damping = hn::Mul(c, rate);
   return {hn::Add(elastic, damping), damping};
 }
@@ -121,10 +134,13 @@ HWY_INLINE void scatter(const V8 scale, const V8 (&apart)[8], const std::uint16_
                    hn::Mul(hn::Broadcast<1>(upper), hn::LowerHalf(d, apart[5])),
                    hn::Mul(hn::Broadcast<2>(upper), hn::LowerHalf(d, apart[6])),
                    hn::Mul(hn::Broadcast<3>(upper), hn::LowerHalf(d, apart[7]))};
-  for (int i = 0; i < 8; ++i)
-    hn::Store(hn::Sub(hn::Load(d, forces[other[i]].at), f[i]), d, forces[other[i]].at);
+  for (int i = 0; i < 8; ++i) {
+    float* at = force_at(forces, other[i]);
+    hn::Store(hn::Sub(hn::Load(d, at), f[i]), d, at);
+  }
   const auto give = [&](std::uint16_t index, V4 force) {
-    hn::Store(hn::Add(hn::Load(d, forces[index].at), force), d, forces[index].at);
+    float* at = force_at(forces, index);
+    hn::Store(hn::Add(hn::Load(d, at), force), d, at);
   };
   give(own0, hn::Add(hn::Add(f[0], f[1]), hn::Add(f[2], f[3])));
   give(own1, hn::Add(hn::Add(f[4], f[5]), hn::Add(f[6], f[7])));
@@ -135,11 +151,12 @@ void add_forces(const QuadBlock<float>& block, float damping_time, QuadBlockStat
   const F8 d;
   const NodeRecord<float>* HWY_RESTRICT records = state.records.data();
   const V8 beta = hn::Set(d, damping_time);
-  const auto record = [&](std::uint32_t index) { return hn::Load(d, records[index].x); };
-  for (std::size_t q = 0; q < block.quad_node.size(); q += 2) {
-    const std::uint16_t* HWY_RESTRICT other = &block.other_end[kQuad * q];
-    const std::uint16_t own0 = block.quad_node[q];
-    const std::uint16_t own1 = block.quad_node[q + 1];
+  const auto record = [&](std::size_t index) { return hn::Load(d, record_at(records, index).x); };
+  for (std::size_t n = 0; n < block.pairs.size(); ++n) {
+    const QuadPair<float>& pair = block.pairs[n];
+    const std::uint16_t* HWY_RESTRICT other = pair.other;
+    const std::uint16_t own0 = pair.own[0];
+    const std::uint16_t own1 = pair.own[1];
     const V8 record0 = record(own0);
     const V8 record1 = record(own1);
     const V8 apart[8] = {hn::Sub(record(other[0]), record0), hn::Sub(record(other[1]), record0),
@@ -152,7 +169,8 @@ void add_forces(const QuadBlock<float>& block, float damping_time, QuadBlockStat
                      hn::ConcatLowerLower(d, b.z, a.z)};
     const Side<V8> v{hn::ConcatUpperUpper(d, b.x, a.x), hn::ConcatUpperUpper(d, b.y, a.y),
                      hn::ConcatUpperUpper(d, b.z, a.z)};
-    const Pull<V8> scale = pull(d, x, v, block, kQuad * q, beta);
+    const float* damping = block.damping.empty() ? nullptr : block.damping[n].data();
+    const Pull<V8> scale = pull(d, x, v, pair.stiffness, pair.rest_force, damping, beta);
     scatter(scale.both, apart, other, own0, own1, state.forces.data());
     if constexpr (with_damping)
       scatter(scale.damping, apart, other, own0, own1, state.damping_forces.data());
@@ -169,10 +187,13 @@ HWY_INLINE void scatter(const W4 scale, const W4 (&apart)[4], const std::uint16_
                    hn::Mul(hn::ConcatLowerLower(d, odd, odd), apart[1]),
                    hn::Mul(hn::ConcatUpperUpper(d, even, even), apart[2]),
                    hn::Mul(hn::ConcatUpperUpper(d, odd, odd), apart[3])};
-  for (int i = 0; i < 4; ++i)
-    hn::Store(hn::Sub(hn::Load(d, forces[other[i]].at), f[i]), d, forces[other[i]].at);
+  for (int i = 0; i < 4; ++i) {
+    double* at = force_at(forces, other[i]);
+    hn::Store(hn::Sub(hn::Load(d, at), f[i]), d, at);
+  }
   const W4 sum = hn::Add(hn::Add(f[0], f[1]), hn::Add(f[2], f[3]));
-  hn::Store(hn::Add(hn::Load(d, forces[own].at), sum), d, forces[own].at);
+  double* at = force_at(forces, own);
+  hn::Store(hn::Add(hn::Load(d, at), sum), d, at);
 }
 
 template <bool with_damping>
@@ -181,24 +202,31 @@ void add_forces(const QuadBlock<double>& block, double damping_time,
   const D4 d;
   const NodeRecord<double>* HWY_RESTRICT records = state.records.data();
   const W4 beta = hn::Set(d, damping_time);
-  for (std::size_t q = 0; q < block.quad_node.size(); ++q) {
-    const std::uint16_t* HWY_RESTRICT other = &block.other_end[kQuad * q];
-    const NodeRecord<double>& own = records[block.quad_node[q]];
-    const W4 own_x = hn::Load(d, own.x);
-    const W4 own_v = hn::Load(d, own.v);
-    const W4 apart[4] = {hn::Sub(hn::Load(d, records[other[0]].x), own_x),
-                         hn::Sub(hn::Load(d, records[other[1]].x), own_x),
-                         hn::Sub(hn::Load(d, records[other[2]].x), own_x),
-                         hn::Sub(hn::Load(d, records[other[3]].x), own_x)};
+  const auto record = [&](std::size_t index) -> const NodeRecord<double>& {
+    return record_at(records, index);
+  };
+  for (std::size_t q = 0; q < 2 * block.pairs.size(); ++q) {
+    const QuadPair<double>& pair = block.pairs[q / 2];
+    const std::size_t first = kQuad * (q % 2);
+    const std::uint16_t* HWY_RESTRICT other = pair.other + first;
+    const std::uint16_t own = pair.own[q % 2];
+    const W4 own_x = hn::Load(d, record(own).x);
+    const W4 own_v = hn::Load(d, record(own).v);
+    const W4 apart[4] = {hn::Sub(hn::Load(d, record(other[0]).x), own_x),
+                         hn::Sub(hn::Load(d, record(other[1]).x), own_x),
+                         hn::Sub(hn::Load(d, record(other[2]).x), own_x),
+                         hn::Sub(hn::Load(d, record(other[3]).x), own_x)};
     const Side<W4> x = transpose(apart[0], apart[1], apart[2], apart[3]);
-    const Side<W4> v = transpose(hn::Sub(hn::Load(d, records[other[0]].v), own_v),
-                                 hn::Sub(hn::Load(d, records[other[1]].v), own_v),
-                                 hn::Sub(hn::Load(d, records[other[2]].v), own_v),
-                                 hn::Sub(hn::Load(d, records[other[3]].v), own_v));
-    const Pull<W4> scale = pull(d, x, v, block, kQuad * q, beta);
-    scatter(scale.both, apart, other, block.quad_node[q], state.forces.data());
+    const Side<W4> v = transpose(hn::Sub(hn::Load(d, record(other[0]).v), own_v),
+                                 hn::Sub(hn::Load(d, record(other[1]).v), own_v),
+                                 hn::Sub(hn::Load(d, record(other[2]).v), own_v),
+                                 hn::Sub(hn::Load(d, record(other[3]).v), own_v));
+    const double* damping = block.damping.empty() ? nullptr : block.damping[q / 2].data() + first;
+    const Pull<W4> scale =
+        pull(d, x, v, pair.stiffness + first, pair.rest_force + first, damping, beta);
+    scatter(scale.both, apart, other, own, state.forces.data());
     if constexpr (with_damping)
-      scatter(scale.damping, apart, other, block.quad_node[q], state.damping_forces.data());
+      scatter(scale.damping, apart, other, own, state.damping_forces.data());
   }
 }
 

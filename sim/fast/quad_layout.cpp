@@ -4,7 +4,9 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
+#include "model/error.hpp"
 #include "sim/fast/block_order.hpp"
 
 namespace springlod {
@@ -63,9 +65,9 @@ std::optional<double> common_damping_time(const MassSpringModel& model) {
 template <class Real>
 class Laying {
  public:
-  explicit Laying(const MassSpringModel& model)
+  Laying(const MassSpringModel& model, std::uint32_t block_nodes)
       : model_(model),
-        order_(order_in_blocks(model.rest, kBlockNodes)),
+        order_(order_in_blocks(model.rest, block_nodes)),
         rank_(model.node_count()),
         block_of_(model.node_count()),
         damping_time_(common_damping_time(model)) {
@@ -74,14 +76,15 @@ class Laying {
       std::fill(block_of_.begin() + order_.first[b], block_of_.begin() + order_.first[b + 1], b);
   }
 
-  QuadLayout<Real> lay() {
+  /// Nothing if a block has too many neighbours for its indices.
+  std::optional<QuadLayout<Real>> lay() {
     const auto springs = assign_springs(model_, rank_);
     QuadLayout<Real> layout;
     layout.damping_time = damping_time_.value_or(0);
     layout.blocks.resize(order_.first.size() - 1);
     std::vector<std::vector<Place>> copies(model_.node_count());  // by rank
     for (std::uint32_t b = 0; b < layout.blocks.size(); ++b)
-      lay_block(b, springs, copies, layout.blocks[b]);
+      if (!lay_block(b, springs, copies, layout.blocks[b])) return std::nullopt;
     for (std::uint32_t b = 0; b < layout.blocks.size(); ++b)
       for (std::uint32_t i = 0; i < layout.blocks[b].own; ++i)
         for (const Place& copy : copies[order_.first[b] + i])
@@ -96,7 +99,7 @@ class Laying {
     return {block, rank - order_.first[block]};
   }
 
-  void lay_block(std::uint32_t number, const std::vector<std::vector<HalfSpring>>& springs,
+  bool lay_block(std::uint32_t number, const std::vector<std::vector<HalfSpring>>& springs,
                  std::vector<std::vector<Place>>& copies, QuadBlock<Real>& block) const {
     const std::uint32_t first = order_.first[number];
     block.own = order_.first[number + 1] - first;
@@ -109,40 +112,44 @@ class Laying {
       block.halo.push_back(place(rank));
       copies[rank].push_back({number, index});
     }
+    if (block.nowhere() * kIndexScale < Real >> std::numeric_limits<std::uint16_t>::max())
+      return false;
     const auto index_of = [&](std::uint32_t rank) {
       return block_of_[rank] == number ? rank - first : halo.at(rank);
     };
+    std::uint32_t quads = 0;
     for (std::uint32_t i = 0; i < block.own; ++i) {
       block.inverse_mass.push_back(static_cast<Real>(1 / model_.mass[order_.point[first + i]]));
-      for (const HalfSpring& half : springs[first + i]) {
-        if (block.other_end.size() % kQuad == 0) begin_quad(i, block);
-        add_spring(index_of(half.other), half.spring, block);
+      const std::vector<HalfSpring>& own = springs[first + i];
+      for (std::uint32_t s = 0; s < own.size(); ++s) {
+        if (s % kQuad == 0) begin_quad(quads++, i, block);
+        add_spring((quads - 1) * kQuad + s % kQuad, index_of(own[s].other), own[s].spring, block);
       }
-      fill_up(block);
     }
-    if (block.quad_node.size() % 2 == 0) return;
-    begin_quad(0, block);
-    add_gap(block);
-    fill_up(block);
+    return true;
   }
 
-  static void begin_quad(std::uint32_t own, QuadBlock<Real>& block) {
-    block.quad_node.push_back(static_cast<std::uint16_t>(own));
+  /// All its springs are gaps, as yet.
+  void begin_quad(std::uint32_t quad, std::uint32_t own, QuadBlock<Real>& block) const {
+    if (quad % 2 == 0) {
+      QuadPair<Real>& pair = block.pairs.emplace_back();
+      std::fill(std::begin(pair.other), std::end(pair.other), scaled(block.nowhere()));
+      if (!damping_time_) block.damping.emplace_back();
+    }
+    block.pairs.back().own[quad % 2] = scaled(own);
   }
-  void add_spring(std::uint32_t other, std::uint32_t spring, QuadBlock<Real>& block) const {
+  void add_spring(std::uint32_t place, std::uint32_t other, std::uint32_t spring,
+                  QuadBlock<Real>& block) const {
+    const std::uint32_t lane = place % (2 * kQuad);
+    QuadPair<Real>& pair = block.pairs[place / (2 * kQuad)];
     const double k = model_.stiffness[spring];
-    add(other, k, k * model_.rest_length[spring], model_.damping[spring], block);
+    pair.other[lane] = scaled(other);
+    pair.stiffness[lane] = static_cast<Real>(k);
+    pair.rest_force[lane] = static_cast<Real>(k * model_.rest_length[spring]);
+    if (!damping_time_) block.damping.back()[lane] = static_cast<Real>(model_.damping[spring]);
   }
-  void add_gap(QuadBlock<Real>& block) const { add(block.nowhere(), 0, 0, 0, block); }
-  void fill_up(QuadBlock<Real>& block) const {
-    while (block.other_end.size() % kQuad != 0) add_gap(block);
-  }
-  void add(std::uint32_t other, double stiffness, double rest_force, double damping,
-           QuadBlock<Real>& block) const {
-    block.other_end.push_back(static_cast<std::uint16_t>(other));
-    block.stiffness.push_back(static_cast<Real>(stiffness));
-    block.rest_force.push_back(static_cast<Real>(rest_force));
-    if (!damping_time_) block.damping.push_back(static_cast<Real>(damping));
+  static std::uint16_t scaled(std::uint32_t index) {
+    return static_cast<std::uint16_t>(index * kIndexScale<Real>);
   }
 
   const MassSpringModel& model_;
@@ -156,7 +163,16 @@ class Laying {
 
 template <class Real>
 QuadLayout<Real> make_quad_layout(const MassSpringModel& model) {
-  return Laying<Real>(model).lay();
+  std::uint32_t block_nodes = kBlockNodes;
+  for (;;) {
+    auto layout = Laying<Real>(model, block_nodes).lay();
+    if (layout) return std::move(*layout);
+    if (block_nodes == 1)
+      throw InputError(
+          "fast layout: a node has more springs than a block has room for; merge it "
+          "with a neighbour or run another integrator");
+    block_nodes /= 2;
+  }
 }
 
 template QuadLayout<float> make_quad_layout(const MassSpringModel&);

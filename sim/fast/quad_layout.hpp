@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,18 @@ namespace springlod {
 
 /// Springs worked out side by side, all at one node.
 inline constexpr std::uint32_t kQuad = 4;
+
+/// Two quads; what one step needs of eight springs, in one stream through memory.
+template <class Real>
+struct QuadPair {
+  // Indices in the block, times kIndexScale: so they are addresses without arithmetic.
+  std::uint16_t own[2] = {};            ///< own end of each quad
+  std::uint16_t other[2 * kQuad] = {};  ///< other ends
+  Real stiffness[2 * kQuad] = {};       ///< k [N/m]
+  Real rest_force[2 * kQuad] = {};      ///< k L [N]
+};
+template <class Real>
+inline constexpr std::uint32_t kIndexScale = sizeof(Real);
 
 /// The force on the copy of a node in another block: it belongs to the node itself.
 struct CopiedForce {
@@ -28,11 +41,8 @@ struct QuadBlock {
   std::vector<Real> inverse_mass;  ///< of own nodes [1/kg]
   std::vector<Place> halo;         ///< where the copies are from
 
-  std::vector<std::uint16_t> quad_node;  ///< own end of each quad; an even number of quads
-  std::vector<std::uint16_t> other_end;  ///< index of the other end, kQuad a quad
-  std::vector<Real> stiffness;           ///< k [N/m], kQuad a quad
-  std::vector<Real> rest_force;          ///< k L [N], kQuad a quad
-  std::vector<Real> damping;  ///< c [N s/m], kQuad a quad; empty if all are damping_time k
+  std::vector<QuadPair<Real>> pairs;
+  std::vector<std::array<Real, 2 * kQuad>> damping;  ///< c [N s/m] by pair; empty if damping_time k
 
   std::vector<CopiedForce> copied;  ///< own nodes rising
 
@@ -50,6 +60,7 @@ struct QuadLayout {
   double damping_time = 0;
 };
 
+/// Throws InputError for a node with more than some 8000 springs.
 template <class Real>
 QuadLayout<Real> make_quad_layout(const MassSpringModel& model);
 

@@ -117,6 +117,10 @@ void lay_rows(const MassSpringModel& model, const std::vector<PlacedSpring>& spr
   layout.first_row.push_back(static_cast<std::uint32_t>(layout.rows.size()));
 }
 
+std::uint32_t whole_rows(std::uint32_t places) {
+  return (places + kRowLanes - 1) / kRowLanes * kRowLanes;
+}
+
 template <class Real>
 void cut_blocks(RowLayout<Real>& layout) {
   const auto n = static_cast<std::uint32_t>(layout.node.size());
@@ -131,7 +135,7 @@ void cut_blocks(RowLayout<Real>& layout) {
       for (std::uint32_t r = layout.first_row[p / kRowLanes];
            r < layout.first_row[p / kRowLanes + 1]; ++r)
         end = std::max(end, p + kRowLanes + layout.rows[r].ahead);
-    block.reach = end - (first + block.places());
+    block.reach = whole_rows(end - (first + block.places()));
     for (std::uint32_t i = 0; i < block.own; ++i)
       layout.place[layout.node[first + i]] = {static_cast<std::uint32_t>(layout.blocks.size()), i};
     layout.reach = std::max(layout.reach, block.reach);

@@ -29,7 +29,7 @@ struct RowProperties {
 struct RowBlock {
   std::uint32_t first = 0;  ///< place, a multiple of kRowLanes
   std::uint32_t own = 0;    ///< places
-  std::uint32_t reach = 0;  ///< places after its own that its rows lead to
+  std::uint32_t reach = 0;  ///< places after its own that its rows lead to, in whole rows
   /// Its own, filled up to whole rows.
   std::uint32_t places() const { return (own + kRowLanes - 1) / kRowLanes * kRowLanes; }
 };

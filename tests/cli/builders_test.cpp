@@ -36,6 +36,29 @@ TEST_CASE("a script builds a random model, simplifies it and reads what was meas
   CHECK_THAT(ran.out, Contains("random, 300 nodes, 18 ends, seed 2"));
 }
 
+TEST_CASE("a script and a .vdb file see the depth of cells, asked for or not") {
+  const springlod::test::Scratch scratch;
+  const Ran ran = with_grid("local path = '" + (scratch / "grid.vdb").string() + "'\n" + R"(
+    local cored = s.voxelize(mesh, {cell = "10 cm", core = {depth = "15 cm",
+                                                            material = {young = "1 MPa"}}})
+    s.save_vdb(path, grid)
+    local cells, core_cells, loaded = grid.cells, cored.cells, s.load_vdb(path).cells
+    local deep = 0
+    for i, cell in ipairs(cells) do
+      assert(cell.depth > 0 and cell.depth == core_cells[i].depth)
+      assert(cell.depth == loaded[i].depth)
+      if cell.depth > 0.15 then deep = deep + 1 end
+    end
+    assert(deep > 0)
+    local by_hand = s.grid{cell = 1, size = {1, 1, 1}, materials = {m = {young = 1}},
+                           surface = mesh, fill = function() return "m" end}
+    assert(by_hand.cells[1].depth == nil)
+    print("all depths agree"))");
+  CAPTURE(ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("all depths agree"));
+}
+
 TEST_CASE("a script refills a grid and is told how near a lattice came") {
   const Ran ran = with_grid(R"(
     local base = s.lattice(grid)

@@ -92,6 +92,24 @@ TEST_CASE("convert gives the same bytes every time, whatever the number of threa
   CHECK(first == convert("three.glb", "2"));
 }
 
+TEST_CASE("convert does not calibrate, and says so where that is asked for") {
+  const Scratch scratch;
+  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));
+  const auto convert = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"convert", (scratch / "bar.obj").string(), "-o",
+                                       (scratch / name).string(), "-q"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return springlod_run(arguments);
+  };
+  CHECK(convert("plain.glb", {}).exit_code == 0);
+  CHECK(convert("none.glb", {"--calibrate", "none"}).exit_code == 0);
+  CHECK(slurp(scratch / "plain.glb") == slurp(scratch / "none.glb"));
+  const Ran refused = convert("full.glb", {"--calibrate", "full"});
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, Contains("--calibrate: 'full'") && Contains("cannot calibrate yet"));
+  CHECK_FALSE(fs::exists(scratch / "full.glb"));
+}
+
 TEST_CASE("convert says what it had to choose: cell and unit") {
   const Scratch scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));

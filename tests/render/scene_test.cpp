@@ -167,6 +167,33 @@ TEST_CASE(
   CHECK(renderer.draw({b}).rgb == other.rgb);
 }
 
+TEST_CASE("a renderer laid out anew draws what a new one draws") {
+  const BallScene ball_scene;
+  const DumbbellScene dumbbell_scene;
+  Panel a = studio(ball_scene.box);
+  a.bodies = {ball_scene.body()};
+  Panel b = studio(dumbbell_scene.box);
+  b.bodies = {dumbbell_scene.body()};
+  const auto fresh = [](const PanelGrid& grid, const std::vector<Panel>& panels) {
+    return Renderer(grid).draw(panels);
+  };
+  const PanelGrid wide{kWidth, kHeight, 2};
+  const PanelGrid high{kWidth, kHeight, 2, 1};
+  const PanelGrid small{kWidth / 2, kHeight / 2, 1};
+  Renderer kept(wide);
+  CHECK(kept.draw({a, b}).rgb == fresh(wide, {a, b}).rgb);
+  kept.lay_out(high);
+  const Image column = kept.draw({b, a});
+  CHECK(column.height == 2 * kHeight);
+  CHECK(column.rgb == fresh(high, {b, a}).rgb);
+  kept.lay_out(small);  // of another context
+  CHECK(kept.draw({b}).rgb == fresh(small, {b}).rgb);
+  kept.lay_out(wide);
+  CHECK(kept.draw({a, b}).rgb == fresh(wide, {a, b}).rgb);
+  CHECK_THROWS_AS(kept.lay_out({kWidth, kHeight, 0}), InputError);
+  CHECK(kept.draw({a, b}).rgb == fresh(wide, {a, b}).rgb);  // a refused layout changes nothing
+}
+
 TEST_CASE("title, captions and footer put ink on the picture") {
   const DumbbellScene scene;
   Panel panel = studio(scene.box);

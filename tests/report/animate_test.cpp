@@ -195,3 +195,15 @@ TEST_CASE("runs that do not fit the asset are refused") {
   CHECK_THROWS_WITH(animate(film.asset, film.comparison, folder.path(), options),
                     Catch::Contains("frame_rate"));
 }
+
+TEST_CASE("a frame that cannot be written ends the animation with its name") {
+  const TemporaryFolder folder("animate");
+  const Film film;
+  // A folder that is not empty cannot be replaced by a file.
+  std::filesystem::create_directories(frame_path(folder.path(), 3) / "in the way");
+  CHECK_THROWS_AS(animate(film.asset, film.comparison, folder.path(), small()), IoError);
+  CHECK_THROWS_WITH(animate(film.asset, film.comparison, folder.path(), small()),
+                    Catch::Matchers::Contains("frame_0003.png"));
+  CHECK(std::filesystem::exists(frame_path(folder.path(), 2)));
+  CHECK_FALSE(std::filesystem::exists(frame_path(folder.path(), 4)));
+}

@@ -169,6 +169,33 @@ TEST_CASE("Bodies of one layout do not disturb each other") {
   CHECK(first.state().x == second.state().x);
 }
 
+TEST_CASE("A fast run may change its step: same way, ledger closed") {
+  const MassSpringModel model = two_material_block(5);
+  const Scenario scene = rough_scene(model);
+  const double step = 0.5 * predicted_step(model, scene);
+  const State start = initial_state(model, scene.start);
+  FastLeapfrog steady(model, scene, start, step, {});
+  FastLeapfrog changing(model, scene, start, step, {});
+  steady.prepare();
+  changing.prepare();
+  const double energy = changing.ledger_entry().total();
+  steady.advance(300);
+  for (int i = 0; i < 3; ++i) {
+    changing.advance(60);
+    REQUIRE(changing.change_step(step / 2));
+    changing.advance(80);
+    REQUIRE(changing.change_step(step));
+  }
+  CHECK(changing.step_number() == 3 * 140);
+  CHECK(changing.time() == Approx(steady.time()));
+  // Shorter steps go another way by what they are more exact.
+  CHECK(largest_difference(steady.state().x, changing.state().x) <
+        1e-3 * bounds(model.rest).sizes().norm());
+  CHECK(changing.ledger_entry().lost_switch != 0);
+  CHECK(changing.ledger_entry().total() == Approx(energy).epsilon(2e-3));
+  CHECK(steady.ledger_entry().total() == Approx(energy).epsilon(2e-3));
+}
+
 TEST_CASE("A fast step tells the node that went through a wall as the plain one does") {
   const MassSpringModel model = two_material_block(4);
   Scenario scene;
@@ -194,10 +221,14 @@ TEST_CASE("A fast step tells the node that went through a wall as the plain one 
 }
 
 TEST_CASE("Rows hold every spring once and are nearly full on a lattice") {
-  const MassSpringModel model = two_material_block(16);
+  const MassSpringModel model = two_material_block(23);
   const auto layout = make_row_layout<double>(model);
   CHECK(static_cast<double>(model.spring_count()) > 6.5 * static_cast<double>(layout.rows.size()));
   CHECK(layout.properties.size() < layout.rows.size() / 4);
+  for (const RowBlock& block : layout.blocks) {
+    CHECK(block.first % kRowLanes == 0);
+    CHECK(block.reach % kRowLanes == 0);
+  }
   double stiffness = 0;
   double expected = 0;
   for (const SpringRow& row : layout.rows)

@@ -3,10 +3,10 @@
 #include <numbers>
 
 #include <catch2/catch.hpp>
-#include <tbb/global_control.h>
 
 #include "model/error.hpp"
 #include "tests/voxelize/shapes.hpp"
+#include "voxelize/depth.hpp"
 #include "voxelize/grid.hpp"
 
 using namespace springlod;
@@ -31,6 +31,12 @@ std::size_t count_of(const MaterialGrid& grid, const std::string& name) {
   std::size_t count = 0;
   for (const std::uint16_t m : grid.material) count += grid.materials[m].name == name ? 1 : 0;
   return count;
+}
+
+MaterialGrid with_depth(const TriangleMesh& mesh, const VoxelizeOptions& options) {
+  MaterialGrid grid = voxelize(mesh, options).grid;
+  grid.depth = measure_depth(grid, mesh);
+  return grid;
 }
 
 double ball_volume(double radius) {
@@ -84,7 +90,7 @@ TEST_CASE("the depth of a sphere's cells is radius less distance from the middle
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1, 128);
   const double cell = 0.05;
-  const MaterialGrid grid = voxelize(mesh, with_cell(cell)).grid;
+  const MaterialGrid grid = with_depth(mesh, with_cell(cell));
   REQUIRE(grid.depth.size() == grid.cells.size());
   double worst = 0;
   double mean = 0;
@@ -93,14 +99,14 @@ TEST_CASE("the depth of a sphere's cells is radius less distance from the middle
     worst = std::max(worst, error);
     mean += error / static_cast<double>(grid.cells.size());
   }
-  CHECK(worst < 0.2 * cell);  // what grid.hpp promises
+  CHECK(worst < 0.2 * cell);  // what depth.hpp promises
   CHECK(mean < 0.02 * cell);
 }
 
 TEST_CASE("the depth of a box's cells is exact") {
   TriangleMesh mesh;
   add_box(mesh, "box", {0, 0, 0}, {9, 12, 21});
-  const MaterialGrid grid = voxelize(mesh, with_cell(1)).grid;
+  const MaterialGrid grid = with_depth(mesh, with_cell(1));
   for (std::size_t n = 0; n < grid.cells.size(); ++n) {
     const Vec3 c = center(grid, n);
     const double depth = std::min(c.minCoeff(), (Vec3(9, 12, 21) - c).minCoeff());
@@ -112,7 +118,7 @@ TEST_CASE("where parts touch there is no gap and no surface to be deep under") {
   TriangleMesh mesh;
   add_box(mesh, "left", {0, 0, 0}, {10.5, 9, 9});  // the joint runs through cell centres
   add_box(mesh, "right", {10.5, 0, 0}, {21, 9, 9});
-  const MaterialGrid grid = voxelize(mesh, with_cell(1)).grid;
+  const MaterialGrid grid = with_depth(mesh, with_cell(1));
   REQUIRE(grid.cells.size() == 21 * 9 * 9);
   for (std::size_t n = 0; n < grid.cells.size(); ++n) {
     const Vec3 c = center(grid, n);
@@ -257,7 +263,8 @@ TEST_CASE("a cavity stays hollow, and depth counts from its wall too") {
   CHECK(result.grid.cells.size() == 1000 - 64);
   CHECK(result.report.mesh_volume == Approx(1000 - 64));
   CHECK(result.report.warnings.empty());
-  CHECK(*std::max_element(result.grid.depth.begin(), result.grid.depth.end()) < 3);
+  const std::vector<float> depth = measure_depth(result.grid, mesh);
+  CHECK(*std::max_element(depth.begin(), depth.end()) < 3);
 }
 
 TEST_CASE("a part thinner than a cell is lost with a warning, and a bad volume is said") {
@@ -307,19 +314,72 @@ TEST_CASE("vertices that are not finite, far away or all in a plane are refused"
   CHECK_THROWS_AS(voxelize(TriangleMesh{}, {}), InputError);
 }
 
+TEST_CASE("depth is measured where a core or a paint function needs it, and else on demand") {
+  TriangleMesh mesh;
+  add_sphere(mesh, "ball", {0, 0, 0}, 1, 24);
+  add_box(mesh, "box", {0.5, -0.5, -0.5}, {2, 0.5, 0.5});
+  VoxelizeOptions options = with_cell(0.1);
+  const MaterialGrid plain = voxelize(mesh, options).grid;
+  CHECK(plain.depth.empty());
+  const std::vector<float> depth = measure_depth(plain, mesh);
+  REQUIRE(depth.size() == plain.cells.size());
+
+  options.core_shell = {0.3, {.name = "core"}};
+  const MaterialGrid cored = voxelize(mesh, options).grid;
+  CHECK(cored.depth == depth);
+  for (std::size_t n = 0; n < depth.size(); ++n)
+    REQUIRE((cored.materials[cored.material[n]].name == "core") == (depth[n] > 0.3));
+
+  options.core_shell.reset();
+  std::vector<float> seen;
+  options.paint = [&](const Vec3&, double at, const std::string&) {
+    seen.push_back(static_cast<float>(at));
+    return std::string();
+  };
+  CHECK(voxelize(mesh, options).grid.depth == depth);
+  CHECK(seen == depth);
+}
+
 TEST_CASE("one thread and two give the same grid") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1, 64);
   add_sphere(mesh, "other", {0.7, 0.2, 0.1}, 1, 64);
-  const auto run = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  for (int i = 0; i < 12; ++i)  // more than are made at once
+    add_box(mesh, "box " + std::to_string(i), {-1 + 0.2 * i, -1.5, -1}, {-0.7 + 0.2 * i, 0, 1.5});
+  const auto run = [&](std::uint32_t threads) {
     VoxelizeOptions options = with_cell(0.03);
+    options.threads = threads;
     options.materials = {{"ball", {.name = "ball"}}, {"other", {.name = "other"}}};
-    return voxelize(mesh, options).grid;
+    options.priority = {"box 7", "ball"};
+    options.core_shell = {0.4, {.name = "core"}};
+    return voxelize(mesh, options);
   };
-  const MaterialGrid one = run(1);
-  const MaterialGrid two = run(2);
-  CHECK(one.cells == two.cells);
-  CHECK(one.material == two.material);
-  CHECK(one.depth == two.depth);
+  const VoxelizedMesh one = run(1);
+  REQUIRE(one.grid.cells.size() > 10000);
+  for (const std::uint32_t threads : {2U, 5U, 0U}) {
+    const VoxelizedMesh more = run(threads);
+    CHECK(one.grid.cells == more.grid.cells);
+    CHECK(one.grid.material == more.grid.material);
+    CHECK(one.grid.depth == more.grid.depth);
+    CHECK(one.report.warnings == more.report.warnings);
+    CHECK(one.report.mesh_volume == more.report.mesh_volume);
+  }
+}
+
+TEST_CASE("an interrupt ends the filling of many parts") {
+  struct Impatient : Progress {
+    int seen = 0;
+    void advance(std::uint64_t) override {
+      if (++seen == 3) throw InterruptedError();
+    }
+  };
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    add_box(mesh, "box " + std::to_string(i), {2. * i, 0, 0}, {2. * i + 1, 1, 1});
+  Impatient progress;
+  VoxelizeOptions options = with_cell(0.1);
+  options.threads = GENERATE(1U, 2U);
+  options.progress = &progress;
+  CHECK_THROWS_AS(voxelize(mesh, options), InterruptedError);
+  CHECK(progress.seen == 3);
 }

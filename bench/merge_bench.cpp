@@ -1,0 +1,114 @@
+// Merging a lattice of a million nodes from level 0 to level 1, beside meshoptimizer's simplify of
+// a surface of a million vertices down to the same part. One thread. Run by ./dev bench.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <meshoptimizer.h>
+
+#include "bench/bodies.hpp"
+#include "bench/peak_memory.hpp"
+#include "lod/build.hpp"
+
+namespace {
+
+using namespace springlod;
+
+// 100^3 cells: 1,030,301 nodes, 9,120,300 springs.
+const MassSpringModel& million_nodes() {
+  static const MassSpringModel base = bench::lattice_cube(100);
+  return base;
+}
+
+// The chain of base and level 1, guards on, from a base that is moved in. Peak memory is that of
+// the whole process: the base, another copy of it kept here, and all that is needed on the way.
+void merge_nodes(benchmark::State& state, Grouping grouping, BorderRule border) {
+  const MassSpringModel& base = million_nodes();
+  const SimplifyOptions options{.levels = 1, .grouping = {.grouping = grouping, .border = border}};
+  std::uint32_t left = 0;
+  if (!bench::reset_peak_memory()) state.SkipWithError("the peak of the memory cannot be reset");
+  for (auto _ : state) {
+    state.PauseTiming();
+    MassSpringModel moved_in = base;
+    state.ResumeTiming();
+    left = simplify(std::move(moved_in), options).levels[1].model.node_count();
+  }
+  state.SetItemsProcessed(state.iterations() * base.node_count());
+  state.counters["left"] = static_cast<double>(left) / base.node_count();
+  state.counters["bytes_per_spring"] =
+      static_cast<double>(bench::peak_memory()) / base.spring_count();
+}
+
+// The same by who keeps the base: copying it into the chain is part of the time.
+void copy_and_merge_nodes(benchmark::State& state) {
+  const MassSpringModel& base = million_nodes();
+  for (auto _ : state)
+    benchmark::DoNotOptimize(simplify(base, {.levels = 1}).levels[1].model.node_count());
+  state.SetItemsProcessed(state.iterations() * base.node_count());
+}
+BENCHMARK(copy_and_merge_nodes)->Unit(benchmark::kMillisecond);
+
+BENCHMARK_CAPTURE(merge_nodes, standard, Grouping::standard, BorderRule::none)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(merge_nodes, standard_weak, Grouping::standard, BorderRule::weak)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(merge_nodes, standard_strong, Grouping::standard, BorderRule::strong)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(merge_nodes, priority_soft, Grouping::priority_soft, BorderRule::none)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(merge_nodes, priority_hard, Grouping::priority_hard, BorderRule::none)
+    ->Unit(benchmark::kMillisecond);
+
+struct HeightField {
+  std::vector<float> positions;  // three a vertex
+  std::vector<unsigned> indices;
+  std::size_t vertex_count() const { return positions.size() / 3; }
+};
+
+// A wavy square of side^2 vertices.
+HeightField height_field(unsigned side) {
+  HeightField field;
+  for (unsigned y = 0; y < side; ++y)
+    for (unsigned x = 0; x < side; ++x) {
+      const double u = static_cast<double>(x) / side;
+      const double v = static_cast<double>(y) / side;
+      const double height =
+          0.05 * (std::sin(23 * u) * std::cos(17 * v) + std::sin(41 * u + 29 * v));
+      for (const double coordinate : {u, v, height})
+        field.positions.push_back(static_cast<float>(coordinate));
+    }
+  for (unsigned y = 0; y + 1 < side; ++y)
+    for (unsigned x = 0; x + 1 < side; ++x) {
+      const unsigned i = y * side + x;
+      for (const unsigned corner : {i, i + 1, i + side, i + side, i + 1, i + side + 1})
+        field.indices.push_back(corner);
+    }
+  return field;
+}
+
+// Standard merging leaves this part of the nodes of a lattice.
+constexpr double kLeft = 0.43;
+
+void meshoptimizer_simplify(benchmark::State& state) {
+  constexpr float kAnyError = 1;  // of the extent: the count alone decides when to stop
+  const HeightField field = height_field(1015);
+  const auto target =
+      3 * static_cast<std::size_t>(kLeft * static_cast<double>(field.indices.size() / 3));
+  std::vector<unsigned> simplified(field.indices.size());
+  std::size_t left = 0;
+  for (auto _ : state)
+    left = meshopt_simplify(simplified.data(), field.indices.data(), field.indices.size(),
+                            field.positions.data(), field.vertex_count(), 3 * sizeof(float), target,
+                            kAnyError);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(field.vertex_count()));
+  state.counters["left"] = static_cast<double>(left) / static_cast<double>(field.indices.size());
+}
+BENCHMARK(meshoptimizer_simplify)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,25 @@
+#include "model/spring_rows.hpp"
+
+namespace springlod {
+
+SpringRows::SpringRows(std::uint32_t node_count, const std::vector<std::uint32_t>& a,
+                       const std::vector<std::uint32_t>& b)
+    : b_(b),
+      start_(node_count + 1, Start{0, 0}),
+      lower_(std::make_unique_for_overwrite<Lower[]>(b.size())) {
+  for (std::uint32_t s = 0; s < spring_count(); ++s) {
+    ++start_[b[s]].lower;
+    ++start_[a[s]].higher;
+  }
+  Start end{0, 0};
+  for (Start& start : start_) {
+    end.lower += start.lower;
+    end.higher += start.higher;
+    start = {end.lower, end.higher - start.higher};
+  }
+  // `lower` is the end of each row by now, and comes down to its start as the row is filled from
+  // behind.
+  for (std::uint32_t s = spring_count(); s-- > 0;) lower_[--start_[b[s]].lower] = {a[s], s};
+}
+
+}  // namespace springlod

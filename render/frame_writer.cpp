@@ -1,0 +1,61 @@
+#include "render/frame_writer.hpp"
+
+#include <utility>
+
+namespace springlod {
+
+FrameWriter::FrameWriter(Save save) : save_(std::move(save)), thread_([this] { work(); }) {}
+
+FrameWriter::~FrameWriter() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void FrameWriter::write(Image image, std::filesystem::path path) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return failure_ || waiting_.size() < kMostWaiting; });
+  rethrow();
+  waiting_.push_back({std::move(image), std::move(path)});
+  lock.unlock();
+  changed_.notify_all();
+}
+
+void FrameWriter::finish() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return failure_ || (waiting_.empty() && !writing_); });
+  rethrow();
+}
+
+void FrameWriter::rethrow() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void FrameWriter::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+    if (stopping_) return;
+    const Frame frame = std::move(waiting_.front());
+    waiting_.pop_front();
+    writing_ = true;
+    lock.unlock();
+    changed_.notify_all();
+    std::exception_ptr failure;
+    try {
+      save_(frame.image, frame.path);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    lock.lock();
+    writing_ = false;
+    failure_ = failure;
+    changed_.notify_all();
+    if (failure_) return;
+  }
+}
+
+}  // namespace springlod

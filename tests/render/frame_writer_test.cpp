@@ -1,0 +1,96 @@
+#include "render/frame_writer.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <future>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "model/error.hpp"
+#include "model/file.hpp"
+#include "tests/render/golden.hpp"
+
+using namespace springlod;
+using namespace springlod::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Image grey(std::uint8_t level) {
+  return {8, 4, std::vector<std::uint8_t>(std::size_t{3} * 8 * 4, level)};
+}
+
+}  // namespace
+
+TEST_CASE("pictures come out in order, each the same as save_png writes it") {
+  const TemporaryFolder folder("writer");
+  constexpr std::uint32_t kFrames = 20;
+  FrameWriter writer;
+  for (std::uint32_t k = 0; k < kFrames; ++k)
+    writer.write(grey(static_cast<std::uint8_t>(k)), frame_path(folder.path(), k));
+  writer.finish();
+  save_png(grey(7), folder.path() / "alone.png");
+  CHECK(read_file(frame_path(folder.path(), 7)) == read_file(folder.path() / "alone.png"));
+  for (std::uint32_t k = 0; k < kFrames; ++k)
+    CHECK(load_png(frame_path(folder.path(), k)).rgb == grey(static_cast<std::uint8_t>(k)).rgb);
+  writer.write(grey(1), folder.path() / "more.png");  // it goes on after finish()
+  writer.finish();
+  CHECK(std::filesystem::exists(folder.path() / "more.png"));
+}
+
+TEST_CASE("what fails on the writing thread reaches the caller, and nothing is written after it") {
+  std::vector<std::string> written;
+  FrameWriter writer([&](const Image&, const std::filesystem::path& path) {
+    if (path == "2") throw IoError("no room for 2");
+    written.push_back(path.string());
+  });
+  const auto write_all = [&] {
+    for (int k = 0; k < 20; ++k) writer.write(grey(0), std::to_string(k));
+    writer.finish();
+  };
+  CHECK_THROWS_AS(write_all(), IoError);
+  CHECK_THROWS_WITH(writer.finish(), Contains("no room for 2"));  // and stays
+  CHECK_THROWS_WITH(writer.write(grey(0), "21"), Contains("no room for 2"));
+  CHECK(written == std::vector<std::string>{"0", "1"});
+}
+
+TEST_CASE("no more pictures wait than the queue holds") {
+  std::promise<void> gate;
+  const std::shared_future<void> open = gate.get_future().share();
+  std::atomic<int> handed_over{0};
+  std::atomic<int> most_ahead{0};
+  int saved = 0;
+  FrameWriter writer([&](const Image&, const std::filesystem::path&) {
+    open.wait();
+    ++saved;
+    most_ahead = std::max(most_ahead.load(), handed_over - saved);
+  });
+  std::future<void> drawing = std::async(std::launch::async, [&] {
+    for (int k = 0; k < 12; ++k) {
+      writer.write(grey(0), "x");
+      ++handed_over;
+    }
+  });
+  constexpr int kMost = static_cast<int>(FrameWriter::kMostWaiting) + 1;  // one is being written
+  while (handed_over < kMost) std::this_thread::yield();
+  CHECK(handed_over == kMost);  // the next waits for the gate
+  gate.set_value();
+  drawing.get();
+  writer.finish();
+  CHECK(saved == 12);
+  CHECK(most_ahead <= kMost);
+}
+
+TEST_CASE("a writer that is given up ends with the picture under way") {
+  std::atomic<int> saved{0};
+  const auto give_up = [&] {
+    FrameWriter writer([&](const Image&, const std::filesystem::path&) { ++saved; });
+    for (int k = 0; k < 3; ++k) writer.write(grey(0), "x");
+    throw InterruptedError();
+  };
+  CHECK_THROWS_AS(give_up(), InterruptedError);
+  CHECK(saved <= 3);
+}

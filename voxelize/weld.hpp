@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/mesh.hpp"
+
+namespace springlod {
+
+/// For each vertex the lowest vertex that it is welded to. Vertices nearer than 1e-6 of the
+/// diagonal of the bounding box are one (files in single precision round).
+std::vector<std::uint32_t> weld_vertices(const TriangleMesh& mesh);
+
+}  // namespace springlod
