@@ -129,25 +129,24 @@ std::vector<Mat3> node_stiffness_at(const MassSpringModel& model, const std::vec
   });
 }
 
-/// (2 lambda_max(A_i) + ground_i) / m_i: omega^2 is not above the largest, for
-/// (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
-std::vector<double> squared_bounds(const std::vector<Mat3>& node_stiffness,
-                                   const std::vector<double>& ground,
-                                   const std::vector<double>& mass) {
-  std::vector<double> bounds(mass.size());
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    const double top =
-        Eigen::SelfAdjointEigenSolver<Mat3>(node_stiffness[i], Eigen::EigenvaluesOnly)
-            .eigenvalues()
-            .maxCoeff();
-    bounds[i] = (2 * top + (ground.empty() ? 0 : ground[i])) / mass[i];
+/// omega^2 <= max_i (2 lambda_max(A_i) + ground_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
+double squared_bound(const MassSpringModel& model, const std::vector<double>& ground) {
+  const std::vector<Mat3> stiffness = node_stiffness_at_rest(model);
+  double bound = 0;
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    const double top = Eigen::SelfAdjointEigenSolver<Mat3>(stiffness[i], Eigen::EigenvaluesOnly)
+                           .eigenvalues()
+                           .maxCoeff();
+    bound = std::max(bound, (2 * top + (ground.empty() ? 0 : ground[i])) / model.mass[i]);
   }
-  return bounds;
+  return bound;
 }
 
-double squared_bound(const MassSpringModel& model, const std::vector<double>& ground) {
-  const auto bounds = squared_bounds(node_stiffness_at_rest(model), ground, model.mass);
-  return bounds.empty() ? 0 : *std::max_element(bounds.begin(), bounds.end());
+/// q + 2p: see node_frequency_bounds.
+double eigenvalue_bound(const Mat3& symmetric) {
+  const double mean = symmetric.trace() / 3;
+  const double spread = (symmetric - mean * Mat3::Identity()).squaredNorm();
+  return mean + 2 * std::sqrt(spread / 6);
 }
 
 }  // namespace
@@ -171,7 +170,13 @@ double frequency_bound(const MassSpringModel& model) {
 
 std::vector<double> node_frequency_bounds(const MassSpringModel& model, const std::vector<Vec3>& x,
                                           const std::vector<double>& ground_stiffness) {
-  return squared_bounds(node_stiffness_at(model, x), ground_stiffness, model.mass);
+  const std::vector<Mat3> stiffness = node_stiffness_at(model, x);
+  std::vector<double> bounds(stiffness.size());
+  for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    const double ground = ground_stiffness.empty() ? 0 : ground_stiffness[i];
+    bounds[i] = (2 * eigenvalue_bound(stiffness[i]) + ground) / model.mass[i];
+  }
+  return bounds;
 }
 
 double largest_damping_time(const MassSpringModel& model) {

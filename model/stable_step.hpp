@@ -23,8 +23,11 @@ double largest_frequency(const MassSpringModel& model, const FrequencyOptions& o
 /// [rad/s].
 double frequency_bound(const MassSpringModel& model);
 /// What each node adds to that bound where springs are turned, stretched and compressed, nodes at
-/// x: (2 lambda_max(A_i) + ground_i) / m_i [rad2/s2], N, with
+/// x: (2 lambda + ground_i) / m_i [rad2/s2], N, with
 /// A_i = sum_j k_ij (u u^T + max(0, 1 - L/l) (1 - u u^T)): a stretched spring is stiff across, too.
+/// lambda = q + 2p >= lambda_max(A_i), where q is the mean of its eigenvalues and 6 p^2 the sum of
+/// their squared distances from it (exact for one large and two equal ones); quick, and the same
+/// however the body is turned.
 /// `ground_stiffness` as in FrequencyOptions.
 std::vector<double> node_frequency_bounds(const MassSpringModel& model, const std::vector<Vec3>& x,
                                           const std::vector<double>& ground_stiffness);

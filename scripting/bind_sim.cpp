@@ -10,6 +10,7 @@
 #include "scripting/call.hpp"
 #include "scripting/run_options.hpp"
 #include "scripting/scenario_table.hpp"
+#include "scripting/start_table.hpp"
 #include "scripting/values.hpp"
 #include "sim/run.hpp"
 
@@ -44,8 +45,11 @@ int run_binding(Call& call) {
   reader.read("threads", options.threads);
   bool quiet = false;
   reader.read("quiet", quiet);
+  const MassSpringModel& model = *value->model->model;
+  const std::optional<State> start = read_start(call, reader, model);
   reader.finish();
-  value->trajectory = run(*value->model->model, *value->scenario, options);
+  value->trajectory =
+      start ? run(model, *value->scenario, *start, options) : run(model, *value->scenario, options);
   if (!quiet) warn(call.session().console(), value->trajectory);
   return call.give(std::shared_ptr<const TrajectoryValue>(value));
 }
@@ -151,7 +155,7 @@ void describe_trajectory(Api& api) {
                    "energies of each frame [J]: time, kinetic, elastic, gravity, contact, "
                    "lost_damping, lost_friction, lost_contact, lost_switch, total",
                    push_ledger);
-  type.table_field("final", "table", "last state: time [s], x and v, lists of {x, y, z} by node",
+  type.table_field("final", "State", "last state: time [s], x and v, lists of {x, y, z} by node",
                    push_final);
   type.method({.name = "frame",
                .summary = "One frame; the same as trajectory[number].",
@@ -173,6 +177,7 @@ void describe_trajectory(Api& api) {
 
 std::vector<Parameter> single_run_parameters() {
   std::vector<Parameter> parameters = run_parameters(RunOptions{});
+  parameters.push_back(start_parameter());
   parameters.push_back({.name = "threads",
                         .type = "integer",
                         .fallback = "s.threads",
@@ -190,6 +195,7 @@ std::vector<Parameter> single_run_parameters() {
 
 void describe_sim(Api& api) {
   describe_scenario(api);
+  describe_start(api);
   describe_trajectory(api);
   describe_stability(api);
   api.add(FunctionEntry{
@@ -202,8 +208,9 @@ void describe_sim(Api& api) {
       .returns = "Trajectory",
       .errors = "A run that leaves the numbers: error.kind is \"unstable\", error.node and "
                 "error.time say where and when. A node that goes through a box: \"tunnelled\", "
-                "error.obstacle says which.",
-      .example = "local trajectory = s.run(chain[1], scene, {frame_rate = 30})",
+                "error.obstacle says which. A start of another number of nodes.",
+      .example = "local trajectory = s.run(chain[1], scene, {frame_rate = 30})\n"
+                 "local more = s.run(chain[1], scene, {start = trajectory.final})",
       .call = run_binding});
   describe_compare(api);
 }

@@ -15,16 +15,19 @@ namespace {
 // 1 / (1 - (omega dt / 2)^2): 50 if all of it were in the top mode at 0.99 of the limit. [1]
 constexpr double kEnergyMargin = 100;
 
-// Strain whose energy counts as rounding [1]: below it nothing is called growth.
-constexpr double kRoundingStrain = 1e-11;
+// Strain whose energy counts as rounding [1]: below it nothing is called growth. Without damping
+// rounding shakes a body more and more, single precision within a second to strains of 1e-6.
+double rounding_strain(Precision precision) {
+  return precision == Precision::single_precision ? 1e-3 : 1e-11;
+}
 
 }  // namespace
 
-EnergyWatch::EnergyWatch(const MassSpringModel& model, const Stepper& start, double step,
-                         const StepLimit& limit)
+EnergyWatch::EnergyWatch(const MassSpringModel& model, const Stepper& start, Precision precision,
+                         double step, const StepLimit& limit)
     : step_(step),
       limit_(limit),
-      rounding_(kRoundingStrain * kRoundingStrain * spring_work(model)) {
+      rounding_(std::pow(rounding_strain(precision), 2) * spring_work(model)) {
   std::uint32_t node = 0;
   available_ = start.kinetic_after(&node) + elastic_energy(model, start.positions()) +
                contact_energy(start.contacts());

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "model/mass_spring.hpp"
+#include "sim/fast/precision.hpp"
 #include "sim/step_limit.hpp"
 #include "sim/stepper.hpp"
 
@@ -12,8 +13,9 @@ namespace springlod {
 class EnergyWatch {
  public:
   /// `start`: after the first kick. Its v+ count, not the ledger's v- . v+, which is negative for a
-  /// body released at rest. `step` and `limit` are for what the message advises.
-  EnergyWatch(const MassSpringModel& model, const Stepper& start, double step,
+  /// body released at rest. `precision`: that the body moves with. `step` and `limit` are for what
+  /// the message advises.
+  EnergyWatch(const MassSpringModel& model, const Stepper& start, Precision precision, double step,
               const StepLimit& limit);
 
   /// Throws UnstableError naming the worst node.

@@ -45,7 +45,7 @@ class Integration {
         sleep_(model, scenario, options.sleep),
         task_(options.progress, "simulate", steps_left()) {
     body_->prepare();
-    energy_.emplace(model, *body_, trajectory.step, plan.limit);
+    energy_.emplace(model, *body_, options.precision, trajectory.step, plan.limit);
     if (!options.step && options.integrator == Integrator::symplectic_euler)
       step_.emplace(model, plan.limit, trajectory.step);
   }

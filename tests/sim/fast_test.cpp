@@ -10,6 +10,7 @@
 #include "sim/fast/fast_leapfrog.hpp"
 #include "sim/fast/row_layout.hpp"
 #include "sim/leapfrog.hpp"
+#include "sim/run.hpp"
 #include "sim/step_limit.hpp"
 #include "tests/sim/bodies.hpp"
 #include "voxelize/lattice.hpp"
@@ -194,6 +195,20 @@ TEST_CASE("A fast run may change its step: same way, ledger closed") {
   CHECK(changing.ledger_entry().lost_switch != 0);
   CHECK(changing.ledger_entry().total() == Approx(energy).epsilon(2e-3));
   CHECK(steady.ledger_entry().total() == Approx(energy).epsilon(2e-3));
+}
+
+TEST_CASE("Rounding in single precision is not taken for a run that blows up, which is told") {
+  MassSpringModel model = two_material_block(6);
+  for (double& damping : model.damping) damping = 0;
+  Scenario scene;
+  scene.gravity = Vec3::Zero();
+  RunOptions options{.precision = Precision::single_precision};
+  const Trajectory rest = run(model, scene, options);
+  const double size = bounds(model.rest).diagonal().norm();
+  for (std::size_t i = 0; i < model.node_count(); ++i)
+    CHECK((rest.final.x[i] - model.rest[i]).norm() < 1e-5 * size);
+  options.step = 1.2 * rest.predicted_step;
+  CHECK_THROWS_AS(run(model, scene, options), UnstableError);
 }
 
 TEST_CASE("A fast step tells the node that went through a wall as the plain one does") {

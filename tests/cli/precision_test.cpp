@@ -1,0 +1,101 @@
+// The study of single against double precision.
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/program.hpp"
+
+using springlod::test::Ran;
+using springlod::test::Scratch;
+using springlod::test::slurp;
+using springlod::test::springlod_run;
+
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells{""};
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else if (c != '\r')
+      cells.back() += c;
+  }
+  return cells;
+}
+
+/// The rows of a CSV file by the names of its columns.
+std::vector<Row> rows_of(const std::string& table) {
+  std::istringstream lines(table);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> columns = cells_of(line);
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (i == 0)
+        rows.push_back({{columns[i], cells.at(i)}});
+      else
+        rows.back()[columns[i]] = cells.at(i);
+  }
+  return rows;
+}
+
+double number(const Row& row, const std::string& column) {
+  return std::stod(row.at(column));
+}
+
+}  // namespace
+
+TEST_CASE("precision, quickly: single precision swings and drops as double does, within bounds") {
+  const Scratch out;
+  const Ran ran = springlod_run({"-q", "precision", out.folder().string(), "--quick"});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+
+  const auto frequencies = rows_of(slurp(out / "frequencies.csv"));
+  REQUIRE(frequencies.size() == 3 * 10);
+  for (const Row& row : frequencies) {
+    CAPTURE(row.at("body"), row.at("mode"));
+    CHECK(std::abs(number(row, "single / double - 1")) < 1e-5);
+    CHECK(number(row, "standard error") < 1e-7);
+    // What leapfrog makes of the mode, but for the bend of the springs' law.
+    CHECK(std::abs(number(row, "double / stepped - 1")) < 1e-4);
+    CHECK(number(row, "stepped [Hz]") > number(row, "modal [Hz]"));
+  }
+
+  for (const Row& row : rows_of(slurp(out / "amplitudes.csv"))) {
+    CAPTURE(row.at("body"), row.at("amplitude / size"));
+    // The law of the springs is straight in the limit: its bend goes with the square.
+    const double amplitude = number(row, "amplitude / size");
+    CHECK(std::abs(number(row, "double / stepped - 1")) < 1e-9 + 30 * amplitude * amplitude);
+    if (amplitude > 3e-5) CHECK(std::abs(number(row, "single / double - 1")) < 3e-4);
+  }
+
+  const auto drops = rows_of(slurp(out / "drops.csv"));
+  REQUIRE(drops.size() == 3);
+  for (const Row& row : drops) {
+    CAPTURE(row.at("body"));
+    CHECK(number(row, "first contact [s]") < 0.5);
+    CHECK(number(row, "largest before contact") < 1e-6);
+    CHECK(number(row, "rms at 1 s") > 0);
+    CHECK(number(row, "rms at 1 s") < 0.1 * number(row, "rms at 1 s of half the step"));
+    CHECK(number(row, "ledger double") < 1e-3);
+    CHECK(number(row, "ledger single") < 1e-3);
+  }
+
+  // Damping takes what rounding puts in.
+  for (const Row& row : rows_of(slurp(out / "rest.csv"))) {
+    CAPTURE(row.at("body"), row.at("damping [s]"));
+    CHECK(number(row, "moved in 1 s") < (number(row, "damping [s]") > 0 ? 1e-6 : 1e-4));
+  }
+  CHECK(slurp(out / "chart.svg").find("rods: half the step") != std::string::npos);
+}
