@@ -167,7 +167,8 @@ local function kernel_rows(by_name)
     end
     local naive = by_name[("step/%s/%s/naive"):format(shape, size)]
     rows[#rows + 1] = {
-      shape, ("%d"):format(c.nodes), (kernel:gsub("/avx2", "")), row.label, ("%.3g"):format(c.ns_per_spring),
+      shape, ("%d"):format(c.nodes), (kernel:gsub("/avx2", "")), row.label,
+      ("%.3g"):format(c.ns_per_spring),
       naive and ("%.2f"):format(c.ns_per_spring / naive.counters.ns_per_spring) or "",
       row.vectors and ("%.3g"):format(row.vectors) or "", share(row.vector_bound),
       c.bytes_read and ("%.0f + 2 x %.0f"):format(c.bytes_read, c.bytes_changed) or "",
