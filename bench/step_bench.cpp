@@ -1,88 +1,148 @@
-// One explicit step of one body: forces, damping, floor with friction, integration. Time a spring.
+// A body that rests a little in the floor: springs, damping, contact, friction, gravity, step upon
+// step. Time a spring of our kernels by size and precision, of the naive kernel and of Bullet's
+// soft bodies, all in one run. Run by ./dev bench.
 
-#include <map>
+#include <array>
+#include <string>
+#include <vector>
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
-#include "bench/bodies.hpp"
+#include "bench/bullet_bench.hpp"
+#include "bench/counters.hpp"
+#include "bench/machine.hpp"
 #include "bench/naive_step.hpp"
-#include "model/stable_step.hpp"
-#include "sim/fast/fast_model.hpp"
+#include "bench/subjects.hpp"
+#include "bench/vector_limit.hpp"
+#include "sim/ensemble.hpp"
+#include "sim/fast/fast_leapfrog.hpp"
 
 namespace {
 
 using namespace springlod;
 using namespace springlod::bench;
 
-constexpr double kSafety = 0.1;  // far from any limit: what is measured is work, not motion
+// Steps at once, as `run` makes them between two looks at the body.
+constexpr std::uint64_t kSteps = 64;
 
-const MassSpringModel& body(bool merged, std::int64_t nodes) {
-  static std::map<std::pair<bool, std::int64_t>, MassSpringModel> made;
-  const auto found = made.find({merged, nodes});
-  if (found != made.end()) return found->second;
-  const int side = static_cast<int>(std::lround(std::cbrt(static_cast<double>(nodes)))) - 1;
-  return made[{merged, nodes}] =
-             merged ? merged_cube(static_cast<std::uint32_t>(nodes)) : lattice_cube(side);
+State at_rest(const MassSpringModel& model) {
+  return {model.rest, std::vector<Vec3>(model.node_count(), Vec3::Zero()), 0};
 }
 
-void count_springs(benchmark::State& state, const MassSpringModel& model) {
-  state.counters["nodes"] = model.node_count();
-  state.counters["ns_per_spring"] = benchmark::Counter(
-      static_cast<double>(model.spring_count()) * 1e-9,
-      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+void step_naively(benchmark::State& state, Subjects& subjects, Shape shape, Size size) {
+  const Subject& subject = subjects.subject(shape, size);
+  NaiveBody body = naive_body(subject.model);
+  for (auto _ : state) naive_step(body, {}, subject.step);
+  count_springs(state, subject.model, 1);
 }
 
-template <bool merged>
-void naive(benchmark::State& state) {
-  const MassSpringModel& model = body(merged, state.range(0));
-  NaiveBody naive = naive_body(model);
-  const double step = kSafety * stable_step(model);
-  for (auto _ : state) naive_step(naive, {}, step);
-  count_springs(state, model);
-}
-BENCHMARK(naive<false>)->Name("lattice/naive_f64")->Arg(4096)->Arg(39304)->Arg(300763);
-BENCHMARK(naive<true>)->Name("merged/naive_f64")->Arg(4096)->Arg(40000)->Arg(300000);
+struct FastStep {
+  Shape shape = Shape::merged;
+  Size size = Size::small;
+  Precision precision = Precision::single_precision;
+  Vectors vectors = Vectors::best;
+  std::uint32_t threads = 1;
+};
 
-template <Precision precision, bool merged>
-void fast(benchmark::State& state) {
-  const MassSpringModel& model = body(merged, state.range(0));
-  const auto laid = make_fast_model(model, precision);
-  const auto moving = laid->new_body(false);
-  moving->set(model.rest, std::vector<Vec3>(model.node_count(), Vec3::Zero()));
-  const double step = kSafety * stable_step(model);
+void step_fast(benchmark::State& state, Subjects& subjects, const FastStep& of) {
+  const VectorLimit limit(of.vectors);
+  const Subject& subject = subjects.subject(of.shape, of.size);
+  const Scenario scenario = rest_on_floor();
+  FastLeapfrog stepper(subject.model, scenario, at_rest(subject.model), subject.step,
+                       {.ledger = false,
+                        .precision = of.precision,
+                        .threads = of.threads,
+                        .layout = subjects.layout(of.shape, of.size, of.precision)});
+  stepper.prepare();
+  for (auto _ : state) stepper.advance(kSteps);
+  if (stepper.contacts().empty()) state.SkipWithError("the body left the floor");
+  count_springs(state, subject.model, kSteps);
+  const Traffic traffic = subjects.traffic(of.shape, of.size, of.precision);
+  state.counters["bytes_read"] = traffic.read;
+  state.counters["bytes_changed"] = traffic.changed;
+  state.SetLabel(vector_target());
+}
+
+// Eight starts of a small body, to the last state; times count what surrounds the steps too.
+void run_starts(benchmark::State& state, Subjects& subjects, Precision precision,
+                std::uint32_t threads) {
+  constexpr double kDuration = 0.02;  // [s]
+  const Subject& subject = subjects.subject(Shape::merged, Size::small);
+  Scenario scenario = rest_on_floor();
+  scenario.duration = kDuration;
+  const EnsembleOptions options{
+      .starts = 8,
+      .threads = threads,
+      .run = {.sleep = 0, .frame_rate = 0, .ledger = false, .precision = precision}};
+  double updates = 0;
   for (auto _ : state) {
-    std::uint32_t next = 0;
-    for (std::uint32_t b = 0; b < moving->block_count(); ++b) {
-      moving->find_forces(b);
-      for (; next < moving->block_count() && moving->needs(next).last <= b; ++next) {
-        moving->collect_forces(next);
-        moving->move(next, step, step);
-      }
-    }
+    updates = 0;
+    for (const EnsembleRun& run : run_ensemble(subject.model, scenario, options))
+      updates += static_cast<double>(run.spring_updates);
   }
-  count_springs(state, model);
+  count_springs(state, subject.model, updates / subject.model.spring_count());
 }
-BENCHMARK((fast<Precision::single_precision, false>))
-    ->Name("lattice/f32")
-    ->Arg(4096)
-    ->Arg(39304)
-    ->Arg(300763);
-BENCHMARK((fast<Precision::double_precision, false>))
-    ->Name("lattice/f64")
-    ->Arg(4096)
-    ->Arg(39304)
-    ->Arg(300763);
-BENCHMARK((fast<Precision::single_precision, true>))
-    ->Name("merged/f32")
-    ->Arg(4096)
-    ->Arg(40000)
-    ->Arg(300000);
-BENCHMARK((fast<Precision::double_precision, true>))
-    ->Name("merged/f64")
-    ->Arg(4096)
-    ->Arg(40000)
-    ->Arg(300000);
+
+void register_size(Subjects& subjects, Shape shape, Size size) {
+  const auto add = [&](const std::string& kernel, auto work) {
+    const std::string title = fmt::format("step/{}/{}/{}", name(shape), name(size), kernel);
+    keep_least(benchmark::RegisterBenchmark(title.c_str(), work));
+  };
+  add("naive", [=, &subjects](benchmark::State& s) { step_naively(s, subjects, shape, size); });
+  for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+    const FastStep best{shape, size, precision};
+    add(name(precision), [=, &subjects](benchmark::State& s) { step_fast(s, subjects, best); });
+    if (!has_more_than_avx2()) continue;
+    FastStep avx2 = best;
+    avx2.vectors = Vectors::avx2;
+    add(name(precision) + "/avx2",
+        [=, &subjects](benchmark::State& s) { step_fast(s, subjects, avx2); });
+  }
+}
+
+void register_threads(Subjects& subjects, Precision precision, std::uint32_t threads) {
+  const auto add = [&](const std::string& work_name, auto work) {
+    const std::string title = fmt::format("{}/{}/threads_{}", work_name, name(precision), threads);
+    keep_least(benchmark::RegisterBenchmark(title.c_str(), work)->UseRealTime());
+  };
+  for (const Shape shape : kShapes) {
+    const FastStep of{shape, Size::medium, precision, Vectors::best, threads};
+    add(fmt::format("threads/{}/40k", name(shape)),
+        [=, &subjects](benchmark::State& s) { step_fast(s, subjects, of); });
+  }
+  add("ensemble/merged/4k",
+      [=, &subjects](benchmark::State& s) { run_starts(s, subjects, precision, threads); });
+}
+
+// In one run, by turns, and often: what else the machine does then hits all alike, and the least of
+// the times is taken. What the command line says comes after and wins.
+std::vector<char*> with_defaults(int argc, char** argv) {
+  static std::array<std::string, 4> defaults{
+      "--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=5",
+      "--benchmark_min_time=0.1", "--benchmark_report_aggregates_only=true"};
+  std::vector<char*> arguments{argv[0]};
+  for (std::string& argument : defaults) arguments.push_back(argument.data());
+  arguments.insert(arguments.end(), argv + 1, argv + argc);
+  return arguments;
+}
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  Subjects subjects;
+  register_machine();
+  for (const Size size : kSizes)
+    for (const Shape shape : kShapes) register_size(subjects, shape, size);
+  register_bullet(subjects);
+  for (const Precision precision : {Precision::single_precision, Precision::double_precision})
+    for (const std::uint32_t threads : {1U, 2U}) register_threads(subjects, precision, threads);
+  std::vector<char*> arguments = with_defaults(argc, argv);
+  argc = static_cast<int>(arguments.size());
+  benchmark::Initialize(&argc, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(argc, arguments.data())) return 1;
+  benchmark::AddCustomContext("compiler", fmt::format("g++ {}", __VERSION__));
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

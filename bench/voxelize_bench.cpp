@@ -159,14 +159,14 @@ BENCHMARK(voxelize_sphere_1M)
     ->ArgName("threads")
     ->Arg(1)
     ->Arg(0)
-    ->Iterations(7)
+    ->Iterations(3)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(voxelize_torus_1M)
     ->ArgName("threads")
     ->Arg(1)
     ->Arg(0)
-    ->Iterations(7)
+    ->Iterations(3)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 

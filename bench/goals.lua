@@ -1,0 +1,129 @@
+-- What the speed is to be, and what was measured, as rows {goal, asked, measured, met}. A goal
+-- whose benchmarks are not there says so.
+
+local goals = {}
+
+local function number(value)
+  return value and (value >= 100 and "%.0f" or "%.3g"):format(value) or "not measured"
+end
+
+-- Collects rows; `at_most` and `at_least` compare.
+local function list()
+  local rows = {}
+  local function add(goal, value, asked, is_met, unit)
+    rows[#rows + 1] = {goal, asked, number(value) .. (value and unit or ""),
+                       value and (is_met and "yes" or "no") or ""}
+  end
+  return rows, {
+    at_most = function(goal, value, limit, unit)
+      add(goal, value, "at most " .. number(limit) .. (unit or ""), value and value <= limit,
+          unit or "")
+    end,
+    at_least = function(goal, value, limit, unit)
+      add(goal, value, "at least " .. number(limit) .. (unit or ""), value and value >= limit,
+          unit or "")
+    end,
+    reported = function(goal, value, unit)
+      rows[#rows + 1] = {goal, "reported", number(value) .. (value and unit or ""), ""}
+    end,
+  }
+end
+
+-- counter(name, key) of a benchmark; ratio of two.
+local function access(by_name)
+  local function counter(name, key)
+    local row = by_name[name]
+    return row and row.counters[key or "ns_per_spring"]
+  end
+  local function ratio(p, q)
+    return p and q and p / q
+  end
+  return counter, ratio
+end
+
+local function add_kernels(to, counter, ratio)
+  local function against_naive(shape, size, kernel, limit)
+    local naive = counter(("step/%s/%s/naive"):format(shape, size))
+    local name = ("step/%s/%s/%s"):format(shape, size, kernel)
+    local goal = ("%s, %s nodes, %s: part of the naive time"):format(shape, size, kernel)
+    to.at_most(goal, ratio(counter(name), naive), limit)
+    local avx2 = counter(name .. "/avx2")
+    if avx2 then to.reported(goal .. ", AVX2", ratio(avx2, naive), "") end
+  end
+  for _, size in ipairs{"4k", "40k"} do
+    against_naive("merged", size, "f32", 0.28)
+    against_naive("merged", size, "f64", 0.6)
+    against_naive("lattice", size, "f32", 0.15)
+  end
+  for _, shape in ipairs{"merged", "lattice"} do against_naive(shape, "300k", "f32", 0.16) end
+end
+
+local function add_bullet(to, counter, ratio)
+  for _, size in ipairs{"4k", "40k"} do
+    local ours = counter(("step/merged/%s/f32"):format(size))
+    local function bullet(kind) return counter(("bullet/merged/%s/%s"):format(size, kind)) end
+    -- Of the two orders of links the faster.
+    local one, each = math.huge, math.huge
+    for _, order in ipairs{"", "/reordered"} do
+      local first, eleven = bullet("iterations_1" .. order), bullet("iterations_11" .. order)
+      if first and eleven then
+        one, each = math.min(one, first), math.min(each, (eleven - first) / 10)
+      end
+    end
+    if one == math.huge then one, each = nil, nil end
+    to.at_least(("%s nodes: Bullet's position-based step of one iteration over ours"):format(size),
+                ratio(one, ours), 8)
+    to.at_least(("%s nodes: a further iteration of it, no more than a sweep, over our whole step")
+                :format(size), ratio(each, ours), 8)
+    to.at_least(("%s nodes: Bullet's explicit step over ours"):format(size),
+                ratio(bullet("explicit"), ours), 35)
+    to.reported(("%s nodes: the same without its damping"):format(size),
+                ratio(bullet("explicit_undamped"), ours), "")
+  end
+end
+
+local function add_threads(to, counter, ratio)
+  local function gain(name)
+    return ratio(counter(name .. "/threads_1"), counter(name .. "/threads_2"))
+  end
+  for _, precision in ipairs{"f32", "f64"} do
+    for _, shape in ipairs{"merged", "lattice"} do
+      to.at_least(("%s, 40k nodes, %s: two threads over one"):format(shape, precision),
+                  gain(("threads/%s/40k/%s"):format(shape, precision)), 1.85)
+    end
+  end
+  for _, precision in ipairs{"f32", "f64"} do
+    to.at_least(("8 starts, 4k nodes, %s: two threads over one"):format(precision),
+                gain("ensemble/merged/4k/" .. precision), 1.9)
+  end
+end
+
+local function add_jobs(to, by_name, counter, ratio)
+  local rate = counter("merge_nodes/standard", "items_per_second")
+  to.at_least("merging a million nodes once: million nodes a second", rate and rate / 1e6, 1)
+  to.at_most("memory at its peak meanwhile, a spring",
+             counter("merge_nodes/standard", "bytes_per_spring"), 200, " bytes")
+  local simplified = counter("meshoptimizer_simplify", "items_per_second")
+  to.reported("merging over meshoptimizer's simplify of as many vertices, nodes a second",
+              ratio(rate, simplified), "")
+  for _, body in ipairs{"sphere", "torus"} do
+    to.at_most(("a %s of a million triangles in 256^3 cells: time over bare OpenVDB"):format(body),
+               counter(("voxelize_%s_1M/threads:1"):format(body), "ratio"), 1.15)
+  end
+  local convert = by_name.convert_100k_nodes
+  to.at_most("mesh to asset of 100,000 nodes, whole", convert and convert.ms
+             and convert.ms / 1e3, 3, " s")
+end
+
+-- `by_name`: measurements by name.
+function goals.rows(by_name)
+  local rows, to = list()
+  local counter, ratio = access(by_name)
+  add_kernels(to, counter, ratio)
+  add_bullet(to, counter, ratio)
+  add_threads(to, counter, ratio)
+  add_jobs(to, by_name, counter, ratio)
+  return rows
+end
+
+return goals
