@@ -274,24 +274,28 @@ double damping_power(const QuadBlock<Real>& block, const QuadBlockState<Real>& o
 }
 
 template <class Real>
+using Corner = hn::CappedTag<Real, 4>;
+
+template <class Real>
 void find_nodes(const QuadBlock<Real>& block, const QuadBlockState<Real>& own, const Box3& region,
                 std::vector<std::uint32_t>& indices) {
-  Real low[3];
-  Real high[3];
+  const Corner<Real> d;
+  NodeVector<Real> low;
+  NodeVector<Real> high;
   for (int axis = 0; axis < 3; ++axis) {
-    low[axis] = static_cast<Real>(region.min()[axis]);
-    high[axis] = static_cast<Real>(region.max()[axis]);
+    low.at[axis] = static_cast<Real>(region.min()[axis]);
+    high.at[axis] = static_cast<Real>(region.max()[axis]);
   }
   for (std::uint32_t i = 0; i < block.own; ++i) {
-    const Real* x = own.records[i].x;
-    const bool inside = ((x[0] >= low[0]) & (x[0] <= high[0]) & (x[1] >= low[1]) &
-                         (x[1] <= high[1]) & (x[2] >= low[2]) & (x[2] <= high[2])) != 0;
+    bool inside = true;
+    for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
+      const auto x = hn::Load(d, own.records[i].x + lane);
+      inside &= hn::AllTrue(d, hn::And(hn::Ge(x, hn::Load(d, low.at + lane)),
+                                       hn::Le(x, hn::Load(d, high.at + lane))));
+    }
     if (inside) indices.push_back(i);
   }
 }
-
-template <class Real>
-using Corner = hn::CappedTag<Real, 4>;
 
 template <class Real>
 void kick_nodes(const QuadBlock<Real>& block, Real time, QuadBlockState<Real>& own) {
