@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 #include <xxhash.h>
@@ -67,7 +67,7 @@ class Palette {
   std::uint32_t number(const RowProperties<Real>& properties) {
     auto& same_hash = numbers_[XXH3_64bits(&properties, sizeof properties)];
     for (const std::uint32_t n : same_hash)
-      if (std::memcmp(&(*entries_)[n], &properties, sizeof properties) == 0) return n;
+      if ((*entries_)[n] == properties) return n;
     same_hash.push_back(static_cast<std::uint32_t>(entries_->size()));
     entries_->push_back(properties);
     return same_hash.back();

@@ -23,6 +23,7 @@ struct RowProperties {
   Real stiffness[kRowLanes] = {};   ///< k [N/m]
   Real rest_force[kRowLanes] = {};  ///< k L [N]
   Real damping[kRowLanes] = {};     ///< c [N s/m]
+  bool operator==(const RowProperties&) const = default;
 };
 
 /// Consecutive nodes whose rows one thread works out.
