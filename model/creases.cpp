@@ -3,34 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <span>
 #include <tuple>
+
+#include "model/disjoint_sets.hpp"
 
 namespace springlod {
 namespace {
 
 // A corner is vertex `corner % 3` of triangle `corner / 3`.
 using Corner = std::uint32_t;
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 std::vector<std::uint32_t> part_of_triangle(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> part(mesh.triangles.size(), 0);
@@ -100,7 +82,7 @@ DisjointSets smoothing_groups(const TriangleMesh& mesh, const std::vector<Edge>&
                               const std::vector<std::uint32_t>& part, double crease_degrees) {
   const double least_cosine = std::cos(crease_degrees * std::numbers::pi / 180);
   const std::vector<Vec3> normals = unit_normals(mesh);
-  DisjointSets groups(mesh.triangles.size() * 3);
+  DisjointSets groups(static_cast<std::uint32_t>(mesh.triangles.size() * 3));
   for_each_edge(edges, [&](std::span<const Edge> shared) {
     if (shared.size() != 2) return;
     const Edge& e = shared[0];
@@ -108,8 +90,8 @@ DisjointSets smoothing_groups(const TriangleMesh& mesh, const std::vector<Edge>&
     if (part[e.triangle] != part[f.triangle] ||
         normals[e.triangle].dot(normals[f.triangle]) < least_cosine)
       return;
-    groups.join(e.at_low, f.at_low);
-    groups.join(e.at_high, f.at_high);
+    groups.unite(e.at_low, f.at_low);
+    groups.unite(e.at_high, f.at_high);
   });
   return groups;
 }
@@ -146,7 +128,7 @@ SplitSurface split_at_creases(const TriangleMesh& mesh, double crease_degrees) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     Triangle triangle{};
     for (std::uint32_t k = 0; k < 3; ++k) {
-      std::uint32_t& vertex = drawn[groups.find(3 * t + k)];
+      std::uint32_t& vertex = drawn[groups.lowest(3 * t + k)];
       if (vertex == kNone) {
         vertex = static_cast<std::uint32_t>(surface.source.size());
         surface.source.push_back(mesh.triangles[t][k]);

@@ -31,6 +31,10 @@ class DisjointSets {
     return true;
   }
 
+  /// Makes `i` a set by itself again. To be called for all elements of its set, or others still
+  /// lead to it.
+  void separate(std::uint32_t i) { parent_[i] = i; }
+
   /// The number of the set of each element, sets numbered by their lowest element.
   struct Numbers {
     std::vector<std::uint32_t> of;

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "model/disjoint_sets.hpp"
+
 namespace springlod {
 namespace {
 
@@ -14,27 +16,6 @@ struct Shell {
   Box3 box;
 };
 
-// Joins vertices that share a triangle (union-find). Serves one solid after the other, so that many
-// small ones cost no more than one large one.
-class VertexSets {
- public:
-  explicit VertexSets(std::size_t vertices) : parent_(vertices) {}
-  /// Forgets what `v` was joined to.
-  void reset(std::uint32_t v) { parent_[v] = v; }
-  std::uint32_t find(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(std::uint32_t l, std::uint32_t r) {
-    l = find(l);
-    r = find(r);
-    parent_[std::max(l, r)] = std::min(l, r);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 template <typename Visit>
 void for_each_triangle(const TriangleMesh& mesh, const SolidReport& solid, Visit visit) {
   for (const std::uint32_t p : solid.parts)
@@ -42,18 +23,19 @@ void for_each_triangle(const TriangleMesh& mesh, const SolidReport& solid, Visit
       visit(mesh.triangles[mesh.parts[p].first_triangle + i]);
 }
 
+// `sets` serves one solid after the other, so that many small ones cost no more than one large one.
 std::vector<Shell> split(const TriangleMesh& mesh, const SolidReport& solid,
-                         const std::vector<std::uint32_t>& welded, VertexSets& sets) {
+                         const std::vector<std::uint32_t>& welded, DisjointSets& sets) {
   for_each_triangle(mesh, solid, [&](const Triangle& t) {
-    for (const std::uint32_t v : t) sets.reset(welded[v]);
+    for (const std::uint32_t v : t) sets.separate(welded[v]);
   });
   for_each_triangle(mesh, solid, [&](const Triangle& t) {
-    sets.join(welded[t[0]], welded[t[1]]);
-    sets.join(welded[t[0]], welded[t[2]]);
+    sets.unite(welded[t[0]], welded[t[1]]);
+    sets.unite(welded[t[0]], welded[t[2]]);
   });
   std::map<std::uint32_t, Shell> shells;
   for_each_triangle(mesh, solid, [&](const Triangle& t) {
-    const std::uint32_t root = sets.find(welded[t[0]]);
+    const std::uint32_t root = sets.lowest(welded[t[0]]);
     Shell& shell = shells[root];
     shell.triangles.push_back(t);
     for (const std::uint32_t v : t) shell.box.extend(mesh.positions[v]);
@@ -95,7 +77,7 @@ Shells sort(std::vector<Shell> all, const SolidReport& solid) {
 
 std::vector<Shells> sort_shells(const TriangleMesh& mesh, const std::vector<SolidReport>& solids,
                                 const std::vector<std::uint32_t>& welded) {
-  VertexSets sets(mesh.positions.size());
+  DisjointSets sets(static_cast<std::uint32_t>(mesh.positions.size()));
   std::vector<Shells> sorted;
   sorted.reserve(solids.size());
   for (const SolidReport& solid : solids)

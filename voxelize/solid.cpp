@@ -31,7 +31,8 @@ class EdgeLists {
       ++first_[std::min(from, to)];
     });
     std::size_t uses = 0;
-    for (std::size_t& first : first_) first = uses += first;  // for now the end of its list
+    for (std::size_t& first : first_)
+      first = uses += first;  // the end of its list, until that is filled
     uses_.resize(uses);
     for_each_edge(mesh, welded, [&](std::uint32_t from, std::uint32_t to, std::size_t part) {
       uses_[--first_[std::min(from, to)]] = {std::max(from, to), solid_of_part[part],

@@ -205,7 +205,7 @@ class Voxelizer {
     grid().origin = frame_.origin;
     grid().distance = distance_;
     grid().cells.reserve(count);
-    grid().material.reserve(count);  // for now the solid
+    grid().material.reserve(count);  // the solid, until materials are chosen
     std::size_t n = 0;
     CellIndex c{};
     for (c[2] = 0; c[2] < frame_.size[2]; ++c[2])
