@@ -18,14 +18,13 @@ constexpr std::uint32_t kMostHalvings = 6;  // a body that needs more is past sa
 }  // namespace
 
 StepWatch::StepWatch(const MassSpringModel& model, const StepLimit& limit, double step)
-    : model_(&model),
-      limit_(limit),
-      step_(step),
-      at_rest_(node_frequency_bounds(model, model.rest, limit.ground_stiffness)) {}
+    : model_(&model), limit_(limit), step_(step) {}
 
 // The bounds of the nodes lie above the highest frequency, of light ones far above. So none counts
 // for more than by how much it grew.
-double StepWatch::frequency(const std::vector<Vec3>& x) const {
+double StepWatch::frequency(const std::vector<Vec3>& x) {
+  if (at_rest_.empty())
+    at_rest_ = node_frequency_bounds(*model_, model_->rest, limit_.ground_stiffness);
   const std::vector<double> now = node_frequency_bounds(*model_, x, limit_.ground_stiffness);
   const double square = limit_.omega * limit_.omega;
   double most = square;

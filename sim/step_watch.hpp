@@ -27,12 +27,12 @@ class StepWatch {
 
  private:
   /// Highest frequency with nodes at x [rad/s].
-  double frequency(const std::vector<Vec3>& x) const;
+  double frequency(const std::vector<Vec3>& x);
 
   const MassSpringModel* model_;
   StepLimit limit_;
   double step_;
-  std::vector<double> at_rest_;  // bounds of the nodes [rad2/s2]
+  std::vector<double> at_rest_;  // bounds of the nodes [rad2/s2]; empty until first asked for
   std::uint32_t halvings_ = 0;
 };
 
