@@ -9,7 +9,7 @@ namespace springlod {
 
 Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
                    double step, const StepperOptions& options)
-    : Stepper(model, scenario, start, step),
+    : StepByStep(model, scenario, start, step),
       integrator_(options.integrator),
       with_ledger_(options.ledger),
       v_minus_(start.v),

@@ -23,7 +23,7 @@ namespace springlod {
 ///   d = beta omega^2 dt; the Jury conditions for the other roots are weaker).
 /// Without damping the two are the same. The start v_{-1/2} = v_0 - dt/2 F(x_0, v_0)/m makes both
 /// second order in the elastic forces and puts x_n of a free flight exactly on the parabola.
-class Leapfrog final : public Stepper {
+class Leapfrog final : public StepByStep {
  public:
   Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
            const StepperOptions& options);

@@ -22,7 +22,7 @@ Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const S
       total_mass_(std::accumulate(model.mass.begin(), model.mass.end(), 0.0)),
       first_center_(center_of_mass()) {}
 
-void Stepper::advance(std::uint64_t steps) {
+void StepByStep::advance(std::uint64_t steps) {
   for (std::uint64_t i = 0; i < steps; ++i) {
     if (!first_contact_ && !contacts_.empty()) first_contact_ = time();
     commit();

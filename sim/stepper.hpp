@@ -30,7 +30,7 @@ class Stepper {
 
   virtual void prepare() = 0;
   /// Throws TunnelError as soon as a node has gone through a box.
-  virtual void advance(std::uint64_t steps);
+  virtual void advance(std::uint64_t steps) = 0;
   /// Goes on from x_n with steps of another length [s]. Returns whether the scheme can.
   virtual bool change_step(double /*step*/) { return false; }
 
@@ -64,8 +64,6 @@ class Stepper {
   double time_of(std::uint64_t n) const {
     return start_time_ + static_cast<double>(n - start_n_) * step_;
   }
-  /// Goes the way to x_{n+1}.
-  virtual void commit() = 0;
   /// The velocities with which the body goes on from x_n.
   virtual const std::vector<Vec3>& velocities_after() const = 0;
   /// Gravity's potential against the start [J].
@@ -87,6 +85,17 @@ class Stepper {
  private:
   double total_mass_ = 0;
   Vec3 first_center_;
+};
+
+/// A scheme that takes one step after the other.
+class StepByStep : public Stepper {
+ public:
+  void advance(std::uint64_t steps) final;
+
+ protected:
+  using Stepper::Stepper;
+  /// Goes the way to x_{n+1}.
+  virtual void commit() = 0;
 };
 
 struct StepperOptions {

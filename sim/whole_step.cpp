@@ -8,7 +8,7 @@ namespace springlod {
 
 WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, const State& start,
                      double step, const StepperOptions& options)
-    : Stepper(model, scenario, start, step),
+    : StepByStep(model, scenario, start, step),
       with_ledger_(options.ledger),
       v_(start.v),
       x_next_(start.x),

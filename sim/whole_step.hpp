@@ -15,7 +15,7 @@ namespace springlod {
 /// Its ledger holds the true energies of (x_n, v_n) and the work of each dissipative force as the
 /// scheme sees it. What a scheme gains or loses by itself is in no entry: it shows as the drift of
 /// the total.
-class WholeStep : public Stepper {
+class WholeStep : public StepByStep {
  public:
   void prepare() final;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace springlod {
 namespace {
@@ -44,21 +45,19 @@ constexpr double kRounding = 1e-6;
 }  // namespace
 
 BlockContacts::BlockContacts(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
-                             std::uint32_t block, FastBody& body, ContactFinder& finder,
-                             TunnelWatch& walls)
+                             std::uint32_t block, std::vector<std::uint32_t> numbers,
+                             FastBody& body, ContactFinder& finder, TunnelWatch& walls)
     : model_(&model),
       obstacles_(&obstacles),
       block_(block),
       body_(&body),
       finder_(&finder),
-      walls_(&walls) {
-  const std::vector<std::uint32_t>& nodes = finder.nodes();
-  for (std::uint32_t number = 0; number < nodes.size(); ++number) {
-    const Place at = body.place(nodes[number]);
-    if (at.block != block) continue;
-    numbers_.push_back(number);
-    if (number_of_.size() <= at.index) number_of_.resize(at.index + 1, kNone);
-    number_of_[at.index] = number;
+      walls_(&walls),
+      numbers_(std::move(numbers)) {
+  for (const std::uint32_t number : numbers_) {
+    const std::uint32_t index = body.place(finder.nodes()[number]).index;
+    if (number_of_.size() <= index) number_of_.resize(index + 1, kNone);
+    number_of_[index] = number;
   }
   looked_at_.assign(obstacles.size(), std::vector<std::uint64_t>(number_of_.size(), 0));
 }

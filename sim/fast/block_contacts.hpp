@@ -29,10 +29,11 @@ struct Passage {
 /// of it.
 class BlockContacts {
  public:
-  /// Finder and watch are those of the whole body, which the blocks share; they and the body must
-  /// outlive this.
+  /// `numbers`: of the block's nodes among those with an area. Finder and watch are those of the
+  /// whole body, which the blocks share; they and the body must outlive this.
   BlockContacts(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
-                std::uint32_t block, FastBody& body, ContactFinder& finder, TunnelWatch& walls);
+                std::uint32_t block, std::vector<std::uint32_t> numbers, FastBody& body,
+                ContactFinder& finder, TunnelWatch& walls);
 
   /// Finds the contacts at the places of step number n, and adds their normal forces to the body.
   /// `step`: dt [s].

@@ -30,9 +30,10 @@ class FastBody {
   virtual BlockRange needs(std::uint32_t block) const = 0;
   virtual Place place(std::uint32_t node) const = 0;
 
-  /// In the model's order.
+  // In the model's order; vectors of N.
   virtual void set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) = 0;
-  virtual void get(std::vector<Vec3>& x, std::vector<Vec3>& v) const = 0;
+  virtual void get_x(std::vector<Vec3>& x) const = 0;
+  virtual void get_v(std::vector<Vec3>& v) const = 0;
 
   /// Works out the springs of a block.
   virtual void find_forces(std::uint32_t block) = 0;

@@ -1,9 +1,9 @@
 #include "sim/fast/fast_leapfrog.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 #include "sim/contact_losses.hpp"
 #include "sim/kernel.hpp"
@@ -44,8 +44,12 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
       v_minus_(start.v),
       v_plus_(start.v) {
   take_new_frame();
+  std::vector<std::vector<std::uint32_t>> numbers(body_->block_count());
+  for (std::uint32_t number = 0; number < finder_.nodes().size(); ++number)
+    numbers[body_->place(finder_.nodes()[number]).block].push_back(number);
   for (std::uint32_t b = 0; b < body_->block_count(); ++b)
-    contacts_of_.emplace_back(model, scenario.obstacles, b, *body_, finder_, walls_);
+    contacts_of_.emplace_back(model, scenario.obstacles, b, std::move(numbers[b]), *body_, finder_,
+                              walls_);
 }
 
 void FastLeapfrog::take_new_frame() {
@@ -66,26 +70,28 @@ void FastLeapfrog::take_new_frame() {
   body_->set(own_x, own_v);
 }
 
-void FastLeapfrog::read_state(std::vector<Vec3>& x, std::vector<Vec3>& v) const {
-  body_->get(x, v);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    x[i] += frame_.origin;
-    v[i] += frame_.velocity;
-  }
+void FastLeapfrog::read_positions() {
+  body_->get_x(x_);
+  for (Vec3& x : x_) x += frame_.origin;
+}
+
+void FastLeapfrog::read_velocities(std::vector<Vec3>& v) const {
+  body_->get_v(v);
+  for (Vec3& one : v) one += frame_.velocity;
 }
 
 void FastLeapfrog::prepare() {
   const bool first = n_ == start_n_;
   if (!first) {
-    read_state(x_, v_minus_);
+    read_positions();
+    read_velocities(v_minus_);
     if (n_ % kFrameEvery == 0) take_new_frame();
     go({{.number = n_, .kick = step_}});
   } else {
     // Forces and damping with the velocities of the start itself: v+- = v_0 +- dt/2 a.
     go({{.number = n_, .kick = 0.5 * step_}});
   }
-  std::vector<Vec3> x(x_.size());
-  read_state(x, v_plus_);
+  read_velocities(v_plus_);
   gather_contacts();
   if (!first) return;
   for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
@@ -117,10 +123,6 @@ bool FastLeapfrog::change_step(double step) {
   prepare();
   lost_to_new_steps_ += before - kinetic();
   return true;
-}
-
-void FastLeapfrog::commit() {
-  advance(1);
 }
 
 MovingFrame FastLeapfrog::after(const Pass& pass, const MovingFrame& frame) const {

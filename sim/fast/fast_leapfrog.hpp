@@ -47,7 +47,6 @@ class FastLeapfrog final : public Stepper {
     LedgerEntry until_now, next;
   };
 
-  void commit() override;
   const std::vector<Vec3>& velocities_after() const override { return v_plus_; }
   /// Goes through the passes on all threads.
   void go(const std::vector<Pass>& passes);
@@ -57,7 +56,8 @@ class FastLeapfrog final : public Stepper {
             std::uint32_t block);
   MovingFrame after(const Pass& pass, const MovingFrame& frame) const;
   void take_new_frame();
-  void read_state(std::vector<Vec3>& x, std::vector<Vec3>& v) const;
+  void read_positions();
+  void read_velocities(std::vector<Vec3>& v) const;
   double kinetic() const;
   void gather_contacts();
   void throw_if_tunnelled() const;

@@ -254,6 +254,7 @@ void find_forces(const QuadLayout<Real>& layout, std::uint32_t number, QuadState
     add_forces<true>(block, damping_time, own);
 }
 
+/// What other blocks worked out on their copies of this one's nodes.
 template <class Real>
 void collect(const QuadBlock<Real>& block,
              std::vector<NodeVector<Real>> QuadBlockState<Real>::*forces, std::uint32_t number,
@@ -264,9 +265,11 @@ void collect(const QuadBlock<Real>& block,
 }
 
 template <class Real>
-double damping_power(const QuadBlock<Real>& block, const QuadBlockState<Real>& own) {
+double damping_power(const QuadLayout<Real>& layout, std::uint32_t number,
+                     const QuadState<Real>& state) {
+  const QuadBlockState<Real>& own = state[number];
   double power = 0;
-  for (std::uint32_t i = 0; i < block.own; ++i)
+  for (std::uint32_t i = 0; i < layout.blocks[number].own; ++i)
     for (int axis = 0; axis < 3; ++axis)
       power += static_cast<double>(own.damping_forces[i].at[axis]) *
                static_cast<double>(own.records[i].v[axis]);
@@ -277,16 +280,17 @@ template <class Real>
 using Corner = hn::CappedTag<Real, 4>;
 
 template <class Real>
-void find_nodes(const QuadBlock<Real>& block, const QuadBlockState<Real>& own, const Box3& region,
-                std::vector<std::uint32_t>& indices) {
+void find_nodes(const QuadLayout<Real>& layout, std::uint32_t number, const QuadState<Real>& state,
+                const Box3& region, std::vector<std::uint32_t>& indices) {
   const Corner<Real> d;
+  const QuadBlockState<Real>& own = state[number];
   NodeVector<Real> low;
   NodeVector<Real> high;
   for (int axis = 0; axis < 3; ++axis) {
     low.at[axis] = static_cast<Real>(region.min()[axis]);
     high.at[axis] = static_cast<Real>(region.max()[axis]);
   }
-  for (std::uint32_t i = 0; i < block.own; ++i) {
+  for (std::uint32_t i = 0; i < layout.blocks[number].own; ++i) {
     bool inside = true;
     for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
       const auto x = hn::Load(d, own.records[i].x + lane);
@@ -342,52 +346,35 @@ void drift_nodes(const QuadBlock<Real>& block, Real time, QuadBlockState<Real>& 
   }
 }
 
-void find_forces_float(const QuadLayout<float>& layout, std::uint32_t block,
-                       QuadState<float>& state) {
-  find_forces(layout, block, state);
+template <class Real>
+void move(const QuadLayout<Real>& layout, std::uint32_t number, double kick, double drift,
+          QuadState<Real>& state) {
+  const QuadBlock<Real>& block = layout.blocks[number];
+  if (kick != 0) kick_nodes(block, static_cast<Real>(kick), state[number]);
+  if (drift != 0) drift_nodes(block, static_cast<Real>(drift), state[number]);
 }
-void collect_float(const QuadLayout<float>& layout, std::uint32_t block, QuadState<float>& state) {
-  collect(layout.blocks[block], &QuadBlockState<float>::forces, block, state);
-  if (!state[block].damping_forces.empty())
-    collect(layout.blocks[block], &QuadBlockState<float>::damping_forces, block, state);
+
+template <class Real>
+void collect_forces(const QuadLayout<Real>& layout, std::uint32_t number, QuadState<Real>& state) {
+  const QuadBlock<Real>& block = layout.blocks[number];
+  collect(block, &QuadBlockState<Real>::forces, number, state);
+  if (!state[number].damping_forces.empty())
+    collect(block, &QuadBlockState<Real>::damping_forces, number, state);
 }
-double damping_power_float(const QuadLayout<float>& layout, std::uint32_t block,
-                           const QuadState<float>& state) {
-  return damping_power(layout.blocks[block], state[block]);
+
+template <class Real>
+QuadKernels<Real> kernels() {
+  return {.find_forces = find_forces<Real>,
+          .collect_forces = collect_forces<Real>,
+          .damping_power = damping_power<Real>,
+          .move = move<Real>,
+          .find_nodes = find_nodes<Real>};
 }
-void find_nodes_float(const QuadLayout<float>& layout, std::uint32_t block,
-                      const QuadState<float>& state, const Box3& region,
-                      std::vector<std::uint32_t>& indices) {
-  find_nodes(layout.blocks[block], state[block], region, indices);
+QuadKernels<float> quad_kernels_float() {
+  return kernels<float>();
 }
-void move_float(const QuadLayout<float>& layout, std::uint32_t block, double kick, double drift,
-                QuadState<float>& state) {
-  if (kick != 0) kick_nodes(layout.blocks[block], static_cast<float>(kick), state[block]);
-  if (drift != 0) drift_nodes(layout.blocks[block], static_cast<float>(drift), state[block]);
-}
-void find_forces_double(const QuadLayout<double>& layout, std::uint32_t block,
-                        QuadState<double>& state) {
-  find_forces(layout, block, state);
-}
-void collect_double(const QuadLayout<double>& layout, std::uint32_t block,
-                    QuadState<double>& state) {
-  collect(layout.blocks[block], &QuadBlockState<double>::forces, block, state);
-  if (!state[block].damping_forces.empty())
-    collect(layout.blocks[block], &QuadBlockState<double>::damping_forces, block, state);
-}
-double damping_power_double(const QuadLayout<double>& layout, std::uint32_t block,
-                            const QuadState<double>& state) {
-  return damping_power(layout.blocks[block], state[block]);
-}
-void find_nodes_double(const QuadLayout<double>& layout, std::uint32_t block,
-                       const QuadState<double>& state, const Box3& region,
-                       std::vector<std::uint32_t>& indices) {
-  find_nodes(layout.blocks[block], state[block], region, indices);
-}
-void move_double(const QuadLayout<double>& layout, std::uint32_t block, double kick, double drift,
-                 QuadState<double>& state) {
-  if (kick != 0) kick_nodes(layout.blocks[block], static_cast<double>(kick), state[block]);
-  if (drift != 0) drift_nodes(layout.blocks[block], static_cast<double>(drift), state[block]);
+QuadKernels<double> quad_kernels_double() {
+  return kernels<double>();
 }
 const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
@@ -399,69 +386,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace springlod {
 
-HWY_EXPORT(find_forces_float);
-HWY_EXPORT(collect_float);
-HWY_EXPORT(damping_power_float);
-HWY_EXPORT(move_float);
-HWY_EXPORT(find_nodes_float);
-HWY_EXPORT(find_forces_double);
-HWY_EXPORT(collect_double);
-HWY_EXPORT(damping_power_double);
-HWY_EXPORT(move_double);
-HWY_EXPORT(find_nodes_double);
+HWY_EXPORT(quad_kernels_float);
+HWY_EXPORT(quad_kernels_double);
 HWY_EXPORT(target_name);
 
 template <>
-void find_quad_forces(const QuadLayout<float>& layout, std::uint32_t block,
-                      QuadState<float>& state) {
-  HWY_DYNAMIC_DISPATCH(find_forces_float)(layout, block, state);
+QuadKernels<float> quad_kernels() {
+  return HWY_DYNAMIC_DISPATCH(quad_kernels_float)();
 }
 template <>
-void collect_quad_forces(const QuadLayout<float>& layout, std::uint32_t block,
-                         QuadState<float>& state) {
-  HWY_DYNAMIC_DISPATCH(collect_float)(layout, block, state);
-}
-template <>
-double quad_damping_power(const QuadLayout<float>& layout, std::uint32_t block,
-                          const QuadState<float>& state) {
-  return HWY_DYNAMIC_DISPATCH(damping_power_float)(layout, block, state);
-}
-template <>
-void find_quad_nodes(const QuadLayout<float>& layout, std::uint32_t block,
-                     const QuadState<float>& state, const Box3& region,
-                     std::vector<std::uint32_t>& indices) {
-  HWY_DYNAMIC_DISPATCH(find_nodes_float)(layout, block, state, region, indices);
-}
-template <>
-void move_quads(const QuadLayout<float>& layout, std::uint32_t block, double kick, double drift,
-                QuadState<float>& state) {
-  HWY_DYNAMIC_DISPATCH(move_float)(layout, block, kick, drift, state);
-}
-template <>
-void find_quad_forces(const QuadLayout<double>& layout, std::uint32_t block,
-                      QuadState<double>& state) {
-  HWY_DYNAMIC_DISPATCH(find_forces_double)(layout, block, state);
-}
-template <>
-void collect_quad_forces(const QuadLayout<double>& layout, std::uint32_t block,
-                         QuadState<double>& state) {
-  HWY_DYNAMIC_DISPATCH(collect_double)(layout, block, state);
-}
-template <>
-double quad_damping_power(const QuadLayout<double>& layout, std::uint32_t block,
-                          const QuadState<double>& state) {
-  return HWY_DYNAMIC_DISPATCH(damping_power_double)(layout, block, state);
-}
-template <>
-void find_quad_nodes(const QuadLayout<double>& layout, std::uint32_t block,
-                     const QuadState<double>& state, const Box3& region,
-                     std::vector<std::uint32_t>& indices) {
-  HWY_DYNAMIC_DISPATCH(find_nodes_double)(layout, block, state, region, indices);
-}
-template <>
-void move_quads(const QuadLayout<double>& layout, std::uint32_t block, double kick, double drift,
-                QuadState<double>& state) {
-  HWY_DYNAMIC_DISPATCH(move_double)(layout, block, kick, drift, state);
+QuadKernels<double> quad_kernels() {
+  return HWY_DYNAMIC_DISPATCH(quad_kernels_double)();
 }
 
 const char* vector_target() {

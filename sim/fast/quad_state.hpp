@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/fast/kernels.hpp"
 #include "sim/fast/quad_layout.hpp"
 
 namespace springlod {
@@ -35,28 +36,11 @@ struct QuadBlockState {
 template <class Real>
 using QuadState = std::vector<QuadBlockState<Real>>;
 
-/// Copies the halo of a block and works out its springs: k (l - L) + c dl/dt along each, into the
-/// forces of both ends.
 template <class Real>
-void find_quad_forces(const QuadLayout<Real>& layout, std::uint32_t block, QuadState<Real>& state);
-/// Adds what other blocks worked out on their copies of this one's nodes to its own.
-template <class Real>
-void collect_quad_forces(const QuadLayout<Real>& layout, std::uint32_t block,
-                         QuadState<Real>& state);
-/// Sum of damping force times velocity over the nodes of the block [W], once collected.
-template <class Real>
-double quad_damping_power(const QuadLayout<Real>& layout, std::uint32_t block,
-                          const QuadState<Real>& state);
-/// v += kick f / m, then x += drift v for the block's nodes, and their bounds; with 0 seconds of
-/// either, that part is left out.
-template <class Real>
-void move_quads(const QuadLayout<Real>& layout, std::uint32_t block, double kick, double drift,
-                QuadState<Real>& state);
+using QuadKernels = FastKernels<QuadLayout<Real>, QuadState<Real>>;
 
-/// Appends the indices of the block's own nodes that lie within the region, rising.
+/// For the widest vectors that this processor has.
 template <class Real>
-void find_quad_nodes(const QuadLayout<Real>& layout, std::uint32_t block,
-                     const QuadState<Real>& state, const Box3& region,
-                     std::vector<std::uint32_t>& indices);
+QuadKernels<Real> quad_kernels();
 
 }  // namespace springlod

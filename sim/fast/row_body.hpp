@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/fast/fast_body.hpp"
+#include "sim/fast/laid_body.hpp"
 #include "sim/fast/row_state.hpp"
 
 namespace springlod {
@@ -8,37 +8,21 @@ namespace springlod {
 /// A body laid out in rows. Springs lead ahead only: a block moves as soon as those up to it have
 /// found their forces.
 template <class Real>
-class RowBody final : public FastBody {
+class RowBody final : public LaidBody<RowLayout<Real>, RowState<Real>> {
  public:
-  /// The layout must outlive the body.
+  using BlockRange = FastBody::BlockRange;
+
   RowBody(const RowLayout<Real>& layout, bool with_damping)
-      : layout_(&layout), state_(layout, with_damping) {}
+      : LaidBody<RowLayout<Real>, RowState<Real>>(layout, RowState<Real>(layout, with_damping),
+                                                  row_kernels<Real>()) {}
 
-  std::uint32_t block_count() const override {
-    return static_cast<std::uint32_t>(layout_->blocks.size());
-  }
   BlockRange needs(std::uint32_t block) const override {
-    return {layout_->first_contributor(block), block};
+    return {this->layout_->first_contributor(block), block};
   }
-  Place place(std::uint32_t node) const override { return layout_->place[node]; }
-
   void set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) override;
-  void get(std::vector<Vec3>& x, std::vector<Vec3>& v) const override;
-
-  void find_forces(std::uint32_t block) override { find_row_forces(*layout_, block, state_); }
-  void collect_forces(std::uint32_t block) override { collect_row_forces(*layout_, block, state_); }
-  double damping_power(std::uint32_t block) const override {
-    return row_damping_power(*layout_, block, state_);
-  }
-  void move(std::uint32_t block, double kick, double drift) override {
-    move_rows(*layout_, block, kick, drift, state_);
-  }
-  const Box3& bounds(std::uint32_t block) const override { return state_.bounds[block]; }
-
-  void nodes_in(std::uint32_t block, const Box3& region,
-                std::vector<std::uint32_t>& indices) const override {
-    find_row_nodes(*layout_, block, state_, region, indices);
-  }
+  void get_x(std::vector<Vec3>& x) const override;
+  void get_v(std::vector<Vec3>& v) const override;
+  const Box3& bounds(std::uint32_t block) const override { return this->state_.bounds[block]; }
 
   Vec3 x(Place at) const override;
   Vec3 v(Place at) const override;
@@ -46,10 +30,9 @@ class RowBody final : public FastBody {
   void add_velocity(Place at, const Vec3& more) override;
 
  private:
-  std::uint32_t position(Place at) const { return layout_->blocks[at.block].first + at.index; }
-
-  const RowLayout<Real>* layout_;
-  RowState<Real> state_;
+  std::uint32_t position(Place at) const {
+    return this->layout_->blocks[at.block].first + at.index;
+  }
 };
 
 }  // namespace springlod

@@ -117,6 +117,7 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
   }
 }
 
+/// What earlier blocks worked out on the places of this one.
 template <class Real>
 void collect(const RowLayout<Real>& layout, std::uint32_t number,
              std::vector<typename RowState<Real>::Coordinates>& force) {
@@ -224,53 +225,33 @@ void move(const RowLayout<Real>& layout, std::uint32_t number, double kick, doub
   }
 }
 
-void find_forces_float(const RowLayout<float>& layout, std::uint32_t block,
-                       RowState<float>& state) {
+template <class Real>
+void find_all_forces(const RowLayout<Real>& layout, std::uint32_t block, RowState<Real>& state) {
   if (state.damping_force.empty())
     find_forces<false>(layout, block, state);
   else
     find_forces<true>(layout, block, state);
 }
-void collect_float(const RowLayout<float>& layout, std::uint32_t block, RowState<float>& state) {
+
+template <class Real>
+void collect_forces(const RowLayout<Real>& layout, std::uint32_t block, RowState<Real>& state) {
   collect(layout, block, state.force);
   if (!state.damping_force.empty()) collect(layout, block, state.damping_force);
 }
-double damping_power_float(const RowLayout<float>& layout, std::uint32_t block,
-                           const RowState<float>& state) {
-  return damping_power(layout, block, state);
+
+template <class Real>
+RowKernels<Real> kernels() {
+  return {.find_forces = find_all_forces<Real>,
+          .collect_forces = collect_forces<Real>,
+          .damping_power = damping_power<Real>,
+          .move = move<Real>,
+          .find_nodes = find_nodes<Real>};
 }
-void find_nodes_float(const RowLayout<float>& layout, std::uint32_t block,
-                      const RowState<float>& state, const Box3& region,
-                      std::vector<std::uint32_t>& indices) {
-  find_nodes(layout, block, state, region, indices);
+RowKernels<float> row_kernels_float() {
+  return kernels<float>();
 }
-void move_float(const RowLayout<float>& layout, std::uint32_t block, double kick, double drift,
-                RowState<float>& state) {
-  move(layout, block, kick, drift, state);
-}
-void find_forces_double(const RowLayout<double>& layout, std::uint32_t block,
-                        RowState<double>& state) {
-  if (state.damping_force.empty())
-    find_forces<false>(layout, block, state);
-  else
-    find_forces<true>(layout, block, state);
-}
-void collect_double(const RowLayout<double>& layout, std::uint32_t block, RowState<double>& state) {
-  collect(layout, block, state.force);
-  if (!state.damping_force.empty()) collect(layout, block, state.damping_force);
-}
-double damping_power_double(const RowLayout<double>& layout, std::uint32_t block,
-                            const RowState<double>& state) {
-  return damping_power(layout, block, state);
-}
-void find_nodes_double(const RowLayout<double>& layout, std::uint32_t block,
-                       const RowState<double>& state, const Box3& region,
-                       std::vector<std::uint32_t>& indices) {
-  find_nodes(layout, block, state, region, indices);
-}
-void move_double(const RowLayout<double>& layout, std::uint32_t block, double kick, double drift,
-                 RowState<double>& state) {
-  move(layout, block, kick, drift, state);
+RowKernels<double> row_kernels_double() {
+  return kernels<double>();
 }
 
 }  // namespace springlod::HWY_NAMESPACE
@@ -279,67 +260,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace springlod {
 
-HWY_EXPORT(find_forces_float);
-HWY_EXPORT(collect_float);
-HWY_EXPORT(damping_power_float);
-HWY_EXPORT(move_float);
-HWY_EXPORT(find_nodes_float);
-HWY_EXPORT(find_forces_double);
-HWY_EXPORT(collect_double);
-HWY_EXPORT(damping_power_double);
-HWY_EXPORT(move_double);
-HWY_EXPORT(find_nodes_double);
+HWY_EXPORT(row_kernels_float);
+HWY_EXPORT(row_kernels_double);
 
 template <>
-void find_row_forces(const RowLayout<float>& layout, std::uint32_t block, RowState<float>& state) {
-  HWY_DYNAMIC_DISPATCH(find_forces_float)(layout, block, state);
+RowKernels<float> row_kernels() {
+  return HWY_DYNAMIC_DISPATCH(row_kernels_float)();
 }
 template <>
-void collect_row_forces(const RowLayout<float>& layout, std::uint32_t block,
-                        RowState<float>& state) {
-  HWY_DYNAMIC_DISPATCH(collect_float)(layout, block, state);
-}
-template <>
-double row_damping_power(const RowLayout<float>& layout, std::uint32_t block,
-                         const RowState<float>& state) {
-  return HWY_DYNAMIC_DISPATCH(damping_power_float)(layout, block, state);
-}
-template <>
-void find_row_nodes(const RowLayout<float>& layout, std::uint32_t block,
-                    const RowState<float>& state, const Box3& region,
-                    std::vector<std::uint32_t>& indices) {
-  HWY_DYNAMIC_DISPATCH(find_nodes_float)(layout, block, state, region, indices);
-}
-template <>
-void move_rows(const RowLayout<float>& layout, std::uint32_t block, double kick, double drift,
-               RowState<float>& state) {
-  HWY_DYNAMIC_DISPATCH(move_float)(layout, block, kick, drift, state);
-}
-template <>
-void find_row_forces(const RowLayout<double>& layout, std::uint32_t block,
-                     RowState<double>& state) {
-  HWY_DYNAMIC_DISPATCH(find_forces_double)(layout, block, state);
-}
-template <>
-void collect_row_forces(const RowLayout<double>& layout, std::uint32_t block,
-                        RowState<double>& state) {
-  HWY_DYNAMIC_DISPATCH(collect_double)(layout, block, state);
-}
-template <>
-double row_damping_power(const RowLayout<double>& layout, std::uint32_t block,
-                         const RowState<double>& state) {
-  return HWY_DYNAMIC_DISPATCH(damping_power_double)(layout, block, state);
-}
-template <>
-void find_row_nodes(const RowLayout<double>& layout, std::uint32_t block,
-                    const RowState<double>& state, const Box3& region,
-                    std::vector<std::uint32_t>& indices) {
-  HWY_DYNAMIC_DISPATCH(find_nodes_double)(layout, block, state, region, indices);
-}
-template <>
-void move_rows(const RowLayout<double>& layout, std::uint32_t block, double kick, double drift,
-               RowState<double>& state) {
-  HWY_DYNAMIC_DISPATCH(move_double)(layout, block, kick, drift, state);
+RowKernels<double> row_kernels() {
+  return HWY_DYNAMIC_DISPATCH(row_kernels_double)();
 }
 
 }  // namespace springlod

@@ -6,6 +6,7 @@
 
 #include <hwy/aligned_allocator.h>
 
+#include "sim/fast/kernels.hpp"
 #include "sim/fast/row_layout.hpp"
 
 namespace springlod {
@@ -31,25 +32,11 @@ struct RowState {
   std::vector<Box3> bounds;  ///< of the places of each block [m]
 };
 
-/// Works out the springs of a block: k (l - L) + c dl/dt along each, into its forces.
 template <class Real>
-void find_row_forces(const RowLayout<Real>& layout, std::uint32_t block, RowState<Real>& state);
-/// Adds what earlier blocks worked out on this one's places to its own.
-template <class Real>
-void collect_row_forces(const RowLayout<Real>& layout, std::uint32_t block, RowState<Real>& state);
-/// Sum of damping force times velocity over the places of the block [W], once collected.
-template <class Real>
-double row_damping_power(const RowLayout<Real>& layout, std::uint32_t block,
-                         const RowState<Real>& state);
-/// v += kick f / m, then x += drift v for the block's nodes, and their bounds; with 0 seconds of
-/// either, that part is left out.
-template <class Real>
-void move_rows(const RowLayout<Real>& layout, std::uint32_t block, double kick, double drift,
-               RowState<Real>& state);
+using RowKernels = FastKernels<RowLayout<Real>, RowState<Real>>;
 
-/// Appends the indices of the block's own nodes that lie within the region, rising.
+/// For the widest vectors that this processor has.
 template <class Real>
-void find_row_nodes(const RowLayout<Real>& layout, std::uint32_t block, const RowState<Real>& state,
-                    const Box3& region, std::vector<std::uint32_t>& indices);
+RowKernels<Real> row_kernels();
 
 }  // namespace springlod

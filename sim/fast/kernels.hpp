@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/vec.hpp"
+
+namespace springlod {
+
+/// What a layout does with vectors, block by block, as picked for the processor: see FastBody for
+/// what each does to a body.
+template <class Layout, class State>
+struct FastKernels {
+  void (*find_forces)(const Layout&, std::uint32_t block, State&) = nullptr;
+  void (*collect_forces)(const Layout&, std::uint32_t block, State&) = nullptr;
+  double (*damping_power)(const Layout&, std::uint32_t block, const State&) = nullptr;
+  void (*move)(const Layout&, std::uint32_t block, double kick, double drift, State&) = nullptr;
+  void (*find_nodes)(const Layout&, std::uint32_t block, const State&, const Box3& region,
+                     std::vector<std::uint32_t>& indices) = nullptr;
+};
+
+}  // namespace springlod

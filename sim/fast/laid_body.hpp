@@ -1,0 +1,51 @@
+#pragma once
+
+#include <utility>
+
+#include "sim/fast/fast_body.hpp"
+#include "sim/fast/kernels.hpp"
+
+namespace springlod {
+
+/// A body moved by the kernels of its layout, which must outlive it.
+template <class Layout, class State>
+class LaidBody : public FastBody {
+ public:
+  std::uint32_t block_count() const final {
+    return static_cast<std::uint32_t>(layout_->blocks.size());
+  }
+  Place place(std::uint32_t node) const final { return layout_->place[node]; }
+
+  void find_forces(std::uint32_t block) final { kernels_.find_forces(*layout_, block, state_); }
+  void collect_forces(std::uint32_t block) final {
+    kernels_.collect_forces(*layout_, block, state_);
+  }
+  double damping_power(std::uint32_t block) const final {
+    return kernels_.damping_power(*layout_, block, state_);
+  }
+  void move(std::uint32_t block, double kick, double drift) final {
+    kernels_.move(*layout_, block, kick, drift, state_);
+  }
+  void nodes_in(std::uint32_t block, const Box3& region,
+                std::vector<std::uint32_t>& indices) const final {
+    kernels_.find_nodes(*layout_, block, state_, region, indices);
+  }
+
+ protected:
+  LaidBody(const Layout& layout, State state, const FastKernels<Layout, State>& kernels)
+      : layout_(&layout), state_(std::move(state)), kernels_(kernels) {}
+
+  const Layout* layout_;
+  State state_;
+
+ private:
+  FastKernels<Layout, State> kernels_;
+};
+
+/// What a number loses when it is rounded to Real.
+template <class Real>
+Real rounding_of(double number) {
+  return static_cast<Real>(number - static_cast<double>(static_cast<Real>(number)));
+}
+
+}  // namespace springlod
