@@ -28,24 +28,45 @@ local function lanes(mnemonic, operands)
   return mnemonic:match("ps$") and bits / 32 or mnemonic:match("pd$") and bits / 64 or 0
 end
 
--- The shortest loop that takes roots: vector instructions a spring.
-local function count(code)
-  local best
+-- Loops without a loop in them: {roots, vectors} of one pass.
+local function innermost_loops(code)
+  local loops = {}
   for last, jump in ipairs(code) do
     local first = jump.mnemonic:match("^j") and code.at[jump.operands:match("^%x+")]
-    if first and first <= last and (not best or last - first < best.length) then
-      local springs, vectors = 0, 0
-      for i = first, last do
-        local mnemonic, operands = code[i].mnemonic, code[i].operands
-        springs = springs + lanes(mnemonic, operands)
-        if mnemonic:match("^v") and not is_plain_move(mnemonic, operands) then
-          vectors = vectors + (operands:match("%%zmm") and 2 or 1)
-        end
-      end
-      if springs > 0 then best = {length = last - first, each = vectors / springs} end
+    if first and first <= last then
+      local enclosing = false
+      for _, loop in ipairs(loops) do enclosing = enclosing or loop.first >= first end
+      if not enclosing then loops[#loops + 1] = {first = first, last = last} end
     end
   end
-  return best and best.each
+  for _, loop in ipairs(loops) do
+    loop.roots, loop.vectors = 0, 0
+    for i = loop.first, loop.last do
+      local mnemonic, operands = code[i].mnemonic, code[i].operands
+      loop.roots = loop.roots + lanes(mnemonic, operands)
+      if mnemonic:match("^v") and not is_plain_move(mnemonic, operands) then
+        loop.vectors = loop.vectors + (operands:match("%%zmm") and 2 or 1)
+      end
+    end
+  end
+  return loops
+end
+
+-- Vector instructions a spring. Of loops that take roots, which differ in where damping is from,
+-- the one with the least counts. Quads have loops for what comes before and after, each pass for as
+-- many springs: a pair of quads.
+local function count(code, has_more_loops)
+  local with_roots, without = nil, 0
+  for _, loop in ipairs(innermost_loops(code)) do
+    if loop.roots == 0 then
+      without = without + loop.vectors
+    elseif not with_roots or loop.vectors < with_roots.vectors then
+      with_roots = loop
+    end
+  end
+  if not with_roots then return nil end
+  local vectors = with_roots.vectors + (has_more_loops and without or 0)
+  return vectors / with_roots.roots
 end
 
 -- {["rows/f32/AVX3"] = 4.2, ...}; empty if there is no objdump.
@@ -57,7 +78,7 @@ function kernel_vectors.count(program)
     if header then
       kernel, code = kernel_of(header), {at = {}}
     elseif kernel and line == "" then
-      counts[kernel], kernel = count(code), nil
+      counts[kernel], kernel = count(code, kernel:match("^quads")), nil
     elseif kernel then
       local address, mnemonic, operands = line:match("^%s*(%x+):%s+(%S+)%s*(.*)$")
       if address then

@@ -101,10 +101,13 @@ void BlockContacts::press_node(std::uint64_t n, std::size_t obstacle, std::uint3
   body_->add_force(at, contact->normal_force * contact->normal);
 }
 
-void BlockContacts::rub(const MovingFrame& frame, double step) {
+void BlockContacts::rub(const MovingFrame& frame, double kick, double step) {
   for (Contact& c : contacts_) {
-    c.slip_change = friction_slip_change(c, model_->mass[c.node], step, velocity(c, frame));
-    body_->add_velocity(body_->place(c.node), c.slip_change);
+    const Place at = body_->place(c.node);
+    const double mass = model_->mass[c.node];
+    const Vec3 kicked = velocity(c, frame) + kick / mass * body_->force(at);
+    c.slip_change = friction_slip_change(c, mass, step, kicked);
+    body_->add_force(at, mass / kick * c.slip_change);
   }
 }
 

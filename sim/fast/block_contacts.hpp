@@ -10,12 +10,6 @@
 
 namespace springlod {
 
-/// Where a body's coordinates are measured from.
-struct MovingFrame {
-  Vec3 origin = Vec3::Zero();    ///< [m]
-  Vec3 velocity = Vec3::Zero();  ///< [m/s]
-};
-
 /// A node that went through a wall.
 struct Passage {
   std::uint64_t step = 0;    ///< number of the step at which it was behind it
@@ -38,8 +32,9 @@ class BlockContacts {
   /// Finds the contacts at the places of step number n, and adds their normal forces to the body.
   /// `step`: dt [s].
   void press(std::uint64_t n, const MovingFrame& frame, double step);
-  /// Friction, after the kick; `frame` as of then.
-  void rub(const MovingFrame& frame, double step);
+  /// Adds friction to the forces that the body is about to be kicked with, over `kick` seconds;
+  /// `frame` as of after the kick.
+  void rub(const MovingFrame& frame, double kick, double step);
   /// Before the drift: keeps the bounds.
   void leave() { bounds_before_ = body_->bounds(block_); }
   /// After the drift to step number n: whether nodes went through a wall. `before`, `after`: the

@@ -10,43 +10,61 @@ namespace {
 // Points that are left in the order they are in: a cache line or two of records.
 constexpr std::size_t kLeaf = 4;
 
+using Part = std::span<std::uint32_t>;
+
 class Halving {
  public:
-  Halving(const std::vector<Vec3>& points, std::uint32_t most) : points_(points), most_(most) {}
+  explicit Halving(const std::vector<Vec3>& points) : points_(points) {}
 
-  void halve(std::span<std::uint32_t> part, std::vector<std::uint32_t>* firsts,
-             std::uint32_t first) const {
-    if (firsts != nullptr && part.size() <= most_) {
-      firsts->push_back(first);
-      firsts = nullptr;
-    }
-    if (part.size() <= kLeaf) return;
+  Box3 box(Part part) const {
     Box3 box;
     for (const std::uint32_t p : part) box.extend(points_[p]);
+    return box;
+  }
+
+  /// Sorts the part into halves of halves and so on; those that are first to have at most `most`
+  /// points are appended to `blocks`, unless that is null.
+  void halve(Part part, std::uint32_t most, std::vector<Part>* blocks) const {
+    if (blocks != nullptr && part.size() <= most) {
+      blocks->push_back(part);
+      blocks = nullptr;
+    }
+    if (part.size() <= kLeaf) return;
     Eigen::Index axis = 0;
-    box.sizes().maxCoeff(&axis);
+    box(part).sizes().maxCoeff(&axis);
     const std::size_t middle = part.size() / 2;
     std::nth_element(
         part.begin(), part.begin() + static_cast<std::ptrdiff_t>(middle), part.end(),
         [&](std::uint32_t p, std::uint32_t q) {
           return points_[p][axis] != points_[q][axis] ? points_[p][axis] < points_[q][axis] : p < q;
         });
-    halve(part.first(middle), firsts, first);
-    halve(part.subspan(middle), firsts, first + static_cast<std::uint32_t>(middle));
+    halve(part.first(middle), most, blocks);
+    halve(part.subspan(middle), most, blocks);
   }
 
  private:
   const std::vector<Vec3>& points_;
-  std::uint32_t most_;
 };
 
 }  // namespace
 
 BlockOrder order_in_blocks(const std::vector<Vec3>& points, std::uint32_t most) {
+  std::vector<std::uint32_t> halved(points.size());
+  std::iota(halved.begin(), halved.end(), 0U);
+  const Halving halving(points);
+  std::vector<Part> blocks;
+  halving.halve(halved, most, &blocks);
+
+  Eigen::Index axis = 0;
+  halving.box(halved).sizes().maxCoeff(&axis);
+  std::stable_sort(blocks.begin(), blocks.end(), [&](Part p, Part q) {
+    return halving.box(p).center()[axis] < halving.box(q).center()[axis];
+  });
   BlockOrder order;
-  order.point.resize(points.size());
-  std::iota(order.point.begin(), order.point.end(), 0U);
-  Halving(points, most).halve(order.point, &order.first, 0);
+  for (const Part block : blocks) {
+    order.first.push_back(static_cast<std::uint32_t>(order.point.size()));
+    order.point.insert(order.point.end(), block.begin(), block.end());
+  }
   order.first.push_back(static_cast<std::uint32_t>(points.size()));
   return order;
 }

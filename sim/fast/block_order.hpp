@@ -14,8 +14,8 @@ struct BlockOrder {
 };
 
 /// Halves the points at the median across their longest side, again and again: blocks are the
-/// halves of at most `most` points, and the order goes on halving within them. The same points give
-/// the same order.
+/// halves of at most `most` points, sorted along the longest side of the whole, and within them the
+/// order goes on halving. The same points give the same order.
 BlockOrder order_in_blocks(const std::vector<Vec3>& points, std::uint32_t most);
 
 }  // namespace springlod

@@ -2,14 +2,17 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "model/mass_spring.hpp"
+#include "sim/fast/moving_frame.hpp"
 #include "sim/fast/place.hpp"
 
 namespace springlod {
 
-/// Places and velocities of one body in a layout made for speed, moved block by block. Blocks may
+/// Places and velocities of one body in a layout made for speed, measured in a frame that its owner
+/// keeps, moved block by block. Blocks may
 /// be worked on by several threads: which does what changes no bit.
 ///
 /// A step: every block finds its forces; as soon as all that a block `needs` have, it collects them
@@ -29,11 +32,14 @@ class FastBody {
   /// Blocks whose forces must be found before this one may move.
   virtual BlockRange needs(std::uint32_t block) const = 0;
   virtual Place place(std::uint32_t node) const = 0;
+  /// Of the block, by index.
+  virtual std::span<const std::uint32_t> nodes(std::uint32_t block) const = 0;
 
-  // In the model's order; vectors of N.
-  virtual void set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) = 0;
-  virtual void get_x(std::vector<Vec3>& x) const = 0;
-  virtual void get_v(std::vector<Vec3>& v) const = 0;
+  // The nodes of the block among those of the model, in world axes; vectors of N.
+  virtual void set(std::uint32_t block, const MovingFrame& frame, const std::vector<Vec3>& x,
+                   const std::vector<Vec3>& v) = 0;
+  virtual void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const = 0;
+  virtual void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const = 0;
 
   /// Works out the springs of a block.
   virtual void find_forces(std::uint32_t block) = 0;
@@ -52,10 +58,10 @@ class FastBody {
   virtual void nodes_in(std::uint32_t block, const Box3& region,
                         std::vector<std::uint32_t>& indices) const = 0;
 
-  virtual Vec3 x(Place at) const = 0;                         ///< [m]
-  virtual Vec3 v(Place at) const = 0;                         ///< [m/s]
-  virtual void add_force(Place at, const Vec3& force) = 0;    ///< [N]; before its block moves
-  virtual void add_velocity(Place at, const Vec3& more) = 0;  ///< [m/s]
+  virtual Vec3 x(Place at) const = 0;                       ///< [m]
+  virtual Vec3 v(Place at) const = 0;                       ///< [m/s]
+  virtual Vec3 force(Place at) const = 0;                   ///< [N], once collected
+  virtual void add_force(Place at, const Vec3& force) = 0;  ///< [N]; before its block moves
 
  protected:
   FastBody() = default;

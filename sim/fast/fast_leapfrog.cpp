@@ -39,11 +39,12 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
       layout_(options.layout ? options.layout : make_fast_model(model, options.precision)),
       body_(layout_->new_body(options.ledger)),
       team_(team_size(options.threads, body_->block_count(), model.node_count())),
+      found_(body_->block_count()),
       with_ledger_(options.ledger),
       losses_(body_->block_count()),
+      sums_(body_->block_count()),
       v_minus_(start.v),
       v_plus_(start.v) {
-  take_new_frame();
   std::vector<std::vector<std::uint32_t>> numbers(body_->block_count());
   for (std::uint32_t number = 0; number < finder_.nodes().size(); ++number)
     numbers[body_->place(finder_.nodes()[number]).block].push_back(number);
@@ -52,50 +53,9 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
                               walls_);
 }
 
-void FastLeapfrog::take_new_frame() {
-  Vec3 x = Vec3::Zero();
-  Vec3 v = Vec3::Zero();
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    x += x_[i];
-    v += v_minus_[i];
-  }
-  const auto count = static_cast<double>(x_.size());
-  frame_ = {x / count, v / count};
-  std::vector<Vec3> own_x(x_.size());
-  std::vector<Vec3> own_v(x_.size());
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    own_x[i] = x_[i] - frame_.origin;
-    own_v[i] = v_minus_[i] - frame_.velocity;
-  }
-  body_->set(own_x, own_v);
-}
-
-void FastLeapfrog::read_positions() {
-  body_->get_x(x_);
-  for (Vec3& x : x_) x += frame_.origin;
-}
-
-void FastLeapfrog::read_velocities(std::vector<Vec3>& v) const {
-  body_->get_v(v);
-  for (Vec3& one : v) one += frame_.velocity;
-}
-
 void FastLeapfrog::prepare() {
-  const bool first = n_ == start_n_;
-  if (!first) {
-    read_positions();
-    read_velocities(v_minus_);
-    if (n_ % kFrameEvery == 0) take_new_frame();
-    go({{.number = n_, .kick = step_}});
-  } else {
-    // Forces and damping with the velocities of the start itself: v+- = v_0 +- dt/2 a.
-    go({{.number = n_, .kick = 0.5 * step_}});
-  }
-  read_velocities(v_plus_);
-  gather_contacts();
-  if (!first) return;
-  for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
-  for (const Contact& c : contacts_) v_minus_[c.node] += c.slip_change;  // no part of a
+  share_out([&](Share& share, const MovingFrame& frame) { return look(share, frame); });
+  finish_look();
 }
 
 void FastLeapfrog::advance(std::uint64_t steps) {
@@ -104,12 +64,70 @@ void FastLeapfrog::advance(std::uint64_t steps) {
     std::vector<Pass> passes{{.number = n_, .drift = step_}};
     for (std::uint64_t i = 1; i < together; ++i)
       passes.push_back({.number = n_ + i, .kick = step_, .drift = step_});
-    go(passes);
     n_ += together;
     steps -= together;
+    share_out([&](Share& share, const MovingFrame& frame) {
+      return look(share, go(passes, share, frame));
+    });
     throw_if_tunnelled();
-    prepare();
+    finish_look();
   }
+}
+
+void FastLeapfrog::share_out(const std::function<MovingFrame(Share&, const MovingFrame&)>& work) {
+  found_.reset();
+  const std::uint32_t count = body_->block_count();
+  MovingFrame end;
+  team_.run([&](const StepTeam::Member& member) {
+    Share share{member, count * member.number / team_.size(),
+                count * (member.number + 1) / team_.size()};
+    const MovingFrame frame = work(share, frame_);
+    if (member.number == 0) end = frame;
+  });
+  frame_ = end;
+}
+
+MovingFrame FastLeapfrog::look(Share& share, MovingFrame frame) {
+  const bool first = n_ == start_n_;
+  if (!first)
+    for (std::uint32_t b = share.first; b < share.end; ++b) {
+      body_->get_x(b, frame, x_);
+      body_->get_v(b, frame, v_minus_);
+    }
+  if (first || n_ % kFrameEvery == 0) frame = take_new_frame(share);
+  // At first forces and damping with the velocities of the start itself: v+- = v_0 +- dt/2 a.
+  frame = go({{.number = n_, .kick = first ? 0.5 * step_ : step_}}, share, frame);
+  for (std::uint32_t b = share.first; b < share.end; ++b) body_->get_v(b, frame, v_plus_);
+  return frame;
+}
+
+void FastLeapfrog::finish_look() {
+  gather_contacts();
+  if (n_ != start_n_) return;
+  for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
+  for (const Contact& c : contacts_) v_minus_[c.node] += c.slip_change;  // no part of a
+}
+
+// Summed up block by block, so that it is the same whoever does which.
+MovingFrame FastLeapfrog::take_new_frame(const Share& share) {
+  for (std::uint32_t b = share.first; b < share.end; ++b) {
+    sums_[b] = {};
+    for (const std::uint32_t node : body_->nodes(b)) {
+      sums_[b].origin += x_[node];
+      sums_[b].velocity += v_minus_[node];
+    }
+  }
+  share.member.meet();
+  MovingFrame sum;
+  for (const MovingFrame& of_block : sums_) {
+    sum.origin += of_block.origin;
+    sum.velocity += of_block.velocity;
+  }
+  const auto count = static_cast<double>(x_.size());
+  const MovingFrame frame{sum.origin / count, sum.velocity / count};
+  for (std::uint32_t b = share.first; b < share.end; ++b) body_->set(b, frame, x_, v_minus_);
+  share.member.meet();
+  return frame;
 }
 
 bool FastLeapfrog::change_step(double step) {
@@ -119,7 +137,6 @@ bool FastLeapfrog::change_step(double step) {
   start_n_ = n_;
   step_ = step;
   for (Losses& losses : losses_) losses.next = {};
-  take_new_frame();
   prepare();
   lost_to_new_steps_ += before - kinetic();
   return true;
@@ -132,41 +149,42 @@ MovingFrame FastLeapfrog::after(const Pass& pass, const MovingFrame& frame) cons
   return next;
 }
 
-void FastLeapfrog::go(const std::vector<Pass>& passes) {
-  team_.run([&](const StepTeam::Member& member) {
-    MovingFrame frame = frame_;
-    for (const Pass& pass : passes) {
-      find_and_move(pass, frame, member);
-      frame = after(pass, frame);
-      member.meet();
-    }
-  });
-  for (const Pass& pass : passes) frame_ = after(pass, frame_);
+MovingFrame FastLeapfrog::go(const std::vector<Pass>& passes, Share& share, MovingFrame frame) {
+  for (const Pass& pass : passes) {
+    find_and_move(pass, frame, share);
+    frame = after(pass, frame);
+    share.member.meet();
+  }
+  return frame;
 }
 
-void FastLeapfrog::find_and_move(const Pass& pass, const MovingFrame& frame,
-                                 const StepTeam::Member& member) {
-  const std::uint32_t count = body_->block_count();
-  const std::uint32_t first = count * member.number / team_.size();
-  const std::uint32_t end = count * (member.number + 1) / team_.size();
-  std::uint32_t found = first;  // own blocks before this one have found their forces
+void FastLeapfrog::find_and_move(const Pass& pass, const MovingFrame& frame, Share& share) {
   std::vector<std::uint32_t> later;
-  std::uint32_t next = first;
-  const bool finds = pass.kick != 0;
-  for (; finds && found < end; ++found) {
-    body_->find_forces(found);
-    for (; next <= found; ++next) {
-      const FastBody::BlockRange needs = body_->needs(next);
-      if (needs.last > found) break;
-      if (needs.first < first)
-        later.push_back(next);
-      else
-        kick_and_drift(pass, frame, next);
+  std::uint32_t next = share.first;
+  if (pass.kick != 0) {
+    ++share.kicks;
+    for (std::uint32_t found = share.first; found < share.end; ++found) {
+      body_->find_forces(found);
+      found_.reach(found, share.kicks);
+      for (; next <= found && body_->needs(next).last <= found; ++next) {
+        if (body_->needs(next).first < share.first)
+          later.push_back(next);
+        else
+          kick_and_drift(pass, frame, next);
+      }
     }
   }
-  if (finds) member.meet();
-  for (const std::uint32_t block : later) kick_and_drift(pass, frame, block);
-  for (; next < end; ++next) kick_and_drift(pass, frame, next);
+  for (; next < share.end; ++next) later.push_back(next);
+  for (const std::uint32_t block : later) {
+    if (pass.kick != 0) wait_for_others(block, share);
+    kick_and_drift(pass, frame, block);
+  }
+}
+
+void FastLeapfrog::wait_for_others(std::uint32_t block, const Share& share) const {
+  const FastBody::BlockRange needs = body_->needs(block);
+  for (std::uint32_t b = needs.first; b <= needs.last; ++b)
+    if (b < share.first || b >= share.end) found_.wait_for(b, share.kicks);
 }
 
 void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block) {
@@ -176,40 +194,36 @@ void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame, st
   if (pass.kick != 0) {
     body_->collect_forces(block);
     contacts.press(pass.number, frame, step_);
+    contacts.rub(kicked, pass.kick, step_);
   }
   contacts.leave();
-  if (pass.kick != 0 && pass.drift != 0 && !with_ledger_ && contacts.now().empty()) {
-    body_->move(block, pass.kick, pass.drift);
+  if (with_ledger_) {
+    if (pass.kick != 0) kick_and_book(pass, frame, kicked, block);
+    if (pass.drift != 0) drift_and_book(pass, block);
   } else {
-    if (pass.kick != 0) kick(pass, frame, kicked, block);
-    if (pass.drift == 0) return;
-    add_losses(losses_[block].next, losses_[block].until_now);
-    losses_[block].next = {};
-    body_->move(block, 0, pass.drift);
+    body_->move(block, pass.kick, pass.drift);
   }
-  contacts.watch(pass.number + 1, kicked, next, step_);
+  if (pass.drift != 0) contacts.watch(pass.number + 1, kicked, next, step_);
 }
 
-void FastLeapfrog::kick(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
-                        std::uint32_t block) {
+void FastLeapfrog::kick_and_book(const Pass& pass, const MovingFrame& frame,
+                                 const MovingFrame& kicked, std::uint32_t block) {
   BlockContacts& contacts = contacts_of_[block];
   Losses& losses = losses_[block];
-  std::vector<Vec3> v_minus;  // of the nodes in contact
-  if (with_ledger_) {
-    for (const Contact& c : contacts.now()) v_minus.push_back(contacts.velocity(c, frame));
-    if (pass.number > start_n_)
-      losses.until_now.lost_damping -= 0.5 * step_ * body_->damping_power(block);
-  }
+  const auto book = [&](const MovingFrame& at, double step, LedgerEntry& entry) {
+    entry.lost_damping -= 0.5 * step_ * body_->damping_power(block);
+    for (const Contact& c : contacts.now())
+      book_contact(c, model_->mass[c.node], step_, contacts.velocity(c, at), step, entry);
+  };
+  if (pass.number > start_n_) book(frame, -step_, losses.until_now);
   body_->move(block, pass.kick, 0);
-  contacts.rub(kicked, step_);
-  if (!with_ledger_) return;
-  losses.next.lost_damping = -0.5 * step_ * body_->damping_power(block);
-  for (std::size_t i = 0; i < v_minus.size(); ++i) {
-    const Contact& c = contacts.now()[i];
-    const double mass = model_->mass[c.node];
-    if (pass.number > start_n_) book_contact(c, mass, step_, v_minus[i], -step_, losses.until_now);
-    book_contact(c, mass, step_, contacts.velocity(c, kicked), step_, losses.next);
-  }
+  book(kicked, step_, losses.next);
+}
+
+void FastLeapfrog::drift_and_book(const Pass& pass, std::uint32_t block) {
+  add_losses(losses_[block].next, losses_[block].until_now);
+  losses_[block].next = {};
+  body_->move(block, 0, pass.drift);
 }
 
 void FastLeapfrog::gather_contacts() {

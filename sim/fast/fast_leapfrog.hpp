@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -48,16 +49,35 @@ class FastLeapfrog final : public Stepper {
   };
 
   const std::vector<Vec3>& velocities_after() const override { return v_plus_; }
-  /// Goes through the passes on all threads.
-  void go(const std::vector<Pass>& passes);
-  void find_and_move(const Pass& pass, const MovingFrame& frame, const StepTeam::Member& member);
+  /// What one thread works on.
+  struct Share {
+    StepTeam::Member member;
+    std::uint32_t first = 0, end = 0;  // blocks
+    std::uint32_t kicks = 0;           // until now
+  };
+
+  /// Calls work(share, frame) on all threads at once, from the frame of now, which becomes what it
+  /// returns.
+  void share_out(const std::function<MovingFrame(Share&, const MovingFrame&)>& work);
+
+  // Within that:
+
+  /// Returns the frame at the end of the passes.
+  MovingFrame go(const std::vector<Pass>& passes, Share& share, MovingFrame frame);
+  /// Reads the state at step n_, kicks the body off it and reads the velocities after. Returns the
+  /// frame after.
+  MovingFrame look(Share& share, MovingFrame frame);
+  MovingFrame take_new_frame(const Share& share);
+  void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
+  /// For the forces of the blocks of others that this one needs.
+  void wait_for_others(std::uint32_t block, const Share& share) const;
+
   void kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block);
-  void kick(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
-            std::uint32_t block);
+  void kick_and_book(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
+                     std::uint32_t block);
+  void drift_and_book(const Pass& pass, std::uint32_t block);
   MovingFrame after(const Pass& pass, const MovingFrame& frame) const;
-  void take_new_frame();
-  void read_positions();
-  void read_velocities(std::vector<Vec3>& v) const;
+  void finish_look();
   double kinetic() const;
   void gather_contacts();
   void throw_if_tunnelled() const;
@@ -65,10 +85,12 @@ class FastLeapfrog final : public Stepper {
   std::shared_ptr<const FastModel> layout_;
   std::unique_ptr<FastBody> body_;
   StepTeam team_;
+  Milestones found_;  // kicks for which each block has found its forces
   bool with_ledger_;
   MovingFrame frame_;
   std::vector<BlockContacts> contacts_of_;  // by block
   std::vector<Losses> losses_;              // by block
+  std::vector<MovingFrame> sums_;           // over the nodes of each block
   double lost_to_new_steps_ = 0;            // [J]
   std::vector<Vec3> v_minus_, v_plus_;
 };

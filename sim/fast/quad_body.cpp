@@ -7,10 +7,6 @@ template <class Real>
 Vec3 read(const Real (&from)[4]) {
   return {static_cast<double>(from[0]), static_cast<double>(from[1]), static_cast<double>(from[2])};
 }
-template <class Real>
-void add(const Vec3& more, Real (&to)[4]) {
-  for (int axis = 0; axis < 3; ++axis) to[axis] += static_cast<Real>(more[axis]);
-}
 
 template <class Real>
 QuadState<Real> zero_state(const QuadLayout<Real>& layout, bool with_damping) {
@@ -33,34 +29,48 @@ QuadBody<Real>::QuadBody(const QuadLayout<Real>& layout, bool with_damping)
                                                   quad_kernels<Real>()) {}
 
 template <class Real>
-void QuadBody<Real>::set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
-  for (QuadBlockState<Real>& block : this->state_) block.bounds.setEmpty();
-  for (std::size_t n = 0; n < x.size(); ++n) {
-    const Place at = this->layout_->place[n];
-    QuadBlockState<Real>& block = this->state_[at.block];
-    NodeRecord<Real>& record = block.records[at.index];
+std::span<const std::uint32_t> QuadBody<Real>::nodes(std::uint32_t block) const {
+  return this->layout_->blocks[block].node;
+}
+
+template <class Real>
+void QuadBody<Real>::set(std::uint32_t block, const MovingFrame& frame, const std::vector<Vec3>& x,
+                         const std::vector<Vec3>& v) {
+  QuadBlockState<Real>& own = this->state_[block];
+  own.bounds.setEmpty();
+  const std::span<const std::uint32_t> nodes = this->nodes(block);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec3 own_x = x[nodes[i]] - frame.origin;
+    const Vec3 own_v = v[nodes[i]] - frame.velocity;
+    NodeRecord<Real>& record = own.records[i];
     for (int axis = 0; axis < 3; ++axis) {
-      record.x[axis] = static_cast<Real>(x[n][axis]);
-      record.v[axis] = static_cast<Real>(v[n][axis]);
-      if (!block.low.empty()) block.low[at.index].at[axis] = rounding_of<Real>(x[n][axis]);
+      record.x[axis] = static_cast<Real>(own_x[axis]);
+      record.v[axis] = static_cast<Real>(own_v[axis]);
+      if (!own.low.empty()) own.low[i].at[axis] = rounding_of<Real>(own_x[axis]);
     }
-    block.bounds.extend(read(record.x));
+    own.bounds.extend(read(record.x));
   }
 }
 
 template <class Real>
-void QuadBody<Real>::get_x(std::vector<Vec3>& x) const {
-  for (std::size_t n = 0; n < x.size(); ++n) {
-    const Place at = this->layout_->place[n];
-    const QuadBlockState<Real>& block = this->state_[at.block];
-    x[n] = read(block.records[at.index].x);
-    if (!block.low.empty()) x[n] += read(block.low[at.index].at);
+void QuadBody<Real>::get_x(std::uint32_t block, const MovingFrame& frame,
+                           std::vector<Vec3>& x) const {
+  const QuadBlockState<Real>& own = this->state_[block];
+  const std::span<const std::uint32_t> nodes = this->nodes(block);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Vec3 own_x = read(own.records[i].x);
+    if (!own.low.empty()) own_x += read(own.low[i].at);
+    x[nodes[i]] = frame.origin + own_x;
   }
 }
 
 template <class Real>
-void QuadBody<Real>::get_v(std::vector<Vec3>& v) const {
-  for (std::size_t n = 0; n < v.size(); ++n) v[n] = this->v(this->layout_->place[n]);
+void QuadBody<Real>::get_v(std::uint32_t block, const MovingFrame& frame,
+                           std::vector<Vec3>& v) const {
+  const QuadBlockState<Real>& own = this->state_[block];
+  const std::span<const std::uint32_t> nodes = this->nodes(block);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    v[nodes[i]] = frame.velocity + read(own.records[i].v);
 }
 
 template <class Real>
@@ -74,13 +84,14 @@ Vec3 QuadBody<Real>::v(Place at) const {
 }
 
 template <class Real>
-void QuadBody<Real>::add_force(Place at, const Vec3& force) {
-  add(force, this->state_[at.block].forces[at.index].at);
+Vec3 QuadBody<Real>::force(Place at) const {
+  return read(this->state_[at.block].forces[at.index].at);
 }
 
 template <class Real>
-void QuadBody<Real>::add_velocity(Place at, const Vec3& more) {
-  add(more, this->state_[at.block].records[at.index].v);
+void QuadBody<Real>::add_force(Place at, const Vec3& force) {
+  Real* sum = this->state_[at.block].forces[at.index].at;
+  for (int axis = 0; axis < 3; ++axis) sum[axis] += static_cast<Real>(force[axis]);
 }
 
 template class QuadBody<float>;

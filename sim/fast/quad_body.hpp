@@ -5,8 +5,8 @@
 
 namespace springlod {
 
-/// A body laid out in quads. Blocks work on copies of each other's nodes: none moves before all
-/// have found their forces.
+/// A body laid out in quads. Blocks work on copies of each other's nodes: none moves before those
+/// with copies of its nodes have found their forces.
 template <class Real>
 class QuadBody final : public LaidBody<QuadLayout<Real>, QuadState<Real>> {
  public:
@@ -14,16 +14,21 @@ class QuadBody final : public LaidBody<QuadLayout<Real>, QuadState<Real>> {
 
   QuadBody(const QuadLayout<Real>& layout, bool with_damping);
 
-  BlockRange needs(std::uint32_t /*block*/) const override { return {0, this->block_count() - 1}; }
-  void set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) override;
-  void get_x(std::vector<Vec3>& x) const override;
-  void get_v(std::vector<Vec3>& v) const override;
+  BlockRange needs(std::uint32_t block) const override {
+    const QuadBlock<Real>& of = this->layout_->blocks[block];
+    return {of.first_copy, of.last_copy};
+  }
+  std::span<const std::uint32_t> nodes(std::uint32_t block) const override;
+  void set(std::uint32_t block, const MovingFrame& frame, const std::vector<Vec3>& x,
+           const std::vector<Vec3>& v) override;
+  void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const override;
+  void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const override;
   const Box3& bounds(std::uint32_t block) const override { return this->state_[block].bounds; }
 
   Vec3 x(Place at) const override;
   Vec3 v(Place at) const override;
+  Vec3 force(Place at) const override;
   void add_force(Place at, const Vec3& force) override;
-  void add_velocity(Place at, const Vec3& more) override;
 };
 
 }  // namespace springlod

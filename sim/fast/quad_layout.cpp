@@ -85,10 +85,16 @@ class Laying {
     std::vector<std::vector<Place>> copies(model_.node_count());  // by rank
     for (std::uint32_t b = 0; b < layout.blocks.size(); ++b)
       if (!lay_block(b, springs, copies, layout.blocks[b])) return std::nullopt;
-    for (std::uint32_t b = 0; b < layout.blocks.size(); ++b)
-      for (std::uint32_t i = 0; i < layout.blocks[b].own; ++i)
-        for (const Place& copy : copies[order_.first[b] + i])
-          layout.blocks[b].copied.push_back({i, copy});
+    for (std::uint32_t b = 0; b < layout.blocks.size(); ++b) {
+      QuadBlock<Real>& block = layout.blocks[b];
+      block.first_copy = block.last_copy = b;
+      for (std::uint32_t i = 0; i < block.own; ++i)
+        for (const Place& copy : copies[order_.first[b] + i]) {
+          block.copied.push_back({i, copy});
+          block.first_copy = std::min(block.first_copy, copy.block);
+          block.last_copy = std::max(block.last_copy, copy.block);
+        }
+    }
     for (std::uint32_t n = 0; n < model_.node_count(); ++n) layout.place.push_back(place(rank_[n]));
     return layout;
   }
@@ -119,7 +125,8 @@ class Laying {
     };
     std::uint32_t quads = 0;
     for (std::uint32_t i = 0; i < block.own; ++i) {
-      block.inverse_mass.push_back(static_cast<Real>(1 / model_.mass[order_.point[first + i]]));
+      block.node.push_back(order_.point[first + i]);
+      block.inverse_mass.push_back(static_cast<Real>(1 / model_.mass[block.node.back()]));
       const std::vector<HalfSpring>& own = springs[first + i];
       for (std::uint32_t s = 0; s < own.size(); ++s) {
         if (s % kQuad == 0) begin_quad(quads++, i, block);

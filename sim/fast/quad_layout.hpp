@@ -37,14 +37,18 @@ struct CopiedForce {
 /// without stiffness that fill a quad up.
 template <class Real>
 struct QuadBlock {
-  std::uint32_t own = 0;           ///< nodes
-  std::vector<Real> inverse_mass;  ///< of own nodes [1/kg]
-  std::vector<Place> halo;         ///< where the copies are from
+  std::uint32_t own = 0;            ///< nodes
+  std::vector<std::uint32_t> node;  ///< the own ones in the model
+  std::vector<Real> inverse_mass;   ///< of own nodes [1/kg]
+  std::vector<Place> halo;          ///< where the copies are from
 
   std::vector<QuadPair<Real>> pairs;
   std::vector<std::array<Real, 2 * kQuad>> damping;  ///< c [N s/m] by pair; empty if damping_time k
 
   std::vector<CopiedForce> copied;  ///< own nodes rising
+  // All blocks with copies of its nodes, and itself, are from the first to the last of these.
+  std::uint32_t first_copy = 0;
+  std::uint32_t last_copy = 0;
 
   std::uint32_t nowhere() const { return own + static_cast<std::uint32_t>(halo.size()); }
 };

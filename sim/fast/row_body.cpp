@@ -12,37 +12,56 @@ Vec3 read(const typename RowState<Real>::Coordinates& from, std::uint32_t positi
 }  // namespace
 
 template <class Real>
-void RowBody<Real>::set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
-  const std::size_t last = this->layout_->node.size() - 1;
-  for (std::size_t p = 0; p < this->layout_->inverse_mass.size(); ++p) {
-    const std::uint32_t node = this->layout_->node[std::min(p, last)];
+std::span<const std::uint32_t> RowBody<Real>::nodes(std::uint32_t block) const {
+  const RowBlock& of = this->layout_->blocks[block];
+  return std::span(this->layout_->node).subspan(of.first, of.own);
+}
+
+// Places that only fill up the last row are those of the last node, so that no spring there is of
+// no length.
+template <class Real>
+void RowBody<Real>::set(std::uint32_t block, const MovingFrame& frame, const std::vector<Vec3>& x,
+                        const std::vector<Vec3>& v) {
+  const RowBlock& of = this->layout_->blocks[block];
+  const std::span<const std::uint32_t> nodes = this->nodes(block);
+  for (std::uint32_t i = 0; i < of.places(); ++i) {
+    const bool fills_up = i >= nodes.size();
+    const std::uint32_t node = fills_up ? nodes.back() : nodes[i];
+    const Vec3 own_x = x[node] - frame.origin;
+    const Vec3 own_v = fills_up ? Vec3(Vec3::Zero()) : Vec3(v[node] - frame.velocity);
+    const std::uint32_t place = of.first + i;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double place = x[node][static_cast<Eigen::Index>(axis)];
-      this->state_.x[axis][p] = static_cast<Real>(place);
-      this->state_.v[axis][p] =
-          p <= last ? static_cast<Real>(v[node][static_cast<Eigen::Index>(axis)]) : Real(0);
-      if (this->state_.low[axis]) this->state_.low[axis][p] = rounding_of<Real>(place);
+      const auto of_vector = static_cast<Eigen::Index>(axis);
+      this->state_.x[axis][place] = static_cast<Real>(own_x[of_vector]);
+      this->state_.v[axis][place] = static_cast<Real>(own_v[of_vector]);
+      if (this->state_.low[axis])
+        this->state_.low[axis][place] = rounding_of<Real>(own_x[of_vector]);
     }
   }
-  for (std::uint32_t b = 0; b < this->block_count(); ++b) {
-    this->state_.bounds[b].setEmpty();
-    for (std::uint32_t i = 0; i < this->layout_->blocks[b].own; ++i)
-      this->state_.bounds[b].extend(this->x({b, i}));
+  Box3& bounds = this->state_.bounds[block];
+  bounds.setEmpty();
+  for (std::uint32_t i = 0; i < of.own; ++i) bounds.extend(this->x({block, i}));
+}
+
+template <class Real>
+void RowBody<Real>::get_x(std::uint32_t block, const MovingFrame& frame,
+                          std::vector<Vec3>& x) const {
+  const std::span<const std::uint32_t> nodes = this->nodes(block);
+  const std::uint32_t first = this->layout_->blocks[block].first;
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    Vec3 own_x = read<Real>(this->state_.x, first + i);
+    if (this->state_.low[0]) own_x += read<Real>(this->state_.low, first + i);
+    x[nodes[i]] = frame.origin + own_x;
   }
 }
 
 template <class Real>
-void RowBody<Real>::get_x(std::vector<Vec3>& x) const {
-  for (std::uint32_t p = 0; p < this->layout_->node.size(); ++p) {
-    x[this->layout_->node[p]] = read<Real>(this->state_.x, p);
-    if (this->state_.low[0]) x[this->layout_->node[p]] += read<Real>(this->state_.low, p);
-  }
-}
-
-template <class Real>
-void RowBody<Real>::get_v(std::vector<Vec3>& v) const {
-  for (std::uint32_t p = 0; p < this->layout_->node.size(); ++p)
-    v[this->layout_->node[p]] = read<Real>(this->state_.v, p);
+void RowBody<Real>::get_v(std::uint32_t block, const MovingFrame& frame,
+                          std::vector<Vec3>& v) const {
+  const std::span<const std::uint32_t> nodes = this->nodes(block);
+  const std::uint32_t first = this->layout_->blocks[block].first;
+  for (std::uint32_t i = 0; i < nodes.size(); ++i)
+    v[nodes[i]] = frame.velocity + read<Real>(this->state_.v, first + i);
 }
 
 template <class Real>
@@ -56,16 +75,15 @@ Vec3 RowBody<Real>::v(Place at) const {
 }
 
 template <class Real>
+Vec3 RowBody<Real>::force(Place at) const {
+  return read<Real>(this->state_.force[at.block], at.index);
+}
+
+template <class Real>
 void RowBody<Real>::add_force(Place at, const Vec3& force) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     this->state_.force[at.block][axis][at.index] +=
         static_cast<Real>(force[static_cast<Eigen::Index>(axis)]);
-}
-
-template <class Real>
-void RowBody<Real>::add_velocity(Place at, const Vec3& more) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    this->state_.v[axis][position(at)] += static_cast<Real>(more[static_cast<Eigen::Index>(axis)]);
 }
 
 template class RowBody<float>;

@@ -19,15 +19,17 @@ class RowBody final : public LaidBody<RowLayout<Real>, RowState<Real>> {
   BlockRange needs(std::uint32_t block) const override {
     return {this->layout_->first_contributor(block), block};
   }
-  void set(const std::vector<Vec3>& x, const std::vector<Vec3>& v) override;
-  void get_x(std::vector<Vec3>& x) const override;
-  void get_v(std::vector<Vec3>& v) const override;
+  std::span<const std::uint32_t> nodes(std::uint32_t block) const override;
+  void set(std::uint32_t block, const MovingFrame& frame, const std::vector<Vec3>& x,
+           const std::vector<Vec3>& v) override;
+  void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const override;
+  void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const override;
   const Box3& bounds(std::uint32_t block) const override { return this->state_.bounds[block]; }
 
   Vec3 x(Place at) const override;
   Vec3 v(Place at) const override;
+  Vec3 force(Place at) const override;
   void add_force(Place at, const Vec3& force) override;
-  void add_velocity(Place at, const Vec3& more) override;
 
  private:
   std::uint32_t position(Place at) const {

@@ -23,18 +23,30 @@ struct Vector3 {
   hn::Vec<D> x, y, z;
 };
 
-template <class D, class Real>
-HWY_INLINE Vector3<D> load(D d, const typename RowState<Real>::Coordinates& from,
-                           std::size_t place) {
-  return {hn::LoadU(d, from[0].get() + place), hn::LoadU(d, from[1].get() + place),
-          hn::LoadU(d, from[2].get() + place)};
+/// Where the coordinates begin. Kept in registers: the compiler must take it that any store changes
+/// what a RowState refers to.
+template <class Real>
+struct Starts {
+  Real* x;
+  Real* y;
+  Real* z;
+};
+template <class Real>
+HWY_INLINE Starts<Real> starts_of(const std::array<hwy::AlignedFreeUniquePtr<Real[]>, 3>& of,
+                                  std::size_t first = 0) {
+  return {of[0].get() + first, of[1].get() + first, of[2].get() + first};
 }
-template <class D, class Real>
-HWY_INLINE void store(D d, const Vector3<D>& v, typename RowState<Real>::Coordinates& to,
+
+template <class D>
+HWY_INLINE Vector3<D> load(D d, const Starts<hn::TFromD<D>>& from, std::size_t place) {
+  return {hn::LoadU(d, from.x + place), hn::LoadU(d, from.y + place), hn::LoadU(d, from.z + place)};
+}
+template <class D>
+HWY_INLINE void store(D d, const Vector3<D>& v, const Starts<hn::TFromD<D>>& to,
                       std::size_t place) {
-  hn::StoreU(v.x, d, to[0].get() + place);
-  hn::StoreU(v.y, d, to[1].get() + place);
-  hn::StoreU(v.z, d, to[2].get() + place);
+  hn::StoreU(v.x, d, to.x + place);
+  hn::StoreU(v.y, d, to.y + place);
+  hn::StoreU(v.z, d, to.z + place);
 }
 template <class D>
 HWY_INLINE Vector3<D> operator-(const Vector3<D>& p, const Vector3<D>& q) {
@@ -76,23 +88,28 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
   const D d;
   const Vector3<D> none{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   const RowBlock& block = layout.blocks[number];
-  auto& force = state.force[number];
-  auto& damping_force = with_damping ? state.damping_force[number] : force;
-  clear<Real>(block, force);
-  if (with_damping) clear<Real>(block, damping_force);
+  clear<Real>(block, state.force[number]);
+  if (with_damping) clear<Real>(block, state.damping_force[number]);
+  const Starts<Real> x = starts_of<Real>(state.x, block.first);
+  const Starts<Real> v = starts_of<Real>(state.v, block.first);
+  const Starts<Real> force = starts_of<Real>(state.force[number]);
+  const Starts<Real> damping_force =
+      with_damping ? starts_of<Real>(state.damping_force[number]) : force;
+  const SpringRow* const rows = layout.rows.data();
+  const std::uint32_t* const first_row = layout.first_row.data() + block.first / kRowLanes;
+  const RowProperties<Real>* const all_properties = layout.properties.data();
   for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
-    const std::uint32_t place = block.first + p;
-    const std::uint32_t lane = place % kRowLanes;
-    const SpringRow* row = layout.rows.data() + layout.first_row[place / kRowLanes];
-    const SpringRow* const end = layout.rows.data() + layout.first_row[place / kRowLanes + 1];
-    const Vector3<D> own_x = load<D, Real>(d, state.x, place);
-    const Vector3<D> own_v = load<D, Real>(d, state.v, place);
+    const std::uint32_t lane = p % kRowLanes;
+    const SpringRow* const end = rows + first_row[p / kRowLanes + 1];
+    const Vector3<D> own_x = load(d, x, p);
+    const Vector3<D> own_v = load(d, v, p);
     Vector3<D> own_force = none;
     Vector3<D> own_damping = none;
-    for (; row != end; ++row) {
-      const RowProperties<Real>& properties = layout.properties[row->properties];
-      const Vector3<D> along = load<D, Real>(d, state.x, place + row->ahead) - own_x;
-      const Vector3<D> apart = load<D, Real>(d, state.v, place + row->ahead) - own_v;
+    for (const SpringRow* row = rows + first_row[p / kRowLanes]; row != end; ++row) {
+      const std::uint32_t other = p + row->ahead;
+      const RowProperties<Real>& properties = all_properties[row->properties];
+      const Vector3<D> along = load(d, x, other) - own_x;
+      const Vector3<D> apart = load(d, v, other) - own_v;
       const hn::Vec<D> inverse = inverse_root(d, dot<D>(along, along));
       const hn::Vec<D> rate = hn::Mul(dot<D>(along, apart), hn::Mul(inverse, inverse));
       // Forces over length.
@@ -101,19 +118,15 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
       const hn::Vec<D> damping = hn::Mul(hn::LoadU(d, properties.damping + lane), rate);
       const hn::Vec<D> both = hn::Add(elastic, damping);
       own_force = add_scaled<D>(own_force, both, along);
-      const std::uint32_t other = p + row->ahead;
-      store<D, Real>(d, subtract_scaled<D>(load<D, Real>(d, force, other), both, along), force,
-                     other);
+      store(d, subtract_scaled<D>(load(d, force, other), both, along), force, other);
       if constexpr (with_damping) {
         own_damping = add_scaled<D>(own_damping, damping, along);
-        store<D, Real>(d,
-                       subtract_scaled<D>(load<D, Real>(d, damping_force, other), damping, along),
-                       damping_force, other);
+        store(d, subtract_scaled<D>(load(d, damping_force, other), damping, along), damping_force,
+              other);
       }
     }
-    store<D, Real>(d, load<D, Real>(d, force, p) + own_force, force, p);
-    if constexpr (with_damping)
-      store<D, Real>(d, load<D, Real>(d, damping_force, p) + own_damping, damping_force, p);
+    store(d, load(d, force, p) + own_force, force, p);
+    if constexpr (with_damping) store(d, load(d, damping_force, p) + own_damping, damping_force, p);
   }
 }
 
@@ -121,19 +134,18 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
 template <class Real>
 void collect(const RowLayout<Real>& layout, std::uint32_t number,
              std::vector<typename RowState<Real>::Coordinates>& force) {
-  using D = Lanes<Real>;
-  const D d;
+  const Lanes<Real> d;
   const RowBlock& block = layout.blocks[number];
-  for (std::uint32_t from = layout.first_contributor(number); from < number; ++from) {
-    const RowBlock& earlier = layout.blocks[from];
-    const std::uint32_t offset = block.first - earlier.first;
-    const std::uint32_t size = earlier.places() + earlier.reach;
+  const Starts<Real> to = starts_of<Real>(force[number]);
+  for (std::uint32_t earlier = layout.first_contributor(number); earlier < number; ++earlier) {
+    const RowBlock& by = layout.blocks[earlier];
+    const std::uint32_t offset = block.first - by.first;
+    const std::uint32_t size = by.places() + by.reach;
     if (size <= offset) continue;
     const std::uint32_t count = std::min(block.places(), size - offset);
+    const Starts<Real> from = starts_of<Real>(force[earlier], offset);
     for (std::uint32_t p = 0; p < count; p += lane_count<Real>())
-      store<D, Real>(d,
-                     load<D, Real>(d, force[number], p) + load<D, Real>(d, force[from], offset + p),
-                     force[number], p);
+      store(d, load(d, to, p) + load(d, from, p), to, p);
   }
 }
 
@@ -143,11 +155,12 @@ double damping_power(const RowLayout<Real>& layout, std::uint32_t number,
   using D = Lanes<Real>;
   const D d;
   const RowBlock& block = layout.blocks[number];
+  const Starts<Real> force = starts_of<Real>(state.damping_force[number]);
+  const Starts<Real> v = starts_of<Real>(state.v, block.first);
   double power = 0;
   for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>())
     power += static_cast<double>(
-        hn::GetLane(hn::SumOfLanes(d, dot<D>(load<D, Real>(d, state.damping_force[number], p),
-                                             load<D, Real>(d, state.v, block.first + p)))));
+        hn::GetLane(hn::SumOfLanes(d, dot<D>(load(d, force, p), load(d, v, p)))));
   return power;
 }
 
@@ -163,8 +176,9 @@ void find_nodes(const RowLayout<Real>& layout, std::uint32_t number, const RowSt
   const auto within = [](auto value, auto least, auto most) {
     return hn::And(hn::Ge(value, least), hn::Le(value, most));
   };
+  const Starts<Real> all_x = starts_of<Real>(state.x, block.first);
   for (std::uint32_t p = 0; p < block.own; p += lane_count<Real>()) {
-    const Vector3<D> x = load<D, Real>(d, state.x, block.first + p);
+    const Vector3<D> x = load(d, all_x, p);
     const auto inside = hn::And(hn::And(within(x.x, low.x, high.x), within(x.y, low.y, high.y)),
                                 within(x.z, low.z, high.z));
     if (hn::AllFalse(d, inside)) continue;
@@ -175,40 +189,42 @@ void find_nodes(const RowLayout<Real>& layout, std::uint32_t number, const RowSt
   }
 }
 
-template <class Real>
-void kick_axis(const RowLayout<Real>& layout, const RowBlock& block, Real time,
-               const Real* HWY_RESTRICT force, Real* HWY_RESTRICT v) {
+template <bool kicks, bool drifts, class Real>
+void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick, Real drift,
+               std::size_t axis, RowState<Real>& state) {
   const Lanes<Real> d;
+  const RowBlock& block = layout.blocks[number];
   const Real* HWY_RESTRICT inverse_mass = layout.inverse_mass.data() + block.first;
-  for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
-    const auto factor = hn::Mul(hn::Set(d, time), hn::LoadU(d, inverse_mass + p));
-    hn::StoreU(hn::MulAdd(factor, hn::LoadU(d, force + p), hn::LoadU(d, v + p)), d, v + p);
-  }
-}
-
-template <class Real>
-void drift_axis(const RowBlock& block, Real time, std::size_t axis, RowState<Real>& state,
-                Box3& bounds) {
-  const Lanes<Real> d;
-  Real* HWY_RESTRICT x = state.x[axis].get() + block.first;
-  const Real* HWY_RESTRICT v = state.v[axis].get() + block.first;
+  const Real* HWY_RESTRICT force = state.force[number][axis].get();
+  Real* HWY_RESTRICT all_v = state.v[axis].get() + block.first;
+  Real* HWY_RESTRICT all_x = state.x[axis].get() + block.first;
   auto least = hn::Set(d, std::numeric_limits<Real>::max());
   auto most = hn::Set(d, std::numeric_limits<Real>::lowest());
   for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
-    const auto way = hn::Mul(hn::Set(d, time), hn::LoadU(d, v + p));
-    const auto from = hn::LoadU(d, x + p);
-    auto to = hn::Add(from, way);
-    if constexpr (sizeof(Real) == sizeof(float)) {
-      Real* HWY_RESTRICT low = state.low[axis].get() + block.first + p;
-      const auto whole = hn::Add(way, hn::LoadU(d, low));
-      to = hn::Add(from, whole);
-      hn::StoreU(hn::Sub(whole, hn::Sub(to, from)), d, low);
+    auto v = hn::LoadU(d, all_v + p);
+    if constexpr (kicks) {
+      const auto factor = hn::Mul(hn::Set(d, kick), hn::LoadU(d, inverse_mass + p));
+      v = hn::MulAdd(factor, hn::LoadU(d, force + p), v);
+      hn::StoreU(v, d, all_v + p);
     }
-    hn::StoreU(to, d, x + p);
-    least = hn::Min(least, to);
-    most = hn::Max(most, to);
+    if constexpr (drifts) {
+      const auto way = hn::Mul(hn::Set(d, drift), v);
+      const auto from = hn::LoadU(d, all_x + p);
+      auto to = hn::Add(from, way);
+      if constexpr (sizeof(Real) == sizeof(float)) {
+        Real* HWY_RESTRICT low = state.low[axis].get() + block.first + p;
+        const auto whole = hn::Add(way, hn::LoadU(d, low));
+        to = hn::Add(from, whole);
+        hn::StoreU(hn::Sub(whole, hn::Sub(to, from)), d, low);
+      }
+      hn::StoreU(to, d, all_x + p);
+      least = hn::Min(least, to);
+      most = hn::Max(most, to);
+    }
   }
+  if (!drifts) return;
   const auto i = static_cast<Eigen::Index>(axis);
+  Box3& bounds = state.bounds[number];
   bounds.min()[i] = static_cast<double>(hn::GetLane(hn::MinOfLanes(d, least)));
   bounds.max()[i] = static_cast<double>(hn::GetLane(hn::MaxOfLanes(d, most)));
 }
@@ -216,12 +232,15 @@ void drift_axis(const RowBlock& block, Real time, std::size_t axis, RowState<Rea
 template <class Real>
 void move(const RowLayout<Real>& layout, std::uint32_t number, double kick, double drift,
           RowState<Real>& state) {
-  const RowBlock& block = layout.blocks[number];
+  const auto kick_time = static_cast<Real>(kick);
+  const auto drift_time = static_cast<Real>(drift);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (kick != 0)
-      kick_axis(layout, block, static_cast<Real>(kick), state.force[number][axis].get(),
-                state.v[axis].get() + block.first);
-    if (drift != 0) drift_axis(block, static_cast<Real>(drift), axis, state, state.bounds[number]);
+    if (kick != 0 && drift != 0)
+      move_axis<true, true>(layout, number, kick_time, drift_time, axis, state);
+    else if (kick != 0)
+      move_axis<true, false>(layout, number, kick_time, drift_time, axis, state);
+    else if (drift != 0)
+      move_axis<false, true>(layout, number, kick_time, drift_time, axis, state);
   }
 }
 

@@ -126,7 +126,9 @@ void cut_blocks(RowLayout<Real>& layout) {
   const auto n = static_cast<std::uint32_t>(layout.node.size());
   std::uint32_t farthest = 0;
   for (const SpringRow& row : layout.rows) farthest = std::max(farthest, row.ahead);
-  layout.block_places = std::max(kBlockNodes, kBlocksReach * farthest / kRowLanes * kRowLanes);
+  // An even number of blocks of the same size, for two threads to share.
+  const std::uint32_t count = n / std::max(kBlockNodes, kBlocksReach * farthest);
+  layout.block_places = whole_rows((n - 1) / std::max(1U, count - count % 2) + 1);
   layout.place.resize(n);
   for (std::uint32_t first = 0; first < n; first += layout.block_places) {
     RowBlock block{first, std::min(layout.block_places, n - first), 0};

@@ -1,7 +1,6 @@
 #include "sim/fast/step_team.hpp"
 
 #include <thread>
-#include <vector>
 
 namespace springlod {
 
@@ -10,6 +9,12 @@ namespace {
 // Looks at the others before the core is offered to someone else [1]: some 20 microseconds, longer
 // than threads with equal work are apart.
 constexpr int kLooks = 10'000;
+
+template <class Come>
+void wait_until(Come come) {
+  for (int look = 0; !come(); ++look)
+    if (look >= kLooks) std::this_thread::yield();
+}
 
 }  // namespace
 
@@ -20,8 +25,15 @@ void MeetingPoint::arrive_and_wait() {
     meetings_.store(meeting + 1, std::memory_order_release);
     return;
   }
-  for (int look = 0; meetings_.load(std::memory_order_acquire) == meeting; ++look)
-    if (look >= kLooks) std::this_thread::yield();
+  wait_until([&] { return meetings_.load(std::memory_order_acquire) != meeting; });
+}
+
+void Milestones::reset() {
+  for (std::atomic<std::uint32_t>& one : reached_) one.store(0, std::memory_order_relaxed);
+}
+
+void Milestones::wait_for(std::uint32_t part, std::uint32_t milestone) const {
+  wait_until([&] { return reached_[part].load(std::memory_order_acquire) >= milestone; });
 }
 
 void StepTeam::run(const std::function<void(const Member&)>& work) const {

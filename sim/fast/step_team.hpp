@@ -3,11 +3,14 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace springlod {
 
-/// Where threads wait for each other, a few microseconds at a time: waking a sleeping thread would
-/// take longer than that, so they stay awake.
+// Threads wait for each other a few microseconds at a time: waking a sleeping thread would take
+// longer than that, so they stay awake.
+
+/// Where all of them wait for all.
 class MeetingPoint {
  public:
   explicit MeetingPoint(std::uint32_t size) : size_(size) {}
@@ -17,6 +20,21 @@ class MeetingPoint {
   std::uint32_t size_;
   std::atomic<std::uint32_t> arrived_{0};
   std::atomic<std::uint32_t> meetings_{0};
+};
+
+/// How far each of several parts of the work has come, for threads that need each other's parts.
+class Milestones {
+ public:
+  explicit Milestones(std::uint32_t parts) : reached_(parts) {}
+  /// To be called by one thread while no other works.
+  void reset();
+  void reach(std::uint32_t part, std::uint32_t milestone) {
+    reached_[part].store(milestone, std::memory_order_release);
+  }
+  void wait_for(std::uint32_t part, std::uint32_t milestone) const;
+
+ private:
+  std::vector<std::atomic<std::uint32_t>> reached_;
 };
 
 /// Threads that go through the same steps side by side.

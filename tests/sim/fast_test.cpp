@@ -3,6 +3,7 @@
 #include <random>
 
 #include <catch2/catch.hpp>
+#include <hwy/targets.h>
 
 #include "lod/build.hpp"
 #include "model/error.hpp"
@@ -118,6 +119,41 @@ TEST_CASE("Fast steps are those of the plain kernel, to rounding, whatever the l
   CHECK(largest_difference(plain.state.x, single.state.x) < 1e-4 * size);
   CHECK(largest_difference(plain.state.x, single.state.x) > 0);
   CHECK(single.ledger.total() == Approx(energy).epsilon(1e-3));
+}
+
+TEST_CASE("Fast steps of bodies of many blocks are those of the plain kernel") {
+  const int side = GENERATE(25, 33);  // blocks that are no multiple of a line, nor of a layer
+  const bool merged = GENERATE(false, true);
+  const MassSpringModel lattice = two_material_block(side);
+  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  const Scenario scene = rough_scene(model);
+  constexpr std::uint64_t kFew = 20;
+  const Outcome plain = after<Leapfrog>(model, scene, kFew, {}, 1);
+  const Outcome fast = after<FastLeapfrog>(model, scene, kFew, {}, 1000);
+  const double size = bounds(model.rest).sizes().norm();
+  CHECK(largest_difference(plain.state.x, fast.state.x) < 1e-12 * size);
+  CHECK(fast.contacts == plain.contacts);
+}
+
+TEST_CASE("Fast steps are those of the plain kernel on every kind of vectors") {
+  const bool merged = GENERATE(false, true);
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  const MassSpringModel lattice = two_material_block(9);
+  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  const Scenario scene = rough_scene(model);
+  constexpr std::uint64_t kFew = 50;
+  const Outcome plain = after<Leapfrog>(model, scene, kFew, {}, 1);
+  const double size = bounds(model.rest).sizes().norm();
+  const double near = precision == Precision::double_precision ? 1e-11 : 1e-6;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    INFO(hwy::TargetName(target));
+    hwy::DisableTargets(target - 1);  // better ones have lower bits
+    const std::string used = vector_target();
+    const Outcome fast = after<FastLeapfrog>(model, scene, kFew, {.precision = precision}, 1000);
+    hwy::DisableTargets(0);
+    CHECK(used == hwy::TargetName(target));
+    CHECK(largest_difference(plain.state.x, fast.state.x) < near * size);
+  }
 }
 
 TEST_CASE("Fast steps give the same bits, however many are taken at once, with a ledger or not") {
