@@ -36,8 +36,8 @@ std::vector<Parameter> run_parameters(const RunOptions& usual) {
           {.name = "precision",
            .type = "one of",
            .fallback = "\"double\"",
-           .help = "of the numbers symplectic_euler moves a body with; single is up to twice as "
-                   "fast, docs/precision.md tells what it costs",
+           .help = "of the numbers symplectic_euler moves a body with; a step in single takes some "
+                   "two thirds of the time, docs/precision.md tells what it costs",
            .choices = {"double", "single"}},
           {.name = "sleep",
            .type = "number",

@@ -16,7 +16,8 @@ namespace {
 // the new one costs some three steps.
 constexpr std::uint64_t kFrameEvery = 64;
 
-// Threads meet twice a step: below this many nodes each, that costs more than they save.
+// Threads wait for each other twice a step: below this many nodes each, that costs more than they
+// save.
 constexpr std::uint32_t kNodesAThread = 2 * kBlockNodes;
 
 std::uint32_t team_size(std::uint32_t threads, std::uint32_t blocks, std::uint32_t nodes) {
