@@ -98,8 +98,8 @@ HWY_INLINE Side<V4<double>> transpose(V4<double> a, V4<double> b, V4<double> c, 
   return {hn::ConcatLowerLower(d, ce_x_z, ab_x_z), hn::ConcatLowerLower(d, ce_y_w, ab_y_w),
           hn::ConcatUpperUpper(d, ce_x_z, ab_x_z)};
 }
-template <class D, class V>
-HWY_INLINE V dot(D /*d*/, const Side<V>& p, const Side<V>& q) {
+template <class V>
+HWY_INLINE V dot(const Side<V>& p, const Side<V>& q) {
   return hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::Mul(p.z, q.z)));
 }
 
@@ -120,8 +120,8 @@ HWY_INLINE void measure(const QuadPair<float>& pair, const NodeRecord<float>* re
                    hn::ConcatLowerLower(d, b.z, a.z)};
   const Side<V8> v{hn::ConcatUpperUpper(d, b.x, a.x), hn::ConcatUpperUpper(d, b.y, a.y),
                    hn::ConcatUpperUpper(d, b.z, a.z)};
-  hn::Store(dot(d, x, x), d, square);
-  hn::Store(dot(d, x, v), d, way);
+  hn::Store(dot(x, x), d, square);
+  hn::Store(dot(x, v), d, way);
 }
 HWY_INLINE void measure(const QuadPair<double>& pair, const NodeRecord<double>* records,
                         double* square, double* way) {
@@ -141,8 +141,8 @@ HWY_INLINE void measure(const QuadPair<double>& pair, const NodeRecord<double>* 
         transpose(x_apart(other[0]), x_apart(other[1]), x_apart(other[2]), x_apart(other[3]));
     const Side<V4<double>> v =
         transpose(v_apart(other[0]), v_apart(other[1]), v_apart(other[2]), v_apart(other[3]));
-    hn::Store(dot(d, x, x), d, square + first);
-    hn::Store(dot(d, x, v), d, way + first);
+    hn::Store(dot(x, x), d, square + first);
+    hn::Store(dot(x, v), d, way + first);
   }
 }
 
