@@ -125,7 +125,7 @@ MovingFrame FastLeapfrog::take_new_frame(const Share& share) {
     sum.velocity += of_block.velocity;
   }
   const auto count = static_cast<double>(x_.size());
-  const MovingFrame frame{sum.origin / count, sum.velocity / count};
+  MovingFrame frame{sum.origin / count, sum.velocity / count};
   for (std::uint32_t b = share.first; b < share.end; ++b) body_->set(b, frame, x_, v_minus_);
   share.member.meet();
   return frame;
