@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace springlod {
 namespace {
@@ -57,11 +58,12 @@ BlockOrder order_in_blocks(const std::vector<Vec3>& points, std::uint32_t most) 
 
   Eigen::Index axis = 0;
   halving.box(halved).sizes().maxCoeff(&axis);
-  std::stable_sort(blocks.begin(), blocks.end(), [&](Part p, Part q) {
-    return halving.box(p).center()[axis] < halving.box(q).center()[axis];
-  });
+  std::vector<std::pair<double, Part>> along;
+  for (const Part block : blocks) along.emplace_back(halving.box(block).center()[axis], block);
+  std::stable_sort(along.begin(), along.end(),
+                   [](const auto& p, const auto& q) { return p.first < q.first; });
   BlockOrder order;
-  for (const Part block : blocks) {
+  for (const auto& [center, block] : along) {
     order.first.push_back(static_cast<std::uint32_t>(order.point.size()));
     order.point.insert(order.point.end(), block.begin(), block.end());
   }

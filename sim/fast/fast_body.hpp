@@ -12,8 +12,8 @@
 namespace springlod {
 
 /// Places and velocities of one body in a layout made for speed, measured in a frame that its owner
-/// keeps, moved block by block. Blocks may
-/// be worked on by several threads: which does what changes no bit.
+/// keeps, moved block by block. Blocks may be worked on by several threads: which does what changes
+/// no bit.
 ///
 /// A step: every block finds its forces; as soon as all that a block `needs` have, it collects them
 /// and moves. Between the two, forces from outside may be added to its nodes.

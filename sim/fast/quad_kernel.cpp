@@ -10,6 +10,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "sim/fast/move-inl.hpp"
 #include "sim/fast/quad_forces-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -95,7 +96,8 @@ void find_nodes(const QuadLayout<Real>& layout, std::uint32_t number, const Quad
 }
 
 template <bool kicks, bool drifts, class Real>
-void move(const QuadBlock<Real>& block, Real kick, Real drift, QuadBlockState<Real>& own) {
+void move(const QuadBlock<Real>& block, Real kick_time, Real drift_time,
+          QuadBlockState<Real>& own) {
   const Corner<Real> d;
   NodeVector<Real> least;
   NodeVector<Real> most;
@@ -106,21 +108,17 @@ void move(const QuadBlock<Real>& block, Real kick, Real drift, QuadBlockState<Re
       NodeRecord<Real>& record = own.records[i];
       auto v = hn::Load(d, record.v + lane);
       if constexpr (kicks) {
-        const auto factor = hn::Set(d, kick * block.inverse_mass[i]);
+        const auto factor = hn::Set(d, kick_time * block.inverse_mass[i]);
         v = hn::MulAdd(factor, hn::Load(d, own.forces[i].at + lane), v);
         hn::Store(v, d, record.v + lane);
       }
       if constexpr (drifts) {
-        const auto way = hn::Mul(hn::Set(d, drift), v);
-        const auto from = hn::Load(d, record.x + lane);
-        auto to = hn::Add(from, way);
-        if constexpr (sizeof(Real) == sizeof(float)) {
-          Real* low = own.low[i].at + lane;
-          const auto whole = hn::Add(way, hn::Load(d, low));
-          to = hn::Add(from, whole);
-          hn::Store(hn::Sub(whole, hn::Sub(to, from)), d, low);
-        }
-        hn::Store(to, d, record.x + lane);
+        const auto way = hn::Mul(hn::Set(d, drift_time), v);
+        hn::Vec<Corner<Real>> to;
+        if constexpr (kHasLow<Real>)
+          to = drift(d, way, record.x + lane, own.low[i].at + lane);
+        else
+          to = drift(d, way, record.x + lane);
         low_corner = hn::Min(low_corner, to);
         high_corner = hn::Max(high_corner, to);
       }
@@ -139,14 +137,9 @@ template <class Real>
 void move_nodes(const QuadLayout<Real>& layout, std::uint32_t number, double kick, double drift,
                 QuadState<Real>& state) {
   const QuadBlock<Real>& block = layout.blocks[number];
-  const auto kick_time = static_cast<Real>(kick);
-  const auto drift_time = static_cast<Real>(drift);
-  if (kick != 0 && drift != 0)
-    move<true, true>(block, kick_time, drift_time, state[number]);
-  else if (kick != 0)
-    move<true, false>(block, kick_time, drift_time, state[number]);
-  else if (drift != 0)
-    move<false, true>(block, kick_time, drift_time, state[number]);
+  move_for(kick, drift, [&](auto kicks, auto drifts) {
+    move<kicks, drifts>(block, static_cast<Real>(kick), static_cast<Real>(drift), state[number]);
+  });
 }
 
 template <class Real>

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "sim/fast/inverse_root-inl.hpp"
+#include "sim/fast/move-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::HWY_NAMESPACE {
@@ -190,7 +191,7 @@ void find_nodes(const RowLayout<Real>& layout, std::uint32_t number, const RowSt
 }
 
 template <bool kicks, bool drifts, class Real>
-void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick, Real drift,
+void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick_time, Real drift_time,
                std::size_t axis, RowState<Real>& state) {
   const Lanes<Real> d;
   const RowBlock& block = layout.blocks[number];
@@ -203,21 +204,17 @@ void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick, R
   for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
     auto v = hn::LoadU(d, all_v + p);
     if constexpr (kicks) {
-      const auto factor = hn::Mul(hn::Set(d, kick), hn::LoadU(d, inverse_mass + p));
+      const auto factor = hn::Mul(hn::Set(d, kick_time), hn::LoadU(d, inverse_mass + p));
       v = hn::MulAdd(factor, hn::LoadU(d, force + p), v);
       hn::StoreU(v, d, all_v + p);
     }
     if constexpr (drifts) {
-      const auto way = hn::Mul(hn::Set(d, drift), v);
-      const auto from = hn::LoadU(d, all_x + p);
-      auto to = hn::Add(from, way);
-      if constexpr (sizeof(Real) == sizeof(float)) {
-        Real* HWY_RESTRICT low = state.low[axis].get() + block.first + p;
-        const auto whole = hn::Add(way, hn::LoadU(d, low));
-        to = hn::Add(from, whole);
-        hn::StoreU(hn::Sub(whole, hn::Sub(to, from)), d, low);
-      }
-      hn::StoreU(to, d, all_x + p);
+      const auto way = hn::Mul(hn::Set(d, drift_time), v);
+      hn::Vec<Lanes<Real>> to;
+      if constexpr (kHasLow<Real>)
+        to = drift(d, way, all_x + p, state.low[axis].get() + block.first + p);
+      else
+        to = drift(d, way, all_x + p);
       least = hn::Min(least, to);
       most = hn::Max(most, to);
     }
@@ -232,16 +229,11 @@ void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick, R
 template <class Real>
 void move(const RowLayout<Real>& layout, std::uint32_t number, double kick, double drift,
           RowState<Real>& state) {
-  const auto kick_time = static_cast<Real>(kick);
-  const auto drift_time = static_cast<Real>(drift);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (kick != 0 && drift != 0)
-      move_axis<true, true>(layout, number, kick_time, drift_time, axis, state);
-    else if (kick != 0)
-      move_axis<true, false>(layout, number, kick_time, drift_time, axis, state);
-    else if (drift != 0)
-      move_axis<false, true>(layout, number, kick_time, drift_time, axis, state);
-  }
+  move_for(kick, drift, [&](auto kicks, auto drifts) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      move_axis<kicks, drifts>(layout, number, static_cast<Real>(kick), static_cast<Real>(drift),
+                               axis, state);
+  });
 }
 
 template <class Real>
