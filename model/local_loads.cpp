@@ -1,0 +1,138 @@
+#include "model/local_loads.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "model/chance.hpp"
+#include "model/error.hpp"
+
+namespace springlod {
+namespace {
+
+/// Where patches can be, and how wide they are.
+class Surface {
+ public:
+  Surface(const MassSpringModel& model, double radius) : model_(model) {
+    double length = 0;
+    for (const double each : model.rest_length) length += each;
+    if (model.spring_count() > 0) radius_ = radius * length / model.spring_count();
+    for (std::uint32_t i = 0; i < model.node_count(); ++i)
+      if (model.border[i] != 0) border_.push_back(i);
+    if (border_.empty()) throw InputError("local loads: the model has no border nodes to push at");
+    find_normals();
+  }
+
+  std::uint32_t any(ChanceStream& chance) const {
+    return border_[chance.below(static_cast<std::uint32_t>(border_.size()))];
+  }
+
+  /// Shares `force` among the border nodes around `center`.
+  void pull(std::uint32_t center, const Vec3& force, StaticLoad& load) const {
+    std::vector<std::uint32_t> patch;
+    for (const std::uint32_t i : border_)
+      if (i == center || (model_.rest[i] - model_.rest[center]).norm() <= radius_)
+        patch.push_back(i);
+    for (const std::uint32_t i : patch) load.force[i] += force / static_cast<double>(patch.size());
+  }
+
+  /// The border node nearest to the line that goes from `from` into the body, a patch or more away;
+  /// `from` itself if there is none.
+  std::uint32_t opposite(std::uint32_t from) const {
+    std::uint32_t best = from;
+    double nearest = 0;
+    for (const std::uint32_t i : border_) {
+      const Vec3 way = model_.rest[i] - model_.rest[from];
+      const double depth = -way.dot(normal_[from]);
+      if (depth < radius_) continue;
+      const double aside = (way + depth * normal_[from]).norm();
+      // Of two on the line the nearer is what the patch squeezes.
+      const double distance = aside + depth;
+      if (aside > radius_ || (best != from && distance >= nearest)) continue;
+      best = i;
+      nearest = distance;
+    }
+    return best;
+  }
+
+  double radius() const { return radius_; }
+
+ private:
+  /// Away from where the springs of the patch lead.
+  void find_normals() {
+    normal_.assign(model_.node_count(), Vec3::Zero());
+    for (std::uint32_t s = 0; s < model_.spring_count(); ++s) {
+      const Vec3 way = model_.rest[model_.b[s]] - model_.rest[model_.a[s]];
+      normal_[model_.a[s]] -= way;
+      normal_[model_.b[s]] += way;
+    }
+    for (Vec3& normal : normal_) normal.normalize();
+  }
+
+  const MassSpringModel& model_;
+  double radius_ = 0;
+  std::vector<std::uint32_t> border_;
+  std::vector<Vec3> normal_;  // N, length 1, or 0 where the springs cancel out
+};
+
+/// Draws so often for each load wanted before a body counts as too small for more.
+constexpr std::uint32_t kTries = 100;
+
+/// Up to `count` loads of those that draw(load) fills in; it returns false if a draw was no good.
+template <class Draw>
+std::vector<StaticLoad> draw_loads(const MassSpringModel& model, std::uint32_t count,
+                                   const char* name, const Draw& draw) {
+  std::vector<StaticLoad> loads;
+  for (std::uint32_t tries = 0; loads.size() < count && tries < kTries * count; ++tries) {
+    StaticLoad load{fmt::format("{} {}", name, loads.size() + 1),
+                    std::vector<Vec3>(model.node_count(), Vec3::Zero())};
+    if (draw(load)) loads.push_back(std::move(load));
+  }
+  return loads;
+}
+
+}  // namespace
+
+std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoadOptions& options) {
+  const Surface surface(model, options.radius);
+  ChanceStream chance(options.seed);
+  return draw_loads(model, options.count, "patches", [&](StaticLoad& load) {
+    const std::uint32_t p = surface.any(chance);
+    const std::uint32_t q = surface.any(chance);
+    const Vec3 apart = model.rest[q] - model.rest[p];
+    if (p == q || apart.norm() < 2 * surface.radius()) return false;
+    surface.pull(p, -apart.normalized(), load);
+    surface.pull(q, apart.normalized(), load);
+    return true;
+  });
+}
+
+std::vector<StaticLoad> pinches(const MassSpringModel& model, const LocalLoadOptions& options) {
+  const Surface surface(model, options.radius);
+  ChanceStream chance(options.seed);
+  return draw_loads(model, options.count, "pinch", [&](StaticLoad& load) {
+    const std::uint32_t p = surface.any(chance);
+    const std::uint32_t q = surface.opposite(p);
+    if (p == q) return false;
+    const Vec3 across = (model.rest[q] - model.rest[p]).normalized();
+    surface.pull(p, across, load);
+    surface.pull(q, -across, load);
+    return true;
+  });
+}
+
+std::vector<StaticLoad> pushes(const MassSpringModel& model, const LocalLoadOptions& options) {
+  const Surface surface(model, options.radius);
+  ChanceStream chance(options.seed);
+  return draw_loads(model, options.count, "push", [&](StaticLoad& load) {
+    const std::uint32_t p = surface.any(chance);
+    Vec3 way;
+    do {
+      for (int d = 0; d < 3; ++d) way[d] = 2 * chance.unit() - 1;
+    } while (way.norm() > 1 || way.norm() < 0.1);
+    surface.pull(p, way.normalized(), load);
+    return true;
+  });
+}
+
+}  // namespace springlod
