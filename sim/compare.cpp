@@ -10,8 +10,8 @@
 
 #include "lod/transfer.hpp"
 #include "model/error.hpp"
+#include "model/parallel.hpp"
 #include "sim/deviation.hpp"
-#include "sim/parallel.hpp"
 #include "sim/run_progress.hpp"
 #include "sim/starts.hpp"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "model/error.hpp"
-#include "sim/parallel.hpp"
+#include "model/parallel.hpp"
 #include "sim/run_progress.hpp"
 
 namespace springlod {

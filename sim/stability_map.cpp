@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "model/error.hpp"
-#include "sim/parallel.hpp"
+#include "model/parallel.hpp"
 #include "sim/run_progress.hpp"
 #include "sim/stability_body.hpp"
 #include "sim/stiffness_ratio.hpp"

@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "model/error.hpp"
+#include "model/parallel.hpp"
 #include "sim/deviation.hpp"
-#include "sim/parallel.hpp"
 #include "sim/starts.hpp"
 #include "tests/sim/bodies.hpp"
 

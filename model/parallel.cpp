@@ -1,4 +1,4 @@
-#include "sim/parallel.hpp"
+#include "model/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
