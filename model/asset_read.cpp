@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/asset.hpp"
+#include "model/asset_certificate.hpp"
 #include "model/asset_format.hpp"
 #include "model/error.hpp"
 #include "model/file.hpp"
@@ -76,7 +77,7 @@ class ExactReader {
         asset.provenance.entries.emplace_back(entry.at(0).get<std::string>(),
                                               entry.at(1).get<std::string>());
     for (const json& level : extension.at("levels"))
-      asset.chain.levels.push_back(read_level(level));
+      asset.chain.levels.push_back(read_level(level, asset.chain.levels.size()));
     if (extension.contains("surface")) read_surface(extension.at("surface"), asset);
 
     json rest = extension;
@@ -117,7 +118,7 @@ class ExactReader {
             {colour.at(0).get<float>(), colour.at(1).get<float>(), colour.at(2).get<float>()}};
   }
 
-  Level read_level(const json& object) {
+  Level read_level(const json& object, std::size_t number) {
     Level level;
     MassSpringModel& model = level.model;
     level.made_by = object.at("madeBy").get<std::string>();
@@ -138,6 +139,9 @@ class ExactReader {
     model.damping = take<double>(object, "damping");
     level.of_base.of = take<std::uint32_t>(object, "nodeOfBase");
     level.of_base.count = model.node_count();
+    if (object.contains("certificate"))
+      level.certificate = read_certificate(object.at("certificate"),
+                                           fmt::format("the certificate of level {}", number));
     return level;
   }
 

@@ -1,7 +1,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <string>
 
 #include <fmt/format.h>
@@ -10,8 +9,10 @@
 
 #include "model/asset.hpp"
 #include "model/asset_buffer.hpp"
+#include "model/asset_certificate.hpp"
 #include "model/asset_display.hpp"
 #include "model/asset_format.hpp"
+#include "model/asset_json.hpp"
 #include "model/error.hpp"
 #include "model/file.hpp"
 
@@ -19,35 +20,6 @@ namespace springlod {
 namespace {
 
 using nlohmann::json;
-
-/// Mesh files may hold names in any encoding, JSON only UTF-8: bytes that are none become U+FFFD.
-std::string utf8(const std::string& text) {
-  return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
-      .get<std::string>();
-}
-
-/// tinygltf has a JSON type of its own.
-tinygltf::Value gltf_value(const json& value) {
-  if (value.is_object()) {
-    tinygltf::Value::Object object;
-    for (const auto& [key, entry] : value.items()) object.emplace(key, gltf_value(entry));
-    return tinygltf::Value(std::move(object));
-  }
-  if (value.is_array()) {
-    tinygltf::Value::Array array;
-    for (const json& entry : value) array.push_back(gltf_value(entry));
-    return tinygltf::Value(std::move(array));
-  }
-  if (value.is_string()) return tinygltf::Value(value.get<std::string>());
-  if (value.is_number_float()) return tinygltf::Value(value.get<double>());
-  return tinygltf::Value(value.get<int>());
-}
-
-int whole_number(std::size_t count) {
-  if (count > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw IoError(fmt::format("an asset cannot count up to {}; use larger cells", count));
-  return static_cast<int>(count);
-}
 
 /// Puts the exact arrays into the buffer and describes them in the extension.
 class ExactWriter {
@@ -113,6 +85,7 @@ class ExactWriter {
     put(object, "stiffness", model.stiffness);
     put(object, "damping", model.damping);
     put(object, "nodeOfBase", level.of_base.of);
+    if (level.certificate) object["certificate"] = certificate_json(*level.certificate);
     return object;
   }
 

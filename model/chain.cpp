@@ -67,6 +67,7 @@ void validate(const LodAsset& asset) {
     try {
       validate(level.model);
       validate(level.of_base);
+      if (level.certificate) validate(*level.certificate);
     } catch (const InputError& e) {
       throw InputError(fmt::format("level {}: {}", n, e.what()));
     }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "model/binding.hpp"
+#include "model/certificate.hpp"
 #include "model/mass_spring.hpp"
 #include "model/mesh.hpp"
 
@@ -33,6 +35,7 @@ struct Level {
   MassSpringModel model;
   Groups of_base;
   std::string made_by;
+  std::optional<Certificate> certificate{};  ///< what it was measured to be, if it was
 };
 
 /// Levels 0..n, 0 = base = finest.

@@ -11,6 +11,7 @@
 #include "model/stable_step.hpp"
 #include "model/units.hpp"
 #include "scripting/call.hpp"
+#include "scripting/certificate_table.hpp"
 #include "scripting/model_table.hpp"
 #include "scripting/records.hpp"
 #include "scripting/values.hpp"
@@ -132,6 +133,10 @@ void push_level_info(lua_State* L, const Level& level, std::size_t number) {
   set_field(L, "made_by", level.made_by);
   push_materials(L, model.materials);
   end_field(L, "materials");
+  if (level.certificate) {
+    push_certificate(L, *level.certificate);
+    end_field(L, "certificate");
+  }
 }
 
 int info_binding(Call& call) {
@@ -296,9 +301,10 @@ void describe_assets(Api& api) {
       .group = kFiles,
       .summary = "What a chain holds, as plain tables.",
       .arguments = {chain},
-      .returns = "table: levels (a list of level, nodes, springs, ends, border_nodes, mass, "
-                 "center_of_mass, inertia, stable_dt, made_by, materials), provenance, "
-                 "surface_triangles",
+      .returns =
+          "table: levels (a list of level, nodes, springs, ends, border_nodes, mass, "
+          "center_of_mass, inertia, stable_dt, made_by, materials, certificate), provenance, "
+          "surface_triangles; a level that was measured beside the base has a Certificate",
       .errors = "None for a valid chain.",
       .example = "print(s.json(s.info(chain)))",
       .call = info_binding});
@@ -330,6 +336,7 @@ void describe_model(Api& api) {
                                "  springs = {{1, 2, k = 100}}}",
                     .call = model_binding});
   describe_estimates(api);
+  describe_certificate(api);
   describe_assets(api);
 }
 

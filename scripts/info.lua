@@ -1,6 +1,7 @@
 -- Tells what is in an asset, level by level.
 
 local s = require "springlod"
+local certificates = require "lib.certificates"
 local command = require "lib.command"
 
 local parser = command.parser("info", "Tells what is in an asset, level by level.")
@@ -25,6 +26,7 @@ end
 print()
 print(s.format_table(rows, {columns = {"level", "nodes", "springs", "ends", "border", "mass [kg]",
                                        "stable step [s]", "made by"}}))
+certificates.print(info.levels)
 local base = info.levels[1]
 print()
 print(("center of mass  %.4g %.4g %.4g m"):format(table.unpack(base.center_of_mass)))

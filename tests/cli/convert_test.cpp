@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "model/asset.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/model/sample_assets.hpp"
 
 using Catch::Matchers::Contains;
 using nlohmann::json;
@@ -179,6 +181,57 @@ TEST_CASE("a batch goes on past a bad mesh and ends with a table") {
   CHECK(good.exit_code == 0);
   CHECK(springlod_run({"convert", (scratch / "meshes").string(), "-o", out + ".glb"}).exit_code ==
         2);
+}
+
+TEST_CASE("info shows what levels were measured to be") {
+  const Scratch scratch;
+  const std::string path = (scratch / "asset.glb").string();
+  springlod::LodAsset asset = springlod::test::sample_asset();
+  asset.chain.levels[1].certificate = springlod::test::sample_certificate();
+  springlod::Certificate good = springlod::test::sample_certificate();
+  good.misses.clear();
+  good.loads.clear();
+  asset.chain.levels[2].certificate = good;
+  springlod::save_asset(asset, path);
+
+  const Ran info = springlod_run({"info", path, "--json"});
+  CAPTURE(info.err);
+  REQUIRE(info.exit_code == 0);
+  const json levels = json::parse(info.out).at("levels");
+  CHECK_FALSE(levels.at(0).contains("certificate"));
+  const json& c = levels.at(1).at("certificate");
+  CHECK(c.at("moduli").at(1) == json{{"material", "rubber"},
+                                     {"young", 1e5 / 7},
+                                     {"base_young", 1e5},
+                                     {"poisson", 0.1},
+                                     {"base_poisson", 0.2}});
+  CHECK(c.at("frequencies").at(0).at("level") == 10.0 / 3);
+  CHECK(c.at("frequencies").at(0).at("error").get<double>() == Approx(10.0 / 3 / 3.3 - 1));
+  CHECK(c.at("frequencies").at(1).at("mac") == 0.2);
+  CHECK(c.at("loads").at(1) == json{{"name", "pinch \"1\""}, {"held_out", true}, {"error", 0.1}});
+  CHECK(c.at("fitted_load_error").get<double>() == Approx(0.02 / 3));
+  CHECK(c.at("held_out_load_error") == 0.1);
+  CHECK(c.at("f1_10_error").get<double>() > 0);
+  CHECK_FALSE(c.contains("f11_20_error"));  // only two frequencies
+  CHECK(c.at("cost_ratio").get<double>() == Approx(1.0 / 110));
+  CHECK(c.at("zero_modes") == 7);
+  CHECK(c.at("expected_zero_modes") == 6);
+  CHECK(c.at("tolerance") == 0.05);
+  CHECK(c.at("misses").size() == 2);
+  for (const char* key : {"mass_error", "center_shift", "second_moment_error", "highest_frequency",
+                          "stable_step", "cost"})
+    CHECK(c.contains(key));
+  CHECK_FALSE(levels.at(2).at("certificate").contains("fitted_load_error"));
+
+  const Ran text = springlod_run({"info", path});
+  CAPTURE(text.out, text.err);
+  REQUIRE(text.exit_code == 0);
+  CHECK_THAT(text.out, Contains("omega_max / base") && Contains("as asked"));
+  CHECK_THAT(text.out, Contains("0.67 %") && Contains("10.00 %") && Contains("7 of 6"));
+  CHECK_THAT(text.out, Contains("level 1, rubber: E 1.429e+04 Pa (base 1e+05, -85.71 %), nu 0.100 "
+                                "(base 0.200)"));
+  CHECK_THAT(text.out, Contains("level 1 MISSES: 7 zero modes instead of 6; f1..10 off by"));
+  CHECK_THAT(text.out, !Contains("level 2 MISSES"));
 }
 
 TEST_CASE("info refuses what is no asset") {

@@ -9,14 +9,17 @@
 
 #include "model/error.hpp"
 #include "model/file.hpp"
+#include "tests/model/glb_text.hpp"
 #include "tests/model/sample_assets.hpp"
 
 namespace springlod {
 namespace {
 
 using Catch::Matchers::Contains;
+using test::Layout;
 using test::sample_asset;
 using test::TemporaryFolder;
+using test::with_json;
 
 template <class T>
 bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
@@ -64,32 +67,6 @@ void check_same(const LodAsset& a, const LodAsset& b) {
 /// Overwrites in place: thousands of renames would each wait for the disk.
 void overwrite(const std::filesystem::path& path, std::string_view bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
-}
-
-/// Parts of a .glb file: [begin, end) of the JSON text and of the binary chunk.
-struct Layout {
-  std::size_t json_begin = 20, json_end = 0, binary_begin = 0;
-  explicit Layout(const std::string& file) {
-    std::uint32_t length = 0;
-    std::memcpy(&length, file.data() + 12, 4);
-    json_end = json_begin + length;
-    binary_begin = json_end + 8;
-  }
-};
-
-/// The file with the JSON text changed and the lengths set right again.
-std::string with_json(const std::string& file, const std::string& from, const std::string& to) {
-  const Layout layout(file);
-  std::string json = file.substr(layout.json_begin, layout.json_end - layout.json_begin);
-  REQUIRE(json.find(from) != std::string::npos);
-  json.replace(json.find(from), from.size(), to);
-  while (json.size() % 4 != 0) json += ' ';
-  std::string changed = file.substr(0, layout.json_begin) + json + file.substr(layout.json_end);
-  const auto json_length = static_cast<std::uint32_t>(json.size());
-  const auto length = static_cast<std::uint32_t>(changed.size());
-  std::memcpy(changed.data() + 8, &length, 4);
-  std::memcpy(changed.data() + 12, &json_length, 4);
-  return changed;
 }
 
 TEST_CASE("An asset reads back with the same bits") {

@@ -78,4 +78,26 @@ inline LodAsset sample_asset() {
   return asset;
 }
 
+/// Every field filled, with numbers that need all their digits.
+inline Certificate sample_certificate() {
+  Certificate c;
+  c.moduli = {{"steel", 2e11 / 3, 2.1e11 / 3, 0.7 / 3, 0.25}, {"rubber", 1e5 / 7, 1e5, 0.1, 0.2}};
+  c.frequencies = {{10.0 / 3, 3.3, 1.0 / 1.01}, {0.1 / 0.3, 0.35, 0.2}};
+  c.loads = {{"stretch x", false, 1e-7 / 3, -0.02 / 3}, {"pinch \"1\"", true, 2, 0.1}};
+  c.mass_error = 1e-17;
+  c.center_shift = 2e-3 / 7;
+  c.second_moment_error = 1.0 / 81;
+  c.highest_frequency = 1e4 / 3;
+  c.base_highest_frequency = 2e4;
+  c.stable_step = 1e-3 / 7;
+  c.base_stable_step = 1e-4;
+  c.cost = 1e9 / 11;
+  c.base_cost = 1e10;
+  c.zero_modes = 7;
+  c.expected_zero_modes = 6;
+  c.tolerance = 0.05;
+  c.misses = {"7 zero modes instead of 6", "f1..10 off by 4.9 %, 3 % were asked for: \xC3\xBC"};
+  return c;
+}
+
 }  // namespace springlod::test

@@ -1,0 +1,65 @@
+#include "model/certificate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+
+namespace springlod {
+namespace {
+
+void check_finite(std::initializer_list<double> numbers, const std::string& owner) {
+  for (const double number : numbers)
+    if (!std::isfinite(number))
+      throw InputError(fmt::format("certificate: {} is {}, not finite", owner, number));
+}
+
+}  // namespace
+
+void validate(const Certificate& c) {
+  for (const Certificate::Moduli& m : c.moduli)
+    check_finite({m.young, m.base_young, m.poisson, m.base_poisson},
+                 fmt::format("a modulus of material {}", m.material));
+  for (std::size_t i = 0; i < c.frequencies.size(); ++i) {
+    const Certificate::Frequency& f = c.frequencies[i];
+    const std::string owner = fmt::format("frequency {} (counted from 1)", i + 1);
+    check_finite({f.level, f.base, f.mac}, owner);
+    if (f.base <= 0)
+      throw InputError(
+          fmt::format("certificate: {} of the base is {} Hz, not above 0; leave out "
+                      "the zero modes",
+                      owner, f.base));
+  }
+  for (const Certificate::Load& load : c.loads)
+    check_finite({load.compliance, load.error}, fmt::format("a number of load {}", load.name));
+  check_finite({c.mass_error, c.center_shift, c.second_moment_error}, "an error of the mass");
+  check_finite({c.highest_frequency, c.base_highest_frequency}, "a highest frequency");
+  check_finite({c.stable_step, c.base_stable_step}, "a stable step");
+  check_finite({c.cost, c.base_cost}, "a cost");
+  check_finite({c.tolerance}, "the tolerance");
+}
+
+double mean_frequency_error(const Certificate& certificate, std::uint32_t first,
+                            std::uint32_t last) {
+  const auto& all = certificate.frequencies;
+  last = std::min(last, static_cast<std::uint32_t>(all.size()));
+  double sum = 0;
+  for (std::uint32_t i = first; i < last; ++i) sum += std::abs(all[i].level / all[i].base - 1);
+  return last > first ? sum / (last - first) : 0;
+}
+
+double mean_load_error(const Certificate& certificate, bool held_out) {
+  double sum = 0;
+  int count = 0;
+  for (const Certificate::Load& load : certificate.loads) {
+    if (load.held_out != held_out) continue;
+    sum += std::abs(load.error);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+}  // namespace springlod
