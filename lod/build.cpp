@@ -1,9 +1,15 @@
 #include "lod/build.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "lod/compact_groups.hpp"
+#include "lod/exact_count.hpp"
+#include "lod/metis_groups.hpp"
+#include "lod/rescale_moduli.hpp"
 #include "model/error.hpp"
 
 namespace springlod {
@@ -19,17 +25,99 @@ std::string told_from(const SimplifyOptions& options) {
                      options.guards ? "" : ", no guards");
 }
 
-Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
-                  std::uint32_t level) {
-  return options.groups ? options.groups(finer.model, finer.of_base, level)
-                        : group_nodes(finer.model, springs, options.grouping);
+std::string told_calibration(Calibration calibration) {
+  switch (calibration) {
+    case Calibration::none:
+      return "";
+    case Calibration::moduli:
+      return ", moduli rescaled";
+    case Calibration::modes:
+      return ", calibrated";
+  }
+  return "";
 }
 
-GuardedGroups guarded(const Level& finer, const SpringRows& springs, const Groups& groups,
-                      const SimplifyOptions& options) {
+bool straight_from_base(const SimplifyOptions& options) {
+  return !options.groups && (options.grouping.grouping == Grouping::compact ||
+                             options.grouping.grouping == Grouping::metis);
+}
+
+/// 0 if the grouping decides.
+std::uint32_t wanted_nodes(std::uint32_t base_nodes, const SimplifyOptions& options,
+                           std::uint32_t level) {
+  if (options.keep.empty() && !straight_from_base(options)) return 0;
+  constexpr double kUsual = 0.45;  // what pairs and triples come to (spec 3)
+  const double part = options.keep.empty() ? std::pow(kUsual, level) : options.keep[level - 1];
+  return std::max(1U, static_cast<std::uint32_t>(std::lround(part * base_nodes)));
+}
+
+/// Groups of nodes of `finer`, `wanted` of them unless that is 0.
+Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
+                  std::uint32_t level, std::uint32_t wanted) {
+  if (options.groups) return options.groups(finer.model, finer.of_base, level);
+  if (options.grouping.grouping == Grouping::compact)
+    return compact_groups(
+        finer.model,
+        {.count = wanted, .border = options.grouping.border, .seed = options.grouping.seed});
+  if (options.grouping.grouping == Grouping::metis)
+    return metis_groups(finer.model, wanted, options.grouping.seed);
+  Groups groups = group_nodes(finer.model, springs, options.grouping);
+  while (wanted > 0 && groups.count > wanted) {
+    const MassSpringModel merged = merge(finer.model, groups);
+    Groups more = group_nodes(merged, options.grouping);
+    if (more.count == merged.node_count()) break;
+    groups = compose(groups, more);
+  }
+  if (wanted > 0) split_to_count(finer.model, springs, wanted, groups);
+  return groups;
+}
+
+struct Step {
+  Groups groups;
+  Relinking links;
+};
+
+Step guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
+                  const SimplifyOptions& options) {
+  if (!options.guards) {
+    Relinking links = relink(springs, groups);
+    return {std::move(groups), std::move(links)};
+  }
   GuardOptions guard = options.guard;
   guard.border = options.grouping.border;
-  return guard_groups(finer.model, springs, groups, guard);
+  GuardedGroups sound = guard_groups(finer.model, springs, groups, guard);
+  return {std::move(sound.groups), std::move(sound.links)};
+}
+
+/// The guards fuse some of the groups: for an exact number of them as many more are asked for as
+/// were fused, and what is too many then is fused by size.
+Step exact_step(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
+                std::uint32_t level, std::uint32_t wanted) {
+  constexpr int kTries = 20;
+  std::uint32_t asked = wanted, found = 0;
+  for (int i = 0; i < kTries; ++i) {
+    Step step =
+        guarded_step(finer, springs, raw_groups(finer, springs, options, level, asked), options);
+    if (step.groups.count > wanted) {
+      fuse_to_count(finer.model, options.grouping.border, wanted, step.groups);
+      step = guarded_step(finer, springs, std::move(step.groups), options);
+    }
+    if (step.groups.count == wanted) return step;
+    found = step.groups.count;
+    // One more each time, or the same groups might come back for ever.
+    asked = std::min(asked + (found < wanted ? wanted - found : 0) + 1, finer.model.node_count());
+  }
+  throw InputError(fmt::format(
+      "simplify: level {} comes to {} nodes where {} were asked for: the guards, or the border "
+      "rule, allow no other; ask for {} or leave keep out",
+      level, found, wanted, found));
+}
+
+Step next_step(const Level& finer, const SimplifyOptions& options, std::uint32_t level,
+               std::uint32_t wanted) {
+  const SpringRows springs(finer.model);
+  if (wanted > 0) return exact_step(finer, springs, options, level, wanted);
+  return guarded_step(finer, springs, raw_groups(finer, springs, options, level, 0), options);
 }
 
 void require_coarser(const Level& finer, const Groups& groups, const SimplifyOptions& options,
@@ -42,42 +130,61 @@ void require_coarser(const Level& finer, const Groups& groups, const SimplifyOpt
       options.grouping.border == BorderRule::strong ? " or for border = \"weak\"" : ""));
 }
 
-struct Step {
-  Groups groups;
-  Relinking links;
-};
-
-Step next_step(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
-  const SpringRows springs(finer.model);
-  Groups groups = raw_groups(finer, springs, options, level);
-  if (options.guards) {
-    GuardedGroups sound = guarded(finer, springs, groups, options);
-    return {std::move(sound.groups), std::move(sound.links)};
-  }
-  Relinking links = relink(springs, groups);
-  return {std::move(groups), std::move(links)};
-}
-
-Level next_level(const Level& finer, const SimplifyOptions& options, std::uint32_t level) {
-  Step step = next_step(finer, options, level);
-  require_coarser(finer, step.groups, options, level);
+Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uint32_t level) {
+  const Level& finer = straight_from_base(options) ? chain.levels.front() : chain.levels.back();
+  const std::uint32_t wanted =
+      wanted_nodes(chain.levels.front().model.node_count(), options, level);
+  Step step = next_step(finer, options, level, wanted);
+  require_coarser(chain.levels.back(), step.groups, options, level);
   return {merge(finer.model, step.groups, std::move(step.links)),
           compose(finer.of_base, step.groups),
-          options.made_by.empty() ? told_from(options) : options.made_by};
+          (options.made_by.empty() ? told_from(options) : options.made_by) +
+              told_calibration(options.calibration)};
+}
+
+void check(const SimplifyOptions& options) {
+  double before = 1;
+  for (const double part : options.keep) {
+    if (!(part > 0 && part < before))
+      throw InputError(
+          fmt::format("simplify: keep = {} must fall from level to level, between 1 and 0", part));
+    before = part;
+  }
+  if (!options.keep.empty() && options.keep.size() != options.levels)
+    throw InputError(fmt::format("simplify: keep names {} levels and levels = {}; leave one out",
+                                 options.keep.size(), options.levels));
+  if (!options.groups && options.grouping.grouping == Grouping::metis &&
+      options.grouping.border != BorderRule::none)
+    throw InputError(
+        "simplify: grouping = \"metis\" knows no borders; leave border out or take compact");
+  if (options.calibration == Calibration::modes && options.mass == MassRule::proximity)
+    throw InputError(
+        "simplify: calibrate = \"modes\" finds the masses itself; leave out mass = \"proximity\"");
 }
 
 }  // namespace
 
 LodChain simplify(MassSpringModel base, const SimplifyOptions& options) {
-  Task task(options.progress, "merging", options.levels);
+  check(options);
   LodChain chain;
   const std::uint32_t nodes = base.node_count();
   chain.levels.push_back({std::move(base), identity_groups(nodes), "base"});
-  for (std::uint32_t level = 1; level <= options.levels; ++level) {
-    chain.levels.push_back(next_level(chain.levels.back(), options, level));
-    if (options.mass == MassRule::proximity)
-      share_by_proximity(chain.levels.front().model, chain.levels.back().model);
-    task.advance();
+  {
+    Task task(options.progress, "merging", options.levels);
+    for (std::uint32_t level = 1; level <= options.levels; ++level) {
+      chain.levels.push_back(next_level(chain, options, level));
+      if (options.mass == MassRule::proximity)
+        share_by_proximity(chain.levels.front().model, chain.levels.back().model);
+      task.advance();
+    }
+  }
+  if (options.calibration == Calibration::moduli)
+    for (std::uint32_t level = 1; level <= options.levels; ++level)
+      rescale_moduli(chain.levels.front().model, chain.levels[level].model);
+  if (options.calibration == Calibration::modes) {
+    CalibrateOptions calibration = options.calibrate;
+    calibration.progress = options.progress;
+    calibrate(chain, calibration);
   }
   return chain;
 }

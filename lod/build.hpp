@@ -2,7 +2,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
+#include "lod/calibrate.hpp"
 #include "lod/grouping.hpp"
 #include "lod/guard.hpp"
 #include "lod/merge.hpp"
@@ -17,17 +20,23 @@ using GroupMaker =
 
 struct SimplifyOptions {
   std::uint32_t levels = 2;
+  /// Nodes of each level over those of the base, falling; met exactly. Empty: as many as the
+  /// grouping makes; of compact and metis, 0.45, 0.2, 0.09, ...
+  std::vector<double> keep{};
   GroupingOptions grouping{};
   MassRule mass = MassRule::proportional;
   bool guards = true;
-  GuardOptions guard{};   ///< its border rule is taken from `grouping`
-  GroupMaker groups{};    ///< optional
-  std::string made_by{};  ///< left empty: told from the options
+  GuardOptions guard{};  ///< its border rule is taken from `grouping`
+  GroupMaker groups{};   ///< optional
+  Calibration calibration = Calibration::none;
+  CalibrateOptions calibrate{};  ///< for Calibration::modes
+  std::string made_by{};         ///< left empty: told from the options
   Progress* progress = nullptr;
 };
 
-/// Level 0 = `base`, level n merged from level n-1. Throws InputError if a level cannot get any
-/// coarser (says which and why).
+/// Level 0 = `base`, level n merged from level n-1 (of compact and metis: from the base), then all
+/// of them calibrated against the base if asked for. Throws InputError if a level cannot get any
+/// coarser (says which and why), or not have as many nodes as it should keep.
 LodChain simplify(MassSpringModel base, const SimplifyOptions& options);
 
 }  // namespace springlod

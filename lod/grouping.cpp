@@ -215,6 +215,10 @@ std::string to_string(Grouping grouping) {
       return "priority";
     case Grouping::priority_hard:
       return "priority_hard";
+    case Grouping::compact:
+      return "compact";
+    case Grouping::metis:
+      return "metis";
   }
   return "?";
 }

@@ -16,6 +16,8 @@ enum class Grouping {
   standard,       ///< nearest neighbours first, nodes in random order (5.1)
   priority_soft,  ///< key L (1 + 4 g L): low gradient and short springs first
   priority_hard,  ///< gradient first, distance second: the paper's words (5.2)
+  compact,        ///< round groups straight from the base, see compact_groups
+  metis,          ///< graph partitions straight from the base, see metis_groups
 };
 
 /// What may happen to border nodes (5.3).

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "model/error.hpp"
+
 namespace springlod {
 namespace {
 
@@ -105,6 +107,11 @@ PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options,
       second_ = RoundedKeys(model.rest_length);
       has_second_ = true;
       break;
+    case Grouping::compact:
+    case Grouping::metis:
+      throw InputError(
+          "group_nodes: compact and metis groups do not grow from pairs; see "
+          "compact_groups and metis_groups");
   }
 }
 

@@ -75,10 +75,22 @@ class Surface {
   std::vector<Vec3> normal_;  // N, length 1, or 0 where the springs cancel out
 };
 
+/// Evenly over the sphere.
+Vec3 any_direction(ChanceStream& chance) {
+  constexpr double kTooShort = 0.1;  // to be stretched to length 1 without losing digits
+  for (;;) {
+    Vec3 way;
+    for (int d = 0; d < 3; ++d) way[d] = 2 * chance.unit() - 1;
+    const double length = way.norm();
+    if (length <= 1 && length > kTooShort) return way / length;
+  }
+}
+
 /// Draws so often for each load wanted before a body counts as too small for more.
 constexpr std::uint32_t kTries = 100;
 
-/// Up to `count` loads of those that draw(load) fills in; it returns false if a draw was no good.
+/// Up to `count` loads of those that draw(number, load) fills in; it returns false if a draw was no
+/// good.
 template <class Draw>
 std::vector<StaticLoad> draw_loads(const MassSpringModel& model, std::uint32_t count,
                                    const char* name, const Draw& draw) {
@@ -86,7 +98,7 @@ std::vector<StaticLoad> draw_loads(const MassSpringModel& model, std::uint32_t c
   for (std::uint32_t tries = 0; loads.size() < count && tries < kTries * count; ++tries) {
     StaticLoad load{fmt::format("{} {}", name, loads.size() + 1),
                     std::vector<Vec3>(model.node_count(), Vec3::Zero())};
-    if (draw(load)) loads.push_back(std::move(load));
+    if (draw(loads.size(), load)) loads.push_back(std::move(load));
   }
   return loads;
 }
@@ -96,13 +108,18 @@ std::vector<StaticLoad> draw_loads(const MassSpringModel& model, std::uint32_t c
 std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoadOptions& options) {
   const Surface surface(model, options.radius);
   ChanceStream chance(options.seed);
-  return draw_loads(model, options.count, "patches", [&](StaticLoad& load) {
+  return draw_loads(model, options.count, "patches", [&](std::size_t number, StaticLoad& load) {
     const std::uint32_t p = surface.any(chance);
     const std::uint32_t q = surface.any(chance);
+    const bool near = number % 2 == 1;
+    const bool along = chance.unit() < 0.5;
     const Vec3 apart = model.rest[q] - model.rest[p];
-    if (p == q || apart.norm() < 2 * surface.radius()) return false;
-    surface.pull(p, -apart.normalized(), load);
-    surface.pull(q, apart.normalized(), load);
+    const double distance = apart.norm();
+    if (p == q || distance < surface.radius()) return false;
+    if (near && distance > 2 * surface.radius()) return false;
+    const Vec3 way = along ? Vec3(apart / distance) : any_direction(chance);
+    surface.pull(p, -way, load);
+    surface.pull(q, way, load);
     return true;
   });
 }
@@ -110,7 +127,7 @@ std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoa
 std::vector<StaticLoad> pinches(const MassSpringModel& model, const LocalLoadOptions& options) {
   const Surface surface(model, options.radius);
   ChanceStream chance(options.seed);
-  return draw_loads(model, options.count, "pinch", [&](StaticLoad& load) {
+  return draw_loads(model, options.count, "pinch", [&](std::size_t, StaticLoad& load) {
     const std::uint32_t p = surface.any(chance);
     const std::uint32_t q = surface.opposite(p);
     if (p == q) return false;
@@ -124,13 +141,9 @@ std::vector<StaticLoad> pinches(const MassSpringModel& model, const LocalLoadOpt
 std::vector<StaticLoad> pushes(const MassSpringModel& model, const LocalLoadOptions& options) {
   const Surface surface(model, options.radius);
   ChanceStream chance(options.seed);
-  return draw_loads(model, options.count, "push", [&](StaticLoad& load) {
+  return draw_loads(model, options.count, "push", [&](std::size_t, StaticLoad& load) {
     const std::uint32_t p = surface.any(chance);
-    Vec3 way;
-    do {
-      for (int d = 0; d < 3; ++d) way[d] = 2 * chance.unit() - 1;
-    } while (way.norm() > 1 || way.norm() < 0.1);
-    surface.pull(p, way.normalized(), load);
+    surface.pull(p, any_direction(chance), load);
     return true;
   });
 }

@@ -13,12 +13,15 @@ namespace springlod {
 struct LocalLoadOptions {
   std::uint32_t count = 24;
   std::uint64_t seed = 1;
-  /// Radius of a patch over the mean spring length: some ten nodes, three across, about as fine as
-  /// a level of a fifth of the nodes can still tell apart.
-  double radius = 1.6;
+  /// Radius of a patch over the mean spring length: some thirty nodes, of which a level of a fifth
+  /// of them keeps half a dozen. How a level answers to smaller ones depends on which groups they
+  /// happen to cover.
+  double radius = 3;
 };
 
-/// Two patches anywhere, pulled apart along the line through their middles: "patches 1", ...
+/// Two patches, pulled apart: every other pair near each other (at most two radii), the others
+/// anywhere; about half of them along the line through their middles, half in any direction.
+/// "patches 1", ...
 std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoadOptions& options);
 
 /// A patch and the one that lies opposite as seen along the surface's normal, squeezed together:

@@ -1,11 +1,13 @@
 // Simplifying a model into a chain of levels, and reading the chain.
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 #include <lua.hpp>
 
 #include "lod/build.hpp"
+#include "lod/certify.hpp"
 #include "model/error.hpp"
 #include "scripting/call.hpp"
 #include "scripting/grouping_script.hpp"
@@ -28,12 +30,62 @@ void read_guard(Call& call, TableReader& reader, GuardOptions& guard) {
   limits.finish();
 }
 
+void read_calibration(Call& call, TableReader& reader, const MassSpringModel& base,
+                      SimplifyOptions& options) {
+  options.calibrate.threads = call.session().settings().threads;
+  reader.choose("calibrate", options.calibration,
+                {{"none", Calibration::none},
+                 {"moduli", Calibration::moduli},
+                 {"modes", Calibration::modes}});
+  const int table = reader.raw("calibration");
+  if (table == 0) return;
+  TableReader record = call.record(table, "Calibration", "simplify: calibration");
+  TargetOptions& targets = options.calibrate.targets;
+  FitOptions& fit = options.calibrate.fit;
+  enum class Kinds { both, modes, loads };
+  Kinds kinds = Kinds::both;
+  record.choose("targets", kinds,
+                {{"both", Kinds::both}, {"modes", Kinds::modes}, {"loads", Kinds::loads}});
+  record.read("modes", targets.modes);
+  record.read("patches", targets.patches);
+  record.read("patch_weight", targets.patch_weight);
+  record.read("seed", targets.seed);
+  record.read("tolerance", fit.tolerance);
+  record.read("iterations", fit.iterations);
+  record.read("least_frequency", fit.least_frequency);
+  targets.anchored = read_anchored(record, base);
+  record.finish();
+  if (kinds == Kinds::loads) targets.modes = 0;
+  if (kinds == Kinds::modes) {
+    targets.smooth_loads = false;
+    targets.patches = 0;
+  }
+}
+
+int certify_binding(Call& call) {
+  const auto asset = std::make_shared<LodAsset>(*call.value<LodAsset>(1));
+  CertifyOptions options;
+  options.threads = call.session().settings().threads;
+  options.progress = call.progress();
+  TableReader reader = call.options(2);
+  reader.read("modes", options.modes);
+  reader.read("held_out_loads", options.held_out_loads);
+  reader.read("seed", options.seed);
+  reader.read("tolerance", options.tolerance);
+  options.anchored = read_anchored(reader, asset->chain.levels.front().model);
+  reader.finish();
+  certify(asset->chain, options);
+  return call.give(std::shared_ptr<const LodAsset>(asset));
+}
+
 int simplify_binding(Call& call) {
   const auto base = call.value<ModelValue>(1);
   if (base->chain && base->level != 0)
     call.refuse(1, "a base model (level 0); a coarser level cannot be the base of a chain");
   SimplifyOptions options;
   TableReader reader = call.options(2);
+  reader.read("keep", options.keep);
+  if (!options.keep.empty()) options.levels = static_cast<std::uint32_t>(options.keep.size());
   reader.read("levels", options.levels);
   reader.choose(
       "border", options.grouping.border,
@@ -45,11 +97,18 @@ int simplify_binding(Call& call) {
   reader.read("guards", options.guards);
   read_guard(call, reader, options.guard);
   read_grouping(reader, options);
+  read_calibration(call, reader, *base->model, options);
   reader.finish();
   options.progress = call.progress();
 
   auto asset = std::make_shared<LodAsset>();
   asset->chain = simplify(*base->model, options);
+  if (options.calibration == Calibration::modes)
+    certify(asset->chain, {.modes = std::max(1U, options.calibrate.targets.modes),
+                           .anchored = options.calibrate.targets.anchored,
+                           .tolerance = options.calibrate.fit.tolerance,
+                           .threads = options.calibrate.threads,
+                           .progress = call.progress()});
   if (base->surface) {
     asset->surface = *base->surface;
     asset->surface_of_base = *base->surface_of_base;
@@ -163,15 +222,22 @@ std::vector<Parameter> simplify_options() {
            .type = "integer",
            .fallback = fmt::format("{}", usual.levels),
            .help = "levels besides the base, each merged from the one before"},
+          {.name = "keep",
+           .type = "list of numbers",
+           .fallback = "as the grouping makes; of compact and metis 0.45, 0.2, ...",
+           .help = "nodes of each level over those of the base, falling, met exactly; as many "
+                   "levels as there are numbers"},
           {.name = "grouping",
            .type = "function, list of lists of node numbers, or one of",
            .fallback = "\"standard\"",
            .help = "which nodes merge: nearest first in random order (standard), low gradient of "
                    "material and short springs first (priority), gradient alone first "
-                   "(priority_hard); a function of one node gives its priority, of two nodes the "
+                   "(priority_hard), round groups straight from the base (compact), graph "
+                   "partitions that cut few springs (metis); a function of one node gives its "
+                   "priority, of two nodes the "
                    "cost of merging them; lists name the groups of level 1 by hand, lists of such "
                    "lists those of level 1, 2, ...",
-           .choices = {"standard", "priority", "priority_hard"}},
+           .choices = {"standard", "priority", "priority_hard", "compact", "metis"}},
           {.name = "border",
            .type = "one of",
            .fallback = "\"none\"",
@@ -203,7 +269,18 @@ std::vector<Parameter> simplify_options() {
           {.name = "guard",
            .type = "Guard",
            .fallback = "the limits of Guard",
-           .help = "when a node counts as coincident or floppy"}};
+           .help = "when a node counts as coincident or floppy"},
+          {.name = "calibrate",
+           .type = "one of",
+           .fallback = "\"none\"",
+           .help = "levels stay as they were merged; get the moduli of eq. 2 of the paper; or "
+                   "swing and give way as the base does, with as long a step as that allows "
+                   "(modes), and carry a certificate of it",
+           .choices = {"none", "moduli", "modes"}},
+          {.name = "calibration",
+           .type = "Calibration",
+           .fallback = "that of Calibration",
+           .help = "what calibrate = \"modes\" aims at"}};
 }
 
 }  // namespace
@@ -228,6 +305,50 @@ void describe_lod(Api& api) {
                   .help = "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T "
                           "is below"}},
       .example = "guard = {least_springs = 5}"});
+  const CalibrateOptions calibrate;
+  api.add(RecordEntry{
+      .name = "Calibration",
+      .summary = "What simplify with calibrate = \"modes\" aims at.",
+      .fields =
+          {{.name = "targets",
+            .type = "one of",
+            .fallback = "\"both\"",
+            .help = "what shall be as in the base: the lowest modes, static loads, or both",
+            .choices = {"both", "modes", "loads"}},
+           {.name = "modes",
+            .type = "integer",
+            .fallback = fmt::format("{}", calibrate.targets.modes),
+            .help = "how many of the lowest frequencies"},
+           {.name = "patches",
+            .type = "integer",
+            .fallback = fmt::format("{}", calibrate.targets.patches),
+            .help = "pairs of patches of the surface that are pulled apart, besides the nine "
+                    "smooth loads"},
+           {.name = "patch_weight",
+            .type = "number",
+            .fallback = fmt::format("{}", calibrate.targets.patch_weight),
+            .help = "of each of them, where a smooth load has 1"},
+           {.name = "seed",
+            .type = "integer",
+            .fallback = fmt::format("{}", calibrate.targets.seed),
+            .help = "of the patches"},
+           {.name = "tolerance",
+            .type = "number",
+            .fallback = "0.002 sqrt(N0 / N)",
+            .help = "mean error of the ten lowest frequencies that is good enough; other modes may "
+                    "miss by four times as much, smooth loads by eight, patches by twenty"},
+           {.name = "iterations",
+            .type = "integer",
+            .fallback = fmt::format("{}", calibrate.fit.iterations),
+            .help = "at most"},
+           {.name = "least_frequency",
+            .type = "number",
+            .fallback = fmt::format("{}", calibrate.fit.least_frequency),
+            .help =
+                "where the largest frequency, which bounds the step, need not fall any further, "
+                "over that of a lattice of as many nodes"},
+           anchored_parameter()},
+      .example = "calibration = {targets = \"modes\", tolerance = 0.01}"});
   api.add(FunctionEntry{
       .name = "simplify",
       .group = kGroup,
@@ -242,6 +363,39 @@ void describe_lod(Api& api) {
                  "local soft_first = s.simplify(base, {grouping = function(a, b)\n"
                  "  return a.material == b.material and 0 or math.huge\nend})",
       .call = simplify_binding});
+  const CertifyOptions certify;
+  api.add(FunctionEntry{
+      .name = "certify",
+      .group = kGroup,
+      .summary = "Measures every level beside the base: moduli, frequencies, loads, masses, step "
+                 "and cost. s.info tells, and s.save keeps, what was found.",
+      .arguments = {{.name = "chain", .type = "LodChain"}},
+      .options = {{.name = "modes",
+                   .type = "integer",
+                   .fallback = fmt::format("{}", certify.modes),
+                   .help = "lowest frequencies to compare"},
+                  {.name = "held_out_loads",
+                   .type = "integer",
+                   .fallback = fmt::format("{}", certify.held_out_loads),
+                   .help = "pinches, and as many pushes, on patches of the surface; calibration is "
+                           "fitted to neither"},
+                  {.name = "seed",
+                   .type = "integer",
+                   .fallback = fmt::format("{}", certify.seed),
+                   .help = "of where they act"},
+                  {.name = "tolerance",
+                   .type = "number",
+                   .fallback = "0.002 sqrt(N0 / N)",
+                   .help =
+                       "mean error of the ten lowest frequencies that a level may have; a level "
+                       "that misses it says so"},
+                  anchored_parameter()},
+      .returns = "LodChain with a certificate for each level",
+      .errors = "Hundreds of loose nodes in a large part; anchors that leave free what a load "
+                "moves.",
+      .example = "local chain = s.certify(s.simplify(base))\n"
+                 "print(s.info(chain).levels[2].certificate.f1_10_error)",
+      .call = certify_binding});
   describe_refill(api);
 }
 

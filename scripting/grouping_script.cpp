@@ -156,7 +156,9 @@ void read_grouping(TableReader& reader, SimplifyOptions& options) {
     reader.choose("grouping", options.grouping.grouping,
                   {{"standard", Grouping::standard},
                    {"priority", Grouping::priority_soft},
-                   {"priority_hard", Grouping::priority_hard}});
+                   {"priority_hard", Grouping::priority_hard},
+                   {"compact", Grouping::compact},
+                   {"metis", Grouping::metis}});
   }
   if (node_priority == 0 && pair_cost == 0) return;
   options.groups = function_groups(L, options.grouping, node_priority, pair_cost);

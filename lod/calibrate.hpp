@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lod/elastic_targets.hpp"
+#include "lod/fit_part.hpp"
+#include "model/chain.hpp"
+#include "model/progress.hpp"
+
+namespace springlod {
+
+/// What is done to levels after merging.
+enum class Calibration {
+  none,    ///< as they were merged (the paper)
+  moduli,  ///< see rescale_moduli
+  modes,   ///< see calibrate
+};
+
+struct CalibrateOptions {
+  TargetOptions targets{};
+  FitOptions fit{};
+  std::uint32_t threads = 1;     ///< 0: all cores
+  Progress* progress = nullptr;  ///< may be null
+};
+
+/// Fits every level but the base to the base: gives it the base's second moments of mass
+/// (restore_second_moments), favours its long springs, and fits stiffnesses and masses (fit_part),
+/// each connected part by itself. What is measured of the base is measured once.
+/// The same bits for any number of threads. Throws InputError where elastic_body does.
+void calibrate(LodChain& chain, const CalibrateOptions& options = {});
+
+}  // namespace springlod

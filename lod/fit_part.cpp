@@ -1,0 +1,176 @@
+#include "lod/fit_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "lod/damped_step.hpp"
+#include "lod/elastic_fit.hpp"
+#include "lod/frequency_cap.hpp"
+#include "lod/mass_moments.hpp"
+#include "model/stable_step.hpp"
+
+namespace springlod {
+namespace {
+
+/// What ln m changes for each unit of an unknown, where ln k changes by 1: masses are better known.
+constexpr double kMassScale = 0.5;
+/// Bounds of the unknowns: of one step, its root mean square, and of all steps together.
+constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
+/// Damping over the mean of the slopes' squared norms: at the start, and bounds of it.
+constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
+/// What the damping is divided by after a step that helped, multiplied by after one that did not.
+constexpr double kTrust = 3, kDistrust = 4;
+/// Weight of a node above the limit; a miss of a load that is fitted has 1.
+constexpr double kLimitWeight = 0.5;
+/// What the limit of squared frequencies falls to while the level is good.
+constexpr double kTighten = 0.9;
+/// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
+constexpr double kMargin = 1;
+
+/// What may be missed by, over the tolerance of the lowest frequencies.
+constexpr double kHigherModes = 4, kSmoothLoads = 8, kPatchLoads = 20;
+constexpr std::size_t kLowestModes = 10;
+
+double mean(const std::vector<double>& values, std::size_t begin, std::size_t end) {
+  end = std::min(end, values.size());
+  double sum = 0;
+  for (std::size_t i = begin; i < end; ++i) sum += values[i];
+  return end > begin ? sum / static_cast<double>(end - begin) : 0;
+}
+
+class PartFit {
+ public:
+  PartFit(const MassSpringModel& level, const Groups& of_base, const ElasticTargets& targets,
+          const FitOptions& options)
+      : start_(level),
+        targets_(targets),
+        options_(options),
+        tolerance_(options.tolerance > 0 ? options.tolerance
+                                         : usual_tolerance(targets.nodes, level.node_count())),
+        least_frequency_(options.least_frequency * targets.highest_frequency *
+                         std::cbrt(static_cast<double>(level.node_count()) / targets.nodes)),
+        fit_(level, of_base, targets),
+        moments_(level) {}
+
+  MassSpringModel run() {
+    now_ = at(Eigen::VectorXd::Zero(springs() + nodes()));
+    limit_ = largest_node_bound(start_);
+    for (std::uint32_t i = 0; i < options_.iterations; ++i) {
+      if (good(now_)) {
+        keep_if_better();
+        if (best_->highest_frequency <= least_frequency_) break;
+        limit_ = kTighten * std::min(limit_, largest_node_bound(now_.model));
+      }
+      if (!advance()) break;
+      if (options_.on_iteration) options_.on_iteration();
+    }
+    if (good(now_)) keep_if_better();
+    return best_ ? std::move(best_->model) : std::move(now_.model);
+  }
+
+ private:
+  using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  struct Point {
+    Eigen::VectorXd theta;  // ln k, then ln m / kMassScale, over those of the start
+    MassSpringModel model;
+    ElasticMisses misses;  // slopes by theta, along changes that keep the moments
+  };
+  struct Best {
+    MassSpringModel model;
+    double highest_frequency = 0;
+  };
+
+  Eigen::Index springs() const { return start_.spring_count(); }
+  Eigen::Index nodes() const { return start_.node_count(); }
+
+  Point at(Eigen::VectorXd theta) const {
+    Point point{std::move(theta), start_, {}};
+    for (std::uint32_t s = 0; s < start_.spring_count(); ++s) {
+      const double factor = std::exp(point.theta[s]);
+      point.model.stiffness[s] *= factor;
+      point.model.damping[s] *= factor;
+    }
+    for (std::uint32_t i = 0; i < start_.node_count(); ++i)
+      point.model.mass[i] *= std::exp(kMassScale * point.theta[springs() + i]);
+    moments_.restore(point.model.mass);
+    for (std::uint32_t i = 0; i < start_.node_count(); ++i)
+      point.theta[springs() + i] = std::log(point.model.mass[i] / start_.mass[i]) / kMassScale;
+    point.misses = fit_.misses(point.model);
+    point.misses.slopes.bottomRows(nodes()) *= kMassScale;
+    moments_.project(point.model.mass, point.misses.slopes.bottomRows(nodes()));
+    return point;
+  }
+
+  double merit(const Point& point) const {
+    return point.misses.miss.squaredNorm() +
+           kLimitWeight * kLimitWeight * squared_excess(point.model, limit_);
+  }
+
+  /// One step; it is taken back if it did not help. False if none will any more.
+  bool advance() {
+    const CapRows cap = cap_rows(now_.model, limit_, kMargin);
+    Eigen::VectorXd scale = Eigen::VectorXd::Ones(springs() + nodes());
+    scale.tail(nodes()).setConstant(kMassScale);
+    const SparseRows limits = cap.slopes * scale.asDiagonal();
+    const Eigen::VectorXd step = damped_step({.slopes = now_.misses.slopes,
+                                              .miss = now_.misses.miss,
+                                              .limits = limits,
+                                              .excess = cap.excess,
+                                              .limit_weight = kLimitWeight,
+                                              .most_rms = kMostRms},
+                                             damping_)
+                                     .cwiseMax(-kMostStep)
+                                     .cwiseMin(kMostStep);
+    Point next = at((now_.theta + step).cwiseMax(-kMostChange).cwiseMin(kMostChange));
+    if (merit(next) < merit(now_)) {
+      now_ = std::move(next);
+      damping_ = std::max(kLeastDamping, damping_ / kTrust);
+    } else {
+      damping_ *= kDistrust;
+    }
+    return damping_ <= kMostDamping;
+  }
+
+  /// Whether all kinds of misses are within what is wanted.
+  bool good(const Point& point) const {
+    const std::vector<double>& frequency = point.misses.frequency;
+    const std::vector<double>& compliance = point.misses.compliance;
+    const std::size_t smooth = targets_.smooth_loads;
+    return mean(frequency, 0, kLowestModes) <= tolerance_ &&
+           mean(frequency, kLowestModes, frequency.size()) <= kHigherModes * tolerance_ &&
+           mean(compliance, 0, smooth) <= kSmoothLoads * tolerance_ &&
+           mean(compliance, smooth, compliance.size()) <= kPatchLoads * tolerance_;
+  }
+
+  void keep_if_better() {
+    const double highest = largest_frequency(now_.model);
+    if (!best_ || highest < best_->highest_frequency) best_ = Best{now_.model, highest};
+  }
+
+  const MassSpringModel& start_;
+  const ElasticTargets& targets_;
+  const FitOptions& options_;
+  double tolerance_, least_frequency_;
+  ElasticFit fit_;
+  MassMoments moments_;
+  Point now_;
+  std::optional<Best> best_;
+  double limit_ = 0;  // of the nodes' own squared frequencies [rad2/s2]
+  double damping_ = kFirstDamping;
+};
+
+}  // namespace
+
+double usual_tolerance(std::uint32_t base_nodes, std::uint32_t level_nodes) {
+  constexpr double kOfBase = 0.002;
+  return kOfBase * std::sqrt(static_cast<double>(base_nodes) / level_nodes);
+}
+
+MassSpringModel fit_part(const MassSpringModel& level, const Groups& of_base,
+                         const ElasticTargets& targets, const FitOptions& options) {
+  return PartFit(level, of_base, targets, options).run();
+}
+
+}  // namespace springlod

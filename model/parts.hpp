@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+
+namespace springlod {
+
+/// One connected part of a model as a model of its own.
+struct ModelPart {
+  MassSpringModel model;
+  std::vector<std::uint32_t> nodes;    ///< of the whole: that of each node of the part, rising
+  std::vector<std::uint32_t> springs;  ///< of the whole: that of each spring of the part, rising
+};
+
+/// The connected parts, by their lowest node, as connected_components numbers them.
+std::vector<ModelPart> split_parts(const MassSpringModel& model);
+
+}  // namespace springlod
