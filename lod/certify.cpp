@@ -176,6 +176,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
            [&](std::uint64_t job, const std::function<bool()>& stopped) {
              Level& level = chain.levels[job + 1];
              if (stopped()) throw InterruptedError();
+             if (level.model.spring_count() == 0) return;  // a point: nothing to measure
              std::vector<StaticLoad> summed;
              for (const StaticLoad& load : loads.all)
                summed.push_back(carried(level.of_base, load));

@@ -369,7 +369,7 @@ void describe_lod(Api& api) {
       .group = kGroup,
       .summary = "Measures every level beside the base: moduli, frequencies, loads, masses, step "
                  "and cost. s.info tells, and s.save keeps, what was found.",
-      .arguments = {{.name = "chain", .type = "LodChain"}},
+      .arguments = {{.name = "chain", .type = "LodChain", .help = "levels and their base"}},
       .options = {{.name = "modes",
                    .type = "integer",
                    .fallback = fmt::format("{}", certify.modes),

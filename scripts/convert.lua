@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local certificates = require "lib.certificates"
 
 local mesh_endings = {".obj", ".stl", ".ply", ".glb", ".gltf", ".fbx", ".off", ".dae"}
 
@@ -22,20 +23,21 @@ parser:option("--materials", "Lua file that returns {part = {young = ..., densit
 parser:option("--lattice", "where the nodes sit"):choices{"corners", "centers"}:default("corners")
 parser:option("--hinges", "what to do where cells touch only along an edge or at a corner")
   :choices{"report", "fill", "separate"}:default("report")
-parser:option("--levels", "levels besides the base")
-  :convert(command.whole("--levels", 0)):default("2")
+parser:option("--levels", "levels besides the base (default: 2, or as --keep tells)")
+  :convert(command.whole("--levels", 0))
 parser:option("--grouping", "which nodes merge")
-  :choices{"standard", "priority", "priority_hard"}:default("standard")
+  :choices{"standard", "priority", "priority_hard", "compact", "metis"}:default("standard")
 parser:option("--border", "how border nodes merge")
   :choices{"none", "weak", "strong"}:default("none")
-parser:option("--calibrate", "how the coarser levels are fitted to the base; so far only none: "
-  .. "they stay as they were merged")
-  :argname("none"):default("none")
-  :convert(function(way)
-    if way == "none" then return way end
-    return nil, ("--calibrate: '%s' is not there: this version of springlod cannot calibrate yet; "
-      .. "leave it out or give none"):format(way)
-  end)
+parser:option("--keep", "nodes of each level over those of the base, met exactly, such as "
+  .. "0.45,0.2 (default: as the grouping makes)")
+  :argname("<parts>"):convert(command.numbers("--keep", 0))
+parser:option("--calibrate", "fit the coarser levels to the base: its moduli, or its frequencies "
+  .. "and loads with as long a step as that allows (modes); modes certifies them too")
+  :choices{"none", "moduli", "modes"}:default("none")
+parser:option("--tolerance", "mean error of the ten lowest frequencies that calibrated levels may "
+  .. "have, such as 0.005 (default: 0.002 times the root of base nodes over nodes)")
+  :convert(command.number("--tolerance", 0))
 local args = parser:parse()
 
 -- Mesh -> cells -> lattice -> levels -> asset. This is all there is to it.
@@ -43,8 +45,11 @@ local function convert(path, asset, materials)
   local mesh = s.import(path, {unit = args.unit, up = args.up})
   local grid = s.voxelize(mesh, {cell = args.cell, materials = materials})
   local base = s.lattice(grid, {style = args.lattice, hinges = args.hinges})
-  local chain = s.simplify(base, {levels = args.levels, grouping = args.grouping,
-                                  border = args.border, seed = s.seed})
+  local chain = s.simplify(base, {
+    levels = args.levels or not args.keep and 2 or nil, keep = args.keep,
+    grouping = args.grouping, border = args.border, seed = s.seed, calibrate = args.calibrate,
+    calibration = {tolerance = args.tolerance},
+  })
   s.save(asset, chain)
   return chain
 end
@@ -117,6 +122,7 @@ if not batch then
   local ok, chain = command.try(convert, paths[1], args.output, materials)
   if not ok then command.fail("cannot convert %s: %s", paths[1], chain) end
   print(s.format_table(level_rows(chain), {columns = level_columns}))
+  certificates.print(s.info(chain).levels)
   s.say("wrote " .. args.output)
   return
 end

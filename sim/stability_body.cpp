@@ -77,6 +77,7 @@ RescaledChain rescaled_chain(const LodChain& chain, double ratio, const Stabilit
   at_ratio.chain = with_stiffness_ratio(chain, part, ratio);
   if (!options.remake_levels)
     std::copy(chain.levels.begin() + 1, chain.levels.end(), at_ratio.chain.levels.begin() + 1);
+  for (Level& level : at_ratio.chain.levels) level.certificate.reset();  // of other springs
   if (!options.damping)
     for (Level& level : at_ratio.chain.levels)
       std::fill(level.model.damping.begin(), level.model.damping.end(), 0.0);

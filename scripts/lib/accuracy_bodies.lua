@@ -8,10 +8,11 @@ local scenes = require "lib.paper_scenes"
 -- A block of one material with a node at the centre of each cell of 10 cm.
 local function block(size)
   return function()
-    return s.lattice(s.grid{
+    local grid = s.grid{
       cell = 0.1, size = size, fill = function() return "block" end,
       materials = {block = {young = "1 MPa", density = 1000, damping = "2 ms"}},
-    }, {style = "centers"})
+    }
+    return s.lattice(grid, {style = "centers"}), grid, "centers"
   end
 end
 
@@ -25,16 +26,17 @@ local function beast()
       material = {name = "bone", young = "0.6 MPa", density = 1000, damping = "0.1 ms"},
     },
   })
-  return s.lattice(grid, {hinges = "fill"})
+  return s.lattice(grid, {hinges = "fill"}), grid, "corners"
 end
 
 -- An L of three cells' thickness, the long leg 20 cells, the short one 11.
 local function bracket()
-  return s.lattice(s.grid{
+  local grid = s.grid{
     cell = 0.01, size = {20, 6, 11}, materials = {alloy = {young = "20 MPa", density = 1200,
       damping = "0.1 ms"}},
     fill = function(x, _, z) return (z < 0.03 or x < 0.03) and "alloy" or nil end,
-  })
+  }
+  return s.lattice(grid), grid, "corners"
 end
 
 -- A flat ring of radius 8 cm, 6 cm wide and 4 cm high, one half five times as stiff as the other.
@@ -51,12 +53,20 @@ local function ring()
       return x > 0 and "hard" or "soft"
     end,
   }
-  return s.random(grid, {nodes = 900, seed = 1})
+  return s.random(grid, {nodes = 900, seed = 1}), grid, "corners"
 end
 
+local function centers(make)
+  return function()
+    local base, grid = make()
+    return base, grid, "centers"
+  end
+end
+
+-- `make` returns the base, its grid and the lattice that a refill of it takes.
 return {
-  {name = "sphere", make = function() return (scenes.ball()) end},
-  {name = "rods", make = function() return (scenes.rods()) end},
+  {name = "sphere", make = centers(scenes.ball)},
+  {name = "rods", make = centers(scenes.rods)},
   {name = "beam", make = block{4, 4, 20}},
   {name = "cube", make = block{8, 8, 8}},
   {name = "beast", make = beast},
