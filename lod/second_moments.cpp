@@ -61,7 +61,7 @@ void restore_second_moments(const MassSpringModel& base, const Groups& of_base,
   std::vector<Mat3> map;
   for (std::uint32_t p = 0; p < parts.count; ++p) {
     const Mat3 root = power_of(wanted[p].second, 0.5);
-    map.push_back(root * power_of(root * found[p].second * root, -0.5) * root);
+    map.emplace_back(root * power_of(root * found[p].second * root, -0.5) * root);
   }
   for (std::uint32_t i = 0; i < level.node_count(); ++i) {
     const std::uint32_t p = parts.of_node[i];

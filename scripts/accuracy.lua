@@ -168,8 +168,12 @@ local ok, failure = command.try(function()
       body.base, body.grid, body.lattice = body.make()
       for _, method in ipairs(methods) do
         for seed = 1, seeds do
-          local chain = make_chain(body, method, seed)
-          if chain then note(body, method, seed, chain) end
+          local made, chain = command.try(make_chain, body, method, seed)
+          if not made then
+            s.say(("%s, %s, seed %d: left out: %s"):format(body.name, method.name, seed, chain))
+          elseif chain then
+            note(body, method, seed, chain)
+          end
         end
       end
       s.say(("%s: %d nodes measured"):format(body.name, body.base.node_count))

@@ -219,7 +219,7 @@ TEST_CASE("Several parts, one of them a single node, and anchors are calibrated 
   const MassSpringModel other = block(3, 3, 6);
   const std::uint32_t first = two.node_count();
   for (std::uint32_t i = 0; i < other.node_count(); ++i) {
-    two.rest.push_back(other.rest[i] + Vec3(5, 0, 0));
+    two.rest.emplace_back(other.rest[i] + Vec3(5, 0, 0));
     two.mass.push_back(other.mass[i]);
     two.volume.push_back(other.volume[i]);
     two.contact_area.push_back(other.contact_area[i]);
