@@ -32,7 +32,7 @@ TEST_CASE("wrong use exits 2, says why on stderr and names what is near") {
     CHECK_THAT(ran.err, Contains(reason));
   };
   wrong({"conver", "x.obj"}, "did you mean 'convert'?");
-  wrong({"frobnicate"}, "commands are: run, compare, convert");
+  wrong({"frobnicate"}, "commands are: run, accuracy, compare, convert");
   wrong({"thing.lua"}, "springlod run thing.lua");
   wrong({"--sede", "3"}, "did you mean '--seed'?");
   wrong({"--seed", "many", "-e", "x = 1"}, "--seed");
@@ -97,7 +97,7 @@ TEST_CASE("a failing script exits 1 with its line and a traceback") {
   CHECK(ran.exit_code == 1);
   CHECK(ran.out.empty());
   CHECK_THAT(ran.err, Contains("bad.lua:3: unknown option 'level'; did you mean 'levels'? simplify "
-                               "takes: levels, grouping, border, seed"));
+                               "takes: levels, keep, grouping, border, seed"));
   CHECK_THAT(ran.err, Contains("stack traceback:"));
   CHECK_THAT(ran.err, Contains("bad.lua:5: in main chunk"));
 

@@ -98,6 +98,7 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.is_folder(folder) and #s.files(folder, {endings = {".obj"}}) == 1)
     s.model{nodes = {{0, 0, 0, mass = 1}}}
     s.say("quiet")
+    assert(s.info(s.certify(chain, {modes = 5})).levels[2].certificate.cost_ratio < 1)
     s.inspect(s.info(chain))
     s.statistics({1, 2, 3, 4, 5})
     s.compare_samples({1, 2, 3, 4, 5}, {2, 3, 4, 5, 6})
