@@ -22,7 +22,7 @@ std::vector<PartTargets> measure_parts(const MassSpringModel& base,
   std::vector<PartTargets> all;
   std::vector<bool> anchored(base.node_count(), false);
   for (const std::uint32_t node : options.targets.anchored) anchored.at(node) = true;
-  for (ModelPart& part : split_parts(base)) {
+  for (ModelPart& part : split_parts(base, connected_components(base))) {
     TargetOptions of_part = options.targets;
     of_part.progress = options.progress;
     of_part.anchored.clear();
@@ -53,8 +53,8 @@ void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpring
 
 void calibrate_level(const std::vector<PartTargets>& base, Level& level,
                      const FitOptions& options) {
-  const std::vector<ModelPart> parts = split_parts(level.model);
   const Components components = connected_components(level.model);
+  const std::vector<ModelPart> parts = split_parts(level.model, components);
   for (const PartTargets& of_base : base) {
     const std::uint32_t first = level.of_base.of[of_base.part.nodes.front()];
     const ModelPart& part = parts[components.of_node[first]];

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "lod/elastic_targets.hpp"
-#include "lod/fit_part.hpp"
 #include "lod/second_moments.hpp"
+#include "lod/tolerance.hpp"
 #include "model/error.hpp"
 #include "model/local_loads.hpp"
 #include "model/measured_moduli.hpp"
@@ -24,9 +24,8 @@ namespace {
 /// Frequencies of the base nearer than this belong to one mode of several shapes, as a sphere has
 /// them: which of the shapes a level takes is left to chance.
 constexpr double kSameFrequency = 0.05;
-/// What may be off, over the tolerance of the lowest frequencies.
-constexpr double kHigherModes = 4, kSmoothLoads = 8, kHeldOut = 12;
-constexpr std::uint32_t kLowestModes = 10;
+/// What local loads may be off, over the tolerance of the lowest frequencies.
+constexpr double kLocalLoadsTolerance = 12;
 /// Masses and their moments are kept to rounding.
 constexpr double kExact = 1e-9;
 
@@ -142,9 +141,8 @@ void compare_masses(const MassSpringModel& base, const MassSpringModel& level,
 
 void judge(const CertifyOptions& options, const LodChain& chain, const Level& level,
            Certificate& c) {
-  c.tolerance = options.tolerance > 0 ? options.tolerance
-                                      : usual_tolerance(chain.levels.front().model.node_count(),
-                                                        level.model.node_count());
+  c.tolerance = frequency_tolerance(options.tolerance, chain.levels.front().model.node_count(),
+                                    level.model.node_count());
   constexpr double kPercent = 100;
   const auto check = [&](const char* what, double error, double most) {
     if (error > most)
@@ -153,9 +151,9 @@ void judge(const CertifyOptions& options, const LodChain& chain, const Level& le
   };
   check("lowest ten frequencies", mean_frequency_error(c, 0, kLowestModes), c.tolerance);
   check("higher frequencies", mean_frequency_error(c, kLowestModes, options.modes),
-        kHigherModes * c.tolerance);
-  check("smooth loads", mean_load_error(c, false), kSmoothLoads * c.tolerance);
-  check("local loads", mean_load_error(c, true), kHeldOut * c.tolerance);
+        kHigherModesTolerance * c.tolerance);
+  check("smooth loads", mean_load_error(c, false), kSmoothLoadsTolerance * c.tolerance);
+  check("local loads", mean_load_error(c, true), kLocalLoadsTolerance * c.tolerance);
   check("mass", std::abs(c.mass_error), kExact);
   check("centre of mass", c.center_shift, kExact);
   check("second moments of mass", c.second_moment_error, kExact);

@@ -9,6 +9,7 @@
 #include "lod/elastic_fit.hpp"
 #include "lod/frequency_cap.hpp"
 #include "lod/mass_moments.hpp"
+#include "lod/tolerance.hpp"
 #include "model/stable_step.hpp"
 
 namespace springlod {
@@ -29,9 +30,8 @@ constexpr double kTighten = 0.9;
 /// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
 constexpr double kMargin = 1;
 
-/// What may be missed by, over the tolerance of the lowest frequencies.
-constexpr double kHigherModes = 4, kSmoothLoads = 8, kPatchLoads = 20;
-constexpr std::size_t kLowestModes = 10;
+/// What patch loads may be missed by, over the tolerance of the lowest frequencies.
+constexpr double kPatchLoadsTolerance = 20;
 
 double mean(const std::vector<double>& values, std::size_t begin, std::size_t end) {
   end = std::min(end, values.size());
@@ -47,8 +47,7 @@ class PartFit {
       : start_(level),
         targets_(targets),
         options_(options),
-        tolerance_(options.tolerance > 0 ? options.tolerance
-                                         : usual_tolerance(targets.nodes, level.node_count())),
+        tolerance_(frequency_tolerance(options.tolerance, targets.nodes, level.node_count())),
         least_frequency_(options.least_frequency * targets.highest_frequency *
                          std::cbrt(static_cast<double>(level.node_count()) / targets.nodes)),
         fit_(level, of_base, targets),
@@ -139,9 +138,9 @@ class PartFit {
     const std::vector<double>& compliance = point.misses.compliance;
     const std::size_t smooth = targets_.smooth_loads;
     return mean(frequency, 0, kLowestModes) <= tolerance_ &&
-           mean(frequency, kLowestModes, frequency.size()) <= kHigherModes * tolerance_ &&
-           mean(compliance, 0, smooth) <= kSmoothLoads * tolerance_ &&
-           mean(compliance, smooth, compliance.size()) <= kPatchLoads * tolerance_;
+           mean(frequency, kLowestModes, frequency.size()) <= kHigherModesTolerance * tolerance_ &&
+           mean(compliance, 0, smooth) <= kSmoothLoadsTolerance * tolerance_ &&
+           mean(compliance, smooth, compliance.size()) <= kPatchLoadsTolerance * tolerance_;
   }
 
   void keep_if_better() {
@@ -162,11 +161,6 @@ class PartFit {
 };
 
 }  // namespace
-
-double usual_tolerance(std::uint32_t base_nodes, std::uint32_t level_nodes) {
-  constexpr double kOfBase = 0.002;
-  return kOfBase * std::sqrt(static_cast<double>(base_nodes) / level_nodes);
-}
 
 MassSpringModel fit_part(const MassSpringModel& level, const Groups& of_base,
                          const ElasticTargets& targets, const FitOptions& options) {

@@ -11,18 +11,15 @@ namespace springlod {
 
 struct FitOptions {
   std::uint32_t iterations = 60;
-  /// Mean error of the ten lowest frequencies that is good enough [1]; the other modes may miss by
-  /// four times as much, smooth loads by eight and patch loads by twenty times as much. 0: 0.002
-  /// sqrt(N0 / N).
+  /// Mean error of the ten lowest frequencies that is good enough [1], 0: see frequency_tolerance;
+  /// the other modes may miss by four times as much, smooth loads by eight and patch loads by
+  /// twenty times as much.
   double tolerance = 0;
   /// Where the largest frequency need not fall any further, over that of a lattice of as many
   /// nodes, omega0 (N / N0)^(1/3): below it local loads are answered worse.
   double least_frequency = 0.85;
   std::function<void()> on_iteration{};  ///< may throw to stop
 };
-
-/// What fit_part comes to for `level_nodes` nodes if no tolerance is given.
-double usual_tolerance(std::uint32_t base_nodes, std::uint32_t level_nodes);
 
 /// Changes the stiffnesses and masses of a level until it swings and gives way as its base does,
 /// then lowers its largest frequency for as long as it still does (after spec 4.1): Gauss-Newton

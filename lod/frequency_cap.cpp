@@ -7,22 +7,12 @@
 #include <Eigen/Eigenvalues>
 
 #include "model/spring_rows.hpp"
+#include "model/stable_step.hpp"
 
 namespace springlod {
 namespace {
 
 constexpr double kPower = 32;
-
-std::vector<Mat3> node_stiffness(const MassSpringModel& model) {
-  std::vector<Mat3> held(model.node_count(), Mat3::Zero());
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    const Vec3 u = spring_direction(model, s);
-    const Mat3 k = model.stiffness[s] * u * u.transpose();
-    held[model.a[s]] += k;
-    held[model.b[s]] += k;
-  }
-  return held;
-}
 
 /// |A| and what it grows by with each part of A along the axes: d|A| = sum_d slope_d
 /// (axis_d.dA.axis_d).
@@ -44,6 +34,14 @@ Norm norm_of(const Mat3& a) {
 
 double bound_of(const Norm& norm, double mass) {
   return 2 * norm.value / mass;
+}
+
+std::vector<double> node_bounds(const MassSpringModel& model) {
+  const std::vector<Mat3> held = node_stiffness(model);
+  std::vector<double> bounds;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    bounds.push_back(bound_of(norm_of(held[i]), model.mass[i]));
+  return bounds;
 }
 
 }  // namespace
@@ -76,20 +74,14 @@ CapRows cap_rows(const MassSpringModel& model, double tau, double margin) {
 }
 
 double largest_node_bound(const MassSpringModel& model) {
-  const std::vector<Mat3> held = node_stiffness(model);
-  double most = 0;
-  for (std::uint32_t i = 0; i < model.node_count(); ++i)
-    most = std::max(most, bound_of(norm_of(held[i]), model.mass[i]));
-  return most;
+  const std::vector<double> bounds = node_bounds(model);
+  return *std::max_element(bounds.begin(), bounds.end());
 }
 
 double squared_excess(const MassSpringModel& model, double tau) {
-  const std::vector<Mat3> held = node_stiffness(model);
   double sum = 0;
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    const double over = std::log(bound_of(norm_of(held[i]), model.mass[i]) / tau);
-    if (over > 0) sum += over * over;
-  }
+  for (const double bound : node_bounds(model))
+    if (bound > tau) sum += std::pow(std::log(bound / tau), 2);
   return sum;
 }
 

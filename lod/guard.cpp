@@ -136,8 +136,7 @@ class Guard {
     const FineGraph base{fine, parts};
     // A rope or a cloth is floppy by its nature; only parts that were solid are kept solid.
     solid_part_ = solid_parts(base, rule_);
-    for (const double length : fine.rest_length) mean_length_ += length;
-    mean_length_ /= std::max(1U, fine.spring_count());
+    mean_length_ = mean_spring_length(fine);
     graph_ = CoarseGraph(base, groups, result_.links);
   }
 

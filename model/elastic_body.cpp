@@ -10,6 +10,7 @@
 
 #include "model/anchors.hpp"
 #include "model/error.hpp"
+#include "model/parts.hpp"
 #include "model/random_block.hpp"
 #include "model/stable_step.hpp"
 #include "model/stiffness.hpp"
@@ -26,25 +27,6 @@ constexpr double kRaise = 30;
 constexpr int kRaises = 3;
 /// Numbers in the zero modes of one part that are still stored [8 bytes each].
 constexpr double kMostStored = 5e7;
-
-/// A connected part, its anchored nodes included, as a model of its own as far as stiffness and
-/// mass go.
-MassSpringModel part_model(const MassSpringModel& model, const std::vector<std::uint32_t>& nodes,
-                           const std::vector<std::uint32_t>& springs,
-                           const std::vector<std::uint32_t>& place) {
-  MassSpringModel part;
-  for (const std::uint32_t i : nodes) {
-    part.rest.push_back(model.rest[i]);
-    part.mass.push_back(model.mass[i]);
-    part.volume.push_back(model.volume[i]);
-  }
-  for (const std::uint32_t s : springs) {
-    part.a.push_back(place[model.a[s]]);
-    part.b.push_back(place[model.b[s]]);
-    part.stiffness.push_back(model.stiffness[s]);
-  }
-  return part;
-}
 
 /// Orthonormal rigid motions in mass-weighted unknowns: three translations and the `rotations`
 /// turns about principal axes that move the part (2 for a straight line, 0 for a single node).
@@ -110,16 +92,15 @@ void find_mechanisms(ElasticPart& part, Eigen::Index count) {
   part.zero_modes.rightCols(count) = motions;
 }
 
-/// `model` is the part alone, `all` its nodes' numbers in the whole, `free` the places in `all` of
-/// those that can move.
-ElasticPart make_part(const MassSpringModel& model, const std::vector<std::uint32_t>& all,
-                      const std::vector<std::uint32_t>& free, const PartModes& found,
-                      Progress* progress) {
+/// `free`: the nodes of `whole` that can move.
+ElasticPart make_part(const ModelPart& whole, const std::vector<std::uint32_t>& free,
+                      const PartModes& found, Progress* progress) {
+  const MassSpringModel& model = whole.model;
   ElasticPart part;
   std::vector<Vec3> points;
   part.root_mass.resize(3 * static_cast<Eigen::Index>(free.size()));
   for (std::size_t i = 0; i < free.size(); ++i) {
-    part.nodes.push_back(all[free[i]]);
+    part.nodes.push_back(whole.nodes[free[i]]);
     points.push_back(model.rest[free[i]]);
     part.root_mass.segment<3>(3 * static_cast<Eigen::Index>(i))
         .setConstant(std::sqrt(model.mass[free[i]]));
@@ -177,29 +158,18 @@ std::uint32_t ElasticBody::zero_mode_count() const {
 
 ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& options) {
   const std::vector<std::uint8_t> held = anchor_flags(model, options.anchored);
-  const Components components = connected_components(model);
   const std::vector<PartModes> found = zero_modes(model, options.anchored);
-  std::vector<std::vector<std::uint32_t>> nodes(components.count), free(components.count),
-      springs(components.count);
-  std::vector<std::uint32_t> place(model.node_count());
+  const std::vector<ModelPart> parts = split_parts(model, connected_components(model));
   ElasticBody body;
   body.node_count = model.node_count();
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    std::vector<std::uint32_t>& of_part = nodes[components.of_node[i]];
-    place[i] = static_cast<std::uint32_t>(of_part.size());
-    of_part.push_back(i);
-    if (held[i] != 0)
-      body.anchored.push_back(i);
-    else
-      free[components.of_node[i]].push_back(place[i]);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    if (held[i] != 0) body.anchored.push_back(i);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    std::vector<std::uint32_t> free;
+    for (std::uint32_t i = 0; i < parts[p].nodes.size(); ++i)
+      if (held[parts[p].nodes[i]] == 0) free.push_back(i);
+    if (!free.empty()) body.parts.push_back(make_part(parts[p], free, found[p], options.progress));
   }
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
-    springs[components.of_node[model.a[s]]].push_back(s);
-
-  for (std::uint32_t p = 0; p < components.count; ++p)
-    if (!free[p].empty())
-      body.parts.push_back(make_part(part_model(model, nodes[p], springs[p], place), nodes[p],
-                                     free[p], found[p], options.progress));
   return body;
 }
 

@@ -13,10 +13,8 @@ namespace {
 /// Where patches can be, and how wide they are.
 class Surface {
  public:
-  Surface(const MassSpringModel& model, double radius) : model_(model) {
-    double length = 0;
-    for (const double each : model.rest_length) length += each;
-    if (model.spring_count() > 0) radius_ = radius * length / model.spring_count();
+  Surface(const MassSpringModel& model, double radius)
+      : model_(model), radius_(radius * mean_spring_length(model)) {
     for (std::uint32_t i = 0; i < model.node_count(); ++i)
       if (model.border[i] != 0) border_.push_back(i);
     if (border_.empty()) throw InputError("local loads: the model has no border nodes to push at");
@@ -70,7 +68,7 @@ class Surface {
   }
 
   const MassSpringModel& model_;
-  double radius_ = 0;
+  double radius_;  // of a patch [m]
   std::vector<std::uint32_t> border_;
   std::vector<Vec3> normal_;  // N, length 1, or 0 where the springs cancel out
 };

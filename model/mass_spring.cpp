@@ -119,6 +119,13 @@ Components connected_components(const MassSpringModel& model) {
   return {std::move(numbers.of), numbers.count};
 }
 
+double mean_spring_length(const MassSpringModel& model) {
+  if (model.spring_count() == 0) return 0;
+  double sum = 0;
+  for (const double length : model.rest_length) sum += length;
+  return sum / model.spring_count();
+}
+
 double spring_work(const MassSpringModel& model) {
   double work = 0;
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)

@@ -80,6 +80,8 @@ struct Components {
 };
 Components connected_components(const MassSpringModel& model);
 
+/// Mean of the rest lengths [m]; 0 without springs.
+double mean_spring_length(const MassSpringModel& model);
 /// sum of k L^2 over the springs [N m]: W of the paper's eq. 2.
 double spring_work(const MassSpringModel& model);
 /// Young's modulus by the paper's eq. 2, W / (6 V) [Pa]; an affine upper bound.

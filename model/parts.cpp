@@ -2,8 +2,7 @@
 
 namespace springlod {
 
-std::vector<ModelPart> split_parts(const MassSpringModel& model) {
-  const Components components = connected_components(model);
+std::vector<ModelPart> split_parts(const MassSpringModel& model, const Components& components) {
   std::vector<ModelPart> parts(components.count);
   std::vector<std::uint32_t> place(model.node_count());
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {

@@ -14,7 +14,8 @@ struct ModelPart {
   std::vector<std::uint32_t> springs;  ///< of the whole: that of each spring of the part, rising
 };
 
-/// The connected parts, by their lowest node, as connected_components numbers them.
-std::vector<ModelPart> split_parts(const MassSpringModel& model);
+/// The connected parts, as `components` (connected_components of `model`) numbers them: by their
+/// lowest node.
+std::vector<ModelPart> split_parts(const MassSpringModel& model, const Components& components);
 
 }  // namespace springlod

@@ -101,7 +101,7 @@ double largest_eigenvalue_lanczos(const MassWeightedStiffness& op, std::uint64_t
 
 /// A_i of each node, from the stiffness of each spring between its ends [N/m].
 template <class StiffnessOf>
-std::vector<Mat3> node_stiffness(const MassSpringModel& model, const StiffnessOf& stiffness_of) {
+std::vector<Mat3> sum_at_nodes(const MassSpringModel& model, const StiffnessOf& stiffness_of) {
   std::vector<Mat3> sums(model.node_count(), Mat3::Zero());
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
     const Mat3 k = stiffness_of(s);
@@ -111,15 +111,8 @@ std::vector<Mat3> node_stiffness(const MassSpringModel& model, const StiffnessOf
   return sums;
 }
 
-std::vector<Mat3> node_stiffness_at_rest(const MassSpringModel& model) {
-  return node_stiffness(model, [&](std::uint32_t s) -> Mat3 {
-    const Vec3 u = spring_direction(model, s);
-    return model.stiffness[s] * u * u.transpose();
-  });
-}
-
 std::vector<Mat3> node_stiffness_at(const MassSpringModel& model, const std::vector<Vec3>& x) {
-  return node_stiffness(model, [&](std::uint32_t s) -> Mat3 {
+  return sum_at_nodes(model, [&](std::uint32_t s) -> Mat3 {
     const Vec3 along = x[model.b[s]] - x[model.a[s]];
     const double length = along.norm();
     if (!(length > 0)) return Mat3::Zero();  // no direction
@@ -131,7 +124,7 @@ std::vector<Mat3> node_stiffness_at(const MassSpringModel& model, const std::vec
 
 /// omega^2 <= max_i (2 lambda_max(A_i) + ground_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
 double squared_bound(const MassSpringModel& model, const std::vector<double>& ground) {
-  const std::vector<Mat3> stiffness = node_stiffness_at_rest(model);
+  const std::vector<Mat3> stiffness = node_stiffness(model);
   double bound = 0;
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
     const double top = Eigen::SelfAdjointEigenSolver<Mat3>(stiffness[i], Eigen::EigenvaluesOnly)
@@ -166,6 +159,13 @@ double largest_frequency(const MassSpringModel& model, const FrequencyOptions& o
 
 double frequency_bound(const MassSpringModel& model) {
   return std::sqrt(squared_bound(model, {}));
+}
+
+std::vector<Mat3> node_stiffness(const MassSpringModel& model) {
+  return sum_at_nodes(model, [&](std::uint32_t s) -> Mat3 {
+    const Vec3 u = spring_direction(model, s);
+    return model.stiffness[s] * u * u.transpose();
+  });
 }
 
 std::vector<double> node_frequency_bounds(const MassSpringModel& model, const std::vector<Vec3>& x,

@@ -22,6 +22,8 @@ double largest_frequency(const MassSpringModel& model, const FrequencyOptions& o
 /// Bound without iterating: omega^2 <= 2 max_i lambda_max(A_i) / m_i, A_i = sum_j k_ij u u^T
 /// [rad/s].
 double frequency_bound(const MassSpringModel& model);
+/// A_i of each node [N/m], N: what the node feels of its springs while its neighbours rest.
+std::vector<Mat3> node_stiffness(const MassSpringModel& model);
 /// What each node adds to that bound where springs are turned, stretched and compressed, nodes at
 /// x: (2 lambda + ground_i) / m_i [rad2/s2], N, with
 /// A_i = sum_j k_ij (u u^T + max(0, 1 - L/l) (1 - u u^T)): a stretched spring is stiff across, too.

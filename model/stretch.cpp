@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -44,11 +43,8 @@ Bar measure_bar(const MassSpringModel& model, int axis) {
         fmt::format("stretch test: the model has fewer than two planes of nodes along "
                     "{}; stretch it along another axis",
                     "xyz"[axis]));
-  const double mean_spring =
-      std::accumulate(model.rest_length.begin(), model.rest_length.end(), 0.0) /
-      model.spring_count();
   // At most a quarter of the length each, so that the ends do not meet.
-  bar.end_depth = std::min(mean_spring / 2, bar.length() / 4);
+  bar.end_depth = std::min(mean_spring_length(model) / 2, bar.length() / 4);
   return bar;
 }
 

@@ -59,12 +59,9 @@ Colour drawn_colour(const MassSpringModel& model, std::uint32_t material) {
   return own == Colour{} ? palette_colour(material) : own;
 }
 
-double mean_spring_length(const MassSpringModel& model) {
-  if (model.spring_count() > 0) {
-    double sum = 0;
-    for (const double length : model.rest_length) sum += length;
-    return sum / model.spring_count();
-  }
+/// What balls and rods are sized by: the springs' mean length, or the room of a node without them.
+double drawn_length(const MassSpringModel& model) {
+  if (model.spring_count() > 0) return mean_spring_length(model);
   const Box3 box = bounds(model.rest);
   const double size = box.isEmpty() ? 0 : box.diagonal().norm();
   return size > 0 ? size / std::cbrt(static_cast<double>(model.node_count())) : 1;
@@ -92,7 +89,7 @@ std::vector<SpringInstance> spring_instances(const DrawnBody& body, const Vec3& 
   const double factor = !plain                        ? 1
                         : body.style.bold_inner_nodes ? kStepBackFactor
                                                       : kValueSpringFactor;
-  const auto radius = static_cast<float>(factor * kSpringRadius * mean_spring_length(model));
+  const auto radius = static_cast<float>(factor * kSpringRadius * drawn_length(model));
   std::vector<SpringInstance> springs;
   springs.reserve(model.spring_count());
   for (std::size_t s = 0; s < model.spring_count(); ++s) {
@@ -119,7 +116,7 @@ std::vector<NodeInstance> node_instances(const DrawnBody& body, const Vec3& orig
   const std::vector<Vec3>& x = node_positions(body);
   const double usual = shows_values(body) ? kValueNodeRadius : kNodeRadius;
   const double radius =
-      body.style.node_radius > 0 ? body.style.node_radius : usual * mean_spring_length(model);
+      body.style.node_radius > 0 ? body.style.node_radius : usual * drawn_length(model);
   // Strain takes the colours: then balls are neutral, else they would be read as strain.
   const bool neutral = body.style.springs && body.style.spring_colour == SpringColour::strain;
   const double mean_mass =
