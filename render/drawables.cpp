@@ -52,19 +52,19 @@ Colour mix(const Colour& a, const Colour& b, float t) {
   return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
 }
 
-}  // namespace
-
-Colour drawn_colour(const MassSpringModel& model, std::uint32_t material) {
-  const Colour& own = model.materials[material].colour;
-  return own == Colour{} ? palette_colour(material) : own;
-}
-
 /// What balls and rods are sized by: the springs' mean length, or the room of a node without them.
 double drawn_length(const MassSpringModel& model) {
   if (model.spring_count() > 0) return mean_spring_length(model);
   const Box3 box = bounds(model.rest);
   const double size = box.isEmpty() ? 0 : box.diagonal().norm();
   return size > 0 ? size / std::cbrt(static_cast<double>(model.node_count())) : 1;
+}
+
+}  // namespace
+
+Colour drawn_colour(const MassSpringModel& model, std::uint32_t material) {
+  const Colour& own = model.materials[material].colour;
+  return own == Colour{} ? palette_colour(material) : own;
 }
 
 std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSurface& surface,

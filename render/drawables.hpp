@@ -26,9 +26,6 @@ struct NodeInstance {
   float radius;
 };
 
-/// Mean rest length of the springs; without springs a part of the model's size.
-double mean_spring_length(const MassSpringModel& model);
-
 std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSurface& surface,
                                             const Vec3& origin);
 std::vector<SpringInstance> spring_instances(const DrawnBody& body, const Vec3& origin);
