@@ -11,9 +11,11 @@
 #include <fmt/format.h>
 
 #include "lod/connected_groups.hpp"
+#include "lod/graded_shares.hpp"
 #include "model/chance.hpp"
 #include "model/error.hpp"
 #include "model/point_bins.hpp"
+#include "model/stable_step.hpp"
 
 namespace springlod {
 namespace {
@@ -34,37 +36,19 @@ std::vector<Nodes> kinds_of(const MassSpringModel& model, BorderRule border) {
   return nodes;
 }
 
-/// `count` shared out by the numbers of nodes, at least 1 each; largest remainders first.
-std::vector<std::uint32_t> shares(const std::vector<Nodes>& kinds, std::uint32_t count) {
-  std::size_t all = 0;
-  for (const Nodes& kind : kinds) all += kind.size();
-  if (count < kinds.size() || count > all)
-    throw InputError(fmt::format(
-        "compact grouping: {} groups cannot be made of {} nodes of {} kinds (connected parts, "
-        "materials, weak borders), which do not mix; ask for {} to {}",
-        count, all, kinds.size(), kinds.size(), all));
-  std::vector<std::uint32_t> share;
-  std::vector<std::pair<double, std::size_t>> rest;
-  std::uint32_t given = 0;
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const double exact = static_cast<double>(count) * static_cast<double>(kinds[k].size()) /
-                         static_cast<double>(all);
-    share.push_back(std::max(1U, static_cast<std::uint32_t>(exact)));
-    rest.emplace_back(share.back() - exact, k);
-    given += share.back();
+/// With the median of what the nodes add to the bound of the largest squared frequency.
+std::vector<SharedNodes> frequencies_of(const MassSpringModel& model,
+                                        const std::vector<Nodes>& kinds) {
+  const std::vector<double> bounds = node_frequency_bounds(model, model.rest, {});
+  std::vector<SharedNodes> shared;
+  for (const Nodes& kind : kinds) {
+    std::vector<double> of_kind;
+    for (const std::uint32_t i : kind) of_kind.push_back(bounds[i]);
+    const auto middle = of_kind.begin() + static_cast<std::ptrdiff_t>(of_kind.size() / 2);
+    std::nth_element(of_kind.begin(), middle, of_kind.end());
+    shared.push_back({static_cast<std::uint32_t>(kind.size()), *middle});
   }
-  std::sort(rest.begin(), rest.end());
-  for (std::size_t r = 0; given < count; r = (r + 1) % rest.size())
-    if (std::uint32_t& more = share[rest[r].second]; more < kinds[rest[r].second].size()) {
-      ++more;
-      ++given;
-    }
-  for (std::size_t r = rest.size(); given > count; r = r > 1 ? r - 1 : rest.size())
-    if (std::uint32_t& less = share[rest[r - 1].second]; less > 1) {
-      --less;
-      --given;
-    }
-  return share;
+  return shared;
 }
 
 /// Groups of the nodes of one kind.
@@ -182,7 +166,8 @@ Groups compact_groups(const MassSpringModel& model, const CompactOptions& option
                     wanted, groups.count));
   wanted -= groups.count;
   const std::vector<Nodes> kinds = kinds_of(model, options.border);
-  const std::vector<std::uint32_t> share = shares(kinds, wanted);
+  const std::vector<std::uint32_t> share =
+      graded_shares(frequencies_of(model, kinds), wanted, options.grading);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     CompactKind kind(model, kinds[k], share[k], mix(options.seed) + k);
     kind.relax(options.passes);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lod/tolerance.hpp"
 #include "model/modes.hpp"
 
 namespace springlod {
@@ -12,10 +13,14 @@ constexpr double kSameFrequency = 0.01;
 /// Of squared frequencies: an order finer than what calibration is meant to reach.
 constexpr double kAccuracy = 1e-4;
 
-/// Weights of the modes: the lowest ten carry most of a motion (spec 4.1).
+/// Of loads: leaves compliances right to a hundredth of a percent and better.
+constexpr double kBalance = 1e-8;
+
+/// Weights of the modes, where a smooth load has 1: the lowest ten carry most of a motion, and each
+/// kind of miss counts about as much at its tolerance.
 double mode_weight(std::size_t mode) {
-  constexpr std::size_t kFirst = 10, kSecond = 12;
-  return mode < kFirst ? 1.5 : mode < kSecond ? 1 : 0.3;
+  constexpr double kLow = 3.75, kHigh = 1;
+  return mode < kLowestModes ? kLow : kHigh;
 }
 
 auto flat(const std::vector<Vec3>& vectors) {
@@ -116,7 +121,7 @@ void ElasticFit::add_modes(const MassSpringModel& level, const ElasticBody& body
 
 void ElasticFit::add_loads(const MassSpringModel& level, const ElasticBody& body,
                            Eigen::Index first, ElasticMisses& all) const {
-  const std::vector<StaticSolution> solved = solve_static(body, loads_);
+  const std::vector<StaticSolution> solved = solve_static(body, loads_, {.balance = kBalance});
   const auto k = as_vector(level.stiffness).array();
   const auto m = as_vector(level.mass).array();
   for (std::size_t l = 0; l < loads_.size(); ++l) {

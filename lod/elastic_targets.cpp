@@ -5,6 +5,7 @@
 
 #include "model/local_loads.hpp"
 #include "model/modes.hpp"
+#include "model/piece_loads.hpp"
 #include "model/stable_step.hpp"
 
 namespace springlod {
@@ -22,6 +23,28 @@ StaticLoad carried(const Groups& of_base, const StaticLoad& load) {
   return coarse;
 }
 
+namespace {
+
+struct WeightedLoads {
+  double weight = 1;
+  std::vector<StaticLoad> loads;
+};
+
+std::vector<WeightedLoads> kinds_of_loads(const MassSpringModel& base,
+                                          const TargetOptions& options) {
+  std::vector<WeightedLoads> kinds;
+  if (options.smooth_loads) {
+    kinds.push_back({1, smooth_loads(base)});
+    kinds.push_back({options.piece_weight, piece_loads(base)});
+  }
+  if (options.patches > 0 && border_count(base) > 0)
+    kinds.push_back({options.patch_weight,
+                     patch_pairs(base, {.count = options.patches, .seed = options.seed})});
+  return kinds;
+}
+
+}  // namespace
+
 ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options) {
   const ElasticBody body = held_body(base, options.anchored, options.progress);
   ElasticTargets targets;
@@ -33,18 +56,14 @@ ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions&
          lowest_modes(body, {.count = options.modes, .progress = options.progress}).modes)
       targets.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
 
-  std::vector<StaticLoad> loads;
-  if (options.smooth_loads) loads = smooth_loads(base);
-  const std::size_t smooth = loads.size();
-  if (options.patches > 0 && border_count(base) > 0)
-    for (StaticLoad& load : patch_pairs(base, {.count = options.patches, .seed = options.seed}))
-      loads.push_back(std::move(load));
-  const std::vector<StaticSolution> solved = solve_static(body, loads);
-  for (std::size_t l = 0; l < loads.size(); ++l) {
-    if (!(solved[l].compliance > 0)) continue;
-    targets.loads.push_back(
-        {std::move(loads[l]), solved[l].compliance, l < smooth ? 1 : options.patch_weight});
-    if (l < smooth) ++targets.smooth_loads;
+  for (WeightedLoads& kind : kinds_of_loads(base, options)) {
+    const std::vector<StaticSolution> solved = solve_static(body, kind.loads);
+    for (std::size_t l = 0; l < solved.size(); ++l)
+      if (solved[l].compliance > 0)
+        targets.loads.push_back({std::move(kind.loads[l]), solved[l].compliance, kind.weight});
+    // The first kind is that of the whole body.
+    if (options.smooth_loads && targets.smooth_loads == 0)
+      targets.smooth_loads = targets.loads.size();
   }
   return targets;
 }

@@ -20,7 +20,7 @@ struct LoadTarget {
 /// What a level shall have in common with its base (spec 4.1), measured on the base once.
 struct ElasticTargets {
   std::vector<double> squared_frequency;  ///< of the lowest modes, rising [rad2/s2]
-  std::vector<LoadTarget> loads;          ///< the smooth ones first
+  std::vector<LoadTarget> loads;          ///< the smooth ones on the whole body first
   std::size_t smooth_loads = 0;           ///< how many those are
   double highest_frequency = 0;           ///< omega_max of the base [rad/s]
   std::uint32_t nodes = 0;                ///< of the base
@@ -29,7 +29,8 @@ struct ElasticTargets {
 
 struct TargetOptions {
   std::uint32_t modes = 20;
-  bool smooth_loads = true;  ///< the nine of smooth_loads
+  bool smooth_loads = true;   ///< the nine of smooth_loads, and piece_loads
+  double piece_weight = 0.3;  ///< of each of the latter, where one of the nine has 1
   /// Pairs of opposed loads on patches of the surface, see patch_pairs: without them what is not
   /// fitted gets worse than it was.
   std::uint32_t patches = 150;

@@ -25,8 +25,10 @@ constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
 constexpr double kTrust = 3, kDistrust = 4;
 /// Weight of a node above the limit; a miss of a load that is fitted has 1.
 constexpr double kLimitWeight = 0.5;
-/// What the limit of squared frequencies falls to while the level is good.
-constexpr double kTighten = 0.9;
+/// What the limit of squared frequencies falls to while the level is good, at first; its root when
+/// a level did not become good again in so many steps, down to hardly any fall.
+constexpr double kTighten = 0.8, kLeastTighten = 0.98;
+constexpr std::uint32_t kPatience = 10;
 /// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
 constexpr double kMargin = 1;
 
@@ -56,13 +58,19 @@ class PartFit {
   MassSpringModel run() {
     now_ = at(Eigen::VectorXd::Zero(springs() + nodes()));
     limit_ = largest_node_bound(start_);
+    std::uint32_t tries = 0;  // steps since the level was good
     for (std::uint32_t i = 0; i < options_.iterations; ++i) {
       if (good(now_)) {
         keep_if_better();
         if (best_->highest_frequency <= least_frequency_) break;
-        limit_ = kTighten * std::min(limit_, largest_node_bound(now_.model));
+        limit_ = tighten_ * std::min(limit_, largest_node_bound(now_.model));
+        tries = 0;
+      } else if (best_ && (tries >= kPatience || damping_ > kMostDamping)) {
+        if (!back_off()) break;
+        tries = 0;
       }
-      if (!advance()) break;
+      ++tries;
+      if (!advance() && !best_) break;
       if (options_.on_iteration) options_.on_iteration();
     }
     if (good(now_)) keep_if_better();
@@ -77,6 +85,7 @@ class PartFit {
     ElasticMisses misses;  // slopes by theta, along changes that keep the moments
   };
   struct Best {
+    Eigen::VectorXd theta;
     MassSpringModel model;
     double highest_frequency = 0;
   };
@@ -132,6 +141,17 @@ class PartFit {
     return damping_ <= kMostDamping;
   }
 
+  /// Returns to the best level, to go on from there in smaller steps. False if they would be too
+  /// small.
+  bool back_off() {
+    tighten_ = std::sqrt(tighten_);
+    if (tighten_ > kLeastTighten) return false;
+    now_ = at(best_->theta);
+    limit_ = tighten_ * largest_node_bound(now_.model);
+    damping_ = kFirstDamping;
+    return true;
+  }
+
   /// Whether all kinds of misses are within what is wanted.
   bool good(const Point& point) const {
     const std::vector<double>& frequency = point.misses.frequency;
@@ -145,7 +165,7 @@ class PartFit {
 
   void keep_if_better() {
     const double highest = largest_frequency(now_.model);
-    if (!best_ || highest < best_->highest_frequency) best_ = Best{now_.model, highest};
+    if (!best_ || highest < best_->highest_frequency) best_ = Best{now_.theta, now_.model, highest};
   }
 
   const MassSpringModel& start_;
@@ -158,6 +178,7 @@ class PartFit {
   std::optional<Best> best_;
   double limit_ = 0;  // of the nodes' own squared frequencies [rad2/s2]
   double damping_ = kFirstDamping;
+  double tighten_ = kTighten;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace springlod {
 
 struct FitOptions {
-  std::uint32_t iterations = 60;
+  std::uint32_t iterations = 90;
   /// Mean error of the ten lowest frequencies that is good enough [1], 0: see frequency_tolerance;
   /// the other modes may miss by four times as much, smooth loads by eight and patch loads by
   /// twenty times as much.

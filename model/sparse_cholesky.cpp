@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Cholesky>
+#include "model/dense_kernels.hpp"
 
 namespace springlod {
 
@@ -125,13 +125,11 @@ class SparseCholesky::Builder {
 
   bool eliminate(std::uint32_t p) {
     Front& front = factor_.fronts_[p];
-    auto own = front.block.topRows(front.width());
-    Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> llt(own);
-    if (llt.info() != Eigen::Success) return false;
-    if (front.below() == 0) return true;
-    auto lower = front.block.bottomRows(front.below());
-    own.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(lower);
-    updates_[p].selfadjointView<Eigen::Lower>().rankUpdate(lower, -1);
+    const auto own = front.block.topRows(front.width());
+    const auto lower = front.block.bottomRows(front.below());
+    if (!factorise_lower(own)) return false;
+    solve_right_transposed(own, lower);
+    subtract_square(lower, updates_[p]);
     return true;
   }
 
@@ -157,39 +155,38 @@ std::size_t SparseCholesky::stored() const {
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& b) const {
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Rows x(b.rows(), b.cols());
+  // Transposed: what belongs to a node lies together.
+  Eigen::MatrixXd x(b.cols(), b.rows());
   const auto nodes = static_cast<Eigen::Index>(order_.size());
   for (Eigen::Index k = 0; k < nodes; ++k)
-    x.middleRows<3>(3 * k) =
-        b.middleRows<3>(3 * static_cast<Eigen::Index>(order_[static_cast<std::size_t>(k)]));
+    x.middleCols<3>(3 * k) =
+        b.middleRows<3>(3 * static_cast<Eigen::Index>(order_[static_cast<std::size_t>(k)]))
+            .transpose();
 
-  Rows above;
+  Eigen::MatrixXd above;
   for (const Front& front : fronts_) {
-    auto own = x.middleRows(front.first, front.width());
-    front.block.topRows(front.width()).triangularView<Eigen::Lower>().solveInPlace(own);
-    above.noalias() = front.block.bottomRows(front.below()) * own;
+    const auto own = x.middleCols(front.first, front.width());
+    solve_right_transposed(front.block.topRows(front.width()), own);
+    above.resize(b.cols(), front.below());
+    multiply_transposed(own, front.block.bottomRows(front.below()), above);
     for (std::size_t r = 0; r < front.rows.size(); ++r)
-      x.middleRows<3>(3 * static_cast<Eigen::Index>(front.rows[r])) -=
-          above.middleRows<3>(3 * static_cast<Eigen::Index>(r));
+      x.middleCols<3>(3 * static_cast<Eigen::Index>(front.rows[r])) -=
+          above.middleCols<3>(3 * static_cast<Eigen::Index>(r));
   }
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
-    above.resize(front->below(), b.cols());
+    above.resize(b.cols(), front->below());
     for (std::size_t r = 0; r < front->rows.size(); ++r)
-      above.middleRows<3>(3 * static_cast<Eigen::Index>(r)) =
-          x.middleRows<3>(3 * static_cast<Eigen::Index>(front->rows[r]));
-    auto own = x.middleRows(front->first, front->width());
-    own.noalias() -= front->block.bottomRows(front->below()).transpose() * above;
-    front->block.topRows(front->width())
-        .triangularView<Eigen::Lower>()
-        .transpose()
-        .solveInPlace(own);
+      above.middleCols<3>(3 * static_cast<Eigen::Index>(r)) =
+          x.middleCols<3>(3 * static_cast<Eigen::Index>(front->rows[r]));
+    const auto own = x.middleCols(front->first, front->width());
+    subtract_product(above, front->block.bottomRows(front->below()), own);
+    solve_right(front->block.topRows(front->width()), own);
   }
 
   Eigen::MatrixXd result(b.rows(), b.cols());
   for (Eigen::Index k = 0; k < nodes; ++k)
     result.middleRows<3>(3 * static_cast<Eigen::Index>(order_[static_cast<std::size_t>(k)])) =
-        x.middleRows<3>(3 * k);
+        x.middleCols<3>(3 * k).transpose();
   return result;
 }
 

@@ -52,7 +52,7 @@ struct Solved {
 };
 
 /// D y = force by conjugate gradients, each column by itself but preconditioned together.
-Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force) {
+Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force, double balance) {
   Solved solved{Eigen::MatrixXd::Zero(force.rows(), force.cols()), force};
   Eigen::MatrixXd rest = force;
   Eigen::MatrixXd direction = part.solve_shifted(rest);
@@ -66,7 +66,8 @@ Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force) {
       solved.last_step.col(c) = length * direction.col(c);
       solved.y.col(c) += solved.last_step.col(c);
       rest.col(c) -= length * product.col(c);
-      done = done && solved.last_step.col(c).norm() <= kSolved * solved.y.col(c).norm();
+      done = done && (solved.last_step.col(c).norm() <= kSolved * solved.y.col(c).norm() ||
+                      rest.col(c).norm() <= balance * force.col(c).norm());
     }
     if (done) break;
     const Eigen::MatrixXd preconditioned = part.solve_shifted(rest);
@@ -85,7 +86,7 @@ struct Sizes {
 };
 
 void solve_part(const ElasticPart& part, bool anchored, const std::vector<StaticLoad>& loads,
-                std::vector<StaticSolution>& solutions, Sizes& sizes) {
+                double balance, std::vector<StaticSolution>& solutions, Sizes& sizes) {
   const auto count = static_cast<Eigen::Index>(loads.size());
   Eigen::MatrixXd force(part.unknowns(), count);
   for (Eigen::Index c = 0; c < count; ++c) {
@@ -94,7 +95,7 @@ void solve_part(const ElasticPart& part, bool anchored, const std::vector<Static
     if (anchored) check_held(part, load, force.col(c));
   }
   part.remove_zero_modes(force);
-  const auto [y, last_step] = solve_balanced(part, force);
+  const auto [y, last_step] = solve_balanced(part, force, balance);
   sizes.solution += y.colwise().squaredNorm().transpose();
   sizes.last_step += last_step.colwise().squaredNorm().transpose();
   for (Eigen::Index c = 0; c < count; ++c) {
@@ -128,7 +129,7 @@ std::vector<StaticLoad> smooth_loads(const MassSpringModel& model) {
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     center += model.volume[i] * model.rest[i];
     volume += model.volume[i];
-    box.extend(model.rest[i]);
+    if (model.volume[i] > 0) box.extend(model.rest[i]);
   }
   center /= volume;
   Eigen::Index longest = 0;
@@ -162,7 +163,8 @@ std::vector<StaticLoad> smooth_loads(const MassSpringModel& model) {
 }
 
 std::vector<StaticSolution> solve_static(const ElasticBody& body,
-                                         const std::vector<StaticLoad>& loads) {
+                                         const std::vector<StaticLoad>& loads,
+                                         const StaticOptions& options) {
   for (const StaticLoad& load : loads) check(body, load);
   std::vector<StaticSolution> solutions(loads.size());
   if (loads.empty()) return solutions;
@@ -171,7 +173,7 @@ std::vector<StaticSolution> solve_static(const ElasticBody& body,
   const auto count = static_cast<Eigen::Index>(loads.size());
   Sizes sizes{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
   for (const ElasticPart& part : body.parts)
-    solve_part(part, !body.anchored.empty(), loads, solutions, sizes);
+    solve_part(part, !body.anchored.empty(), loads, options.balance, solutions, sizes);
   for (Eigen::Index c = 0; c < count; ++c)
     if (sizes.solution[c] > 0)
       solutions[static_cast<std::size_t>(c)].residual =

@@ -28,11 +28,18 @@ struct StaticSolution {
   double residual = 0;
 };
 
+struct StaticOptions {
+  /// What may be left of the forces, over them (both over the root of the masses), for a load to
+  /// count as solved; 0: iterate until nothing changes but by rounding. Above 0 one solution with
+  /// the factors is mostly enough, and `residual` tells nothing.
+  double balance = 0;
+};
+
 /// Nine smooth loads: "stretch x", "stretch y", "stretch z", "shear yz", "shear xz", "shear xy",
 /// two bends of the longest axis of the bounding box ("bend z to x") and a twist about it
-/// ("twist z"). Forces per volume are linear in the place (bends and twist: of second order) about
-/// the centre of volume; of each load their amounts add up to 1 N. A load that finds nothing to
-/// pull at (the width of a flat model) is all zeros.
+/// ("twist z"); nodes without volume count for nothing. Forces per volume are linear in the place
+/// (bends and twist: of second order) about the centre of volume; of each load their amounts add up
+/// to 1 N. A load that finds nothing to pull at (the width of a flat model) is all zeros.
 std::vector<StaticLoad> smooth_loads(const MassSpringModel& model);
 
 /// K u = f for each load, with the rigid motions projected out: of the forces as the inertia of the
@@ -41,6 +48,7 @@ std::vector<StaticLoad> smooth_loads(const MassSpringModel& model);
 /// Throws InputError for a load of another size than N or with forces that are not finite; for a
 /// body with anchored nodes, also where a load pushes at a motion that the anchors leave free.
 std::vector<StaticSolution> solve_static(const ElasticBody& body,
-                                         const std::vector<StaticLoad>& loads);
+                                         const std::vector<StaticLoad>& loads,
+                                         const StaticOptions& options = {});
 
 }  // namespace springlod

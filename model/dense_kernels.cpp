@@ -1,0 +1,71 @@
+#include "model/dense_kernels.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+#include <cblas.h>
+
+namespace springlod {
+namespace {
+
+/// Up to so many rows Eigen's kernels lose nothing to wider vectors.
+constexpr Eigen::Index kSmall = 48;
+
+int size(Eigen::Index n) {
+  return static_cast<int>(n);
+}
+
+/// The distance of columns; BLAS wants it above 0 even of empty matrices.
+int stride(const ConstDenseRef& m) {
+  return size(std::max<Eigen::Index>(1, m.outerStride()));
+}
+
+void solve_lower(const ConstDenseRef& l, CBLAS_TRANSPOSE transposed, DenseRef b) {
+  if (b.size() == 0) return;
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, transposed, CblasNonUnit, size(b.rows()),
+              size(b.cols()), 1, l.data(), stride(l), b.data(), stride(b));
+}
+
+/// c = scale c + factor a op(b).
+void add_product(const ConstDenseRef& a, CBLAS_TRANSPOSE of_b, const ConstDenseRef& b,
+                 double factor, double scale, DenseRef c) {
+  if (c.size() == 0) return;
+  cblas_dgemm(CblasColMajor, CblasNoTrans, of_b, size(c.rows()), size(c.cols()), size(a.cols()),
+              factor, a.data(), stride(a), b.data(), stride(b), scale, c.data(), stride(c));
+}
+
+}  // namespace
+
+bool factorise_lower(DenseRef a) {
+  if (a.cols() <= kSmall) return Eigen::LLT<DenseRef>(a).info() == Eigen::Success;
+  const Eigen::Index half = a.cols() / 2;
+  const Eigen::Index rest = a.cols() - half;
+  if (!factorise_lower(a.topLeftCorner(half, half))) return false;
+  solve_right_transposed(a.topLeftCorner(half, half), a.bottomLeftCorner(rest, half));
+  subtract_square(a.bottomLeftCorner(rest, half), a.bottomRightCorner(rest, rest));
+  return factorise_lower(a.bottomRightCorner(rest, rest));
+}
+
+void solve_right_transposed(const ConstDenseRef& l, DenseRef b) {
+  solve_lower(l, CblasTrans, b);
+}
+
+void solve_right(const ConstDenseRef& l, DenseRef b) {
+  solve_lower(l, CblasNoTrans, b);
+}
+
+void subtract_square(const ConstDenseRef& a, DenseRef c) {
+  if (c.size() == 0) return;
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, size(c.rows()), size(a.cols()), -1, a.data(),
+              stride(a), 1, c.data(), stride(c));
+}
+
+void multiply_transposed(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c) {
+  add_product(a, CblasTrans, b, 1, 0, c);
+}
+
+void subtract_product(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c) {
+  add_product(a, CblasNoTrans, b, -1, 1, c);
+}
+
+}  // namespace springlod

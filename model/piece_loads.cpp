@@ -1,0 +1,59 @@
+#include "model/piece_loads.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "model/disjoint_sets.hpp"
+
+namespace springlod {
+namespace {
+
+using Nodes = std::vector<std::uint32_t>;
+
+/// By their lowest node.
+std::vector<Nodes> pieces_of(const MassSpringModel& model) {
+  DisjointSets sets(model.node_count());
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+    if (model.material[model.a[s]] == model.material[model.b[s]])
+      sets.unite(model.a[s], model.b[s]);
+  const DisjointSets::Numbers numbers = sets.numbers();
+  std::vector<Nodes> pieces(numbers.count);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) pieces[numbers.of[i]].push_back(i);
+  return pieces;
+}
+
+bool reaches_surface(const MassSpringModel& model, const Nodes& piece) {
+  return std::any_of(piece.begin(), piece.end(),
+                     [&](std::uint32_t i) { return model.border[i] != 0; });
+}
+
+}  // namespace
+
+std::vector<StaticLoad> piece_loads(const MassSpringModel& model, const PieceOptions& options) {
+  std::vector<Nodes> pieces = pieces_of(model);
+  if (pieces.size() == 1) return {};
+  std::erase_if(pieces, [&](const Nodes& piece) {
+    return piece.size() < options.least_nodes || !reaches_surface(model, piece);
+  });
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Nodes& p, const Nodes& q) { return p.size() > q.size(); });
+  pieces.resize(std::min(pieces.size(), options.most_pieces));
+
+  std::vector<StaticLoad> loads;
+  for (const Nodes& piece : pieces) {
+    MassSpringModel alone = model;  // smooth loads act on volume
+    alone.volume.assign(model.node_count(), 0);
+    for (const std::uint32_t i : piece) alone.volume[i] = model.volume[i];
+    const std::uint32_t first = piece.front();
+    for (StaticLoad& load : smooth_loads(alone)) {
+      load.name +=
+          fmt::format(" of {} at node {}", model.materials[model.material[first]].name, first);
+      loads.push_back(std::move(load));
+    }
+  }
+  return loads;
+}
+
+}  // namespace springlod
