@@ -94,7 +94,12 @@ std::vector<Box> obstacles(const std::vector<ChartSeries>& series, const Axis& x
       const double x = px(s.points[i]);
       const double y = py(s.points[i]);
       boxes.push_back({x - kMarker, y - kMarker, x + kMarker, y + kMarker});
-      if (s.points[i].y_high > s.points[i].y_low) {
+      if (s.points[i].has_x_interval()) {
+        const double width = frame.right - frame.left;
+        boxes.push_back({frame.left + x_axis.place(s.points[i].x_low) * width, y - kLine,
+                         frame.left + x_axis.place(s.points[i].x_high) * width, y + kLine});
+      }
+      if (s.points[i].has_y_interval()) {
         const double height = frame.bottom - frame.top;
         boxes.push_back({x - kLine, frame.bottom - y_axis.place(s.points[i].y_high) * height,
                          x + kLine, frame.bottom - y_axis.place(s.points[i].y_low) * height});

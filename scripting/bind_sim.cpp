@@ -213,6 +213,7 @@ void describe_sim(Api& api) {
                  "local more = s.run(chain[1], scene, {start = trajectory.final})",
       .call = run_binding});
   describe_compare(api);
+  describe_deviation(api);
 }
 
 }  // namespace springlod

@@ -1,0 +1,150 @@
+-- Cost against error as a chart: colour tells the calibration, symbol the grouping, rings the
+-- paper's variants; the points of the front have names.
+
+local command = require "lib.command"
+local pareto_front = require "lib.pareto_front"
+
+local pareto_charts = {}
+
+local colours = {none = "orange", moduli = "pink", modes = "blue"}
+local calibration_names = {
+  {"none", "not calibrated"}, {"moduli", "moduli calibrated"}, {"modes", "modes calibrated"},
+}
+local symbols = {
+  {"standard", "disc"}, {"priority", "square"}, {"priority_hard", "triangle_down"},
+  {"compact", "triangle"}, {"metis", "diamond"},
+}
+local symbol_of = {}
+for _, entry in ipairs(symbols) do symbol_of[entry[1]] = entry[2] end
+
+-- Points this much below the floor are all the same: they sit on the axis, so that they do not
+-- press the others together.
+local below_floor = 0.1
+
+-- Points of an error axis: x and y as {value, low, high}.
+local function points_of(variants, axis)
+  local points = {}
+  for _, variant in ipairs(variants) do
+    local error_of = variant.errors[axis.name]
+    if error_of and variant.cost then
+      points[#points + 1] = {x = variant.cost.ratio.value, y = error_of.value, variant = variant,
+                             cost = variant.cost.ratio, error = error_of}
+    end
+  end
+  return points
+end
+
+local function chart_point(point, label)
+  return {point.x, point.y, x_low = point.cost.low, x_high = point.cost.high,
+          low = point.error.low, high = point.error.high, label = label}
+end
+
+-- Down and to the right from point to point.
+local function staircase(front, y_from)
+  local line = {}
+  for i, point in ipairs(front) do
+    if point.y <= y_from then break end
+    if i > 1 then line[#line + 1] = {point.x, front[i - 1].y} end
+    line[#line + 1] = {point.x, point.y}
+  end
+  return line
+end
+
+local function floor_line(points, floor)
+  local low, high = math.huge, 0
+  for _, point in ipairs(points) do
+    low, high = math.min(low, point.cost.low), math.max(high, point.cost.high)
+  end
+  return {{low, floor}, {high, floor}}
+end
+
+-- The legend: a line for each colour, a grey symbol for each grouping.
+local function add_legend(series, points)
+  local seen = {}
+  for _, point in ipairs(points) do
+    local making = point.variant.making
+    seen[making.grouping or "base"] = true
+    seen[making.calibration or "base"] = true
+  end
+  for _, entry in ipairs(calibration_names) do
+    if seen[entry[1]] then
+      series[#series + 1] = {name = entry[2], points = {}, colour = colours[entry[1]],
+                             symbol = "none"}
+    end
+  end
+  for _, entry in ipairs(symbols) do
+    if seen[entry[1]] then
+      series[#series + 1] = {name = entry[1], points = {}, colour = "grey", symbol = entry[2],
+                             joined = false}
+    end
+  end
+  series[#series + 1] = {name = "base", points = {}, colour = "grey", symbol = "pentagon",
+                         joined = false}
+end
+
+-- The front of one axis; draws it with all its points as folder/NAME.svg and .png. `axis`: name,
+-- title, y_label, floor (nil if there is none) and its name.
+function pareto_charts.draw(folder, variants, axis)
+  local points = points_of(variants, axis)
+  if #points == 0 then return {} end
+  local front = pareto_front(points)
+  local on_front = {}
+  for _, point in ipairs(front) do on_front[point] = true end
+  local y_from = axis.floor and below_floor * axis.floor or 0
+  local series, of_look, rings = {}, {}, {}
+  for _, point in ipairs(points) do
+    local making = point.variant.making
+    local look = making.name == "base" and "base" or making.grouping .. making.calibration
+    if not of_look[look] then
+      of_look[look] = {points = {}, joined = false, symbol = symbol_of[making.grouping] or "pentagon",
+                       colour = colours[making.calibration] or "grey"}
+      series[#series + 1] = of_look[look]
+    end
+    -- The base has no error of its own on some axes: of its points there only the cheapest is told.
+    if point.y > y_from or on_front[point] then
+      table.insert(of_look[look].points,
+        chart_point(point, on_front[point] and point.variant.label or nil))
+    end
+    if point.variant.paper then rings[#rings + 1] = {point.x, point.y} end
+  end
+  add_legend(series, points)
+  series[#series + 1] = {name = "Pareto front", points = staircase(front, y_from), symbol = "none",
+                         colour = "black"}
+  if #rings > 0 then
+    series[#series + 1] = {name = "the paper's", points = rings, symbol = "ring", colour = "black",
+                           joined = false}
+  end
+  if axis.floor then
+    series[#series + 1] = {name = axis.floor_name, points = floor_line(points, axis.floor),
+                           symbol = "none", colour = "green", dashed = true}
+  end
+  command.chart(folder .. "/" .. axis.name, series, {
+    title = axis.title, x_label = "cost of a simulated second, wall clock, over that of the base",
+    y_label = axis.y_label, log_x = true, log_y = true, y_from = axis.floor and y_from or nil,
+    width = 1200, height = 800,
+  })
+  return front
+end
+
+-- The surfaces' way over time of what is on a front, and of the floor.
+function pareto_charts.draw_over_time(folder, front, floor, title)
+  local series = {}
+  local function add(name, curve, dashed)
+    local points = {}
+    for _, point in ipairs(curve) do
+      if point[2] > 0 then points[#points + 1] = point end -- all start alike
+    end
+    series[#series + 1] = {name = name, points = points, symbol = "none", dashed = dashed}
+  end
+  for _, point in ipairs(front) do
+    if point.error.value > 0 then add(point.variant.label, point.error.curve) end
+  end
+  add("base, half the step", floor.curve, true)
+  series[#series].colour = "black"
+  command.chart(folder .. "/surface-over-time", series, {
+    title = title, x_label = "time [s]",
+    y_label = "distance of surfaces, rms [% of the base's size]", log_y = true,
+  })
+end
+
+return pareto_charts
