@@ -191,7 +191,7 @@ std::string edge_point_lines(const std::vector<ChartSeries>& series, const Chart
       if (!off) continue;
       constexpr int kFirst = 1000;  // label numbers of these
       text += fmt::format("set label {} '' at graph {:.5f},{:.5f} point pt {} ps 1.2 lc rgb '{}'\n",
-                          kFirst + number++, axes.x.place(p.x), std::max(0., axes.y.place(p.y)),
+                          kFirst + number++, axes.x.place(p.x), axes.y.place(p.y),
                           look_of(series, s).shape - 1, look_of(series, s).colour);
     }
   return text;
@@ -238,11 +238,13 @@ std::string plot_lines(const std::vector<ChartSeries>& series, const std::string
 // Points at the end of a log axis say what they are in their label.
 std::vector<ChartSeries> with_edge_labels(std::vector<ChartSeries> series,
                                           const ChartOptions& options) {
-  for (ChartSeries& s : series)
+  for (ChartSeries& s : series) {
+    if (s.symbol == ChartSymbol::none) continue;
     for (ChartPoint& p : s.points) {
       if (options.log_y && !(p.y > options.y_from)) p.label += fmt::format(" (y = {:.2g})", p.y);
       if (options.log_x && !(p.x > 0)) p.label += fmt::format(" (x = {:g})", p.x);
     }
+  }
   return series;
 }
 

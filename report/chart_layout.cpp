@@ -161,7 +161,7 @@ std::string power_text(double value) {
 
 double Axis::place(double value) const {
   if (!log) return (value - low) / (high - low);
-  if (!(value > 0)) return 0;
+  if (!(value > low)) return 0;
   return std::log(value / low) / std::log(high / low);
 }
 

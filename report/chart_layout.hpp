@@ -29,7 +29,7 @@ struct Axis {
   double high = 1;
   bool log = false;
   std::vector<Tick> ticks;
-  /// Place along the axis, 0 at `low`, 1 at `high`; a value that a log axis cannot show is at 0.
+  /// Place along the axis, 0 at `low`, 1 at `high`; a value below a log axis is at 0.
   double place(double value) const;
 };
 

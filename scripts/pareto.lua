@@ -1,11 +1,15 @@
 -- Draws cost against error for every way of making levels and of stepping them.
 
 local s = require "springlod"
+local body_size = require "lib.body_size"
 local command = require "lib.command"
 local file_checksum = require "lib.file_checksum"
+local pareto_chains = require "lib.pareto_chains"
 local pareto_charts = require "lib.pareto_charts"
-local pareto_runs = require "lib.pareto_runs"
+local pareto_ensembles = require "lib.pareto_ensembles"
+local pareto_surfaces = require "lib.pareto_surfaces"
 local pareto_tables = require "lib.pareto_tables"
+local pareto_times = require "lib.pareto_times"
 local pareto_variants = require "lib.pareto_variants"
 local run_store = require "lib.run_store"
 local teller = require "lib.teller"
@@ -33,8 +37,8 @@ axis("calibrations", "of none,moduli,modes")
 axis("integrators", "such as symplectic_euler,xpbd")
 axis("precisions", "of double,single; symplectic_euler alone has single")
 axis("errors", "of frequencies,loads,surface,ensemble; the last takes longest")
-parser:option("--keep", "nodes of each level over those of the base, such as 0.45,0.2 (default: the "
-  .. "asset's)"):argname("<parts>"):convert(command.numbers("--keep", 0))
+parser:option("--keep", "nodes of each level over those of the base, such as 0.45,0.2 (default: "
+  .. "the asset's)"):argname("<parts>"):convert(command.numbers("--keep", 0))
 parser:option("--seeds", "chains of each way of making levels (default: 5; quick: 1)")
   :convert(command.whole("--seeds", 1))
 parser:option("--starts", "paired starts of each run (default: 24; quick: 5)")
@@ -43,6 +47,8 @@ parser:option("--jitter", "relative change of speed and height from start to sta
   :convert(command.number("--jitter", 0)):default("0.02")
 parser:option("--repeats", "timed runs of each (default: 9; quick: 3); slow ones get three")
   :convert(command.whole("--repeats", 1))
+parser:option("--until", "surfaces are compared so long at most, such as 0.5s (default: until the "
+  .. "first chaos)"):convert(command.quantity("--until", "time"))
 parser:option("--implicit-step", "of the integrators whose step nothing bounds, such as 1ms")
   :convert(command.quantity("--implicit-step", "time")):default("1ms")
 parser:flag("--quick", "few of everything: to see that it works, not to conclude from")
@@ -74,6 +80,7 @@ local function settings_of(asset)
     keep = args.keep or keep_of(asset), seeds = args.seeds or quick.seeds,
     starts = args.starts or quick.starts, repeats = args.repeats or quick.repeats,
     jitter = args.jitter, implicit_step = args.implicit_step, seed = s.seed,
+    surface_time = args["until"] or math.huge,
   }
 end
 
@@ -83,48 +90,68 @@ local function store_settings(settings, scene)
     springlod = s.version, asset = file_checksum(args.asset), scene = scene, keep = settings.keep,
     starts = settings.starts, jitter = settings.jitter, seed = settings.seed,
     repeats = settings.repeats, implicit_step = settings.implicit_step,
+    surface_time = settings.surface_time,
   }
 end
 
--- Errors and cost of a variant; what fails goes into `left_out` and leaves the others be.
-local function measure(runs, variant, chains, elastic, left_out)
-  variant.errors = {frequencies = wanted.frequencies and elastic.frequencies,
-                    loads = wanted.loads and elastic.loads}
-  local function try(what, work)
-    local ok, result = command.try(work, runs, variant, chains)
-    if ok then return result end
-    left_out[#left_out + 1] = {variant.name, what, result}
-    s.say(("%s: no %s: %s"):format(variant.label, what, result))
+-- What a variant is measured by: by name, its method.
+local function measures_of(study)
+  local measures = {}
+  if wanted.surface then
+    study.surfaces = pareto_surfaces.new(study)
+    s.say(("surfaces are compared until %.3g s"):format(study.surfaces.until_chaos))
+    measures[#measures + 1] = {"surface", study.surfaces, "error_of"}
   end
-  if wanted.surface then variant.errors.surface = try("surface", runs.surface) end
-  if wanted.ensemble then variant.errors.ensemble = try("ensemble", runs.ensemble) end
-  variant.cost = try("cost", runs.times)
-  return variant
+  if wanted.ensemble then
+    study.ensembles = pareto_ensembles.new(study)
+    measures[#measures + 1] = {"ensemble", study.ensembles, "error_of"}
+  end
+  study.times = pareto_times.new(study)
+  measures[#measures + 1] = {"cost", study.times, "cost_of"}
+  return measures
 end
 
-local function measure_all(runs, left_out)
-  local ways, steppings = pareto_variants.ways_of_making(axes), pareto_variants.ways_of_stepping(axes)
+-- Errors and cost of a variant by name; what fails goes into `left_out` and leaves the others be.
+local function measure(variant, chains, elastic, measures, left_out)
+  local found = {frequencies = wanted.frequencies and elastic.frequencies or nil,
+                 loads = wanted.loads and elastic.loads or nil}
+  for _, one in ipairs(measures) do
+    local name, meter, method = table.unpack(one)
+    local ok, result = command.try(meter[method], meter, variant, chains)
+    if ok then
+      found[name] = result
+    else
+      left_out[#left_out + 1] = {variant.name, name, result}
+      s.say(("%s: no %s: %s"):format(variant.label, name, result))
+    end
+  end
+  return found
+end
+
+local function measure_all(study, measures, left_out)
+  local ways = pareto_variants.ways_of_making(axes)
+  local steppings = pareto_variants.ways_of_stepping(axes)
   if #steppings == 0 then
     error("nothing to run: of the integrators symplectic_euler alone has single precision; add "
       .. "double to --precisions", 0)
   end
-  local levels, seeds = #runs.settings.keep, runs.settings.seeds
-  local tell = teller(1 + #steppings + (#ways - 1) * (seeds + levels * #steppings))
-  local variants = {}
+  local settings, variants = study.settings, {}
+  local levels = #settings.keep
+  local tell = teller(#steppings + (#ways - 1) * (settings.seeds + levels * #steppings))
   for _, making in ipairs(ways) do
-    local ok, chains = command.try(runs.chains, runs, making, tell)
+    local ok, chains = command.try(pareto_chains.of, study, making, tell)
     if not ok then
       left_out[#left_out + 1] = {making.name, "levels", chains}
       s.say(("%s: left out: %s"):format(making.name, chains))
     else
-      local first, last = making.grouping and 1 or 0, making.grouping and levels or 0
-      for level = first, last do
-        local elastic = runs:elastic_errors(chains, level)
+      for level = making.grouping and 1 or 0, making.grouping and levels or 0 do
+        local elastic = pareto_chains.elastic_errors(chains, level)
         for _, stepping in ipairs(steppings) do
-          local variant = pareto_variants.variant(making, level, stepping)
+          local variant = pareto_variants.variant(making, level, stepping, settings.implicit_step)
           variant.nodes = chains[1][level].node_count
           variant.springs = chains[1][level].spring_count
-          variants[#variants + 1] = measure(runs, variant, chains, elastic, left_out)
+          variant.measured = measure(variant, chains, elastic, measures, left_out)
+          variants[#variants + 1] = variant
           tell(variant.label)
         end
       end
@@ -134,9 +161,8 @@ local function measure_all(runs, left_out)
 end
 
 -- What is drawn of each error.
-local function charts_of(runs)
-  local name = runs.scenario.name
-  local charts = {
+local function charts_of(study)
+  local name, charts = study.scenario.name, {
     {name = "frequencies", title = "Frequencies",
       y_label = "20 lowest frequencies, rms error [%]"},
     {name = "loads", title = "Local loads that no calibration is fitted to",
@@ -144,47 +170,48 @@ local function charts_of(runs)
   }
   if wanted.surface then
     charts[#charts + 1] = {name = "surface",
-      title = ("Surfaces before the first chaos (%s, up to %.2f s)"):format(name, runs.until_chaos),
+      title = ("Surfaces before the first chaos (%s, up to %.2f s)"):format(name,
+        study.surfaces.until_chaos),
       y_label = "distance from the base's, rms, mean over time [% of its size]",
-      floor = runs.half_step.value, floor_name = "base, half the step"}
+      floor = study.surfaces.floor.value, floor_name = "base, half the step"}
   end
   if wanted.ensemble then
     charts[#charts + 1] = {name = "ensemble",
-      title = ("Where %d starts end (%s)"):format(runs.settings.starts, name),
+      title = ("Where %d starts end (%s)"):format(study.settings.starts, name),
       y_label = "Wasserstein distance from the base's [m]",
-      floor = runs.noise_floor.level, floor_name = "noise floor of the base"}
+      floor = study.ensembles.floor.level, floor_name = "noise floor of the base"}
   end
   return charts
 end
 
-local function pareto()
-  local scene = command.load_table(args.scenario)
-  local asset = s.load(args.asset)
-  local settings = settings_of(asset)
-  s.scenario(scene) -- first, for a wrong one must not get into a store
-  local store = run_store.open(args.out .. "/runs", store_settings(settings, scene))
-  pareto_tables.save_command(args.out .. "/command.txt")
-  local runs = pareto_runs.new(asset[0], scene, settings, args.out, store)
-  if wanted.surface then
-    runs:find_chaos()
-    runs.half_step = runs:surface_floor()
-    s.say(("the base is sure of itself until %.3g s"):format(runs.until_chaos))
-  end
-  if wanted.ensemble then runs:ensemble_base() end
-  runs:plan_times()
-  local left_out = {}
-  local variants = measure_all(runs, left_out)
-  pareto_tables.save(args.out, variants, left_out, runs)
-  for _, chart in ipairs(charts_of(runs)) do
+local function report(study, variants, left_out)
+  pareto_tables.save(args.out, variants, left_out, study)
+  local x_label = ("cost of a simulated second over the base's (%.3g s by the clock)"):format(
+    study.times:base_cost())
+  for _, chart in ipairs(charts_of(study)) do
     if wanted[chart.name] then
+      chart.x_label = x_label
       local front = pareto_charts.draw(args.out, variants, chart)
       pareto_tables.show_front(args.out, chart, front)
       if chart.name == "surface" then
-        pareto_charts.draw_over_time(args.out, front, runs.half_step, chart.title)
+        pareto_charts.draw_over_time(args.out, front, study.surfaces.floor, chart.title)
       end
     end
   end
   if #left_out > 0 then print(("%d left out: see left-out.csv"):format(#left_out)) end
+end
+
+local function pareto()
+  local scene, asset = command.load_table(args.scenario), s.load(args.asset)
+  local settings, scenario = settings_of(asset), s.scenario(scene) -- wrong ones get into no store
+  local study = {
+    base = asset[0], size = body_size(asset[0]), scene = scene, scenario = scenario,
+    settings = settings, folder = args.out,
+    store = run_store.open(args.out .. "/runs", store_settings(settings, scene)),
+  }
+  pareto_tables.save_command(args.out .. "/command.txt")
+  local measures, left_out = measures_of(study), {}
+  report(study, measure_all(study, measures, left_out), left_out)
 end
 
 local ok, reason = command.try(pareto)

@@ -20,15 +20,17 @@ for _, entry in ipairs(symbols) do symbol_of[entry[1]] = entry[2] end
 -- Points this much below the floor are all the same: they sit on the axis, so that they do not
 -- press the others together.
 local below_floor = 0.1
+local early = 1e-3 -- of the floor: what is seen of the time before anything is touched
+local colour_count = 7 -- that series take by themselves; beyond them lines are dashed
 
 -- Points of an error axis: x and y as {value, low, high}.
 local function points_of(variants, axis)
   local points = {}
   for _, variant in ipairs(variants) do
-    local error_of = variant.errors[axis.name]
-    if error_of and variant.cost then
-      points[#points + 1] = {x = variant.cost.ratio.value, y = error_of.value, variant = variant,
-                             cost = variant.cost.ratio, error = error_of}
+    local error_of, cost = variant.measured[axis.name], variant.measured.cost
+    if error_of and cost then
+      points[#points + 1] = {x = cost.ratio.value, y = error_of.value, variant = variant,
+                             cost = cost.ratio, error = error_of}
     end
   end
   return points
@@ -36,7 +38,7 @@ end
 
 local function chart_point(point, label)
   return {point.x, point.y, x_low = point.cost.low, x_high = point.cost.high,
-          low = point.error.low, high = point.error.high, label = label}
+          low = point.error.low, high = point.error.high, label = label or nil}
 end
 
 -- Down and to the right from point to point.
@@ -82,68 +84,72 @@ local function add_legend(series, points)
                          joined = false}
 end
 
+-- A series for each grouping and calibration, and the paper's points. `front`: a set; points not
+-- above `y_from` are shown if they are in it, so that of what has no error the cheapest is told.
+local function series_of(points, front, y_from)
+  local series, of_look, paper = {}, {}, {}
+  for _, point in ipairs(points) do
+    local variant = point.variant
+    local making = variant.making
+    local look = making.grouping and making.grouping .. making.calibration or "base"
+    if not of_look[look] then
+      of_look[look] = {
+        points = {}, joined = false, symbol = symbol_of[making.grouping] or "pentagon",
+        colour = colours[making.calibration] or "grey",
+      }
+      series[#series + 1] = of_look[look]
+    end
+    if point.y > y_from or front[point] then
+      table.insert(of_look[look].points, chart_point(point, front[point] and variant.label))
+    end
+    if variant.paper then
+      paper[#paper + 1] = {point.x, point.y, label = not front[point] and variant.paper or nil}
+    end
+  end
+  return series, paper
+end
+
 -- The front of one axis; draws it with all its points as folder/NAME.svg and .png. `axis`: name,
--- title, y_label, floor (nil if there is none) and its name.
+-- title, x_label, y_label, floor (nil if there is none) and its name.
 function pareto_charts.draw(folder, variants, axis)
   local points = points_of(variants, axis)
   if #points == 0 then return {} end
-  local front = pareto_front(points)
-  local on_front = {}
+  local front, on_front = pareto_front(points), {}
   for _, point in ipairs(front) do on_front[point] = true end
   local y_from = axis.floor and below_floor * axis.floor or 0
-  local series, of_look, rings = {}, {}, {}
-  for _, point in ipairs(points) do
-    local making = point.variant.making
-    local look = making.name == "base" and "base" or making.grouping .. making.calibration
-    if not of_look[look] then
-      of_look[look] = {points = {}, joined = false, symbol = symbol_of[making.grouping] or "pentagon",
-                       colour = colours[making.calibration] or "grey"}
-      series[#series + 1] = of_look[look]
-    end
-    -- The base has no error of its own on some axes: of its points there only the cheapest is told.
-    if point.y > y_from or on_front[point] then
-      table.insert(of_look[look].points,
-        chart_point(point, on_front[point] and point.variant.label or nil))
-    end
-    if point.variant.paper then rings[#rings + 1] = {point.x, point.y} end
-  end
+  local series, paper = series_of(points, on_front, y_from)
+  local function add(one) series[#series + 1] = one end
   add_legend(series, points)
-  series[#series + 1] = {name = "Pareto front", points = staircase(front, y_from), symbol = "none",
-                         colour = "black"}
-  if #rings > 0 then
-    series[#series + 1] = {name = "the paper's", points = rings, symbol = "ring", colour = "black",
-                           joined = false}
+  add{name = "Pareto front", points = staircase(front, y_from), symbol = "none", colour = "black"}
+  if #paper > 0 then
+    add{name = "the paper's", points = paper, symbol = "ring", colour = "black", joined = false}
   end
   if axis.floor then
-    series[#series + 1] = {name = axis.floor_name, points = floor_line(points, axis.floor),
-                           symbol = "none", colour = "green", dashed = true}
+    add{name = axis.floor_name, points = floor_line(points, axis.floor), symbol = "none",
+        colour = "green", dashed = true}
   end
   command.chart(folder .. "/" .. axis.name, series, {
-    title = axis.title, x_label = "cost of a simulated second, wall clock, over that of the base",
-    y_label = axis.y_label, log_x = true, log_y = true, y_from = axis.floor and y_from or nil,
-    width = 1200, height = 800,
+    title = axis.title, x_label = axis.x_label, y_label = axis.y_label, log_x = true, log_y = true,
+    y_from = y_from, width = 1200, height = 800,
   })
   return front
 end
 
 -- The surfaces' way over time of what is on a front, and of the floor.
 function pareto_charts.draw_over_time(folder, front, floor, title)
-  local series = {}
-  local function add(name, curve, dashed)
-    local points = {}
-    for _, point in ipairs(curve) do
-      if point[2] > 0 then points[#points + 1] = point end -- all start alike
-    end
-    series[#series + 1] = {name = name, points = points, symbol = "none", dashed = dashed}
-  end
+  local series, y_from = {}, below_floor * floor.value
   for _, point in ipairs(front) do
-    if point.error.value > 0 then add(point.variant.label, point.error.curve) end
+    if point.y > y_from then
+      series[#series + 1] = {name = point.variant.label, points = point.error.curve,
+                             symbol = "none", dashed = #series >= colour_count}
+    end
   end
-  add("base, half the step", floor.curve, true)
-  series[#series].colour = "black"
+  series[#series + 1] = {name = "base, half the step", points = floor.curve, symbol = "none",
+                         dashed = true, colour = "black"}
   command.chart(folder .. "/surface-over-time", series, {
     title = title, x_label = "time [s]",
     y_label = "distance of surfaces, rms [% of the base's size]", log_y = true,
+    y_from = early * floor.value, width = 1000,
   })
 end
 

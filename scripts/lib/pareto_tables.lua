@@ -29,7 +29,7 @@ end
 local error_units = {{"frequencies", " [%]"}, {"loads", " [%]"}, {"surface", " [%]"},
                      {"ensemble", " [m]"}}
 
-local function save_points(path, variants, runs)
+local function save_points(path, variants, study)
   local columns = {"variant", "label", "paper", "grouping", "border", "calibration", "level",
                    "nodes", "springs", "integrator", "precision"}
   for _, entry in ipairs(error_units) do interval_columns(columns, entry[1], entry[2]) end
@@ -41,10 +41,10 @@ local function save_points(path, variants, runs)
     local row = {v.name, v.label, v.paper or "", v.making.grouping or "", v.making.border or "",
                  v.making.calibration or "", v.level, v.nodes, v.springs, v.stepping.integrator,
                  v.stepping.precision}
-    for _, entry in ipairs(error_units) do add_interval(row, v.errors[entry[1]]) end
-    row[#row + 1] = runs.half_step and runs.half_step.value or ""
-    row[#row + 1] = runs.noise_floor and runs.noise_floor.level or ""
-    row[#row + 1] = v.errors.ensemble and v.errors.ensemble.inside or ""
+    for _, entry in ipairs(error_units) do add_interval(row, v.measured[entry[1]]) end
+    row[#row + 1] = study.surfaces and study.surfaces.floor.value or ""
+    row[#row + 1] = study.ensembles and study.ensembles.floor.level or ""
+    row[#row + 1] = v.measured.ensemble and v.measured.ensemble.inside or ""
     rows[i] = row
   end
   s.csv(path, rows, {columns = columns})
@@ -59,21 +59,21 @@ local function save_timings(path, variants)
   end
   local rows = {}
   for _, v in ipairs(variants) do
-    if v.cost then
+    if v.measured.cost then
       local row = {v.name, v.label}
-      add_interval(row, v.cost.seconds)
-      add_interval(row, v.cost.ratio)
-      row[#row + 1] = v.cost.spring_updates
-      row[#row + 1] = v.cost.step
-      row[#row + 1] = v.cost.repeats
+      add_interval(row, v.measured.cost.seconds)
+      add_interval(row, v.measured.cost.ratio)
+      row[#row + 1] = v.measured.cost.spring_updates
+      row[#row + 1] = v.measured.cost.step
+      row[#row + 1] = v.measured.cost.repeats
       rows[#rows + 1] = row
     end
   end
   s.csv(path, rows, {columns = columns})
 end
 
-function pareto_tables.save(folder, variants, left_out, runs)
-  save_points(folder .. "/points.csv", variants, runs)
+function pareto_tables.save(folder, variants, left_out, study)
+  save_points(folder .. "/points.csv", variants, study)
   save_timings(folder .. "/timings.csv", variants)
   s.csv(folder .. "/left-out.csv", left_out, {columns = {"variant", "what", "reason"}})
 end

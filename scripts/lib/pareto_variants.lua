@@ -27,7 +27,7 @@ local short = { -- in labels, where every letter counts
   projective_dynamics = "PD",
 }
 
--- The ways of making levels; the base by itself comes first. `base_way` has no grouping.
+-- The ways of making levels; first the base as it is, which has no grouping.
 function pareto_variants.ways_of_making(axes)
   local ways = {{name = "base"}}
   for _, grouping in ipairs(axes.groupings) do
@@ -52,7 +52,6 @@ function pareto_variants.ways_of_stepping(axes)
       if precision == "double" or single_too[integrator] then
         ways[#ways + 1] = {
           name = integrator .. "-" .. precision, integrator = integrator, precision = precision,
-          implicit = implicit[integrator] or false,
           usual = integrator == "symplectic_euler" and precision == "double",
         }
       end
@@ -78,7 +77,7 @@ local function label(making, level, stepping)
   return table.concat(words, " ")
 end
 
--- The paper's name of a level, "LOD-hb-1", or ours where it has none; nil of what is not the paper's.
+-- The paper's name of a level, "LOD-hb-1", or ours where it has none; nil if it is not the paper's.
 local function paper_name(making, level, stepping)
   if not (paper_groupings[making.grouping] and making.calibration == "none" and stepping.usual) then
     return nil
@@ -91,13 +90,15 @@ local function paper_name(making, level, stepping)
   return label(making, level, stepping)
 end
 
--- A level made in one way and stepped in one way.
-function pareto_variants.variant(making, level, stepping)
+-- A level made in one way and stepped in one way; `step_options` are those of s.run.
+function pareto_variants.variant(making, level, stepping, implicit_step)
   return {
     name = making.grouping and ("%s-%d-%s"):format(making.name, level, stepping.name)
       or "base-" .. stepping.name,
     label = label(making, level, stepping), paper = paper_name(making, level, stepping),
     making = making, level = level, stepping = stepping,
+    step_options = {integrator = stepping.integrator, precision = stepping.precision,
+                    step = implicit[stepping.integrator] and implicit_step or nil},
   }
 end
 
