@@ -25,10 +25,13 @@ constexpr std::size_t kOwnColours = kColours.size() - 1;  // that series take by
 constexpr std::array<int, 7> kShapes{7, 5, 9, 13, 11, 15, 6};
 constexpr std::size_t kOwnShapes = kShapes.size() - 1;
 
+constexpr std::size_t kManyPoints = 40;  // more of them hide each other
+
 /// How a series looks.
 struct Look {
   const char* colour;
-  int shape;  ///< 0: none
+  int shape;   ///< 0: none
+  int hollow;  ///< the same shape, not filled
   double size;
 };
 
@@ -39,8 +42,9 @@ Look look_of(const std::vector<ChartSeries>& series, std::size_t number) {
   const std::size_t colour = s.colour ? static_cast<std::size_t>(*s.colour) : number % kOwnColours;
   const std::size_t symbol = s.symbol ? static_cast<std::size_t>(*s.symbol) : number % kOwnShapes;
   const bool none = s.symbol == ChartSymbol::none;
-  return {kColours[colour], none ? 0 : kShapes[symbol],
-          s.symbol == ChartSymbol::ring ? kRingSize : kSize};
+  const bool ring = s.symbol == ChartSymbol::ring;
+  const int shape = none ? 0 : kShapes[symbol];
+  return {kColours[colour], shape, ring ? shape : shape - 1, ring ? kRingSize : kSize};
 }
 
 void require_drawable(const std::vector<ChartSeries>& series, const fs::path& path) {
@@ -166,12 +170,13 @@ std::string style_lines(const ChartFrame& frame, const ChartOptions& options, co
 std::string label_lines(const std::vector<ChartSeries>& series,
                         const std::vector<PlacedLabel>& labels, double font_size) {
   static constexpr std::array<const char*, 3> kAnchors{"left", "center", "right"};
-  std::string text;
+  // White behind the letters, so that lines do not strike them out.
+  std::string text = "set style textbox opaque margins 0.2,0.2 fillcolor rgb 'white' noborder\n";
   int number = 10;
   for (const PlacedLabel& label : labels)
     text += fmt::format(
         "set label {} {} at graph {:.5f},{:.5f} {} font ',{:.4g}' "
-        "textcolor rgb '{}' front\n",
+        "textcolor rgb '{}' front boxed\n",
         number++, gnuplot_quoted(label.text), label.x, label.y,
         kAnchors[static_cast<std::size_t>(label.anchor)], font_size,
         look_of(series, label.series).colour);
@@ -186,18 +191,27 @@ std::string edge_point_lines(const std::vector<ChartSeries>& series, const Chart
   int number = 1;
   for (std::size_t s = 0; s < series.size(); ++s)
     for (const ChartPoint& p : series[s].points) {
-      if (look_of(series, s).shape == 0) continue;
+      const Look look = look_of(series, s);
+      if (look.shape == 0) continue;
       const bool off = (axes.x.log && !(p.x > 0)) || (axes.y.log && !(p.y > options.y_from));
       if (!off) continue;
       constexpr int kFirst = 1000;  // label numbers of these
       text += fmt::format("set label {} '' at graph {:.5f},{:.5f} point pt {} ps 1.2 lc rgb '{}'\n",
-                          kFirst + number++, axes.x.place(p.x), axes.y.place(p.y),
-                          look_of(series, s).shape - 1, look_of(series, s).colour);
+                          kFirst + number++, axes.x.place(p.x), axes.y.place(p.y), look.hollow,
+                          look.colour);
     }
   return text;
 }
 
-std::string interval_line(const ChartSeries& series, const std::string& rows, const Look& look) {
+/// How gnuplot writes the colour of intervals: where there are many they stand back behind the
+/// points.
+std::string interval_colour(const char* colour, bool many) {
+  constexpr const char* kTransparent = "99";  // of 00..ff
+  return many ? fmt::format("#{}{}", kTransparent, colour + 1) : colour;
+}
+
+std::string interval_line(const ChartSeries& series, const std::string& rows,
+                          const std::string& line_colour) {
   const auto any = [&](auto has) {
     return std::any_of(series.points.begin(), series.points.end(),
                        [&](const ChartPoint& p) { return (p.*has)(); });
@@ -207,12 +221,14 @@ std::string interval_line(const ChartSeries& series, const std::string& rows, co
                                                            : nullptr;
   if (columns == nullptr) return "";
   return fmt::format("{} using {} pt 0 lw 1.2 lc rgb '{}' notitle, \\\n     ", rows, columns,
-                     look.colour);
+                     line_colour);
 }
 
 std::string plot_lines(const std::vector<ChartSeries>& series, const std::string& data) {
   std::string text;
   std::size_t first = 0;
+  std::size_t points = 0;
+  for (const ChartSeries& s : series) points += s.points.size();
   for (std::size_t s = 0; s < series.size(); ++s) {
     const std::size_t count = series[s].points.size();
     if (count == 0 && series[s].name.empty()) continue;
@@ -221,7 +237,8 @@ std::string plot_lines(const std::vector<ChartSeries>& series, const std::string
         fmt::format("{} skip 1 every ::{}::{}", gnuplot_quoted(data), first, first + count - 1);
     first += count;
     text += text.empty() ? "plot " : ", \\\n     ";
-    if (count > 0) text += interval_line(series[s], rows, look);
+    if (count > 0)
+      text += interval_line(series[s], rows, interval_colour(look.colour, points > kManyPoints));
     text += count > 0 ? rows + " using 2:3" : "NaN";
     if (look.shape == 0)
       text += " with lines";

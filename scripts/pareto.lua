@@ -47,15 +47,15 @@ parser:option("--jitter", "relative change of speed and height from start to sta
   :convert(command.number("--jitter", 0)):default("0.02")
 parser:option("--repeats", "timed runs of each (default: 9; quick: 3); slow ones get three")
   :convert(command.whole("--repeats", 1))
-parser:option("--until", "surfaces are compared so long at most, such as 0.5s (default: until the "
-  .. "first chaos)"):convert(command.quantity("--until", "time"))
+parser:option("--until", "surfaces are compared so long at most, such as 0.5s (default: to 0.25 s "
+  .. "after the first contact)"):convert(command.quantity("--until", "time"))
 parser:option("--implicit-step", "of the integrators whose step nothing bounds, such as 1ms")
   :convert(command.quantity("--implicit-step", "time")):default("1ms")
 parser:flag("--quick", "few of everything: to see that it works, not to conclude from")
 local args = parser:parse()
 
 local quick = args.quick and {
-  groupings = {"standard", "compact"}, borders = {"none"}, calibrations = {"none", "moduli"},
+  groupings = {"standard", "compact"}, borders = {"none"}, calibrations = {"none", "modes"},
   integrators = {"symplectic_euler"}, seeds = 1, starts = 5, repeats = 3,
 } or {seeds = 5, starts = 24, repeats = 9}
 
@@ -80,7 +80,7 @@ local function settings_of(asset)
     keep = args.keep or keep_of(asset), seeds = args.seeds or quick.seeds,
     starts = args.starts or quick.starts, repeats = args.repeats or quick.repeats,
     jitter = args.jitter, implicit_step = args.implicit_step, seed = s.seed,
-    surface_time = args["until"] or math.huge,
+    surface_time = args["until"],
   }
 end
 
@@ -90,7 +90,7 @@ local function store_settings(settings, scene)
     springlod = s.version, asset = file_checksum(args.asset), scene = scene, keep = settings.keep,
     starts = settings.starts, jitter = settings.jitter, seed = settings.seed,
     repeats = settings.repeats, implicit_step = settings.implicit_step,
-    surface_time = settings.surface_time,
+    surface_time = settings.surface_time or "first contact",
   }
 end
 

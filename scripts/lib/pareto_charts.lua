@@ -114,9 +114,9 @@ end
 function pareto_charts.draw(folder, variants, axis)
   local points = points_of(variants, axis)
   if #points == 0 then return {} end
-  local front, on_front = pareto_front(points), {}
-  for _, point in ipairs(front) do on_front[point] = true end
   local y_from = axis.floor and below_floor * axis.floor or 0
+  local front, on_front = pareto_front(points, y_from), {}
+  for _, point in ipairs(front) do on_front[point] = true end
   local series, paper = series_of(points, on_front, y_from)
   local function add(one) series[#series + 1] = one end
   add_legend(series, points)

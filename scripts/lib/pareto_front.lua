@@ -1,7 +1,12 @@
 -- Which of many points nothing else beats in cost and error both.
 
--- `points` are tables with `x` and `y`, less being better; returns those of the front by rising x.
-return function(points)
+-- An error less by no more than this part is no gain: single and double precision differ by less.
+local least_gain = 0.01
+
+-- `points` are tables with `x` and `y`, less being better; errors up to `alike` are all the same.
+-- Returns those of the front by rising x.
+return function(points, alike)
+  local function error_of(point) return math.max(point.y, alike) end
   local sorted = table.move(points, 1, #points, 1, {})
   table.sort(sorted, function(p, q)
     if p.x ~= q.x then return p.x < q.x end
@@ -9,9 +14,9 @@ return function(points)
   end)
   local front, least = {}, math.huge
   for _, point in ipairs(sorted) do
-    if point.y < least then
+    if #front == 0 or error_of(point) < (1 - least_gain) * least then
       front[#front + 1] = point
-      least = point.y
+      least = error_of(point)
     end
   end
   return front

@@ -1,4 +1,4 @@
--- How far the surfaces of levels are from the base's over time, until the base itself is lost.
+-- How far the surfaces of levels are from the base's over time, until the first chaos.
 
 local s = require "springlod"
 local by_start = require "lib.by_start"
@@ -9,9 +9,12 @@ local pareto_surfaces = {}
 local Surfaces = {}
 Surfaces.__index = Surfaces
 
--- The base has lost itself, so that no level can be held against it any longer, once half the step
--- moves its nodes by this part of its size (rms).
-local chaos = 0.01
+-- What bounces is chaotic: beyond so long after the first contact a single run says nothing, as in
+-- s.compare [s].
+local after_contact = 0.25
+-- Nor can a level be held against the base any longer once half the step moves the base's nodes by
+-- this part of its size (rms).
+local lost = 0.01
 local half_step = {safety = 0.4} -- of the predicted stable step, where a run takes 0.8
 local frame_rate = 60 -- [1/s]
 local percent = 100
@@ -28,19 +31,30 @@ local function run(model, scene, more)
   return s.run(model, scene, options)
 end
 
--- The last frame before the base and the base with half the step part, whatever the start [s].
-local function time_of_chaos(study)
-  local longest = math.min(study.scenario.duration, study.settings.surface_time)
+-- How far a start can be followed [s]: to the end asked for, else to shortly after its first
+-- contact; no farther than the last frame before the base and the base with half the step part.
+local function time_of_chaos(study, start)
+  local longest = study.settings.surface_time
+  if not longest then
+    local contact = run(study.base, scene_of_start(study, start, study.scenario.duration),
+      {frame_rate = 0}).first_contact
+    longest = contact and contact + after_contact or math.huge
+  end
+  local scene = scene_of_start(study, start, math.min(longest, study.scenario.duration))
+  local last = 0
+  for _, d in ipairs(s.deviation(run(study.base, scene, half_step), run(study.base, scene))) do
+    if d.surface > lost * study.size then break end
+    last = d.time
+  end
+  return last
+end
+
+-- The first of all starts.
+local function first_chaos(study)
   local rows = study.store:rows("chaos", {"start", "time"}, function()
     local found = {}
     for start = 1, study.settings.starts do
-      local scene = scene_of_start(study, start, longest)
-      local base, last = run(study.base, scene), 0
-      for _, d in ipairs(s.deviation(run(study.base, scene, half_step), base)) do
-        if d.surface > chaos * study.size then break end
-        last = d.time
-      end
-      found[start] = {start = start, time = last}
+      found[start] = {start = start, time = time_of_chaos(study, start)}
     end
     return found
   end)
@@ -56,7 +70,7 @@ end
 -- `study`: base, its size [m], scene, scenario, settings (starts, jitter, seed, surface_time) and
 -- store. `floor`: what half the step makes of the base, as error_of returns it.
 function pareto_surfaces.new(study)
-  local surfaces = setmetatable({study = study, until_chaos = time_of_chaos(study)}, Surfaces)
+  local surfaces = setmetatable({study = study, until_chaos = first_chaos(study)}, Surfaces)
   surfaces.floor = surfaces:summary{surfaces:rows("half-step", study.base, half_step)}
   return surfaces
 end

@@ -10,19 +10,22 @@ local pareto_times = {}
 local Times = {}
 Times.__index = Times
 
-local base_seconds = 0.1 -- that a timed run of the base takes: long beside what clocks are off [s]
+-- That a timed run of the base takes: long beside what clocks are off and what else the machine does
+-- in between [s]. Shorter runs are repeated until they have taken half of it.
+local base_seconds = 0.1
 local patience = 5 -- for the repeats of one variant [s]; after it three are enough
 local least_repeats = 3
 
 local columns = {"seed", "base_seconds", "seconds", "ratio", "spring_updates", "step"}
 
--- One run alone on one thread that keeps nothing: wall-clock seconds and spring updates a
--- simulated second, and the step [s].
+-- One run alone on one thread that keeps nothing: wall-clock seconds (what is planned once left
+-- out) and spring updates a simulated second, and the step [s].
 local function timed(model, scene, more)
   local options = {threads = 1, frame_rate = 0, ledger = false, sleep = 0, quiet = true}
   for key, value in pairs(more) do options[key] = value end
   local run = s.run(model, scene, options)
-  return run.wall_seconds / run.simulated, run.spring_updates / run.simulated, run.step
+  local seconds = run.wall_seconds - run.planning_seconds
+  return seconds / run.simulated, run.spring_updates / run.simulated, run.step
 end
 
 -- `study`: base, scene, scenario, settings (repeats), store.
@@ -36,6 +39,18 @@ function pareto_times.new(study)
   }, Times)
 end
 
+-- The mean of as many runs as it takes.
+local function timed_long(model, scene, options)
+  local seconds, count, spent = 0, 0, 0
+  local updates, step
+  repeat
+    local one
+    one, updates, step = timed(model, scene, options)
+    seconds, count, spent = seconds + one, count + 1, spent + one * scene.duration
+  until spent >= base_seconds / 2
+  return seconds / count, updates, step
+end
+
 -- The base and the variant by turns, seed after seed, all from the scene's own start: medians, with
 -- intervals over the repeats.
 function Times:cost_of(variant, chains)
@@ -44,8 +59,8 @@ function Times:cost_of(variant, chains)
     local found, begun = {}, os.time()
     for turn = 1, study.settings.repeats do
       local seed = (turn - 1) % #chains + 1
-      local of_base = timed(study.base, self.scene, {})
-      local seconds, updates, step = timed(chains[seed][variant.level], self.scene,
+      local of_base = timed_long(study.base, self.scene, {})
+      local seconds, updates, step = timed_long(chains[seed][variant.level], self.scene,
         variant.step_options)
       found[turn] = {seed = seed, base_seconds = of_base, seconds = seconds,
                      ratio = seconds / of_base, spring_updates = updates, step = step}
