@@ -173,13 +173,18 @@ std::string label_lines(const std::vector<ChartSeries>& series,
   // White behind the letters, so that lines do not strike them out.
   std::string text = "set style textbox opaque margins 0.2,0.2 fillcolor rgb 'white' noborder\n";
   int number = 10;
-  for (const PlacedLabel& label : labels)
+  for (const PlacedLabel& label : labels) {
+    const char* line_colour = look_of(series, label.series).colour;
+    if (label.led)
+      text += fmt::format(
+          "set arrow from graph {:.5f},{:.5f} to graph {:.5f},{:.5f} nohead lw 0.8 lc rgb '{}'\n",
+          label.point_x, label.point_y, label.x, label.y, line_colour);
     text += fmt::format(
         "set label {} {} at graph {:.5f},{:.5f} {} font ',{:.4g}' "
         "textcolor rgb '{}' front boxed\n",
         number++, gnuplot_quoted(label.text), label.x, label.y,
-        kAnchors[static_cast<std::size_t>(label.anchor)], font_size,
-        look_of(series, label.series).colour);
+        kAnchors[static_cast<std::size_t>(label.anchor)], font_size, line_colour);
+  }
   return text;
 }
 

@@ -173,13 +173,13 @@ local function charts_of(study)
       title = ("Surfaces before the first chaos (%s, up to %.2f s)"):format(name,
         study.surfaces.until_chaos),
       y_label = "distance from the base's, rms, mean over time [% of its size]",
-      floor = study.surfaces.floor.value, floor_name = "base, half the step"}
+      floor = study.surfaces.floor.value, floor_name = "half the step"}
   end
   if wanted.ensemble then
     charts[#charts + 1] = {name = "ensemble",
       title = ("Where %d starts end (%s)"):format(study.settings.starts, name),
       y_label = "Wasserstein distance from the base's [m]",
-      floor = study.ensembles.floor.level, floor_name = "noise floor of the base"}
+      floor = study.ensembles.floor.level, floor_name = "noise floor"}
   end
   return charts
 end

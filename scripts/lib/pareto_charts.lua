@@ -17,9 +17,10 @@ local symbols = {
 local symbol_of = {}
 for _, entry in ipairs(symbols) do symbol_of[entry[1]] = entry[2] end
 
--- Points this much below the floor are all the same: they sit on the axis, so that they do not
--- press the others together.
+-- Errors this much below the floor are all the same: their points sit on the axis, which begins at
+-- this part of the least of the others.
 local below_floor = 0.1
+local below_least = 0.5
 local early = 1e-3 -- of the floor: what is seen of the time before anything is touched
 local colour_count = 7 -- that series take by themselves; beyond them lines are dashed
 
@@ -50,6 +51,15 @@ local function staircase(front, y_from)
     line[#line + 1] = {point.x, point.y}
   end
   return line
+end
+
+-- Where the axis of errors begins.
+local function axis_from(points, floor)
+  local same, least = below_floor * (floor or 0), math.huge
+  for _, point in ipairs(points) do
+    if point.y > same then least = math.min(least, point.y) end
+  end
+  return least < math.huge and math.max(same, below_least * least) or same
 end
 
 local function floor_line(points, floor)
@@ -114,8 +124,8 @@ end
 function pareto_charts.draw(folder, variants, axis)
   local points = points_of(variants, axis)
   if #points == 0 then return {} end
-  local y_from = axis.floor and below_floor * axis.floor or 0
-  local front, on_front = pareto_front(points, y_from), {}
+  local y_from = axis_from(points, axis.floor)
+  local front, on_front = pareto_front(points, below_floor * (axis.floor or 0)), {}
   for _, point in ipairs(front) do on_front[point] = true end
   local series, paper = series_of(points, on_front, y_from)
   local function add(one) series[#series + 1] = one end
@@ -125,8 +135,10 @@ function pareto_charts.draw(folder, variants, axis)
     add{name = "the paper's", points = paper, symbol = "ring", colour = "black", joined = false}
   end
   if axis.floor then
-    add{name = axis.floor_name, points = floor_line(points, axis.floor), symbol = "none",
-        colour = "green", dashed = true}
+    local seen = axis.floor > y_from -- else the legend alone tells of it
+    add{name = ("%s: %.2g%s"):format(axis.floor_name, axis.floor, seen and "" or " (below)"),
+        points = seen and floor_line(points, axis.floor) or {}, symbol = "none", colour = "green",
+        dashed = true}
   end
   command.chart(folder .. "/" .. axis.name, series, {
     title = axis.title, x_label = axis.x_label, y_label = axis.y_label, log_x = true, log_y = true,
