@@ -100,7 +100,7 @@ struct Key {
 };
 
 Key plan_key(const std::vector<ChartSeries>& series, const ChartFrame& frame) {
-  constexpr double kSample = 64;  // line sample and gaps [px]
+  constexpr double kSample = 72;  // line sample and gaps [px]
   double widest = 0;
   int named = 0;
   for (const ChartSeries& s : series) {

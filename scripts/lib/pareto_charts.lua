@@ -42,13 +42,13 @@ local function chart_point(point, label)
           low = point.error.low, high = point.error.high, label = label or nil}
 end
 
--- Down and to the right from point to point.
+-- Down and to the right from point to point, and down to the axis at the first that sits there.
 local function staircase(front, y_from)
   local line = {}
   for i, point in ipairs(front) do
-    if point.y <= y_from then break end
     if i > 1 then line[#line + 1] = {point.x, front[i - 1].y} end
-    line[#line + 1] = {point.x, point.y}
+    line[#line + 1] = {point.x, math.max(point.y, y_from)}
+    if point.y <= y_from then break end
   end
   return line
 end

@@ -2,7 +2,7 @@
 -- from itself.
 
 local s = require "springlod"
-local by_start = require "lib.by_start"
+local intervals = require "lib.intervals"
 local noise_samples = require "lib.noise_samples"
 
 local pareto_ensembles = {}
@@ -37,17 +37,25 @@ function pareto_ensembles.new(study)
   }, Ensembles)
 end
 
--- Wasserstein distance from the base's sample, with its interval over starts and seeds, and how
--- many seeds are inside the noise floor, each by itself.
+local function in_squares(a, b) return math.sqrt(a ^ 2 + b ^ 2) end
+
+-- Wasserstein distance from the base's sample, mean over the seeds, and how many of them are inside
+-- the noise floor. Each seed by itself, for the floor holds for samples of its size and a longer
+-- one, of all seeds, would come nearer. What starts and what seeds leave open adds up in squares.
 function Ensembles:error_of(variant, chains)
-  local seeds, inside = {}, 0
+  local values, below, above, inside = {}, 0, 0, 0
   for i, chain in ipairs(chains) do
-    seeds[i] = distances(self.study, ("%s-seed-%d"):format(variant.name, i), chain[variant.level],
-      variant.step_options)
-    if self.floor:judge(self.base, seeds[i]).inside then inside = inside + 1 end
+    local found = distances(self.study, ("%s-seed-%d"):format(variant.name, i),
+      chain[variant.level], variant.step_options)
+    if self.floor:judge(self.base, found).inside then inside = inside + 1 end
+    local w = s.compare_samples(self.base, found, {paired = true}).wasserstein
+    values[i] = w.value
+    below = below + math.max(0, w.value - w.low) / #chains
+    above = above + math.max(0, w.high - w.value) / #chains
   end
-  local w = s.compare_samples(self.base, by_start(seeds), {paired = true}).wasserstein
-  return {value = w.value, low = w.low, high = w.high, inside = inside}
+  local m = intervals.mean(values)
+  return {value = m.value, low = math.max(0, m.value - in_squares(below, m.value - m.low)),
+          high = m.value + in_squares(above, m.high - m.value), inside = inside}
 end
 
 return pareto_ensembles

@@ -10,8 +10,8 @@ local pareto_times = {}
 local Times = {}
 Times.__index = Times
 
--- That a timed run of the base takes: long beside what clocks are off and what else the machine does
--- in between [s]. Shorter runs are repeated until they have taken half of it.
+-- That a timed run of the base takes: long beside what clocks are off and what else the machine
+-- does in between [s]. Shorter runs are repeated until they have taken half of it.
 local base_seconds = 0.1
 local patience = 5 -- for the repeats of one variant [s]; after it three are enough
 local least_repeats = 3

@@ -183,6 +183,7 @@ TEST_CASE("a start of many can be looked at alone, and a level's way held agains
     assert(#list == base.frame_count and list[1].surface < 1e-12)
     assert(list[#list].surface > 1e-4 and list[#list].shape <= list[#list].surface)
     assert(s.deviation(base, base)[#list].surface == 0)
+    assert(base.planning_seconds > 0 and base.planning_seconds < base.wall_seconds)
     print(pcall(s.deviation, base, s.run(chain[1], scene)))
     print(pcall(s.jittered, scene, chain[0], {jitter = 1}))
     print(pcall(s.jittered, scene, chain[0], {number = 0})))"});
@@ -193,7 +194,7 @@ TEST_CASE("a start of many can be looked at alone, and a level's way held agains
 }
 
 TEST_CASE("a front holds what nothing beats, and intervals of few numbers are their own") {
-  CHECK(printed(R"(local front = require("lib.pareto_front"){{x = 2, y = 1}, {x = 1, y = 3},
+  CHECK(printed(R"(local front = require("lib.pareto_front")({{x = 2, y = 1}, {x = 1, y = 3},
     {x = 1, y = 2}, {x = 3, y = 0.995}, {x = 4, y = 0.5}, {x = 1.5, y = 2.5},
     {x = 5, y = 0.02}, {x = 6, y = 0}}, 0.1)
     for _, p in ipairs(front) do print(p.x, p.y) end)") == "1\t2\n2\t1\n4\t0.5\n5\t0.02\n");

@@ -185,3 +185,26 @@ TEST_CASE("labels of neighbouring points do not cover each other") {
       CHECK((beside || dy >= frame.font || dx >= text_width(labels[i].text, frame.font * 0.9)));
     }
 }
+
+TEST_CASE("in a crowd a label goes off its point, and a line leads to it") {
+  const ChartFrame frame;
+  const Axis axis = make_axis({0, 10}, false);
+  std::vector<ChartSeries> alone{{"a", {}, false}};
+  alone[0].points.push_back({5, 5, "here"});
+  CHECK_FALSE(place_labels(alone, axis, axis, frame).at(0).led);
+
+  std::vector<ChartSeries> crowd = alone;
+  for (int x = -4; x <= 4; ++x)
+    for (int y = -2; y <= 2; ++y) {
+      ChartPoint& point = crowd[0].points.emplace_back();
+      point.x = 5 + 0.15 * x;
+      point.y = 5 + 0.25 * y;
+    }
+  const PlacedLabel label = place_labels(crowd, axis, axis, frame).at(0);
+  CHECK(label.led);
+  CHECK(label.point_x == Approx(axis.place(5)));
+  // Outside the crowd, half of whose height is 0.5.
+  const double height = axis.place(0.5) - axis.place(0);
+  const double width = axis.place(0.6) - axis.place(0);
+  CHECK((std::abs(label.y - label.point_y) > height || std::abs(label.x - label.point_x) > width));
+}
