@@ -94,8 +94,9 @@ local function add_legend(series, points)
                          joined = false}
 end
 
--- A series for each grouping and calibration, and the paper's points. `front`: a set; points not
--- above `y_from` are shown if they are in it, so that of what has no error the cheapest is told.
+-- A series for each grouping and calibration, and the paper's points. `front`: a set; it and the
+-- base have names. Points not above `y_from` are shown if they are in it, so that of what has no
+-- error the cheapest is told.
 local function series_of(points, front, y_from)
   local series, of_look, paper = {}, {}, {}
   for _, point in ipairs(points) do
@@ -110,7 +111,8 @@ local function series_of(points, front, y_from)
       series[#series + 1] = of_look[look]
     end
     if point.y > y_from or front[point] then
-      table.insert(of_look[look].points, chart_point(point, front[point] and variant.label))
+      local named = front[point] or variant.level == 0
+      table.insert(of_look[look].points, chart_point(point, named and variant.label))
     end
     if variant.paper then
       paper[#paper + 1] = {point.x, point.y, label = not front[point] and variant.paper or nil}
