@@ -42,7 +42,7 @@ struct ChartOptions {
   std::string y_label;
   bool log_x = false;
   bool log_y = false;
-  double y_from = 0;  ///< points of a log axis that are not above it sit on its lower end, hollow
+  double y_from = 0;   ///< points of a log axis that are not above it sit on its lower end, hollow
   double width = 900;  ///< [px]
   double height = 600;
 };
