@@ -16,22 +16,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Okabe & Ito's palette without its yellow, which is lost on white.
-constexpr std::array<const char*, 7> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                              "#E69F00", "#56B4E9", "#5F6570"};
-// gnuplot's filled shapes: disc, square, triangle, diamond, triangle down, pentagon. Series differ
-// by shape too, for readers without colours.
-constexpr std::array<int, 6> kShapes{7, 5, 9, 13, 11, 15};
+// Of ChartColour: Okabe & Ito's palette without its yellow, which is lost on white; black.
+constexpr std::array<const char*, 8> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                              "#E69F00", "#56B4E9", "#5F6570", "#14171B"};
+constexpr std::size_t kOwnColours = kColours.size() - 1;  // that series take by themselves
+// Of ChartSymbol, but for none: gnuplot's numbers. Series differ by shape too, for readers without
+// colours.
+constexpr std::array<int, 7> kShapes{7, 5, 9, 13, 11, 15, 6};
+constexpr std::size_t kOwnShapes = kShapes.size() - 1;
 
-const char* colour(std::size_t series) {
-  return kColours[series % kColours.size()];
-}
-int shape(std::size_t series) {
-  return kShapes[series % kShapes.size()];
-}
+constexpr std::size_t kManyPoints = 40;  // more of them hide each other
 
-bool has_interval(const ChartPoint& p) {
-  return p.y_high > p.y_low;
+/// How a series looks.
+struct Look {
+  const char* colour;
+  int shape;   ///< 0: none
+  int hollow;  ///< the same shape, not filled
+  double size;
+};
+
+Look look_of(const std::vector<ChartSeries>& series, std::size_t number) {
+  constexpr double kSize = 1.2;  // of symbols, in gnuplot's unit
+  constexpr double kRingSize = 2.4;
+  const ChartSeries& s = series[number];
+  const std::size_t colour = s.colour ? static_cast<std::size_t>(*s.colour) : number % kOwnColours;
+  const std::size_t symbol = s.symbol ? static_cast<std::size_t>(*s.symbol) : number % kOwnShapes;
+  const bool none = s.symbol == ChartSymbol::none;
+  const bool ring = s.symbol == ChartSymbol::ring;
+  const int shape = none ? 0 : kShapes[symbol];
+  return {kColours[colour], shape, ring ? shape : shape - 1, ring ? kRingSize : kSize};
 }
 
 void require_drawable(const std::vector<ChartSeries>& series, const fs::path& path) {
@@ -40,8 +53,8 @@ void require_drawable(const std::vector<ChartSeries>& series, const fs::path& pa
   for (const ChartSeries& s : series)
     for (const ChartPoint& p : s.points) {
       ++points;
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.y_low) ||
-          !std::isfinite(p.y_high))
+      const std::array all{p.x, p.y, p.x_low, p.x_high, p.y_low, p.y_high};
+      if (!std::all_of(all.begin(), all.end(), [](double v) { return std::isfinite(v); }))
         throw InputError(fmt::format("chart: series \"{}\" has a point ({}, {}) that is not finite",
                                      s.name, p.x, p.y));
     }
@@ -49,13 +62,15 @@ void require_drawable(const std::vector<ChartSeries>& series, const fs::path& pa
 }
 
 Table data_table(const std::vector<ChartSeries>& series) {
-  Table table{{"series", "x", "y", "y_low", "y_high", "label"}, {}};
+  Table table{{"series", "x", "y", "y_low", "y_high", "label", "x_low", "x_high"}, {}};
   for (const ChartSeries& s : series)
     for (const ChartPoint& p : s.points) {
-      const double low = has_interval(p) ? p.y_low : p.y;
-      const double high = has_interval(p) ? p.y_high : p.y;
-      table.rows.push_back({s.name, number_text(p.x), number_text(p.y), number_text(low),
-                            number_text(high), p.label});
+      const bool y = p.has_y_interval();
+      const bool x = p.has_x_interval();
+      table.rows.push_back({s.name, number_text(p.x), number_text(p.y),
+                            number_text(y ? p.y_low : p.y), number_text(y ? p.y_high : p.y),
+                            p.label, number_text(x ? p.x_low : p.x),
+                            number_text(x ? p.x_high : p.x)});
     }
   return table;
 }
@@ -71,8 +86,10 @@ Axes make_axes(const std::vector<ChartSeries>& series, const ChartOptions& optio
     for (const ChartPoint& p : s.points) {
       x.push_back(p.x);
       y.push_back(p.y);
-      if (has_interval(p)) y.insert(y.end(), {p.y_low, p.y_high});
+      if (p.has_x_interval()) x.insert(x.end(), {p.x_low, p.x_high});
+      if (p.has_y_interval()) y.insert(y.end(), {p.y_low, p.y_high});
     }
+  if (options.log_y) std::erase_if(y, [&](double v) { return !(v > options.y_from); });
   return {make_axis(x, options.log_x), make_axis(y, options.log_y)};
 }
 
@@ -83,7 +100,7 @@ struct Key {
 };
 
 Key plan_key(const std::vector<ChartSeries>& series, const ChartFrame& frame) {
-  constexpr double kSample = 64;  // line sample and gaps [px]
+  constexpr double kSample = 72;  // line sample and gaps [px]
   double widest = 0;
   int named = 0;
   for (const ChartSeries& s : series) {
@@ -96,6 +113,18 @@ Key plan_key(const std::vector<ChartSeries>& series, const ChartFrame& frame) {
   const int columns = std::min(fit, named);
   const int rows = (named + columns - 1) / columns;
   return {columns, rows * frame.font * 1.5};
+}
+
+ChartFrame frame_of(const std::vector<ChartSeries>& series, const ChartOptions& options) {
+  ChartFrame frame;
+  frame.right += options.width - frame.width;
+  frame.bottom += options.height - frame.height;
+  frame.width = options.width;
+  frame.height = options.height;
+  constexpr double kTitleSpace = 2.6;  // in letters
+  frame.top = (options.title.empty() ? 1 : kTitleSpace) * frame.font +
+              plan_key(series, frame).height + 0.6 * frame.font;
+  return frame;
 }
 
 std::string axis_lines(const char* letter, const Axis& axis, const std::string& label) {
@@ -138,84 +167,123 @@ std::string style_lines(const ChartFrame& frame, const ChartOptions& options, co
   return text;
 }
 
-std::string label_lines(const std::vector<PlacedLabel>& labels, double font_size) {
+std::string label_lines(const std::vector<ChartSeries>& series,
+                        const std::vector<PlacedLabel>& labels, double font_size) {
   static constexpr std::array<const char*, 3> kAnchors{"left", "center", "right"};
-  std::string text;
+  // White behind the letters, so that lines do not strike them out.
+  std::string text = "set style textbox opaque margins 0.2,0.2 fillcolor rgb 'white' noborder\n";
   int number = 10;
-  for (const PlacedLabel& label : labels)
+  for (const PlacedLabel& label : labels) {
+    const char* line_colour = look_of(series, label.series).colour;
+    if (label.led)
+      text += fmt::format(
+          "set arrow from graph {:.5f},{:.5f} to graph {:.5f},{:.5f} nohead lw 0.8 lc rgb '{}'\n",
+          label.point_x, label.point_y, label.x, label.y, line_colour);
     text += fmt::format(
         "set label {} {} at graph {:.5f},{:.5f} {} font ',{:.4g}' "
-        "textcolor rgb '{}' front\n",
+        "textcolor rgb '{}' front boxed\n",
         number++, gnuplot_quoted(label.text), label.x, label.y,
-        kAnchors[static_cast<std::size_t>(label.anchor)], font_size, colour(label.series));
+        kAnchors[static_cast<std::size_t>(label.anchor)], font_size, line_colour);
+  }
   return text;
 }
 
-// A log axis has no place for 0: such points sit on its lower end, hollow.
-std::string edge_point_lines(const std::vector<ChartSeries>& series, const Axes& axes) {
+// A log axis has no place for 0 and what else is not to be told apart: such points sit on its lower
+// end, hollow.
+std::string edge_point_lines(const std::vector<ChartSeries>& series, const ChartOptions& options,
+                             const Axes& axes) {
   std::string text;
   int number = 1;
   for (std::size_t s = 0; s < series.size(); ++s)
     for (const ChartPoint& p : series[s].points) {
-      const bool off = (axes.x.log && !(p.x > 0)) || (axes.y.log && !(p.y > 0));
+      const Look look = look_of(series, s);
+      if (look.shape == 0) continue;
+      const bool off = (axes.x.log && !(p.x > 0)) || (axes.y.log && !(p.y > options.y_from));
       if (!off) continue;
       constexpr int kFirst = 1000;  // label numbers of these
       text += fmt::format("set label {} '' at graph {:.5f},{:.5f} point pt {} ps 1.2 lc rgb '{}'\n",
-                          kFirst + number++, axes.x.place(p.x), axes.y.place(p.y), shape(s) - 1,
-                          colour(s));
+                          kFirst + number++, axes.x.place(p.x), axes.y.place(p.y), look.hollow,
+                          look.colour);
     }
   return text;
+}
+
+/// How gnuplot writes the colour of intervals: where there are many they stand back behind the
+/// points.
+std::string interval_colour(const char* colour, bool many) {
+  constexpr const char* kTransparent = "99";  // of 00..ff
+  return many ? fmt::format("#{}{}", kTransparent, colour + 1) : colour;
+}
+
+std::string interval_line(const ChartSeries& series, const std::string& rows,
+                          const std::string& line_colour) {
+  const auto any = [&](auto has) {
+    return std::any_of(series.points.begin(), series.points.end(),
+                       [&](const ChartPoint& p) { return (p.*has)(); });
+  };
+  const char* columns = any(&ChartPoint::has_x_interval)   ? "2:3:7:8:4:5 with xyerrorbars"
+                        : any(&ChartPoint::has_y_interval) ? "2:3:4:5 with yerrorbars"
+                                                           : nullptr;
+  if (columns == nullptr) return "";
+  return fmt::format("{} using {} pt 0 lw 1.2 lc rgb '{}' notitle, \\\n     ", rows, columns,
+                     line_colour);
 }
 
 std::string plot_lines(const std::vector<ChartSeries>& series, const std::string& data) {
   std::string text;
   std::size_t first = 0;
+  std::size_t points = 0;
+  for (const ChartSeries& s : series) points += s.points.size();
   for (std::size_t s = 0; s < series.size(); ++s) {
     const std::size_t count = series[s].points.size();
-    if (count == 0) continue;
+    if (count == 0 && series[s].name.empty()) continue;
+    const Look look = look_of(series, s);
     const std::string rows =
         fmt::format("{} skip 1 every ::{}::{}", gnuplot_quoted(data), first, first + count - 1);
     first += count;
-    const auto separator = [&] { return text.empty() ? "plot " : ", \\\n     "; };
-    if (std::any_of(series[s].points.begin(), series[s].points.end(), has_interval))
-      text += fmt::format("{}{} using 2:3:4:5 with yerrorbars pt 0 lw 1.2 lc rgb '{}' notitle",
-                          separator(), rows, colour(s));
-    const std::string title =
-        series[s].name.empty() ? "notitle" : "title " + gnuplot_quoted(series[s].name);
+    text += text.empty() ? "plot " : ", \\\n     ";
+    if (count > 0)
+      text += interval_line(series[s], rows, interval_colour(look.colour, points > kManyPoints));
+    text += count > 0 ? rows + " using 2:3" : "NaN";
+    if (look.shape == 0)
+      text += " with lines";
+    else
+      text += fmt::format(" with {} pt {} ps {:.2g}", series[s].joined ? "linespoints" : "points",
+                          look.shape, look.size);
     text +=
-        fmt::format("{}{} using 2:3 with {} pt {} ps 1.2 lw 2 lc rgb '{}' {}", separator(), rows,
-                    series[s].joined ? "linespoints" : "points", shape(s), colour(s), title);
+        fmt::format(" lw 2{} lc rgb '{}' {}", series[s].dashed ? " dt 2" : "", look.colour,
+                    series[s].name.empty() ? "notitle" : "title " + gnuplot_quoted(series[s].name));
   }
   return text + "\n";
 }
 
-// Points at zero of a log axis say so in their label.
+// Points at the end of a log axis say what they are in their label.
 std::vector<ChartSeries> with_edge_labels(std::vector<ChartSeries> series,
                                           const ChartOptions& options) {
-  for (ChartSeries& s : series)
+  for (ChartSeries& s : series) {
+    if (s.symbol == ChartSymbol::none) continue;
     for (ChartPoint& p : s.points) {
-      if (options.log_y && !(p.y > 0)) p.label += fmt::format(" (y = {:g})", p.y);
+      if (options.log_y && !(p.y > options.y_from)) p.label += fmt::format(" (y = {:.2g})", p.y);
       if (options.log_x && !(p.x > 0)) p.label += fmt::format(" (x = {:g})", p.x);
     }
+  }
   return series;
 }
 
 std::string gnuplot_script(const std::vector<ChartSeries>& series, const ChartOptions& options,
                            const fs::path& path, const std::string& data) {
-  ChartFrame frame;
+  const ChartFrame frame = frame_of(series, options);
   const Key key = plan_key(series, frame);
-  constexpr double kTitleSpace = 2.6;  // in letters
-  frame.top =
-      (options.title.empty() ? 1 : kTitleSpace) * frame.font + key.height + 0.6 * frame.font;
   const Axes axes = make_axes(series, options);
   std::string text = gnuplot_terminal(path, frame.width, frame.height, frame.font);
   text += "set datafile separator comma\n";
   text += style_lines(frame, options, key, gnuplot_font_unit(path));
   text += axis_lines("x", axes.x, options.x_label);
   text += axis_lines("y", axes.y, options.y_label);
-  text += label_lines(place_labels(with_edge_labels(series, options), axes.x, axes.y, frame),
-                      kLabelFont * frame.font * gnuplot_font_unit(path));
-  text += edge_point_lines(series, axes);
+  text +=
+      label_lines(series, place_labels(with_edge_labels(series, options), axes.x, axes.y, frame),
+                  kLabelFont * frame.font * gnuplot_font_unit(path));
+  text += edge_point_lines(series, options, axes);
   text += plot_lines(series, data);
   return text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,27 @@ struct ChartPoint {
   std::string label;  ///< written beside the point; may be empty
   double y_low = 0;   ///< interval drawn if y_high > y_low
   double y_high = 0;
+  double x_low = 0;  ///< likewise
+  double x_high = 0;
+
+  bool has_x_interval() const { return x_high > x_low; }
+  bool has_y_interval() const { return y_high > y_low; }
 };
+
+/// The filled ones in the order in which series take them, then a ring around other points, larger,
+/// and no symbol at all.
+enum class ChartSymbol { disc, square, triangle, diamond, triangle_down, pentagon, ring, none };
+
+/// In the order in which series take them; black is for those that ask for it.
+enum class ChartColour { blue, orange, green, pink, amber, sky, grey, black };
 
 struct ChartSeries {
   std::string name;
-  std::vector<ChartPoint> points;
+  std::vector<ChartPoint> points;  ///< none: the series is in the legend alone
   bool joined = true;
+  bool dashed = false;                     ///< the line that joins them
+  std::optional<ChartColour> colour = {};  ///< by default another for each series
+  std::optional<ChartSymbol> symbol = {};  ///< likewise
 };
 
 struct ChartOptions {
@@ -26,6 +42,9 @@ struct ChartOptions {
   std::string y_label;
   bool log_x = false;
   bool log_y = false;
+  double y_from = 0;   ///< points of a log axis that are not above it sit on its lower end, hollow
+  double width = 900;  ///< [px]
+  double height = 600;
 };
 
 struct ChartFiles {

@@ -68,6 +68,7 @@ std::vector<Tick> log_ticks(double low, double high) {
 
 struct Box {
   double x0, y0, x1, y1;
+  double weight = 1;  ///< how bad it is to hide
 };
 
 double overlap(const Box& a, const Box& b) {
@@ -81,6 +82,8 @@ std::vector<Box> obstacles(const std::vector<ChartSeries>& series, const Axis& x
                            const Axis& y_axis, const ChartFrame& frame) {
   constexpr double kMarker = 6;
   constexpr double kLine = 2;
+  constexpr double kHiddenMarker = 3;
+  constexpr double kHiddenInterval = 0.3;  // its ends tell as much
   constexpr double kEvery = 8;
   std::vector<Box> boxes;
   const auto px = [&](const ChartPoint& p) {
@@ -93,11 +96,18 @@ std::vector<Box> obstacles(const std::vector<ChartSeries>& series, const Axis& x
     for (std::size_t i = 0; i < s.points.size(); ++i) {
       const double x = px(s.points[i]);
       const double y = py(s.points[i]);
-      boxes.push_back({x - kMarker, y - kMarker, x + kMarker, y + kMarker});
-      if (s.points[i].y_high > s.points[i].y_low) {
+      boxes.push_back({x - kMarker, y - kMarker, x + kMarker, y + kMarker, kHiddenMarker});
+      if (s.points[i].has_x_interval()) {
+        const double width = frame.right - frame.left;
+        boxes.push_back({frame.left + x_axis.place(s.points[i].x_low) * width, y - kLine,
+                         frame.left + x_axis.place(s.points[i].x_high) * width, y + kLine,
+                         kHiddenInterval});
+      }
+      if (s.points[i].has_y_interval()) {
         const double height = frame.bottom - frame.top;
         boxes.push_back({x - kLine, frame.bottom - y_axis.place(s.points[i].y_high) * height,
-                         x + kLine, frame.bottom - y_axis.place(s.points[i].y_low) * height});
+                         x + kLine, frame.bottom - y_axis.place(s.points[i].y_low) * height,
+                         kHiddenInterval});
       }
       if (!s.joined || i == 0) continue;
       const double dx = px(s.points[i - 1]) - x;
@@ -116,13 +126,18 @@ std::vector<Box> obstacles(const std::vector<ChartSeries>& series, const Axis& x
 constexpr std::array<std::array<int, 2>, 8> kDirections{
     {{1, 0}, {1, 1}, {1, -1}, {-1, 0}, {-1, 1}, {-1, -1}, {0, 1}, {0, -1}}};
 
-Box label_box(double x, double y, double width, double height, const std::array<int, 2>& to) {
+// Ways off a point to try [px], and what each is as bad as hiding [px^2].
+constexpr std::array<double, 5> kWaysOff{0, 16, 32, 56, 84};
+constexpr double kCostOfWay = 8;  // for each pixel
+
+Box label_box(double x, double y, double width, double height, const std::array<int, 2>& to,
+              double way) {
   constexpr double kGapSide = 10;
   constexpr double kGapUpright = 5;
-  const double x0 = to[0] > 0 ? x + kGapSide : to[0] < 0 ? x - kGapSide - width : x - width / 2;
-  const double y0 = to[1] > 0   ? y - kGapUpright - height
-                    : to[1] < 0 ? y + kGapUpright
-                                : y - height / 2;
+  const double side = kGapSide + way;
+  const double upright = kGapUpright + way;
+  const double x0 = to[0] > 0 ? x + side : to[0] < 0 ? x - side - width : x - width / 2;
+  const double y0 = to[1] > 0 ? y - upright - height : to[1] < 0 ? y + upright : y - height / 2;
   return {x0, y0, x0 + width, y0 + height};
 }
 
@@ -131,7 +146,7 @@ double cost_of(const Box& box, const std::vector<Box>& taken, const ChartFrame& 
   const double area = (box.x1 - box.x0) * (box.y1 - box.y0);
   double cost =
       kOutside * (area - overlap(box, {frame.left, frame.top, frame.right, frame.bottom}));
-  for (const Box& other : taken) cost += overlap(box, other);
+  for (const Box& other : taken) cost += other.weight * overlap(box, other);
   return cost;
 }
 
@@ -156,7 +171,7 @@ std::string power_text(double value) {
 
 double Axis::place(double value) const {
   if (!log) return (value - low) / (high - low);
-  if (!(value > 0)) return 0;
+  if (!(value > low)) return 0;
   return std::log(value / low) / std::log(high / low);
 }
 
@@ -202,6 +217,7 @@ std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, co
                                       const Axis& y_axis, const ChartFrame& frame) {
   const double plot_width = frame.right - frame.left;
   const double plot_height = frame.bottom - frame.top;
+  constexpr double kHiddenLabel = 5;
   std::vector<Box> taken = obstacles(series, x_axis, y_axis, frame);
   std::vector<PlacedLabel> labels;
   for (std::size_t s = 0; s < series.size(); ++s)
@@ -213,15 +229,20 @@ std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, co
       const double height = frame.font * 1.1;
       Box best{};
       std::array<int, 2> direction{};
+      double way = 0;
       double least = std::numeric_limits<double>::infinity();
-      for (std::size_t d = 0; d < kDirections.size(); ++d) {
-        const Box box = label_box(x, y, width, height, kDirections[d]);
-        const double cost = cost_of(box, taken, frame) + static_cast<double>(d);
-        if (cost >= least) continue;
-        least = cost;
-        best = box;
-        direction = kDirections[d];
-      }
+      for (const double off : kWaysOff)
+        for (std::size_t d = 0; d < kDirections.size(); ++d) {
+          const Box box = label_box(x, y, width, height, kDirections[d], off);
+          const double cost =
+              cost_of(box, taken, frame) + static_cast<double>(d) + kCostOfWay * off;
+          if (cost >= least) continue;
+          least = cost;
+          best = box;
+          direction = kDirections[d];
+          way = off;
+        }
+      best.weight = kHiddenLabel;
       taken.push_back(best);
       const TextAnchor anchor = direction[0] > 0   ? TextAnchor::left
                                 : direction[0] < 0 ? TextAnchor::right
@@ -230,7 +251,8 @@ std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, co
                         : anchor == TextAnchor::right ? best.x1
                                                       : (best.x0 + best.x1) / 2;
       labels.push_back({point.label, (at - frame.left) / plot_width,
-                        (frame.bottom - (best.y0 + best.y1) / 2) / plot_height, anchor, s});
+                        (frame.bottom - (best.y0 + best.y1) / 2) / plot_height, anchor, s, way > 0,
+                        (x - frame.left) / plot_width, (frame.bottom - y) / plot_height});
     }
   return labels;
 }

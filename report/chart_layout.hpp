@@ -29,7 +29,7 @@ struct Axis {
   double high = 1;
   bool log = false;
   std::vector<Tick> ticks;
-  /// Place along the axis, 0 at `low`, 1 at `high`; a value that a log axis cannot show is at 0.
+  /// Place along the axis, 0 at `low`, 1 at `high`; a value below a log axis is at 0.
   double place(double value) const;
 };
 
@@ -52,9 +52,13 @@ struct PlacedLabel {
   double y = 0;
   TextAnchor anchor = TextAnchor::left;
   std::size_t series = 0;
+  bool led = false;  ///< away from its point, to which a thin line leads
+  double point_x = 0;
+  double point_y = 0;
 };
 
-/// Puts every label beside its point where it hides least: other labels, points and lines.
+/// Puts every label beside its point where it hides least: other labels, points and lines. In a
+/// crowd it goes some way off.
 std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, const Axis& x_axis,
                                       const Axis& y_axis, const ChartFrame& frame);
 

@@ -127,6 +127,9 @@ void describe_trajectory(Api& api) {
   number("simulated", "simulated time [s]", [](const Trajectory& t) { return t.simulated; });
   number("wall_seconds", "measured time; never the same twice [s]",
          [](const Trajectory& t) { return t.wall_seconds; });
+  number("planning_seconds",
+         "the part of them that went into finding the step and laying out the springs [s]",
+         [](const Trajectory& t) { return t.planning_seconds; });
   type.field("steps", "integer", "number of steps",
              [](const TrajectoryValue& value) { return value.trajectory.steps; });
   type.field("unconverged_steps", "integer",
@@ -213,6 +216,7 @@ void describe_sim(Api& api) {
                  "local more = s.run(chain[1], scene, {start = trajectory.final})",
       .call = run_binding});
   describe_compare(api);
+  describe_deviation(api);
 }
 
 }  // namespace springlod

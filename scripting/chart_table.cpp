@@ -14,7 +14,11 @@ namespace {
 
 enum class ErrorKind { surface, shape };
 
-// {x, y, label = ..., low = ..., high = ...}
+// Sides of a chart [px]: room for its letters; what programs that show pictures take.
+constexpr double kLeastChart = 300;
+constexpr double kLargestChart = 8000;
+
+// {x, y, label = ..., low = ..., high = ..., x_low = ..., x_high = ...}
 ChartPoint read_point(Call& call, int table, const std::string& owner) {
   lua_State* L = call.lua();
   if (!lua_istable(L, table) || lua_rawlen(L, table) != 2)
@@ -26,7 +30,7 @@ ChartPoint read_point(Call& call, int table, const std::string& owner) {
   point.y = quantity_at(L, -1, Dimension::number, owner + "[2]");
   lua_pop(L, 2);
   lua_newtable(L);
-  for (const char* key : {"label", "low", "high"}) {
+  for (const char* key : {"label", "low", "high", "x_low", "x_high"}) {
     lua_getfield(L, table, key);
     lua_setfield(L, -2, key);
   }
@@ -34,6 +38,8 @@ ChartPoint read_point(Call& call, int table, const std::string& owner) {
   reader.read("label", point.label);
   reader.read("low", point.y_low);
   reader.read("high", point.y_high);
+  reader.read("x_low", point.x_low);
+  reader.read("x_high", point.x_high);
   reader.finish();
   lua_pop(L, 1);
   return point;
@@ -45,6 +51,27 @@ ChartSeries read_series(Call& call, int table, const std::string& owner) {
   ChartSeries series;
   reader.read("name", series.name);
   reader.read("joined", series.joined);
+  reader.read("dashed", series.dashed);
+  if (reader.has("colour"))
+    reader.choose("colour", series.colour.emplace(),
+                  {{"blue", ChartColour::blue},
+                   {"orange", ChartColour::orange},
+                   {"green", ChartColour::green},
+                   {"pink", ChartColour::pink},
+                   {"amber", ChartColour::amber},
+                   {"sky", ChartColour::sky},
+                   {"grey", ChartColour::grey},
+                   {"black", ChartColour::black}});
+  if (reader.has("symbol"))
+    reader.choose("symbol", series.symbol.emplace(),
+                  {{"disc", ChartSymbol::disc},
+                   {"square", ChartSymbol::square},
+                   {"triangle", ChartSymbol::triangle},
+                   {"diamond", ChartSymbol::diamond},
+                   {"triangle_down", ChartSymbol::triangle_down},
+                   {"pentagon", ChartSymbol::pentagon},
+                   {"ring", ChartSymbol::ring},
+                   {"none", ChartSymbol::none}});
   const int points = reader.raw("points");
   if (points == 0 || !lua_istable(L, points)) reader.refuse("points", "a list of {x, y}");
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, points)); ++i) {
@@ -138,32 +165,52 @@ void read_chart_options(TableReader& reader, ChartOptions& options) {
   reader.read("y_label", options.y_label);
   reader.read("log_x", options.log_x);
   reader.read("log_y", options.log_y);
+  reader.read("y_from", options.y_from);
+  reader.read("width", options.width);
+  reader.read("height", options.height);
+  for (const char* side : {"width", "height"})
+    if (const double pixels = std::string_view(side) == "width" ? options.width : options.height;
+        !(pixels >= kLeastChart && pixels <= kLargestChart))
+      reader.refuse(side, fmt::format("{} to {} pixels", kLeastChart, kLargestChart));
   reader.has("error");  // read for comparisons only
 }
 
 std::vector<Parameter> chart_parameters() {
-  return {{.name = "title",
-           .type = "string",
-           .fallback = "the scenario's name, else none",
-           .help = "title"},
-          {.name = "x_label",
-           .type = "string",
-           .fallback = "told from a comparison, else none",
-           .help = "what lies to the right"},
-          {.name = "y_label",
-           .type = "string",
-           .fallback = "told from a comparison, else none",
-           .help = "what lies upwards"},
-          {.name = "log_x",
-           .type = "boolean",
-           .fallback = "true for a comparison, else false",
-           .help = "logarithmic to the right"},
-          {.name = "log_y", .type = "boolean", .fallback = "false", .help = "logarithmic upwards"},
-          {.name = "error",
-           .type = "one of",
-           .fallback = "\"surface\"",
-           .help = "which error of a comparison is shown",
-           .choices = {"surface", "shape"}}};
+  return {
+      {.name = "title",
+       .type = "string",
+       .fallback = "the scenario's name, else none",
+       .help = "title"},
+      {.name = "x_label",
+       .type = "string",
+       .fallback = "told from a comparison, else none",
+       .help = "what lies to the right"},
+      {.name = "y_label",
+       .type = "string",
+       .fallback = "told from a comparison, else none",
+       .help = "what lies upwards"},
+      {.name = "log_x",
+       .type = "boolean",
+       .fallback = "true for a comparison, else false",
+       .help = "logarithmic to the right"},
+      {.name = "log_y", .type = "boolean", .fallback = "false", .help = "logarithmic upwards"},
+      {.name = "y_from",
+       .type = "number",
+       .fallback = "0",
+       .help = "points of a logarithmic axis that are not above it sit on its lower end, hollow"},
+      {.name = "width",
+       .type = "number",
+       .fallback = fmt::format("{:g}", ChartOptions{}.width),
+       .help = "in pixels"},
+      {.name = "height",
+       .type = "number",
+       .fallback = fmt::format("{:g}", ChartOptions{}.height),
+       .help = "in pixels"},
+      {.name = "error",
+       .type = "one of",
+       .fallback = "\"surface\"",
+       .help = "which error of a comparison is shown",
+       .choices = {"surface", "shape"}}};
 }
 
 void describe_series(Api& api) {
@@ -178,17 +225,39 @@ void describe_series(Api& api) {
                   .type = "number",
                   .fallback = "none",
                   .help = "lower end of an interval drawn about y"},
-                 {.name = "high", .type = "number", .fallback = "none", .help = "its upper end"}},
+                 {.name = "high", .type = "number", .fallback = "none", .help = "its upper end"},
+                 {.name = "x_low",
+                  .type = "number",
+                  .fallback = "none",
+                  .help = "lower end of an interval drawn about x"},
+                 {.name = "x_high", .type = "number", .fallback = "none", .help = "its upper end"}},
       .example = "{0.4, 1.2, label = \"LOD-1\"}"});
   api.add(RecordEntry{
       .name = "Series",
       .summary = "A line of points of a chart.",
       .fields = {{.name = "name", .type = "string", .fallback = "none", .help = "in the legend"},
-                 {.name = "points", .type = "list of Point", .help = "{x, y} each"},
+                 {.name = "points",
+                  .type = "list of Point",
+                  .help = "{x, y} each; none: the series is in the legend alone"},
                  {.name = "joined",
                   .type = "boolean",
                   .fallback = "true",
-                  .help = "whether a line joins the points"}},
+                  .help = "whether a line joins the points"},
+                 {.name = "dashed",
+                  .type = "boolean",
+                  .fallback = "false",
+                  .help = "whether that line is dashed"},
+                 {.name = "colour",
+                  .type = "one of",
+                  .fallback = "another for each series",
+                  .help = "of points and line",
+                  .choices = {"blue", "orange", "green", "pink", "amber", "sky", "grey", "black"}},
+                 {.name = "symbol",
+                  .type = "one of",
+                  .fallback = "another for each series",
+                  .help = "of its points; a ring goes around other points",
+                  .choices = {"disc", "square", "triangle", "diamond", "triangle_down", "pentagon",
+                              "ring", "none"}}},
       .example = "{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}"});
 }
 

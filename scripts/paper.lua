@@ -8,6 +8,7 @@ local paper_runs = require "lib.paper_runs"
 local paper_studies = require "lib.paper_studies"
 local paper_tables = require "lib.paper_tables"
 local run_store = require "lib.run_store"
+local save_text = require "lib.save_text"
 
 local parser = command.parser("paper", "Makes the tables and figures of Kot, Nagahashi and Gracki, "
   .. "\"Simplification of mass spring models\", from many runs each: CSV files, charts, tables.md "
@@ -160,16 +161,7 @@ local function paper()
     paper_studies.sensitivity(settings, store))
 end
 
--- Aside first, so that a page of an earlier run is whole until the new one is.
-local function save_page()
-  local path = args.out .. "/tables.md"
-  local file = assert(io.open(path .. ".part", "w"))
-  assert(file:write(table.concat(page, "\n"), "\n"))
-  assert(file:close())
-  assert(os.rename(path .. ".part", path))
-end
-
 local ok, reason = command.try(paper)
 if not ok then command.fail("paper: %s", reason) end
-save_page()
+save_text(args.out .. "/tables.md", table.concat(page, "\n") .. "\n")
 s.say("tables.md, CSV files, charts and figures are in " .. args.out)

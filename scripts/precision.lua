@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local size_of = require "lib.body_size"
 local swing = require "lib.swing"
 
 local parser = command.parser("precision", "Swings bodies in their ten lowest modes and drops them "
@@ -50,17 +51,6 @@ local bodies = {
 if not args.quick then
   table.insert(bodies, {name = "block", make = block({29, 26, 24}, 0.02), floor = 5e7,
     large = true}) -- minutes at rest would tell no more
-end
-
--- The diagonal of the box around the nodes [m].
-local function size_of(model)
-  local low, high = {math.huge, math.huge, math.huge}, {-math.huge, -math.huge, -math.huge}
-  for _, node in ipairs(model:nodes()) do
-    for d, x in ipairs{node.x, node.y, node.z} do
-      low[d], high[d] = math.min(low[d], x), math.max(high[d], x)
-    end
-  end
-  return math.sqrt((high[1] - low[1]) ^ 2 + (high[2] - low[2]) ^ 2 + (high[3] - low[3]) ^ 2)
 end
 
 -- 2. Frequencies as the integrator swings them.

@@ -18,9 +18,8 @@
 namespace springlod {
 namespace {
 
-// Frames of two runs closer than this are the same instant [s]; frame times only differ by
-// rounding.
-constexpr double kSameTime = 1e-9;
+// How much later than the end of the window a frame at it may seem to be [s].
+constexpr double kRounding = 1e-9;
 
 void validate(const LodChain& chain, const CompareOptions& options) {
   if (chain.levels.empty()) throw InputError("compare: the chain has no levels");
@@ -56,24 +55,22 @@ struct Errors {
   double shape = 0;
 };
 
-Errors deviation(const std::vector<Frame>& frames, const BaseRun& base,
-                 const std::vector<double>& mass, double window) {
+Errors mean_errors(const std::vector<Frame>& frames, const BaseRun& base,
+                   const std::vector<double>& mass, double window) {
   const double window_end =
       base.first_contact ? *base.first_contact + window : base.frames.back().time;
+  const std::vector<Deviation> deviations = deviation_over_time(frames, base.frames, mass);
   Errors sum;
   std::size_t in_window = 0;
-  std::size_t common = 0;
-  for (std::size_t f = 0; f < std::min(frames.size(), base.frames.size()); ++f) {
-    const double time = frames[f].time;
-    if (std::abs(time - base.frames[f].time) > kSameTime) break;  // one run was stopped here
-    ++common;
-    sum.shape += rms_distance_after_fit(frames[f].x, base.frames[f].x, mass);
-    if (time > window_end + kSameTime) continue;
+  for (const Deviation& d : deviations) {
+    sum.shape += d.shape;
+    if (d.time > window_end + kRounding) continue;
     ++in_window;
-    sum.surface += rms_distance(frames[f].x, base.frames[f].x, mass);
+    sum.surface += d.surface;
   }
   // The first frame, t = 0, is always common and in the window.
-  return {sum.surface / static_cast<double>(in_window), sum.shape / static_cast<double>(common)};
+  return {sum.surface / static_cast<double>(in_window),
+          sum.shape / static_cast<double>(deviations.size())};
 }
 
 /// Largest difference of the mechanical energy over the base's largest kinetic energy; the ledgers
@@ -148,7 +145,7 @@ class Comparing {
     const auto base_run = slots_[start].base;  // a copy: one future is not for several threads
     const std::shared_ptr<BaseRun>& base = base_run.get();
     const Errors errors =
-        deviation(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);
+        mean_errors(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);
     StartResult& result = result_.levels[level].starts[start];
     result.surface_error = errors.surface;
     result.shape_error = errors.shape;

@@ -1,5 +1,6 @@
 #include "sim/deviation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -7,6 +8,10 @@
 
 namespace springlod {
 namespace {
+
+// Frames of two runs closer than this are the same instant [s]; frame times only differ by
+// rounding.
+constexpr double kSameTime = 1e-9;
 
 Vec3 center(const std::vector<Vec3>& p, const std::vector<double>& mass, double total) {
   Vec3 sum = Vec3::Zero();
@@ -43,6 +48,18 @@ double rms_distance_after_fit(const std::vector<Vec3>& p, const std::vector<Vec3
   for (std::size_t i = 0; i < p.size(); ++i)
     sum += mass[i] * (rotation * (p[i] - center_p) - (q[i] - center_q)).squaredNorm();
   return std::sqrt(sum / total);
+}
+
+std::vector<Deviation> deviation_over_time(const std::vector<Frame>& frames,
+                                           const std::vector<Frame>& base,
+                                           const std::vector<double>& mass) {
+  std::vector<Deviation> list;
+  for (std::size_t f = 0; f < std::min(frames.size(), base.size()); ++f) {
+    if (std::abs(frames[f].time - base[f].time) > kSameTime) break;  // one run was stopped here
+    list.push_back({frames[f].time, rms_distance(frames[f].x, base[f].x, mass),
+                    rms_distance_after_fit(frames[f].x, base[f].x, mass)});
+  }
+  return list;
 }
 
 }  // namespace springlod

@@ -67,6 +67,7 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Sta
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   Trajectory trajectory = run(model, scenario, start, options, plan);
   trajectory.wall_seconds += planning;
+  trajectory.planning_seconds = planning;
   return trajectory;
 }
 

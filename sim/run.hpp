@@ -65,6 +65,7 @@ struct Trajectory {
   std::uint64_t unconverged_steps = 0;
   double simulated = 0;                 ///< [s]; below the duration if a stop rule ended the run
   double wall_seconds = 0;              ///< measured; never part of a result that must repeat
+  double planning_seconds = 0;          ///< of these what went before the first step (plan_runs)
   std::vector<Frame> frames;            ///< at the frame times, first and last included
   std::vector<LedgerEntry> ledger;      ///< one a frame; empty if not asked for
   std::optional<double> first_contact;  ///< [s]

@@ -77,6 +77,18 @@ function command.words(text)
   return list(text, function(word) return word end)
 end
 
+-- Words of `known`.
+function command.words_of(option, known)
+  local is_known = {}
+  for _, word in ipairs(known) do is_known[word] = true end
+  return function(text)
+    return list(text, function(word)
+      if is_known[word] then return word end
+      return nil, ("%s: '%s' must be one of %s"):format(option, word, table.concat(known, ", "))
+    end)
+  end
+end
+
 -- Why a call failed: the message of springlod without the line of the script that called it. What
 -- is no error of springlod is a fault of a script and keeps its line.
 function command.reason(failure)

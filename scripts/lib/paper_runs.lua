@@ -1,19 +1,14 @@
 -- The runs behind the paper's two tables: which there are, and how each is made.
 
 local s = require "springlod"
+local noise_samples = require "lib.noise_samples"
 local paper_scenes = require "lib.paper_scenes"
 local paper_variants = require "lib.paper_variants"
+local teller = require "lib.teller"
 
 local paper_runs = {}
 
 local columns = {"start", "distance", "simulated", "spring_updates", "first_crossing"}
-
--- How far the base is from itself: other starts, and what a method's own error does.
-local noise_sources = {
-  {name = "other-starts", times = 2},
-  {name = "half-step", times = 1, safety = 0.4},
-  {name = "velocity-verlet", times = 1, integrator = "velocity_verlet"},
-}
 
 -- One throw of one body: scene as a Scenario and as the table it was made of. `variants`: those of
 -- the paper's table.
@@ -77,13 +72,8 @@ local function samples(one, settings)
   end
   local function base() return one.base end
   add("base", "base", base, {starts = settings.starts})
-  local first = settings.starts + 1
-  for _, source in ipairs(noise_sources) do
-    local starts = source.times * settings.starts
-    add(source.name, "noise", base, {
-      first = first, starts = starts, safety = source.safety, integrator = source.integrator,
-    })
-    first = first + starts
+  for _, source in ipairs(noise_samples(settings.starts)) do
+    add(source.name, "noise", base, source.options)
   end
   paper_runs.each_level(one, function(label, variant, level)
     paper_runs.by_seed(settings, function(seed)
@@ -106,16 +96,6 @@ local function distances(sample, scene, store)
     if row.first_crossing ~= "" then turned_over = turned_over + 1 end
   end
   return list, turned_over
-end
-
--- Says how far a long work is and how long it will take.
-local function teller(total)
-  local begun, done = os.time(), 0
-  return function(name)
-    done = done + 1
-    local left = os.difftime(os.time(), begun) / done * (total - done)
-    s.say(("%d/%d %s, about %.0f s left"):format(done, total, name, left))
-  end
 end
 
 -- Runs what the store lacks of `cases`. Each case gets base_distances, noise (several),

@@ -3,6 +3,7 @@
 
 local s = require "springlod"
 local averages = require "lib.averages"
+local cut = require "lib.cut_scene"
 local paper_numbers = require "lib.paper_numbers"
 local paper_runs = require "lib.paper_runs"
 local paper_scenes = require "lib.paper_scenes"
@@ -11,14 +12,6 @@ local paper_variants = require "lib.paper_variants"
 local paper_studies = {}
 
 local mean, standard_deviation = averages.mean, averages.standard_deviation
-
--- The scene of a case as a table again, cut to `duration`.
-local function cut(scene, duration)
-  local copy = {}
-  for key, value in pairs(scene) do copy[key] = value end
-  copy.duration, copy.stop = duration, nil
-  return copy
-end
 
 local function positions_at(model, scene, time)
   return s.run(model, cut(scene, time), {frame_rate = 0, ledger = false, quiet = true}).final.x

@@ -3,6 +3,7 @@
 
 local s = require "springlod"
 local averages = require "lib.averages"
+local by_start = require "lib.by_start"
 local paper_numbers = require "lib.paper_numbers"
 local paper_runs = require "lib.paper_runs"
 local paper_variants = require "lib.paper_variants"
@@ -20,16 +21,6 @@ paper_tables.columns = {
   "noise_floor", "seeds_inside", "seeds", "equivalent", "turned_over_percent",
   "paper_distance", "paper_difference",
 }
-
--- A list of numbers a seed as a list a start of one number a seed.
-local function by_start(seeds)
-  local list = {}
-  for start = 1, #seeds[1] do
-    list[start] = {}
-    for seed = 1, #seeds do list[start][seed] = seeds[seed][start] end
-  end
-  return list
-end
 
 -- Nodes and ends of a level, means over the seeds.
 local function counts(one, variant, level, settings)

@@ -49,7 +49,7 @@ TEST_CASE("wrong use exits 2, says why on stderr and names what is near") {
 }
 
 TEST_CASE("every command explains itself") {
-  for (const char* command : {"convert", "info", "compare", "stability"}) {
+  for (const char* command : {"convert", "info", "compare", "stability", "pareto"}) {
     const Ran ran = springlod_run({command, "--help"});
     CAPTURE(command);
     CHECK(ran.exit_code == 0);

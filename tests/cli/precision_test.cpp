@@ -1,59 +1,19 @@
 // The study of single against double precision.
 
 #include <cmath>
-#include <map>
-#include <sstream>
 
 #include <catch2/catch.hpp>
 
+#include "tests/cli/csv_rows.hpp"
 #include "tests/cli/program.hpp"
 
+using springlod::test::number;
 using springlod::test::Ran;
+using springlod::test::Row;
+using springlod::test::rows_of;
 using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
-
-namespace {
-
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells{""};
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      cells.emplace_back();
-    else if (c != '\r')
-      cells.back() += c;
-  }
-  return cells;
-}
-
-/// The rows of a CSV file by the names of its columns.
-std::vector<Row> rows_of(const std::string& table) {
-  std::istringstream lines(table);
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> columns = cells_of(line);
-  std::vector<Row> rows;
-  while (std::getline(lines, line)) {
-    const std::vector<std::string> cells = cells_of(line);
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      if (i == 0)
-        rows.push_back({{columns[i], cells.at(i)}});
-      else
-        rows.back()[columns[i]] = cells.at(i);
-  }
-  return rows;
-}
-
-double number(const Row& row, const std::string& column) {
-  return std::stod(row.at(column));
-}
-
-}  // namespace
 
 TEST_CASE("precision, quickly: single precision swings and drops as double does, within bounds") {
   const Scratch out;

@@ -43,6 +43,7 @@ TEST_CASE("a chart is drawn with its labels, and script and data lie beside it")
     CHECK(svg.find(text) != std::string::npos);
   CHECK(std::filesystem::exists(files.data));
   CHECK(read_file(files.data).find("LOD_hb,1.7e+09,0.021,0.018,0.025") != std::string::npos);
+  CHECK(svg.find("empty") != std::string::npos);  // in the legend, without a point
 
   // The same input gives the same bytes: no date, no process number inside.
   const auto again = folder.path() / "again" / "cost.svg";
@@ -65,6 +66,42 @@ TEST_CASE("a chart can be a PNG") {
   const Image image = load_png(folder.path() / "cost.png");
   CHECK(image.width == 900);
   CHECK(image.height == 600);
+}
+
+TEST_CASE("points have intervals both ways, and series looks of their own") {
+  const TemporaryFolder folder("chart");
+  const PathIs nothing("");  // the script tells
+  ChartOptions options{"Looks", "x", "y", true, true};
+  options.width = 1200;
+  options.height = 800;
+  options.y_from = 0.1;
+  const ChartPoint both{2, 3, "both", 2.5, 3.5, 1.5, 2.75};
+  const std::vector<ChartSeries> series{
+      {"own",
+       {both, {4, 0.05, "low", 0, 0, 0, 0}},
+       false,
+       false,
+       ChartColour::black,
+       ChartSymbol::diamond},
+      {"floor", {{1, 1, ""}, {8, 1, ""}}, true, true, {}, ChartSymbol::none},
+      {"around", {{2, 3, ""}}, false, false, {}, ChartSymbol::ring},
+      {"told", {}, false, false, ChartColour::sky, ChartSymbol::square}};
+  const ChartFiles files = draw_chart(series, options, folder.path() / "looks.svg");
+  CHECK(read_file(files.data).find("own,2,3,2.5,3.5,both,1.5,2.75") != std::string::npos);
+  const std::string script = read_file(files.script);
+  const auto has = [&](const char* text) {
+    CAPTURE(text, script);
+    CHECK(script.find(text) != std::string::npos);
+  };
+  has("size 1200,800");
+  has("using 2:3:7:8:4:5 with xyerrorbars pt 0 lw 1.2 lc rgb '#14171B'");
+  has("with points pt 13 ps 1.2 lw 2 lc rgb '#14171B' title 'own'");
+  has("with lines lw 2 dt 2 lc rgb '#D55E00' title 'floor'");
+  has("with points pt 6 ps 2.4 lw 2 lc rgb '#009E73' title 'around'");
+  has("NaN with points pt 5 ps 1.2 lw 2 lc rgb '#56B4E9' title 'told'");
+  // What lies below the axis sits on it, hollow, and says so.
+  has("'low (y = 0.05)'");
+  has("point pt 12 ps 1.2 lc rgb '#14171B'");
 }
 
 TEST_CASE("without gnuplot a chart leaves script, data and the command") {
@@ -147,4 +184,27 @@ TEST_CASE("labels of neighbouring points do not cover each other") {
       const bool beside = labels[i].anchor != labels[j].anchor;
       CHECK((beside || dy >= frame.font || dx >= text_width(labels[i].text, frame.font * 0.9)));
     }
+}
+
+TEST_CASE("in a crowd a label goes off its point, and a line leads to it") {
+  const ChartFrame frame;
+  const Axis axis = make_axis({0, 10}, false);
+  std::vector<ChartSeries> alone{{"a", {}, false}};
+  alone[0].points.push_back({5, 5, "here"});
+  CHECK_FALSE(place_labels(alone, axis, axis, frame).at(0).led);
+
+  std::vector<ChartSeries> crowd = alone;
+  for (int x = -4; x <= 4; ++x)
+    for (int y = -2; y <= 2; ++y) {
+      ChartPoint& point = crowd[0].points.emplace_back();
+      point.x = 5 + 0.15 * x;
+      point.y = 5 + 0.25 * y;
+    }
+  const PlacedLabel label = place_labels(crowd, axis, axis, frame).at(0);
+  CHECK(label.led);
+  CHECK(label.point_x == Approx(axis.place(5)));
+  // Outside the crowd, half of whose height is 0.5.
+  const double height = axis.place(0.5) - axis.place(0);
+  const double width = axis.place(0.6) - axis.place(0);
+  CHECK((std::abs(label.y - label.point_y) > height || std::abs(label.x - label.point_x) > width));
 }

@@ -146,6 +146,24 @@ TEST_CASE("Before contact a level that flies like the base has no error") {
   CHECK(result.levels[1].starts[0].shape_error < 1e-9);
 }
 
+TEST_CASE("Deviation over time is told frame by frame, as far as two runs have the same instants") {
+  const std::vector<double> mass{1, 3};
+  const std::vector<Vec3> rest{Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  const std::vector<Vec3> moved{Vec3(0, 0, 2), Vec3(1, 0, 2)};
+  const std::vector<Vec3> longer{Vec3(0, 0, 0), Vec3(1.4, 0, 0)};
+  const std::vector<Frame> base{{0, rest}, {0.1, rest}, {0.2, rest}, {0.3, rest}};
+  const std::vector<Frame> run{{0, rest}, {0.1 + 1e-12, moved}, {0.2, longer}, {0.25, rest}};
+  const auto list = deviation_over_time(run, base, mass);
+  REQUIRE(list.size() == 3);  // the run was stopped at 0.25
+  CHECK(list[0].surface == 0);
+  CHECK(list[1].surface == Approx(2));
+  CHECK(list[1].shape == Approx(0).margin(1e-12));
+  CHECK(list[2].time == 0.2);
+  CHECK(list[2].surface == Approx(0.4 * std::sqrt(0.75)));
+  // 0.3 and 0.1 off the centre that they share
+  CHECK(list[2].shape == Approx(std::sqrt((0.09 + 3 * 0.01) / 4)));
+}
+
 TEST_CASE("The best rigid fit finds a rotation and tells a mirror image from it") {
   const auto model = bodies::rods();
   const Mat3 turn = Eigen::AngleAxisd(2.5, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();

@@ -1,0 +1,104 @@
+-- What springlod pareto writes besides its charts.
+
+local s = require "springlod"
+local save_text = require "lib.save_text"
+
+local pareto_tables = {}
+
+-- The command that was called, to be called again.
+function pareto_tables.save_command(path)
+  local words = {"springlod", "--seed", tostring(s.seed), "pareto"}
+  for i = 1, #arg do
+    local word = arg[i]
+    if word:find("[^%w%-_./,=]") then word = "'" .. word:gsub("'", "'\\''") .. "'" end
+    words[#words + 1] = word
+  end
+  save_text(path, table.concat(words, " ") .. "\n")
+end
+
+local function add_interval(row, interval)
+  row[#row + 1] = interval and interval.value or ""
+  row[#row + 1] = interval and interval.low or ""
+  row[#row + 1] = interval and interval.high or ""
+end
+
+local function interval_columns(columns, name, unit)
+  for _, part in ipairs{"", " low", " high"} do columns[#columns + 1] = name .. part .. unit end
+end
+
+local error_units = {{"frequencies", " [%]"}, {"loads", " [%]"}, {"surface", " [%]"},
+                     {"ensemble", " [m]"}}
+
+local function save_points(path, variants, study)
+  local columns = {"variant", "label", "paper", "grouping", "border", "calibration", "level",
+                   "nodes", "springs", "integrator", "precision"}
+  for _, entry in ipairs(error_units) do interval_columns(columns, entry[1], entry[2]) end
+  for _, name in ipairs{"surface floor [%]", "ensemble floor [m]", "seeds inside the floor"} do
+    columns[#columns + 1] = name
+  end
+  local rows = {}
+  for i, v in ipairs(variants) do
+    local row = {v.name, v.label, v.paper or "", v.making.grouping or "", v.making.border or "",
+                 v.making.calibration or "", v.level, v.nodes, v.springs, v.stepping.integrator,
+                 v.stepping.precision}
+    for _, entry in ipairs(error_units) do add_interval(row, v.measured[entry[1]]) end
+    row[#row + 1] = study.surfaces and study.surfaces.floor.value or ""
+    row[#row + 1] = study.ensembles and study.ensembles.floor.level or ""
+    row[#row + 1] = v.measured.ensemble and v.measured.ensemble.inside or ""
+    rows[i] = row
+  end
+  s.csv(path, rows, {columns = columns})
+end
+
+local function save_timings(path, variants)
+  local columns = {"variant", "label"}
+  interval_columns(columns, "cost", " [s/s]")
+  interval_columns(columns, "cost / base", "")
+  for _, name in ipairs{"spring updates a simulated second", "step [s]", "repeats"} do
+    columns[#columns + 1] = name
+  end
+  local rows = {}
+  for _, v in ipairs(variants) do
+    if v.measured.cost then
+      local row = {v.name, v.label}
+      add_interval(row, v.measured.cost.seconds)
+      add_interval(row, v.measured.cost.ratio)
+      row[#row + 1] = v.measured.cost.spring_updates
+      row[#row + 1] = v.measured.cost.step
+      row[#row + 1] = v.measured.cost.repeats
+      rows[#rows + 1] = row
+    end
+  end
+  s.csv(path, rows, {columns = columns})
+end
+
+function pareto_tables.save(folder, variants, left_out, study)
+  save_points(folder .. "/points.csv", variants, study)
+  save_timings(folder .. "/timings.csv", variants)
+  s.csv(folder .. "/left-out.csv", left_out, {columns = {"variant", "what", "reason"}})
+end
+
+local function text_of(interval)
+  return ("%.3g (%.3g .. %.3g)"):format(interval.value, interval.low, interval.high)
+end
+
+-- A front on the terminal and as folder/NAME-front.csv.
+function pareto_tables.show_front(folder, axis, front)
+  local columns, rows, texts = {"variant", "label", "nodes"}, {}, {}
+  interval_columns(columns, "cost / base", "")
+  interval_columns(columns, axis.y_label, "")
+  for i, point in ipairs(front) do
+    local v = point.variant
+    rows[i] = {v.name, v.label, v.nodes}
+    add_interval(rows[i], point.cost)
+    add_interval(rows[i], point.error)
+    texts[i] = {v.label, v.nodes, text_of(point.cost), text_of(point.error)}
+  end
+  s.csv(("%s/%s-front.csv"):format(folder, axis.name), rows, {columns = columns})
+  print(axis.title .. ": the Pareto front" .. (axis.floor and
+    ("; %s: %.3g"):format(axis.floor_name, axis.floor) or ""))
+  print(s.format_table(texts, {columns = {"variant", "nodes", "cost / base", axis.y_label}}))
+  print()
+end
+
+return pareto_tables

@@ -1,0 +1,85 @@
+-- What a simulated second costs by the clock, beside what the base costs at the same time.
+
+local s = require "springlod"
+local averages = require "lib.averages"
+local cut_scene = require "lib.cut_scene"
+local intervals = require "lib.intervals"
+
+local pareto_times = {}
+
+local Times = {}
+Times.__index = Times
+
+-- That a timed run of the base takes: long beside what clocks are off and what else the machine
+-- does in between [s]. Shorter runs are repeated until they have taken half of it.
+local base_seconds = 0.1
+local patience = 5 -- for the repeats of one variant [s]; after it three are enough
+local least_repeats = 3
+
+local columns = {"seed", "base_seconds", "seconds", "ratio", "spring_updates", "step"}
+
+-- One run alone on one thread that keeps nothing: wall-clock seconds (what is planned once left
+-- out) and spring updates a simulated second, and the step [s].
+local function timed(model, scene, more)
+  local options = {threads = 1, frame_rate = 0, ledger = false, sleep = 0, quiet = true}
+  for key, value in pairs(more) do options[key] = value end
+  local run = s.run(model, scene, options)
+  local seconds = run.wall_seconds - run.planning_seconds
+  return seconds / run.simulated, run.spring_updates / run.simulated, run.step
+end
+
+-- `study`: base, scene, scenario, settings (repeats), store.
+function pareto_times.new(study)
+  local rows = study.store:rows("timed", {"duration"}, function()
+    local cost = timed(study.base, cut_scene(study.scene, study.scenario.duration), {})
+    return {{duration = math.min(study.scenario.duration, base_seconds / cost)}}
+  end)
+  return setmetatable({
+    study = study, scene = s.scenario(cut_scene(study.scene, rows[1].duration)), base_costs = {},
+  }, Times)
+end
+
+-- The mean of as many runs as it takes.
+local function timed_long(model, scene, options)
+  local seconds, count, spent = 0, 0, 0
+  local updates, step
+  repeat
+    local one
+    one, updates, step = timed(model, scene, options)
+    seconds, count, spent = seconds + one, count + 1, spent + one * scene.duration
+  until spent >= base_seconds / 2
+  return seconds / count, updates, step
+end
+
+-- The base and the variant by turns, seed after seed, all from the scene's own start: medians, with
+-- intervals over the repeats.
+function Times:cost_of(variant, chains)
+  local study = self.study
+  local rows = study.store:rows("times/" .. variant.name, columns, function()
+    local found, begun = {}, os.time()
+    for turn = 1, study.settings.repeats do
+      local seed = (turn - 1) % #chains + 1
+      local of_base = timed_long(study.base, self.scene, {})
+      local seconds, updates, step = timed_long(chains[seed][variant.level], self.scene,
+        variant.step_options)
+      found[turn] = {seed = seed, base_seconds = of_base, seconds = seconds,
+                     ratio = seconds / of_base, spring_updates = updates, step = step}
+      if turn >= least_repeats and os.difftime(os.time(), begun) > patience then break end
+    end
+    return found
+  end)
+  local values = {}
+  for _, name in ipairs(columns) do
+    values[name] = {}
+    for i, row in ipairs(rows) do values[name][i] = row[name] end
+  end
+  table.move(values.base_seconds, 1, #rows, #self.base_costs + 1, self.base_costs)
+  return {ratio = intervals.median(values.ratio), seconds = intervals.median(values.seconds),
+          spring_updates = averages.mean(values.spring_updates), step = rows[1].step,
+          repeats = #rows}
+end
+
+-- Of the base, by all that were timed so far [s of a simulated second].
+function Times:base_cost() return intervals.median(self.base_costs).value end
+
+return pareto_times
