@@ -189,7 +189,7 @@ class Log {
     step.level = level;
     step.from = level - 1;
     std::optional<Groups> groups = groups_between(levels[step.from].of_base, levels[level].of_base);
-    if (!groups) {
+    if (!groups || options_.from_base) {
       step.from = 0;
       groups = levels[level].of_base;
     }

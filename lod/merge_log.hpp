@@ -46,8 +46,10 @@ struct MergeLog {
 
 struct MergeLogOptions {
   std::uint32_t modes = 10;
-  std::uint32_t local_loads = 20;            ///< of each kind: pinches and pushes
-  std::uint64_t seed = 1;                    ///< of where they act, as in CertifyOptions
+  std::uint32_t local_loads = 20;  ///< of each kind: pinches and pushes
+  std::uint64_t seed = 1;          ///< of where they act, as in CertifyOptions
+  /// Every step from the base, also where a level was merged from the one before.
+  bool from_base = false;
   std::vector<std::uint32_t> anchored = {};  ///< nodes of the base that are held
   std::uint32_t threads = 1;                 ///< 0: all cores
   Progress* progress = nullptr;              ///< may be null

@@ -78,6 +78,7 @@ int merge_log_binding(Call& call) {
   reader.read("modes", options.modes);
   reader.read("local_loads", options.local_loads);
   reader.read("seed", options.seed);
+  reader.read("from_base", options.from_base);
   options.anchored = read_anchored(reader, asset->chain.levels.front().model);
   reader.finish();
   const MergeLog log = log_merges(asset->chain, options);
@@ -166,6 +167,11 @@ void describe_merge_log(Api& api) {
                    .type = "integer",
                    .fallback = fmt::format("{}", usual.seed),
                    .help = "of where they act, as in certify"},
+                  {.name = "from_base",
+                   .type = "boolean",
+                   .fallback = "false",
+                   .help = "each step counts from the base, also where a level was merged from the "
+                           "one before"},
                   anchored_parameter()},
       .returns = "list of MergeStep, one a level but the base",
       .errors = "A chain that is a base alone; a level without springs; hundreds of loose nodes in "

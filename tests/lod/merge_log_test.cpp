@@ -201,6 +201,12 @@ TEST_CASE("levels that were not merged from the one before count from the base")
   const MergeLog log = log_merges(chain, {.modes = 3, .local_loads = 2});
   CHECK(log.steps[1].from == 0);
   CHECK(log.steps[1].change == log.steps[1].error);
+
+  const LodChain nested = simplify(ball(), {.levels = 2});
+  const MergeStep from_base =
+      log_merges(nested, {.modes = 3, .local_loads = 2, .from_base = true}).steps[1];
+  CHECK(from_base.from == 0);
+  CHECK(from_base.change == from_base.error);
 }
 
 TEST_CASE("a log is the same on any number of threads, and refuses what has no merges") {
