@@ -283,7 +283,9 @@ local function advise(stop, beyond)
       without.count, without.nodes, percent(without.certificate.f1_10_error),
       without.certificate.cost_ratio))
   end
-  if not args.calibrate and not args.as_made then print("--calibrate shows how far fitted levels go") end
+  if not args.calibrate and not args.as_made then
+    print("--calibrate shows how far fitted levels go")
+  end
 end
 
 -- The asset's own levels, or new ones from near its base on.

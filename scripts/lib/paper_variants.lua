@@ -1,5 +1,5 @@
 -- The paper's ways of merging and its names for them: b = weak border, h = priority, number =
--- level.
+-- level. Besides, ways of ours: levels fitted to the base.
 
 local paper_variants = {
   {name = "", grouping = "standard", border = "none"},
@@ -7,6 +7,20 @@ local paper_variants = {
   {name = "h", grouping = "priority", border = "none"},
   {name = "hb", grouping = "priority", border = "weak"},
 }
+
+-- The paper's groups, fitted; and compact ones, of about as many nodes as the paper's.
+paper_variants.calibrated = {
+  {name = "fit", grouping = "standard", border = "none", calibrate = "modes"},
+  {name = "fit-compact", grouping = "compact", border = "none", calibrate = "modes",
+   keep = {0.45, 0.2}},
+}
+
+-- `variants`, and the calibrated ones after them if the settings ask for them.
+function paper_variants.wanted(variants, settings)
+  if not settings.calibrated then return variants end
+  local all = table.move(variants, 1, #variants, 1, {})
+  return table.move(paper_variants.calibrated, 1, #paper_variants.calibrated, #all + 1, all)
+end
 
 -- "base", "LOD-1", "LOD-hb-2" of the variant's name and the level; without one that of all levels,
 -- "LOD-hb".
