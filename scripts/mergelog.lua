@@ -6,7 +6,7 @@ local merge_ladder = require "lib.merge_ladder"
 
 local parser = command.parser("mergelog", "Merges the base of an asset down step by step, measures "
   .. "each step beside the base and tells where to stop, which merges cost most, and what leaving "
-  .. "those out would save. Writes levels.csv, answers.csv, merges.csv, charts (errors, merges) "
+  .. "those out would save. Writes levels.csv, answers.csv, merges.csv, charts (errors, costs) "
   .. "and where.png, a picture of the costliest merges.")
 parser:argument("asset", "a .glb that convert or save wrote")
 parser:option("--out", "folder to write to"):argname("<folder>"):default("out/mergelog")
@@ -202,7 +202,7 @@ local function draw_merges(levels)
       name = ("%.0f %% kept, %d merges"):format(100 * entry.part, #entry.merged), points = points,
     }
   end
-  command.chart(args.out .. "/merges", series, {
+  command.chart(args.out .. "/costs", series, {
     title = "What the merges of a step add to the error of f1..10, costliest first",
     x_label = "merges (% of the step's)", y_label = "sum of their costs (%)",
   })
@@ -257,15 +257,18 @@ end
 
 local function advise(stop, beyond)
   local wanted = ("f1..10 within %g %%"):format(100 * tolerance)
-  local function beside(entry)
+  local function say_errors(entry)
     local c = entry.certificate
-    return ("%.0f %% (%d nodes): f1..10 off by %s, smooth loads by %s, local loads by %s"):format(
-      100 * entry.part, entry.nodes, percent(c.f1_10_error), percent(c.fitted_load_error),
-      percent(c.held_out_load_error))
+    print(("  off by %s (f1..10), %s (smooth loads), %s (local loads)"):format(
+      percent(c.f1_10_error), percent(c.fitted_load_error), percent(c.held_out_load_error)))
+  end
+  local function told(entry)
+    return ("%.0f %% (%d nodes), cost %.2g of the base's"):format(100 * entry.part, entry.nodes,
+      entry.certificate.cost_ratio)
   end
   if stop then
-    print(("stop for %s: at %s, cost %.2g of the base's"):format(wanted, beside(stop),
-      stop.certificate.cost_ratio))
+    print(("stop for %s: at %s"):format(wanted, told(stop)))
+    say_errors(stop)
   else
     print(("no level has %s%s"):format(wanted,
       args.as_made and "" or ": more --steps start nearer to the base"))
@@ -274,12 +277,13 @@ local function advise(stop, beyond)
     print("all levels are good enough" .. (args.as_made and "" or ": --least may be lower"))
     return
   end
-  print("beyond: at " .. beside(beyond))
-  print(("its costliest merge adds %s to f1..10: %s"):format(
+  print("beyond that: at " .. told(beyond))
+  say_errors(beyond)
+  print(("  costliest merge, %s of f1..10: %s"):format(
     percent(beyond.merged[1].frequencies), where(beyond.merged[1])))
   local without = beyond.without
   if without then
-    print(("without its %d costliest merges (%d nodes) f1..10 are off by %s, cost %.2g"):format(
+    print(("  without its %d costliest merges (%d nodes): %s (f1..10), cost %.2g"):format(
       without.count, without.nodes, percent(without.certificate.f1_10_error),
       without.certificate.cost_ratio))
   end

@@ -32,8 +32,8 @@ parser:option("--speed-scale", "m/s of one of the paper's units of speed")
   :convert(command.number("--speed-scale", 0)):default("0.26")
 parser:option("--ball-materials", "Lua file that returns core and shell"):argname("<file.lua>")
 parser:option("--rods-materials", "Lua file that returns rod and rubber"):argname("<file.lua>")
-parser:flag("--calibrated", "also levels fitted to the base: LOD-fit (the paper's groups) and "
-  .. "LOD-fit-compact (45 and 20 % of the nodes); goes on in a folder without them too")
+parser:flag("--calibrated", "also levels of 45 and 20 % of the nodes fitted to the base: LOD-fit-b "
+  .. "(the paper's groups), LOD-fit-compact-b; goes on in a folder without them too")
 parser:flag("--no-figures", "tables only")
 local args = parser:parse()
 

@@ -8,10 +8,12 @@ local paper_variants = {
   {name = "hb", grouping = "priority", border = "weak"},
 }
 
--- The paper's groups, fitted; and compact ones, of about as many nodes as the paper's.
+-- The paper's groups and compact ones, fitted. With weak borders, for what touches floor and wall
+-- then stays where the surface was; about as many nodes as the paper's levels.
 paper_variants.calibrated = {
-  {name = "fit", grouping = "standard", border = "none", calibrate = "modes"},
-  {name = "fit-compact", grouping = "compact", border = "none", calibrate = "modes",
+  {name = "fit-b", grouping = "standard", border = "weak", calibrate = "modes",
+   keep = {0.45, 0.2}},
+  {name = "fit-compact-b", grouping = "compact", border = "weak", calibrate = "modes",
    keep = {0.45, 0.2}},
 }
 

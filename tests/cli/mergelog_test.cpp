@@ -26,7 +26,7 @@ TEST_CASE("mergelog tells where to stop, and keeps tables, charts and a picture"
   CHECK_THAT(first.out,
              Contains("kept") && Contains("costliest merge") && Contains("f1..10 within 5 %"));
   for (const char* file :
-       {"errors.svg", "errors.png", "merges.svg", "merges.png", "where.png", "answers.csv"})
+       {"errors.svg", "errors.png", "costs.svg", "costs.png", "where.png", "answers.csv"})
     CHECK(std::filesystem::exists(scratch / "first" / file));
   CHECK_THAT(slurp(scratch / "first/levels.csv"), Contains("left_out_f1_10_error"));
   CHECK_THAT(slurp(scratch / "first/merges.csv"), Contains("base_nodes") && Contains("default"));
