@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "lod/group_means.hpp"
 #include "lod/transfer.hpp"
 #include "model/error.hpp"
 #include "model/stiffness.hpp"
@@ -15,18 +16,7 @@ Binding fine_from_coarse(const MergedPair& pair) {
   return base_from_level(chain, 1);
 }
 
-std::vector<Vec3> group_means(const std::vector<Vec3>& field, const MergedPair& pair) {
-  std::vector<Vec3> sum(pair.groups.count, Vec3::Zero());
-  std::vector<double> mass(pair.groups.count, 0);
-  for (std::uint32_t i = 0; i < pair.fine.node_count(); ++i) {
-    sum[pair.groups.of[i]] += pair.fine.mass[i] * field[i];
-    mass[pair.groups.of[i]] += pair.fine.mass[i];
-  }
-  for (std::uint32_t g = 0; g < pair.groups.count; ++g) sum[g] /= mass[g];
-  return sum;
-}
-
-/// x.Kx' of one spring.
+/// x.Ky of one spring.
 double work(const MassSpringModel& model, std::uint32_t spring, const std::vector<Vec3>& x,
             const std::vector<Vec3>& y) {
   const Vec3 along = spring_direction(model, spring);
@@ -44,7 +34,7 @@ class Parts {
 
   std::vector<double> of(const std::vector<Vec3>& u, const std::vector<Vec3>& coarse_u) const {
     const std::vector<Vec3> v = carry(carry_, coarse_u);
-    const std::vector<Vec3> w = group_means(u, pair_);
+    const std::vector<Vec3> w = group_means(u, pair_.fine.mass, pair_.groups);
     std::vector<double> part(pair_.groups.count, 0);
     for (std::uint32_t s = 0; s < pair_.fine.spring_count(); ++s)
       share(pair_.groups.of[pair_.fine.a[s]], pair_.groups.of[pair_.fine.b[s]],

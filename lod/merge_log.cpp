@@ -11,6 +11,7 @@
 
 #include "lod/compliance_change.hpp"
 #include "lod/elastic_targets.hpp"
+#include "lod/group_means.hpp"
 #include "lod/transfer.hpp"
 #include "model/error.hpp"
 #include "model/local_loads.hpp"
@@ -20,6 +21,10 @@
 
 namespace springlod {
 namespace {
+
+/// A level that gives way less than this part of the base is rigid [1], as where all that a load
+/// pulls at is in one group: no farther off is told, for the logarithm of nothing has no end.
+constexpr double kRigid = 1e-3;
 
 /// What the base is asked.
 struct Questions {
@@ -74,19 +79,6 @@ Questions questions_of(const LodChain& chain, std::uint32_t level, const Elastic
   questions.loads = loads.loads;
   questions.answers.insert(questions.answers.end(), loads.answers.begin(), loads.answers.end());
   return questions;
-}
-
-/// The mean over each group.
-std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<double>& mass,
-                              const Groups& groups) {
-  std::vector<Vec3> sum(groups.count, Vec3::Zero());
-  std::vector<double> weight(groups.count, 0);
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    sum[groups.of[i]] += mass[i] * field[i];
-    weight[groups.of[i]] += mass[i];
-  }
-  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= weight[g];
-  return sum;
 }
 
 Answers answer(const MassSpringModel& base, const Level& level, const ElasticBody& body,
@@ -197,8 +189,12 @@ class Log {
     const auto answers_of = [&](std::uint32_t n) {
       return answer(levels.front().model, levels[n], bodies_[n], questions);
     };
-    const Answers to = answers_of(level), of_base = answers_of(0);
-    const Answers from = step.from == 0 ? of_base : answers_of(step.from);
+    const Answers of_base = answers_of(0);
+    Answers to = answers_of(level);
+    Answers from = step.from == 0 ? of_base : answers_of(step.from);
+    for (Answers* answers : {&to, &from})
+      for (std::size_t l = 0; l < of_base.compliance.size(); ++l)
+        answers->compliance[l] = std::max(answers->compliance[l], kRigid * of_base.compliance[l]);
     step.answers = questions.answers;
     for (std::size_t l = 0; l < step.answers.size(); ++l) {
       step.change.push_back(change_between(from, to, l));

@@ -13,7 +13,7 @@ namespace springlod {
 /// modes, of the compliance for loads.
 struct Answer {
   enum class Kind {
-    mode,    ///< to the inertia of one of the base's lowest modes
+    mode,    ///< to the inertia of one of the level's lowest modes
     smooth,  ///< to one of the nine smooth loads
     local,   ///< to a pinch or push of patches of the surface
   };
@@ -57,11 +57,14 @@ struct MergeLogOptions {
 
 /// Which merge cost which error, level by level: the steps from each level to the next if it was
 /// merged from that, else (compact, metis, refilled) from the base. A step's changes are measured,
-/// those of its merges are their exact parts (compliance_changes). The frequency of a mode is told
-/// by the compliance C under its inertia forces, f ~ C^-1/2: to first order that is the change of
-/// the frequency, and no two modes can be mistaken for each other.
+/// those of its merges are their exact parts (compliance_changes).
 ///
-/// Takes one modal solve of the base, and one static solve a level.
+/// Modes are those of the level, so that motions which the base has not are among them. Each is
+/// carried to the other models as a shape w; its frequency there is Schwarz's quotient
+/// w.f / u.f for the inertia forces f of w and the displacements u that they cause, which is right
+/// to second order. No mode has to be matched with another.
+///
+/// Takes a factorisation and the lowest modes of each level, and static solves of it and the base.
 /// The same for any number of threads. Throws InputError for a chain without a coarser level and
 /// where elastic_body does.
 MergeLog log_merges(const LodChain& chain, const MergeLogOptions& options = {});

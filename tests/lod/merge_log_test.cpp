@@ -209,6 +209,19 @@ TEST_CASE("levels that were not merged from the one before count from the base")
   CHECK(from_base.change == from_base.error);
 }
 
+TEST_CASE("a level that hardly gives way is off by a finite amount") {
+  const MassSpringModel base = block(2, 2, 4);
+  std::vector<std::vector<std::uint32_t>> halves(2);
+  for (std::uint32_t i = 0; i < base.node_count(); ++i)
+    halves[i < base.node_count() / 2 ? 0 : 1].push_back(i);
+  const MergeStep step = log_merges(merged_by_hand(base, halves)).steps.at(0);
+  CHECK(step.merges.size() == 2);
+  for (const double error : step.error) CHECK(std::isfinite(error));
+  for (const Merge& merge : step.merges)
+    for (const double change : merge.change) CHECK(std::isfinite(change));
+  CHECK(mean_error(step, Answer::Kind::smooth) > 1);
+}
+
 TEST_CASE("a log is the same on any number of threads, and refuses what has no merges") {
   const LodChain chain = simplify(ball(), {.levels = 2});
   const MergeLog one = log_merges(chain, {.local_loads = 4, .threads = 1});
