@@ -107,19 +107,23 @@ function paper_tables.rows(one, settings)
   return rows
 end
 
--- How many simplifications stay inside the noise floor, and how many there are, of a model in all
--- rows of tables.
+-- Of a model in all rows of tables: how many simplifications stay inside the noise floor, how many
+-- there are, and in how many rows all of them together stay inside.
 local function inside_floor(model, all)
-  local inside, seeds = 0, 0
+  local inside, seeds, together = 0, 0, 0
   for _, row in ipairs(all) do
-    if row.model == model then inside, seeds = inside + row.seeds_inside, seeds + row.seeds end
+    if row.model == model then
+      inside, seeds = inside + row.seeds_inside, seeds + row.seeds
+      if row.wasserstein <= row.noise_floor then together = together + 1 end
+    end
   end
-  return inside, seeds
+  return inside, seeds, together
 end
 
 -- Table 2 in few numbers a model: the mean over the speeds of |difference of the means|, beside the
 -- paper's and beside what the base makes of itself with other starts; the same over the base's
--- spread; how many simplifications stay inside the noise floor. `all`: the rows of all speeds.
+-- spread; how many simplifications stay inside the noise floor, and at how many speeds all of them
+-- together. `all`: the rows of all speeds.
 function paper_tables.over_speeds(cases, all)
   local rows, spread = {}, {}
   for _, row in ipairs(all) do
@@ -146,16 +150,16 @@ function paper_tables.over_speeds(cases, all)
         theirs[#theirs + 1] = math.abs(paper[1] - paper_numbers.at("base", one.speed)[1])
       end
     end
-    local inside, seeds = inside_floor(label, all)
+    local inside, seeds_of, together = inside_floor(label, all)
     rows[#rows + 1] = {
       model = label, mean_difference = mean(ours), mean_over_spread = mean(spreads),
-      seeds_inside = inside, seeds = seeds,
+      seeds_inside = inside, seeds = seeds_of, speeds_inside = together,
       paper_mean_difference = #theirs > 0 and mean(theirs) or nil,
     }
   end)
   return rows, {
     "model", "mean_difference", "mean_over_spread", "seeds_inside", "seeds",
-    "paper_mean_difference",
+    "speeds_inside", "paper_mean_difference",
   }
 end
 
