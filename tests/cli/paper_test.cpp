@@ -43,7 +43,7 @@ TEST_CASE("paper goes on where it was stopped, and comes to the same tables on a
 
   std::vector<std::string> with_fitted = paper(scratch / "whole", "5", "2");
   with_fitted.emplace_back("--calibrated");
-  const Ran more = springlod_interrupted(with_fitted, "ball/LOD-fit-compact-b-2-seed-1");
+  const Ran more = springlod_interrupted(with_fitted, "ball/LOD-fit-b-1-seed-1");
   CHECK(more.err.find("ball/LOD-1") == std::string::npos);  // kept ones are not run again
   CHECK(std::filesystem::exists(scratch / "whole/runs/ball/LOD-fit-b-1-seed-1.csv"));
 
