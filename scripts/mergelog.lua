@@ -277,7 +277,7 @@ local function advise(stop, beyond)
     print("all levels are good enough" .. (args.as_made and "" or ": --least may be lower"))
     return
   end
-  print("beyond that: at " .. told(beyond))
+  print((stop and "beyond that: at " or "the first: at ") .. told(beyond))
   say_errors(beyond)
   print(("  costliest merge, %s of f1..10: %s"):format(
     percent(beyond.merged[1].frequencies), where(beyond.merged[1])))

@@ -21,13 +21,14 @@ end
 -- A certified chain of levels with `parts` of the nodes of `base`; `options` are those of
 -- s.simplify besides. Where merging cannot come down to the last parts, a shorter chain, and why.
 function merge_ladder.build(base, parts, options)
-  local reason
+  local reason = "no level would have fewer nodes than the base; ask for fewer"
   for count = #parts, 1, -1 do
     local all = {keep = table.move(parts, 1, count, 1, {})}
     for name, value in pairs(options) do all[name] = value end
     local made, chain = command.try(s.simplify, base, all)
     if made then
-      return options.calibrate == "modes" and chain or s.certify(chain), reason
+      local shortened = count < #parts and reason or nil
+      return options.calibrate == "modes" and chain or s.certify(chain), shortened
     end
     reason = chain
   end

@@ -55,6 +55,10 @@ TEST_CASE("mergelog says what it cannot do") {
       springlod_run({"mergelog", bare.string(), "--as-made", "--out", (scratch / "out").string()});
   CHECK(alone.exit_code == 1);
   CHECK_THAT(alone.err, Contains("nothing was merged"));
+  const Ran fine = springlod_run(
+      {"mergelog", bare.string(), "--least", "0.999", "--out", (scratch / "out").string()});
+  CHECK(fine.exit_code == 1);
+  CHECK_THAT(fine.err, Contains("fewer nodes than the base"));
 }
 
 TEST_CASE("a script reads which merges cost most, and leaves levels straight from the base") {
