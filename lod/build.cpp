@@ -38,8 +38,8 @@ std::string told_calibration(Calibration calibration) {
 }
 
 bool straight_from_base(const SimplifyOptions& options) {
-  return !options.groups && (options.grouping.grouping == Grouping::compact ||
-                             options.grouping.grouping == Grouping::metis);
+  return options.straight || (!options.groups && (options.grouping.grouping == Grouping::compact ||
+                                                  options.grouping.grouping == Grouping::metis));
 }
 
 /// 0 if the grouping decides.

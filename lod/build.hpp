@@ -21,9 +21,12 @@ using GroupMaker =
 struct SimplifyOptions {
   std::uint32_t levels = 2;
   /// Nodes of each level over those of the base, falling; met exactly. Empty: as many as the
-  /// grouping makes; of compact and metis, 0.45, 0.2, 0.09, ...
+  /// grouping makes; straight from the base, 0.45, 0.2, 0.09, ...
   std::vector<double> keep{};
   GroupingOptions grouping{};
+  /// Every level merged straight from the base, as those of compact and metis always are: no level
+  /// has to do with what the one before merged.
+  bool straight = false;
   MassRule mass = MassRule::proportional;
   bool guards = true;
   GuardOptions guard{};  ///< its border rule is taken from `grouping`
@@ -34,7 +37,7 @@ struct SimplifyOptions {
   Progress* progress = nullptr;
 };
 
-/// Level 0 = `base`, level n merged from level n-1 (of compact and metis: from the base), then all
+/// Level 0 = `base`, level n merged from level n-1 (or straight from the base), then all
 /// of them calibrated against the base if asked for. Throws InputError if a level cannot get any
 /// coarser (says which and why), or not have as many nodes as it should keep.
 LodChain simplify(MassSpringModel base, const SimplifyOptions& options);

@@ -120,6 +120,7 @@ void describe_random(Api& api);     // of voxelize too, called by describe_voxel
 void describe_refill(Api& api);     // likewise, called by describe_lod: it makes levels
 void describe_calibrate(Api& api);  // likewise: certificates and what simplify calibrates by
 void describe_lod(Api& api);
+void describe_merge_log(Api& api);
 void describe_sim(Api& api);
 void describe_compare(Api& api);    // of sim too, called by describe_sim
 void describe_deviation(Api& api);  // likewise

@@ -43,6 +43,7 @@ int simplify_binding(Call& call) {
   reader.choose(
       "border", options.grouping.border,
       {{"none", BorderRule::none}, {"weak", BorderRule::weak}, {"strong", BorderRule::strong}});
+  reader.read("straight", options.straight);
   options.grouping.seed = call.session().settings().seed;
   reader.read("seed", options.grouping.seed);
   reader.choose("mass", options.mass,
@@ -191,6 +192,10 @@ std::vector<Parameter> simplify_options() {
                    "cost of merging them; lists name the groups of level 1 by hand, lists of such "
                    "lists those of level 1, 2, ...",
            .choices = {"standard", "priority", "priority_hard", "compact", "metis"}},
+          {.name = "straight",
+           .type = "boolean",
+           .fallback = "false; true of compact and metis",
+           .help = "each level is merged straight from the base, whatever the one before merged"},
           {.name = "border",
            .type = "one of",
            .fallback = "\"none\"",

@@ -112,6 +112,7 @@ std::unique_ptr<Api> make_api() {
   describe_model(*api);
   describe_elastic(*api);
   describe_lod(*api);
+  describe_merge_log(*api);
   describe_sim(*api);
   describe_render(*api);
   describe_report(*api);

@@ -33,6 +33,8 @@ parser:option("--speed-scale", "m/s of one of the paper's units of speed")
   :convert(command.number("--speed-scale", 0)):default("0.26")
 parser:option("--ball-materials", "Lua file that returns core and shell"):argname("<file.lua>")
 parser:option("--rods-materials", "Lua file that returns rod and rubber"):argname("<file.lua>")
+parser:flag("--calibrated", "also levels of 45 and 20 % of the nodes fitted to the base: LOD-fit-b "
+  .. "(the paper's groups), LOD-fit-compact-b; goes on in a folder without them too")
 parser:flag("--no-figures", "tables only")
 local args = parser:parse()
 
@@ -42,6 +44,7 @@ local settings = {
   jitter = args.jitter, margin = args.margin, friction = args.friction, seed = s.seed,
   ball_speed = args.ball_speed, speed_scale = args.speed_scale,
   speeds = args.speeds or (args.quick and {30} or paper_numbers.speeds),
+  calibrated = args.calibrated,
   ball_materials = args.ball_materials and command.load_table(args.ball_materials),
   rods_materials = args.rods_materials and command.load_table(args.rods_materials),
 }
@@ -123,7 +126,7 @@ local function table_2(rods)
   end
   s.csv(args.out .. "/table-2.csv", all, {columns = paper_tables.columns})
   publish("table-2-over-speeds", "Table 2 over the speeds: mean |difference from the base| [m]",
-    paper_tables.over_speeds(rods))
+    paper_tables.over_speeds(rods, all))
   command.chart(args.out .. "/table-2-chart", lines, {
     title = "Table 2: final distance from the wall, means and their 95 % intervals",
     x_label = "speed (the paper's units)", y_label = "distance [m]",

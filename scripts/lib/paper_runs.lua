@@ -24,11 +24,11 @@ function paper_runs.cases(settings)
   local rods = paper_scenes.rods{materials = settings.rods_materials}
   local cases = {ball = case("ball", ball, paper_scenes.roll{
     speed = settings.ball_speed, friction = settings.friction,
-  }, paper_variants), rods = {}}
+  }, paper_variants.wanted(paper_variants, settings)), rods = {}}
   for i, speed in ipairs(settings.speeds) do
     cases.rods[i] = case("rods-" .. speed, rods, paper_scenes.wall{
       speed = speed * settings.speed_scale, friction = settings.friction,
-    }, {paper_variants[4], paper_variants[2]})
+    }, paper_variants.wanted({paper_variants[4], paper_variants[2]}, settings))
     cases.rods[i].speed = speed
   end
   return cases
@@ -56,7 +56,8 @@ function paper_runs.chain(base, variant, seed)
   chains[base] = chains[base] or {}
   local key = variant.name .. " " .. seed
   chains[base][key] = chains[base][key] or s.simplify(base, {
-    levels = 2, grouping = variant.grouping, border = variant.border, seed = seed,
+    levels = not variant.keep and 2 or nil, keep = variant.keep, grouping = variant.grouping,
+    border = variant.border, calibrate = variant.calibrate, seed = seed,
   })
   return chains[base][key]
 end

@@ -13,6 +13,11 @@ local paper_studies = {}
 
 local mean, standard_deviation = averages.mean, averages.standard_deviation
 
+-- What a study of all variants is kept as: a folder may get the calibrated ones later.
+local function kept_as(name, settings)
+  return settings.calibrated and name .. "-calibrated" or name
+end
+
 local function positions_at(model, scene, time)
   return s.run(model, cut(scene, time), {frame_rate = 0, ledger = false, quiet = true}).final.x
 end
@@ -41,7 +46,7 @@ end
 -- over the simplification seeds.
 function paper_studies.early_errors(cases, settings, store)
   local columns = {"case", "model", "contact_time", "at_contact", "after_1_s"}
-  return store:rows("early-errors", columns, function()
+  return store:rows(kept_as("early-errors", settings), columns, function()
     local rows = {}
     for _, one in ipairs(cases) do
       local contact = s.run(one.base, cut(one.table, 1),
@@ -83,7 +88,7 @@ function paper_studies.three_runs(cases, settings, store)
       spread = standard_deviation(found), paper_distance = theirs[1], paper_spread = theirs[2],
     }
   end
-  return store:rows("three-runs", columns, function()
+  return store:rows(kept_as("three-runs", settings), columns, function()
     local rows = {}
     for _, one in ipairs(cases) do
       rows[#rows + 1] = row(one, "base", one.base)
@@ -117,7 +122,7 @@ end
 -- each level (mean over the simplification seeds) and for the base against itself at half the step.
 function paper_studies.energy(cases, settings, store)
   local columns = {"case", "model", "energy_difference"}
-  return store:rows("energy", columns, function()
+  return store:rows(kept_as("energy", settings), columns, function()
     local rows = {}
     for _, one in ipairs(cases) do
       local base, kinetic = energies(one.base, one.scene)

@@ -70,7 +70,10 @@ local function level_row(one, variant, level, floor, settings)
 end
 
 local function beside_paper(row, one)
-  local counted = one.speed and paper_numbers.rods[row.model] or paper_numbers.roll[row.model]
+  local counted
+  if one.speed then counted = paper_numbers.rods[row.model]
+  else counted = paper_numbers.roll[row.model] end
+  if not counted then return row end -- no variant of the paper's
   row.paper_nodes, row.paper_ends = counted.nodes, counted.ends
   if one.speed then
     local theirs = paper_numbers.at(row.model, one.speed)
@@ -95,32 +98,60 @@ function paper_tables.rows(one, settings)
   return rows
 end
 
--- Table 2 in one number a model: the mean over the speeds of |difference of the means|, beside the
--- paper's and beside what the base makes of itself with other starts.
-function paper_tables.over_speeds(cases)
-  local rows = {}
-  local other = {}
+-- Of a model in all rows of tables: how many simplifications stay inside the noise floor, how many
+-- there are, and in how many rows all of them together stay inside.
+local function inside_floor(model, all)
+  local inside, seeds, together = 0, 0, 0
+  for _, row in ipairs(all) do
+    if row.model == model then
+      inside, seeds = inside + row.seeds_inside, seeds + row.seeds
+      if row.wasserstein <= row.noise_floor then together = together + 1 end
+    end
+  end
+  return inside, seeds, together
+end
+
+-- Table 2 in few numbers a model: the mean over the speeds of |difference of the means|, beside the
+-- paper's and beside what the base makes of itself with other starts; the same over the base's
+-- spread; how many simplifications stay inside the noise floor, and at how many speeds all of them
+-- together. `all`: the rows of all speeds.
+function paper_tables.over_speeds(cases, all)
+  local rows, spread = {}, {}
+  for _, row in ipairs(all) do
+    if row.model == "base" then spread[row.case] = row.spread end
+  end
+  local other, other_spreads = {}, {}
   for i, one in ipairs(cases) do
     other[i] = math.abs(mean(one.noise[1]) - mean(one.base_distances))
+    other_spreads[i] = other[i] / spread[one.name]
   end
-  rows[1] = {model = "base, other starts", mean_difference = mean(other)}
+  rows[1] = {
+    model = "base, other starts", mean_difference = mean(other),
+    mean_over_spread = mean(other_spreads),
+  }
   paper_runs.each_level(cases[1], function(label)
-    local ours, theirs = {}, {}
+    local ours, spreads, theirs = {}, {}, {}
     for i, one in ipairs(cases) do
-      local all = {}
-      for _, distances in ipairs(one.levels[label]) do all[#all + 1] = mean(distances) end
-      ours[i] = math.abs(mean(all) - mean(one.base_distances))
+      local seeds = {}
+      for _, distances in ipairs(one.levels[label]) do seeds[#seeds + 1] = mean(distances) end
+      ours[i] = math.abs(mean(seeds) - mean(one.base_distances))
+      spreads[i] = ours[i] / spread[one.name]
       local paper = paper_numbers.at(label, one.speed)
       if paper then
         theirs[#theirs + 1] = math.abs(paper[1] - paper_numbers.at("base", one.speed)[1])
       end
     end
+    local inside, seeds_of, together = inside_floor(label, all)
     rows[#rows + 1] = {
-      model = label, mean_difference = mean(ours),
+      model = label, mean_difference = mean(ours), mean_over_spread = mean(spreads),
+      seeds_inside = inside, seeds = seeds_of, speeds_inside = together,
       paper_mean_difference = #theirs > 0 and mean(theirs) or nil,
     }
   end)
-  return rows, {"model", "mean_difference", "paper_mean_difference"}
+  return rows, {
+    "model", "mean_difference", "mean_over_spread", "seeds_inside", "seeds",
+    "speeds_inside", "paper_mean_difference",
+  }
 end
 
 -- The table as people read it: each interval in one cell.
@@ -134,7 +165,8 @@ function paper_tables.readable(rows)
     local function difference(value) return value and ("%+.1f"):format(value) or "" end
     short[i] = {
       row.model, ("%d/%d"):format(row.nodes, row.ends),
-      ("%d/%d"):format(row.paper_nodes, row.paper_ends), interval("distance"),
+      row.paper_nodes and ("%d/%d"):format(row.paper_nodes, row.paper_ends) or "",
+      interval("distance"),
       ("%.2f"):format(row.spread), interval("over_spread"), interval("wasserstein"),
       row.noise_floor and ("%.2f"):format(row.noise_floor) or "",
       row.seeds and ("%d of %d"):format(row.seeds_inside, row.seeds) or "", row.equivalent or "",

@@ -1,5 +1,5 @@
 -- The paper's ways of merging and its names for them: b = weak border, h = priority, number =
--- level.
+-- level. Besides, ways of ours: levels fitted to the base.
 
 local paper_variants = {
   {name = "", grouping = "standard", border = "none"},
@@ -7,6 +7,22 @@ local paper_variants = {
   {name = "h", grouping = "priority", border = "none"},
   {name = "hb", grouping = "priority", border = "weak"},
 }
+
+-- The paper's groups and compact ones, fitted. With weak borders, for what touches floor and wall
+-- then stays where the surface was; about as many nodes as the paper's levels.
+paper_variants.calibrated = {
+  {name = "fit-b", grouping = "standard", border = "weak", calibrate = "modes",
+   keep = {0.45, 0.2}},
+  {name = "fit-compact-b", grouping = "compact", border = "weak", calibrate = "modes",
+   keep = {0.45, 0.2}},
+}
+
+-- `variants`, and the calibrated ones after them if the settings ask for them.
+function paper_variants.wanted(variants, settings)
+  if not settings.calibrated then return variants end
+  local all = table.move(variants, 1, #variants, 1, {})
+  return table.move(paper_variants.calibrated, 1, #paper_variants.calibrated, #all + 1, all)
+end
 
 -- "base", "LOD-1", "LOD-hb-2" of the variant's name and the level; without one that of all levels,
 -- "LOD-hb".

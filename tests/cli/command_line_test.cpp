@@ -46,10 +46,13 @@ TEST_CASE("wrong use exits 2, says why on stderr and names what is near") {
   wrong({"convert", "a.obj", "-o", "a.glb", "--levels", "-1"}, "--levels");
   wrong({"convert", "a.obj", "-o", "a.txt"}, "must end in .glb");
   wrong({"compare", "a.glb", "--out", "x"}, "--scenario");
+  wrong({"mergelog"}, "missing argument 'asset'");
+  wrong({"mergelog", "a.glb", "--least", "1"}, "--least: must be below 1");
+  wrong({"mergelog", "a.glb", "--leave-out", "1"}, "--leave-out: must be below 1");
 }
 
 TEST_CASE("every command explains itself") {
-  for (const char* command : {"convert", "info", "compare", "stability", "pareto"}) {
+  for (const char* command : {"convert", "info", "compare", "mergelog", "pareto", "stability"}) {
     const Ran ran = springlod_run({command, "--help"});
     CAPTURE(command);
     CHECK(ran.exit_code == 0);

@@ -41,6 +41,12 @@ TEST_CASE("paper goes on where it was stopped, and comes to the same tables on a
                            "three-runs.csv", "energy.csv", "sensitivity.csv"})
     CHECK(slurp(scratch / "parts" / file) == slurp(scratch / "whole" / file));
 
+  std::vector<std::string> with_fitted = paper(scratch / "whole", "5", "2");
+  with_fitted.emplace_back("--calibrated");
+  const Ran more = springlod_interrupted(with_fitted, "ball/LOD-fit-b-1-seed-1");
+  CHECK(more.err.find("ball/LOD-1") == std::string::npos);  // kept ones are not run again
+  CHECK(std::filesystem::exists(scratch / "whole/runs/ball/LOD-fit-b-1-seed-1.csv"));
+
   const Ran mixed = springlod_run(paper(scratch / "whole", "6", "2"));
   CHECK(mixed.exit_code == 1);
   CHECK_THAT(mixed.err, Contains("holds runs with starts = 5, not 6; take another folder"));

@@ -101,6 +101,8 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     s.model{nodes = {{0, 0, 0, mass = 1}}}
     s.say("quiet")
     assert(s.info(s.certify(chain, {modes = 5})).levels[2].certificate.cost_ratio < 1)
+    local step = s.merge_log(chain, {modes = 3, local_loads = 1})[1]
+    assert(#step.merges == chain[1].node_count and step.from == 0 and step.frequency_error > 0)
     s.inspect(s.info(chain))
     s.statistics({1, 2, 3, 4, 5})
     s.compare_samples({1, 2, 3, 4, 5}, {2, 3, 4, 5, 6})

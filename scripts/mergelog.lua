@@ -1,0 +1,329 @@
+-- Which merge costs which error, and where to stop merging.
+
+local s = require "springlod"
+local command = require "lib.command"
+local merge_ladder = require "lib.merge_ladder"
+
+local parser = command.parser("mergelog", "Merges the base of an asset down step by step, measures "
+  .. "each step beside the base and tells where to stop, which merges cost most, and what leaving "
+  .. "those out would save. Writes levels.csv, answers.csv, merges.csv, charts (errors, costs) "
+  .. "and where.png, a picture of the costliest merges.")
+parser:argument("asset", "a .glb that convert or save wrote")
+parser:option("--out", "folder to write to"):argname("<folder>"):default("out/mergelog")
+parser:option("--tolerance", "mean error of the ten lowest frequencies that is good enough "
+  .. "(default: 0.05; of calibrated levels 0.005)"):convert(command.number("--tolerance", 0))
+parser:option("--steps", "levels between the base and the coarsest (default: 10; quick: 3)")
+  :convert(command.whole("--steps", 1))
+parser:option("--least", "nodes of the coarsest level over those of the base")
+  :convert(command.number("--least", 0)):default("0.1")
+parser:option("--grouping", "which nodes merge")
+  :choices{"standard", "priority", "priority_hard", "compact", "metis"}:default("standard")
+parser:option("--border", "how border nodes merge")
+  :choices{"none", "weak", "strong"}:default("none")
+parser:flag("--as-made", "the asset's own levels in place of new ones")
+parser:flag("--calibrate", "levels fitted to the base, as by convert --calibrate modes")
+parser:option("--leave-out", "costliest part of the merges of a step that is tried without; 0: no "
+  .. "try (nor of calibrated or the asset's own levels)")
+  :convert(command.number("--leave-out", 0, true)):default("0.05")
+parser:flag("--quick", "few steps: a first look")
+local args = parser:parse()
+if args.least >= 1 then parser:error("--least: must be below 1, the base itself") end
+if args.leave_out >= 1 then parser:error("--leave-out: must be below 1, all merges") end
+
+local tolerance = args.tolerance or (args.calibrate and 0.005 or 0.05)
+
+local tries_without = args.leave_out > 0 and not args.calibrate and not args.as_made
+
+local function percent(part) return part and ("%.2f %%"):format(100 * part) or "-" end
+
+local function worst_local(certificate)
+  local worst
+  for _, load in ipairs(certificate.loads) do
+    if load.held_out and (not worst or math.abs(load.error) > math.abs(worst.error)) then
+      worst = load
+    end
+  end
+  return worst
+end
+
+local function where(merge)
+  local at = {}
+  for axis, x in ipairs(merge.position) do -- no -7e-17
+    at[axis] = math.abs(x) < 1e-9 and 0 or x
+  end
+  return ("%s%s, %d nodes, at %.3g %.3g %.3g m"):format(merge.material,
+    merge.border and " surface" or " inside", merge.base_nodes, table.unpack(at))
+end
+
+-- One entry a level: how it was measured, what its merges cost, what it is without the costliest.
+local function measure(chain)
+  local log, levels = s.merge_log(chain, {from_base = not args.as_made}), {}
+  for i, info in ipairs(s.info(chain).levels) do
+    local c, step = info.certificate, log[i - 1]
+    if c then
+      local entry = {
+        level = info.level, nodes = info.nodes, part = info.nodes / chain[0].node_count,
+        certificate = c, step = step, merged = merge_ladder.merged(step),
+        worst_local = worst_local(c),
+      }
+      if tries_without then
+        local model, without, count =
+          merge_ladder.without_costliest(chain, step, args.leave_out)
+        if model then
+          entry.without = {
+            nodes = model.node_count, certificate = without, count = count,
+            part = model.node_count / chain[0].node_count,
+          }
+        end
+      end
+      levels[#levels + 1] = entry
+      s.say(("%d nodes: %s"):format(entry.nodes, percent(c.f1_10_error)))
+    end
+  end
+  return levels
+end
+
+local level_columns = {
+  "level", "nodes", "kept", "f1_10_error", "f11_20_error", "smooth_load_error",
+  "local_load_error", "worst_local_error", "worst_local", "omega_over_base", "cost_over_base",
+  "costliest_material", "costliest_surface", "x", "y", "z",
+  "left_out_merges", "left_out_nodes", "left_out_f1_10_error", "left_out_cost_over_base",
+}
+
+local function level_row(entry)
+  local c, first, without = entry.certificate, entry.merged[1], entry.without
+  local row = {
+    level = entry.level, nodes = entry.nodes, kept = entry.part, f1_10_error = c.f1_10_error,
+    f11_20_error = c.f11_20_error, smooth_load_error = c.fitted_load_error,
+    local_load_error = c.held_out_load_error, worst_local_error = entry.worst_local
+      and entry.worst_local.error, worst_local = entry.worst_local and entry.worst_local.name,
+    omega_over_base = c.highest_frequency / c.base_highest_frequency,
+    cost_over_base = c.cost_ratio, costliest_material = first.material,
+    costliest_surface = first.border and 1 or 0, x = first.position[1], y = first.position[2],
+    z = first.position[3],
+  }
+  if without then
+    row.left_out_merges, row.left_out_nodes = without.count, without.nodes
+    row.left_out_f1_10_error = without.certificate.f1_10_error
+    row.left_out_cost_over_base = without.certificate.cost_ratio
+  end
+  return row
+end
+
+-- Signed: what each step did to each frequency and load.
+local function answer_rows(levels)
+  local rows = {}
+  for _, entry in ipairs(levels) do
+    for _, answer in ipairs(entry.step.answers) do
+      rows[#rows + 1] = {entry.level, entry.step.from, entry.nodes, answer.name, answer.kind,
+                         answer.change, answer.error}
+    end
+  end
+  return rows, {"level", "from", "nodes", "answer", "kind", "change", "error"}
+end
+
+local function merge_rows(levels)
+  local rows = {}
+  for _, entry in ipairs(levels) do
+    for rank, m in ipairs(entry.merged) do
+      rows[#rows + 1] = {
+        entry.level, entry.step.from, rank, m.node, m.pieces, m.base_nodes, m.position[1],
+        m.position[2], m.position[3], m.material, m.border and 1 or 0, m.frequencies,
+        m.smooth_loads, m.local_loads,
+      }
+    end
+  end
+  return rows, {"level", "from", "rank", "node", "pieces", "base_nodes", "x", "y", "z", "material",
+                "surface", "frequencies", "smooth_loads", "local_loads"}
+end
+
+local function draw_errors(levels)
+  local last, low, high = levels[#levels], 100 * levels[#levels].part, 100 * levels[1].part
+  local function line(name, error_of, cost)
+    local series = {name = name, points = {}}
+    for _, entry in ipairs(levels) do
+      local y = error_of(entry)
+      if y and y > 0 then
+        table.insert(series.points, {100 * entry.part, 100 * y, label = cost and
+          ("%.2g"):format(entry.certificate.cost_ratio)})
+      end
+    end
+    return #series.points > 0 and series or nil
+  end
+  local all = {
+    line("f1..10", function(e) return e.certificate.f1_10_error end,
+      true),
+    line("f11..20", function(e) return e.certificate.f11_20_error end),
+    line("smooth loads", function(e) return e.certificate.fitted_load_error end),
+    line("local loads", function(e) return e.certificate.held_out_load_error end),
+    line("worst local load", function(e)
+      return e.worst_local and math.abs(e.worst_local.error)
+    end),
+  }
+  local series = {}
+  for i = 1, 5 do series[#series + 1] = all[i] end
+  local without = {
+    name = ("f1..10, costliest %g %% left out"):format(100 * args.leave_out), points = {},
+    joined = false,
+  }
+  for _, entry in ipairs(levels) do
+    if entry.without then
+      table.insert(without.points,
+        {100 * entry.without.part, 100 * entry.without.certificate.f1_10_error})
+    end
+  end
+  if #without.points > 0 then series[#series + 1] = without end
+  series[#series + 1] = {name = ("tolerance %g %%"):format(100 * tolerance), points = {
+    {low, 100 * tolerance}, {high, 100 * tolerance}}}
+  command.chart(args.out .. "/errors", series, {
+    title = ("Where to stop: %s, %d to %d nodes"):format(command.base_name(args.asset),
+      levels[1].nodes, last.nodes),
+    x_label = "nodes kept (% of the base's); numbers: cost over the base's",
+    y_label = "mean error beside the base (%)",
+    log_y = true,
+  })
+end
+
+-- How much of a level's error its costliest merges make, for at most five levels.
+local function draw_merges(levels)
+  local series, most = {}, 5
+  local stride = math.max(1, math.ceil(#levels / most))
+  for i = #levels, 1, -stride do
+    local entry, sum = levels[i], 0
+    local points, count = {{0, 0}}, #entry.merged
+    for rank, merge in ipairs(entry.merged) do
+      sum = sum + 100 * merge.frequencies
+      -- Some twenty points: more are a smear.
+      if rank == count or rank * 20 // count > (rank - 1) * 20 // count then
+        points[#points + 1] = {100 * rank / count, sum}
+      end
+    end
+    series[#series + 1] = {
+      name = ("%.0f %% kept, %d merges"):format(100 * entry.part, #entry.merged), points = points,
+    }
+  end
+  command.chart(args.out .. "/costs", series, {
+    title = "What the merges of a step add to the error of f1..10, costliest first",
+    x_label = "merges (% of the step's)", y_label = "sum of their costs (%)",
+  })
+end
+
+-- The body with the cost of the merge that each of its nodes went into.
+local function draw_where(chain, entry)
+  local cost, of_node = {}, {}
+  for _, merge in ipairs(entry.step.merges) do of_node[merge.node] = merge.frequencies end
+  for i, node in ipairs(chain:group_map(entry.level)) do cost[i] = 100 * of_node[node] end
+  s.render(args.out .. "/where.png", {chain[0], {chain[0], cut = {0, 1, 0,
+    chain[0].center[2]}}}, {
+    node_values = cost, value_label = "part of the merge in the error of f1..10 (%)",
+    surface = false, nodes = true, titles = {"outside", "cut open"},
+    title = ("%d nodes -> %d"):format(chain[0].node_count, entry.nodes), width = 480, height = 400,
+  })
+end
+
+local function show(levels)
+  local rows = {}
+  for i, entry in ipairs(levels) do
+    local c, without = entry.certificate, entry.without
+    rows[i] = {
+      ("%.1f %%"):format(100 * entry.part), entry.nodes, percent(c.f1_10_error),
+      percent(c.f11_20_error), percent(c.fitted_load_error), percent(c.held_out_load_error),
+      percent(entry.worst_local and math.abs(entry.worst_local.error)),
+      ("%.3g"):format(c.highest_frequency / c.base_highest_frequency),
+      ("%.3g"):format(c.cost_ratio), where(entry.merged[1]),
+    }
+    if without then
+      rows[i][11] = ("%s at %d nodes"):format(percent(without.certificate.f1_10_error),
+        without.nodes)
+    end
+  end
+  local columns = {
+    "kept", "nodes", "f1..10", "f11..20", "smooth loads", "local loads", "worst local",
+    "omega_max / base", "cost / base", "costliest merge",
+  }
+  if tries_without then columns[11] = ("f1..10 without %g %%"):format(100 * args.leave_out) end
+  print(s.format_table(rows, {columns = columns}))
+end
+
+-- The coarsest level down to which all are good enough, and the next, which is not.
+local function find_stop(levels)
+  local stop
+  for _, entry in ipairs(levels) do
+    if entry.certificate.f1_10_error > tolerance then return stop, entry end
+    stop = entry
+  end
+  return stop, nil
+end
+
+local function advise(stop, beyond)
+  local wanted = ("f1..10 within %g %%"):format(100 * tolerance)
+  local function say_errors(entry)
+    local c = entry.certificate
+    print(("  off by %s (f1..10), %s (smooth loads), %s (local loads)"):format(
+      percent(c.f1_10_error), percent(c.fitted_load_error), percent(c.held_out_load_error)))
+  end
+  local function told(entry)
+    return ("%.0f %% (%d nodes), cost %.2g of the base's"):format(100 * entry.part, entry.nodes,
+      entry.certificate.cost_ratio)
+  end
+  if stop then
+    print(("stop for %s: at %s"):format(wanted, told(stop)))
+    say_errors(stop)
+  else
+    print(("no level has %s%s"):format(wanted,
+      args.as_made and "" or ": more --steps start nearer to the base"))
+  end
+  if not beyond then
+    print("all levels are good enough" .. (args.as_made and "" or ": --least may be lower"))
+    return
+  end
+  print((stop and "beyond that: at " or "the first: at ") .. told(beyond))
+  say_errors(beyond)
+  print(("  costliest merge, %s of f1..10: %s"):format(
+    percent(beyond.merged[1].frequencies), where(beyond.merged[1])))
+  local without = beyond.without
+  if without then
+    print(("  without its %d costliest merges (%d nodes): %s (f1..10), cost %.2g"):format(
+      without.count, without.nodes, percent(without.certificate.f1_10_error),
+      without.certificate.cost_ratio))
+  end
+  if not args.calibrate and not args.as_made then
+    print("--calibrate shows how far fitted levels go")
+  end
+end
+
+-- The asset's own levels, or new ones from near its base on.
+local function make_chain(asset)
+  if args.as_made then return s.certify(asset) end
+  local steps = args.steps or (args.quick and 3 or 10)
+  local parts = merge_ladder.parts(asset[0], steps, args.least)
+  local chain, shortened = merge_ladder.build(asset[0], parts, {
+    grouping = args.grouping, border = args.border, seed = s.seed, straight = true,
+    calibrate = args.calibrate and "modes" or "none",
+  })
+  if shortened then s.say("ends early: " .. shortened) end
+  return chain
+end
+
+local function merge_log()
+  local chain = make_chain(s.load(args.asset))
+  local levels = measure(chain)
+  local rows = {}
+  for i, entry in ipairs(levels) do rows[i] = level_row(entry) end
+  s.csv(args.out .. "/levels.csv", rows, {columns = level_columns})
+  for name, make in pairs{answers = answer_rows, merges = merge_rows} do
+    local list, columns = make(levels)
+    s.csv(("%s/%s.csv"):format(args.out, name), list, {columns = columns})
+  end
+  show(levels)
+  print()
+  local stop, beyond = find_stop(levels)
+  advise(stop, beyond)
+  draw_errors(levels)
+  draw_merges(levels)
+  draw_where(chain, beyond or levels[#levels])
+end
+
+local ok, failure = command.try(merge_log)
+if not ok then command.fail("mergelog: %s", failure) end
+s.say("wrote " .. args.out)
