@@ -4,6 +4,7 @@ local s = require "springlod"
 local averages = require "lib.averages"
 local cut_scene = require "lib.cut_scene"
 local intervals = require "lib.intervals"
+local timed_run = require "lib.timed_run"
 
 local pareto_times = {}
 
@@ -13,42 +14,21 @@ Times.__index = Times
 -- That a timed run of the base takes: long beside what clocks are off and what else the machine
 -- does in between [s]. Shorter runs are repeated until they have taken half of it.
 local base_seconds = 0.1
+local least_seconds = base_seconds / 2
 local patience = 5 -- for the repeats of one variant [s]; after it three are enough
 local least_repeats = 3
 
 local columns = {"seed", "base_seconds", "seconds", "ratio", "spring_updates", "step"}
 
--- One run alone on one thread that keeps nothing: wall-clock seconds (what is planned once left
--- out) and spring updates a simulated second, and the step [s].
-local function timed(model, scene, more)
-  local options = {threads = 1, frame_rate = 0, ledger = false, sleep = 0, quiet = true}
-  for key, value in pairs(more) do options[key] = value end
-  local run = s.run(model, scene, options)
-  local seconds = run.wall_seconds - run.planning_seconds
-  return seconds / run.simulated, run.spring_updates / run.simulated, run.step
-end
-
 -- `study`: base, scene, scenario, settings (repeats), store.
 function pareto_times.new(study)
   local rows = study.store:rows("timed", {"duration"}, function()
-    local cost = timed(study.base, cut_scene(study.scene, study.scenario.duration), {})
+    local cost = timed_run.once(study.base, cut_scene(study.scene, study.scenario.duration), {})
     return {{duration = math.min(study.scenario.duration, base_seconds / cost)}}
   end)
   return setmetatable({
     study = study, scene = s.scenario(cut_scene(study.scene, rows[1].duration)), base_costs = {},
   }, Times)
-end
-
--- The mean of as many runs as it takes.
-local function timed_long(model, scene, options)
-  local seconds, count, spent = 0, 0, 0
-  local updates, step
-  repeat
-    local one
-    one, updates, step = timed(model, scene, options)
-    seconds, count, spent = seconds + one, count + 1, spent + one * scene.duration
-  until spent >= base_seconds / 2
-  return seconds / count, updates, step
 end
 
 -- The base and the variant by turns, seed after seed, all from the scene's own start: medians, with
@@ -59,9 +39,9 @@ function Times:cost_of(variant, chains)
     local found, begun = {}, os.time()
     for turn = 1, study.settings.repeats do
       local seed = (turn - 1) % #chains + 1
-      local of_base = timed_long(study.base, self.scene, {})
-      local seconds, updates, step = timed_long(chains[seed][variant.level], self.scene,
-        variant.step_options)
+      local of_base = timed_run.long(study.base, self.scene, {}, least_seconds)
+      local seconds, updates, step = timed_run.long(chains[seed][variant.level], self.scene,
+        variant.step_options, least_seconds)
       found[turn] = {seed = seed, base_seconds = of_base, seconds = seconds,
                      ratio = seconds / of_base, spring_updates = updates, step = step}
       if turn >= least_repeats and os.difftime(os.time(), begun) > patience then break end
