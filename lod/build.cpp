@@ -56,9 +56,10 @@ Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyO
                   std::uint32_t level, std::uint32_t wanted) {
   if (options.groups) return options.groups(finer.model, finer.of_base, level);
   if (options.grouping.grouping == Grouping::compact)
-    return compact_groups(
-        finer.model,
-        {.count = wanted, .border = options.grouping.border, .seed = options.grouping.seed});
+    return compact_groups(finer.model, {.count = wanted,
+                                        .border = options.grouping.border,
+                                        .grading = options.grouping.grading,
+                                        .seed = options.grouping.seed});
   if (options.grouping.grouping == Grouping::metis)
     return metis_groups(finer.model, wanted, options.grouping.seed);
   Groups groups = group_nodes(finer.model, springs, options.grouping);
@@ -153,6 +154,10 @@ void check(const SimplifyOptions& options) {
   if (!options.keep.empty() && options.keep.size() != options.levels)
     throw InputError(fmt::format("simplify: keep names {} levels and levels = {}; leave one out",
                                  options.keep.size(), options.levels));
+  if (options.groups && !options.keep.empty())
+    throw InputError(
+        "simplify: keep asks for numbers of nodes, which groups named by hand already have; leave "
+        "one out");
   if (!options.groups && options.grouping.grouping == Grouping::metis &&
       options.grouping.border != BorderRule::none)
     throw InputError(

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "lod/elastic_targets.hpp"
+#include "lod/group_means.hpp"
 #include "lod/second_moments.hpp"
 #include "lod/tolerance.hpp"
 #include "model/error.hpp"
@@ -67,19 +68,6 @@ Measured measure(const MassSpringModel& model, const std::vector<StaticLoad>& lo
   measured.stable_step = stable_step(measured.highest_frequency, largest_damping_time(model));
   measured.cost = model.spring_count() / measured.stable_step;
   return measured;
-}
-
-/// A field on the base's nodes as the mean over each group.
-std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<double>& mass,
-                              const Groups& of_base) {
-  std::vector<Vec3> sum(of_base.count, Vec3::Zero());
-  std::vector<double> weight(of_base.count, 0);
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    sum[of_base.of[i]] += mass[i] * field[i];
-    weight[of_base.of[i]] += mass[i];
-  }
-  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= weight[g];
-  return sum;
 }
 
 double dot(const MassSpringModel& model, const std::vector<Vec3>& x, const std::vector<Vec3>& y) {

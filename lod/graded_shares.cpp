@@ -64,6 +64,8 @@ std::vector<std::uint32_t> graded_shares(const std::vector<SharedNodes>& kinds, 
         "compact grouping: {} groups cannot be made of {} nodes of {} kinds (connected parts, "
         "materials, weak borders), which do not mix; ask for {} to {}",
         count, all, kinds.size(), kinds.size(), all));
+  if (!(grading >= 0 && grading <= 1))
+    throw InputError(fmt::format("compact grouping: grading = {} must be in 0 .. 1", grading));
   const std::vector<double> exact = exact_shares(kinds, count, static_cast<double>(all), grading);
   // Largest remainders first.
   std::vector<std::uint32_t> share;

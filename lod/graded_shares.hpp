@@ -17,7 +17,8 @@ struct SharedNodes {
 /// group of n nodes swings about n^(2/3) times slower (squared), so with `grading` 1 each kind gets
 /// so many that all come to swing alike; in between, in between. Never less than half nor more than
 /// twice as many as even, and not fewer for grading's sake than give a kind a shape (24).
-/// Throws InputError if `count` is less than the kinds or more than the nodes.
+/// Throws InputError if `count` is less than the kinds or more than the nodes, or for a grading
+/// outside 0 .. 1.
 std::vector<std::uint32_t> graded_shares(const std::vector<SharedNodes>& kinds, std::uint32_t count,
                                          double grading);
 

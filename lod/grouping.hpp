@@ -38,6 +38,7 @@ struct GroupingOptions {
   Grouping grouping = Grouping::standard;
   BorderRule border = BorderRule::none;
   std::uint64_t seed = 1;
+  double grading = 0.5;          ///< of compact groups by stiffness, see graded_shares
   NodePriority node_priority{};  ///< replaces the order in which nodes are visited
   PairCost pair_cost{};          ///< replaces the key by which neighbours are chosen
 };

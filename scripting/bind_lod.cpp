@@ -46,6 +46,7 @@ int simplify_binding(Call& call) {
   reader.read("straight", options.straight);
   options.grouping.seed = call.session().settings().seed;
   reader.read("seed", options.grouping.seed);
+  reader.read("grading", options.grouping.grading);
   reader.choose("mass", options.mass,
                 {{"proportional", MassRule::proportional}, {"proximity", MassRule::proximity}});
   reader.read("guards", options.guards);
@@ -205,6 +206,11 @@ std::vector<Parameter> simplify_options() {
            .type = "integer",
            .fallback = "s.seed",
            .help = "of the random order; the same seed gives the same bits"},
+          {.name = "grading",
+           .type = "number",
+           .fallback = fmt::format("{}", GroupingOptions{}.grading),
+           .help = "of compact: 0 .. 1, by how much stiff materials get larger groups than soft "
+                   "ones, for a longer step"},
           {.name = "node_priority",
            .type = "function(node) -> number",
            .fallback = "none",

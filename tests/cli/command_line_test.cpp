@@ -100,7 +100,7 @@ TEST_CASE("a failing script exits 1 with its line and a traceback") {
   CHECK(ran.exit_code == 1);
   CHECK(ran.out.empty());
   CHECK_THAT(ran.err, Contains("bad.lua:3: unknown option 'level'; did you mean 'levels'? simplify "
-                               "takes: levels, keep, grouping, straight, border, seed"));
+                               "takes: levels, keep, grouping, straight, border, seed, grading"));
   CHECK_THAT(ran.err, Contains("stack traceback:"));
   CHECK_THAT(ran.err, Contains("bad.lua:5: in main chunk"));
 

@@ -47,6 +47,7 @@ TEST_CASE("Graded shares always come to the count, with at least one group a kin
 TEST_CASE("Shares that cannot be are refused with what can") {
   CHECK_THROWS_AS(graded_shares({{5, 1}, {5, 1}}, 1, 0), InputError);
   CHECK_THROWS_WITH(graded_shares({{5, 1}, {5, 1}}, 11, 0), Catch::Contains("ask for 2 to 10"));
+  CHECK_THROWS_AS(graded_shares({{5, 1}, {5, 1}}, 4, 1.5), InputError);
 }
 
 TEST_CASE("Compact groups keep more of the rubber than of the stiff rods beside it") {
