@@ -20,20 +20,6 @@ int stride(const ConstDenseRef& m) {
   return size(std::max<Eigen::Index>(1, m.outerStride()));
 }
 
-void solve_lower(const ConstDenseRef& l, CBLAS_TRANSPOSE transposed, DenseRef b) {
-  if (b.size() == 0) return;
-  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, transposed, CblasNonUnit, size(b.rows()),
-              size(b.cols()), 1, l.data(), stride(l), b.data(), stride(b));
-}
-
-/// c = scale c + factor a op(b).
-void add_product(const ConstDenseRef& a, CBLAS_TRANSPOSE of_b, const ConstDenseRef& b,
-                 double factor, double scale, DenseRef c) {
-  if (c.size() == 0) return;
-  cblas_dgemm(CblasColMajor, CblasNoTrans, of_b, size(c.rows()), size(c.cols()), size(a.cols()),
-              factor, a.data(), stride(a), b.data(), stride(b), scale, c.data(), stride(c));
-}
-
 }  // namespace
 
 bool factorise_lower(DenseRef a) {
@@ -47,11 +33,15 @@ bool factorise_lower(DenseRef a) {
 }
 
 void solve_right_transposed(const ConstDenseRef& l, DenseRef b) {
-  solve_lower(l, CblasTrans, b);
+  if (b.size() == 0) return;
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, size(b.rows()),
+              size(b.cols()), 1, l.data(), stride(l), b.data(), stride(b));
 }
 
 void solve_right(const ConstDenseRef& l, DenseRef b) {
-  solve_lower(l, CblasNoTrans, b);
+  if (b.size() == 0) return;
+  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, size(b.rows()),
+              size(b.cols()), 1, l.data(), stride(l), b.data(), stride(b));
 }
 
 void subtract_square(const ConstDenseRef& a, DenseRef c) {
@@ -61,11 +51,15 @@ void subtract_square(const ConstDenseRef& a, DenseRef c) {
 }
 
 void multiply_transposed(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c) {
-  add_product(a, CblasTrans, b, 1, 0, c);
+  if (c.size() == 0) return;
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, size(c.rows()), size(c.cols()),
+              size(a.cols()), 1, a.data(), stride(a), b.data(), stride(b), 0, c.data(), stride(c));
 }
 
 void subtract_product(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c) {
-  add_product(a, CblasNoTrans, b, -1, 1, c);
+  if (c.size() == 0) return;
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size(c.rows()), size(c.cols()),
+              size(a.cols()), -1, a.data(), stride(a), b.data(), stride(b), 1, c.data(), stride(c));
 }
 
 }  // namespace springlod
