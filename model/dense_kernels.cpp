@@ -1,6 +1,7 @@
 #include "model/dense_kernels.hpp"
 
 #include <algorithm>
+#include <mutex>
 
 #include <Eigen/Cholesky>
 #include <cblas.h>
@@ -10,6 +11,24 @@ namespace {
 
 /// Up to so many rows Eigen's kernels lose nothing to wider vectors.
 constexpr Eigen::Index kSmall = 48;
+
+/// Held while BLAS is called. Threads are this program's own, one a level: BLAS gets one each. Its
+/// builds without threads mix up the calls of several (1 in 100 products comes out wrong), so with
+/// these one calls at a time.
+class BlasTurn {
+ public:
+  BlasTurn() {
+    static const bool threads = [] {
+      openblas_set_num_threads(1);
+      return openblas_get_parallel() != OPENBLAS_SEQUENTIAL;
+    }();
+    static std::mutex one_at_a_time;
+    if (!threads) turn_ = std::unique_lock(one_at_a_time);
+  }
+
+ private:
+  std::unique_lock<std::mutex> turn_;
+};
 
 int size(Eigen::Index n) {
   return static_cast<int>(n);
@@ -34,30 +53,35 @@ bool factorise_lower(DenseRef a) {
 
 void solve_right_transposed(const ConstDenseRef& l, DenseRef b) {
   if (b.size() == 0) return;
+  const BlasTurn turn;
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, size(b.rows()),
               size(b.cols()), 1, l.data(), stride(l), b.data(), stride(b));
 }
 
 void solve_right(const ConstDenseRef& l, DenseRef b) {
   if (b.size() == 0) return;
+  const BlasTurn turn;
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, size(b.rows()),
               size(b.cols()), 1, l.data(), stride(l), b.data(), stride(b));
 }
 
 void subtract_square(const ConstDenseRef& a, DenseRef c) {
   if (c.size() == 0) return;
+  const BlasTurn turn;
   cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, size(c.rows()), size(a.cols()), -1, a.data(),
               stride(a), 1, c.data(), stride(c));
 }
 
 void multiply_transposed(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c) {
   if (c.size() == 0) return;
+  const BlasTurn turn;
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, size(c.rows()), size(c.cols()),
               size(a.cols()), 1, a.data(), stride(a), b.data(), stride(b), 0, c.data(), stride(c));
 }
 
 void subtract_product(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c) {
   if (c.size() == 0) return;
+  const BlasTurn turn;
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size(c.rows()), size(c.cols()),
               size(a.cols()), -1, a.data(), stride(a), b.data(), stride(b), 1, c.data(), stride(c));
 }

@@ -1,5 +1,8 @@
 #include "model/dense_kernels.hpp"
 
+#include <thread>
+#include <vector>
+
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 
@@ -63,4 +66,23 @@ TEST_CASE("Products and solutions are those of plain matrices, of blocks and of 
   subtract_square(a, c);
   const Eigen::MatrixXd square = a * a.transpose();
   CHECK((c + square.triangularView<Eigen::Lower>().toDenseMatrix()).norm() <= kRounding);
+}
+
+TEST_CASE("Products of several threads are those of one") {
+  constexpr int kThreads = 4, kRounds = 2000;
+  std::vector<int> wrong(kThreads, 0);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t)
+    threads.emplace_back([t, &wrong] {
+      const Eigen::MatrixXd a = random_block(150, 60, static_cast<std::uint64_t>(t));
+      Eigen::MatrixXd first(150, 150);
+      multiply_transposed(a, a, first);
+      Eigen::MatrixXd again(150, 150);
+      for (int round = 0; round < kRounds; ++round) {
+        multiply_transposed(a, a, again);
+        if (again != first) ++wrong[static_cast<std::size_t>(t)];
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(wrong == std::vector<int>(kThreads, 0));
 }
