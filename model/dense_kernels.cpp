@@ -72,6 +72,26 @@ void subtract_square(const ConstDenseRef& a, DenseRef c) {
               stride(a), 1, c.data(), stride(c));
 }
 
+Eigen::MatrixXd gram(const ConstDenseRef& a) {
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(a.cols(), a.cols());
+  if (a.size() == 0) return square;
+  const BlasTurn turn;
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, size(a.cols()), size(a.rows()), 1, a.data(),
+              stride(a), 0, square.data(), stride(square));
+  square.triangularView<Eigen::StrictlyUpper>() = square.transpose();
+  return square;
+}
+
+Eigen::MatrixXd transposed_product(const ConstDenseRef& a, const ConstDenseRef& b) {
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(a.cols(), b.cols());
+  if (product.size() == 0 || a.size() == 0) return product;
+  const BlasTurn turn;
+  cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, size(a.cols()), size(b.cols()),
+              size(a.rows()), 1, a.data(), stride(a), b.data(), stride(b), 0, product.data(),
+              stride(product));
+  return product;
+}
+
 void multiply_transposed(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c) {
   if (c.size() == 0) return;
   const BlasTurn turn;

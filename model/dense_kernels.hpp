@@ -18,6 +18,10 @@ void solve_right_transposed(const ConstDenseRef& l, DenseRef b);
 void solve_right(const ConstDenseRef& l, DenseRef b);
 /// c -= a a^T, in the lower half of c.
 void subtract_square(const ConstDenseRef& a, DenseRef c);
+/// a^T a.
+Eigen::MatrixXd gram(const ConstDenseRef& a);
+/// a^T b.
+Eigen::MatrixXd transposed_product(const ConstDenseRef& a, const ConstDenseRef& b);
 /// c = a b^T.
 void multiply_transposed(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c);
 /// c -= a b.

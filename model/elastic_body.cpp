@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "model/anchors.hpp"
+#include "model/dense_kernels.hpp"
 #include "model/error.hpp"
 #include "model/parts.hpp"
 #include "model/random_block.hpp"
@@ -110,9 +111,11 @@ ElasticPart make_part(const ModelPart& whole, const std::vector<std::uint32_t>& 
         fmt::format("elastic analysis: the part at node {} has {} zero modes, too many to store; "
                     "zero_modes tells which nodes hang loose",
                     part.nodes.front(), found.zero_modes));
-  const Eigen::VectorXd weight = part.root_mass.cwiseInverse();
-  part.stiffness =
-      weight.asDiagonal() * block_of(stiffness_matrix(model), free) * weight.asDiagonal();
+  part.stiffness = stiffness_matrix(model);
+  if (free.size() < model.node_count()) part.stiffness = block_of(part.stiffness, free);
+  for (Eigen::Index c = 0; c < part.unknowns(); ++c)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(part.stiffness, c); entry; ++entry)
+      entry.valueRef() /= part.root_mass[entry.row()] * part.root_mass[c];
   part.zero_modes.resize(part.unknowns(), 0);
   if (found.anchored == 0)
     part.zero_modes =
@@ -127,7 +130,8 @@ ElasticPart make_part(const ModelPart& whole, const std::vector<std::uint32_t>& 
 
 void ElasticPart::remove_zero_modes(Eigen::MatrixXd& y) const {
   // Twice is enough to take them out to rounding.
-  for (int pass = 0; pass < 2; ++pass) y -= zero_modes * (zero_modes.transpose() * y).eval();
+  for (int pass = 0; pass < 2; ++pass)
+    subtract_product(zero_modes, transposed_product(zero_modes, y), y);
 }
 
 Eigen::MatrixXd ElasticPart::solve_shifted(const Eigen::MatrixXd& b) const {

@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "model/dense_kernels.hpp"
 #include "model/error.hpp"
 #include "model/random_block.hpp"
 
@@ -96,17 +97,17 @@ class BlockLanczos {
     const auto basis = basis_.leftCols(vectors_);
 
     next_ = part_.solve_shifted(next_);
-    Eigen::MatrixXd along = basis.transpose() * next_;
-    next_.noalias() -= basis * along;
-    const Eigen::MatrixXd again = basis.transpose() * next_;  // what rounding left
-    next_.noalias() -= basis * again;
+    Eigen::MatrixXd along = transposed_product(basis, next_);
+    subtract_product(basis, along, next_);
+    const Eigen::MatrixXd again = transposed_product(basis, next_);  // what rounding left
+    subtract_product(basis, again, next_);
     along += again;
     projected_.conservativeResize(vectors_, vectors_);
     projected_.bottomRows(kBlock) = along.transpose();  // the solver reads the lower half alone
     coupling_ = orthonormalise(next_);
     // Where the space is exhausted (bodies with many equal frequencies) that made vectors of mere
     // rounding; they are as good a new start as any once they are orthogonal.
-    next_.noalias() -= basis * (basis.transpose() * next_).eval();
+    subtract_product(basis, transposed_product(basis, next_), next_);
     part_.remove_zero_modes(next_);
     coupling_ = orthonormalise(next_) * coupling_;
   }

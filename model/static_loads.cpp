@@ -48,14 +48,16 @@ void check_held(const ElasticPart& part, const StaticLoad& load, const Eigen::Ve
 
 struct Solved {
   Eigen::MatrixXd y;
-  Eigen::MatrixXd last_step;
+  Eigen::VectorXd last_step;  // squared norm, of each column
 };
 
-/// D y = force by conjugate gradients, each column by itself but preconditioned together.
-Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force, double balance) {
-  Solved solved{Eigen::MatrixXd::Zero(force.rows(), force.cols()), force};
+/// D y = force by conjugate gradients, each column by itself but preconditioned together, the first
+/// time as given.
+Solved iterate(const ElasticPart& part, const Eigen::MatrixXd& force, Eigen::MatrixXd direction,
+               double balance) {
+  Solved solved{Eigen::MatrixXd::Zero(force.rows(), force.cols()),
+                Eigen::VectorXd::Zero(force.cols())};
   Eigen::MatrixXd rest = force;
-  Eigen::MatrixXd direction = part.solve_shifted(rest);
   Eigen::VectorXd work = rest.cwiseProduct(direction).colwise().sum();
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::MatrixXd product = part.stiffness * direction;
@@ -63,10 +65,10 @@ Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force, dou
     for (Eigen::Index c = 0; c < force.cols(); ++c) {
       const double energy = direction.col(c).dot(product.col(c));
       const double length = energy > 0 ? work[c] / energy : 0;
-      solved.last_step.col(c) = length * direction.col(c);
-      solved.y.col(c) += solved.last_step.col(c);
+      solved.last_step[c] = length * length * direction.col(c).squaredNorm();
+      solved.y.col(c) += length * direction.col(c);
       rest.col(c) -= length * product.col(c);
-      done = done && (solved.last_step.col(c).norm() <= kSolved * solved.y.col(c).norm() ||
+      done = done && (solved.last_step[c] <= kSolved * kSolved * solved.y.col(c).squaredNorm() ||
                       rest.col(c).norm() <= balance * force.col(c).norm());
     }
     if (done) break;
@@ -78,6 +80,16 @@ Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force, dou
     work = next;
   }
   return solved;
+}
+
+Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force, double balance) {
+  Eigen::MatrixXd y = part.solve_shifted(force);
+  // What is out of balance, force - D y = shift y, is known without another product. Most bodies
+  // are so much stiffer than the shift that nothing is left to do.
+  const Eigen::VectorXd left = part.shift * y.colwise().norm();
+  const Eigen::VectorXd allowed = balance * force.colwise().norm();
+  if ((left.array() > allowed.array()).any()) return iterate(part, force, std::move(y), balance);
+  return {std::move(y), left.cwiseAbs2()};
 }
 
 /// Sums of squares over the parts, for each load.
@@ -97,7 +109,7 @@ void solve_part(const ElasticPart& part, bool anchored, const std::vector<Static
   part.remove_zero_modes(force);
   const auto [y, last_step] = solve_balanced(part, force, balance);
   sizes.solution += y.colwise().squaredNorm().transpose();
-  sizes.last_step += last_step.colwise().squaredNorm().transpose();
+  sizes.last_step += last_step;
   for (Eigen::Index c = 0; c < count; ++c) {
     StaticSolution& solution = solutions[static_cast<std::size_t>(c)];
     part.scatter(y.col(c).cwiseQuotient(part.root_mass), solution.displacement);

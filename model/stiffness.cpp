@@ -1,32 +1,59 @@
 #include "model/stiffness.hpp"
 
-#include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "model/error.hpp"
+#include "model/spring_rows.hpp"
 
 namespace springlod {
 
-Eigen::SparseMatrix<double> stiffness_matrix(const MassSpringModel& model) {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(std::size_t{36} * model.spring_count());
-  const auto add_block = [&](std::uint32_t i, std::uint32_t j, const Mat3& block) {
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c)
-        entries.emplace_back(static_cast<int>(3 * i) + r, static_cast<int>(3 * j) + c, block(r, c));
-  };
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+namespace {
+
+struct Block {
+  std::uint32_t row;
+  Mat3 value;
+};
+
+/// The blocks of node j's columns, by rising row.
+void fill_column(const MassSpringModel& model, const SpringRows& rows, std::uint32_t j,
+                 std::vector<Block>& column) {
+  column.clear();
+  std::size_t own = 0;
+  Mat3 sum = Mat3::Zero();
+  rows.for_each(j, [&](std::uint32_t i, std::uint32_t s) {
     const Vec3 u = spring_direction(model, s);
     const Mat3 block = model.stiffness[s] * u * u.transpose();
-    add_block(model.a[s], model.a[s], block);
-    add_block(model.b[s], model.b[s], block);
-    add_block(model.a[s], model.b[s], -block);
-    add_block(model.b[s], model.a[s], -block);
-  }
+    sum += block;
+    if (i < j) ++own;
+    column.push_back({i, -block});
+  });
+  column.insert(column.begin() + static_cast<std::ptrdiff_t>(own), {j, sum});
+}
+
+}  // namespace
+
+Eigen::SparseMatrix<double> stiffness_matrix(const MassSpringModel& model) {
+  const SpringRows rows(model);
   const auto size = 3 * static_cast<Eigen::Index>(model.node_count());
   Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  matrix.reserve(9 * (static_cast<Eigen::Index>(model.node_count()) +
+                      2 * static_cast<Eigen::Index>(model.spring_count())));
+  std::vector<Block> column;
+  for (std::uint32_t j = 0; j < model.node_count(); ++j) {
+    fill_column(model, rows, j, column);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const Eigen::Index number = 3 * static_cast<Eigen::Index>(j) + c;
+      matrix.startVec(number);
+      for (const Block& block : column)
+        for (Eigen::Index r = 0; r < 3; ++r)
+          matrix.insertBack(3 * static_cast<Eigen::Index>(block.row) + r, number) =
+              block.value(r, c);
+    }
+  }
+  matrix.finalize();
   return matrix;
 }
 
