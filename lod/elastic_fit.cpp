@@ -11,7 +11,7 @@ namespace {
 /// Squared frequencies of the base nearer than this count as one.
 constexpr double kSameFrequency = 0.01;
 /// Of squared frequencies: an order finer than what calibration is meant to reach.
-constexpr double kAccuracy = 1e-4;
+constexpr double kAccuracy = 1e-3;
 
 /// Of loads: leaves compliances right to a hundredth of a percent and better.
 constexpr double kBalance = 1e-8;

@@ -10,6 +10,7 @@
 #include "lod/frequency_cap.hpp"
 #include "lod/mass_moments.hpp"
 #include "lod/tolerance.hpp"
+#include "model/dense_kernels.hpp"
 #include "model/stable_step.hpp"
 
 namespace springlod {
@@ -23,12 +24,19 @@ constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
 constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
 /// What the damping is divided by after a step that helped, multiplied by after one that did not.
 constexpr double kTrust = 3, kDistrust = 4;
-/// Weight of a node above the limit; a miss of a load that is fitted has 1.
-constexpr double kLimitWeight = 0.5;
+/// Weight of a node above the limit, where a miss of a load that is fitted has 1. More nodes than
+/// so many share the weight of these, or the misses would not count beside them.
+constexpr double kLimitWeight = 0.5, kLimitNodes = 1000;
+/// How often a step follows the limits through their bends: they are cheap to tell anew, where
+/// misses take most of the time.
+constexpr int kBends = 4;
 /// What the limit of squared frequencies falls to while the level is good, at first; its root when
 /// a level did not become good again in so many steps, down to hardly any fall.
 constexpr double kTighten = 0.8, kLeastTighten = 0.98;
 constexpr std::uint32_t kPatience = 10;
+/// The limit over the largest bound there is, at least: one farther below pulls at all nodes, and
+/// no longer at the ones that matter.
+constexpr double kLeastLimit = 0.68;
 /// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
 constexpr double kMargin = 1;
 
@@ -52,6 +60,7 @@ class PartFit {
         tolerance_(frequency_tolerance(options.tolerance, targets.nodes, level.node_count())),
         least_frequency_(options.least_frequency * targets.highest_frequency *
                          std::cbrt(static_cast<double>(level.node_count()) / targets.nodes)),
+        limit_weight_(kLimitWeight * std::sqrt(std::min(1.0, kLimitNodes / level.node_count()))),
         fit_(level, of_base, targets),
         moments_(level) {}
 
@@ -63,7 +72,8 @@ class PartFit {
       if (good(now_)) {
         keep_if_better();
         if (best_->highest_frequency <= least_frequency_) break;
-        limit_ = tighten_ * std::min(limit_, largest_node_bound(now_.model));
+        const double bound = largest_node_bound(now_.model);
+        limit_ = std::max(tighten_ * std::min(limit_, bound), kLeastLimit * bound);
         tries = 0;
       } else if (best_ && (tries >= kPatience || damping_ > kMostDamping)) {
         if (!back_off()) break;
@@ -82,7 +92,8 @@ class PartFit {
   struct Point {
     Eigen::VectorXd theta;  // ln k, then ln m / kMassScale, over those of the start
     MassSpringModel model;
-    ElasticMisses misses;  // slopes by theta, along changes that keep the moments
+    ElasticMisses misses;    // slopes by theta, along changes that keep the moments
+    Eigen::MatrixXd normal;  // slopes^T slopes
   };
   struct Best {
     Eigen::VectorXd theta;
@@ -93,45 +104,63 @@ class PartFit {
   Eigen::Index springs() const { return start_.spring_count(); }
   Eigen::Index nodes() const { return start_.node_count(); }
 
-  Point at(Eigen::VectorXd theta) const {
-    Point point{std::move(theta), start_, {}};
+  MassSpringModel model_at(const Eigen::VectorXd& theta) const {
+    MassSpringModel model = start_;
     for (std::uint32_t s = 0; s < start_.spring_count(); ++s) {
-      const double factor = std::exp(point.theta[s]);
-      point.model.stiffness[s] *= factor;
-      point.model.damping[s] *= factor;
+      const double factor = std::exp(theta[s]);
+      model.stiffness[s] *= factor;
+      model.damping[s] *= factor;
     }
     for (std::uint32_t i = 0; i < start_.node_count(); ++i)
-      point.model.mass[i] *= std::exp(kMassScale * point.theta[springs() + i]);
-    moments_.restore(point.model.mass);
+      model.mass[i] *= std::exp(kMassScale * theta[springs() + i]);
+    moments_.restore(model.mass);
+    return model;
+  }
+
+  Point at(Eigen::VectorXd theta) const {
+    Point point{std::move(theta), {}, {}, {}};
+    point.model = model_at(point.theta);
     for (std::uint32_t i = 0; i < start_.node_count(); ++i)
       point.theta[springs() + i] = std::log(point.model.mass[i] / start_.mass[i]) / kMassScale;
     point.misses = fit_.misses(point.model);
     point.misses.slopes.bottomRows(nodes()) *= kMassScale;
     moments_.project(point.model.mass, point.misses.slopes.bottomRows(nodes()));
+    point.normal = gram(point.misses.slopes);
     return point;
   }
 
   double merit(const Point& point) const {
     return point.misses.miss.squaredNorm() +
-           kLimitWeight * kLimitWeight * squared_excess(point.model, limit_);
+           limit_weight_ * limit_weight_ * squared_excess(point.model, limit_);
+  }
+
+  /// The step that suits the misses as they go on straight, and the limits as they bend.
+  Eigen::VectorXd next_step() {
+    Eigen::VectorXd scale = Eigen::VectorXd::Ones(springs() + nodes());
+    scale.tail(nodes()).setConstant(kMassScale);
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(springs() + nodes());
+    for (int bend = 0; bend < kBends; ++bend) {
+      const CapRows cap = cap_rows(model_at(now_.theta + step), limit_, kMargin);
+      const SparseRows limits = cap.slopes * scale.asDiagonal();
+      const Eigen::VectorXd excess = cap.excess - limits * step;
+      step = damped_step({.slopes = now_.misses.slopes,
+                          .normal = now_.normal,
+                          .miss = now_.misses.miss,
+                          .limits = limits,
+                          .excess = excess,
+                          .near = step,
+                          .limit_weight = limit_weight_,
+                          .most_rms = kMostRms},
+                         damping_)
+                 .cwiseMax(-kMostStep)
+                 .cwiseMin(kMostStep);
+    }
+    return step;
   }
 
   /// One step; it is taken back if it did not help. False if none will any more.
   bool advance() {
-    const CapRows cap = cap_rows(now_.model, limit_, kMargin);
-    Eigen::VectorXd scale = Eigen::VectorXd::Ones(springs() + nodes());
-    scale.tail(nodes()).setConstant(kMassScale);
-    const SparseRows limits = cap.slopes * scale.asDiagonal();
-    const Eigen::VectorXd step = damped_step({.slopes = now_.misses.slopes,
-                                              .miss = now_.misses.miss,
-                                              .limits = limits,
-                                              .excess = cap.excess,
-                                              .limit_weight = kLimitWeight,
-                                              .most_rms = kMostRms},
-                                             damping_)
-                                     .cwiseMax(-kMostStep)
-                                     .cwiseMin(kMostStep);
-    Point next = at((now_.theta + step).cwiseMax(-kMostChange).cwiseMin(kMostChange));
+    Point next = at((now_.theta + next_step()).cwiseMax(-kMostChange).cwiseMin(kMostChange));
     if (merit(next) < merit(now_)) {
       now_ = std::move(next);
       damping_ = std::max(kLeastDamping, damping_ / kTrust);
@@ -171,7 +200,7 @@ class PartFit {
   const MassSpringModel& start_;
   const ElasticTargets& targets_;
   const FitOptions& options_;
-  double tolerance_, least_frequency_;
+  double tolerance_, least_frequency_, limit_weight_;
   ElasticFit fit_;
   MassMoments moments_;
   Point now_;

@@ -31,6 +31,7 @@ TEST_CASE("A step is the dense least-squares solution over its rows and the acti
   const Eigen::VectorXd excess = Eigen::VectorXd::Constant(l, 0.05);  // all active
   double damping = 1e-3;
   const Eigen::VectorXd d = damped_step({.slopes = slopes,
+                                         .normal = slopes.transpose() * slopes,
                                          .miss = miss,
                                          .limits = limits,
                                          .excess = excess,
@@ -57,6 +58,7 @@ TEST_CASE("A limit that only the step would break is held, one that stays far of
     double damping = 1e-6;
     const Eigen::VectorXd over = Eigen::VectorXd::Constant(1, excess);
     return damped_step({.slopes = slopes,
+                        .normal = slopes.transpose() * slopes,
                         .miss = miss,
                         .limits = limits,
                         .excess = over,
@@ -74,10 +76,37 @@ TEST_CASE("The damping rises until the step is short enough") {
   const Rows none(0, 3);
   const Eigen::VectorXd no_excess;
   double damping = 1e-4;
-  const Eigen::VectorXd d = damped_step(
-      {.slopes = slopes, .miss = miss, .limits = none, .excess = no_excess, .most_rms = 0.2},
-      damping);
+  const Eigen::VectorXd d = damped_step({.slopes = slopes,
+                                         .normal = slopes.transpose() * slopes,
+                                         .miss = miss,
+                                         .limits = none,
+                                         .excess = no_excess,
+                                         .most_rms = 0.2},
+                                        damping);
   CHECK(damping > 1);
   CHECK(d[0] <= 0.2);
   CHECK(d[0] > 0.05);
+}
+
+TEST_CASE("A limit that is broken near where the step ends counts, though it is not at its start") {
+  const Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(2, 1);
+  const Eigen::MatrixXd normal = slopes.transpose() * slopes;
+  const Eigen::VectorXd miss = Eigen::VectorXd::Zero(1);
+  const Eigen::VectorXd excess = Eigen::VectorXd::Constant(1, -1);
+  Rows limits(1, 2);
+  limits.insert(0, 1) = 1;
+  const auto second = [&](const Eigen::VectorXd& near) {
+    double damping = 1e-6;
+    return damped_step({.slopes = slopes,
+                        .normal = normal,
+                        .miss = miss,
+                        .limits = limits,
+                        .excess = excess,
+                        .near = near,
+                        .limit_weight = 100,
+                        .most_rms = 10},
+                       damping)[1];
+  };
+  CHECK(second({}) == 0);
+  CHECK(second(Eigen::VectorXd::Constant(2, 1.5)) == Approx(1).epsilon(1e-3));
 }
