@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "lod/long_springs.hpp"
 #include "lod/second_moments.hpp"
 #include "model/error.hpp"
@@ -17,18 +19,55 @@ struct PartTargets {
   ElasticTargets targets;
 };
 
+/// 1 for each of the nodes.
+std::vector<std::uint8_t> node_flags(const MassSpringModel& model,
+                                     const std::vector<std::uint32_t>& nodes) {
+  std::vector<std::uint8_t> flags(model.node_count(), 0);
+  for (const std::uint32_t node : nodes) flags.at(node) = 1;
+  return flags;
+}
+
+/// The nodes of a part among some of the model's, as the part numbers them.
+std::vector<std::uint32_t> nodes_of_part(const ModelPart& part,
+                                         const std::vector<std::uint8_t>& chosen) {
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t i = 0; i < part.nodes.size(); ++i)
+    if (chosen[part.nodes[i]] != 0) nodes.push_back(i);
+  return nodes;
+}
+
+void require_surface(const MassSpringModel& base, const TargetOptions& options) {
+  for (std::size_t r = 0; r < options.regions.size(); ++r)
+    if (movable_nodes(base, options.regions[r], options.anchored).empty())
+      throw InputError(
+          fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
+                      "free to move; name nodes of the surface, beside the anchored ones",
+                      options.regions[r].nodes.size(), r + 1));
+}
+
+/// The options for a part of the base: its own anchored nodes and regions.
+TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint8_t>& anchored,
+                              const std::vector<std::vector<std::uint8_t>>& regions,
+                              const CalibrateOptions& options) {
+  TargetOptions of_part = options.targets;
+  of_part.progress = options.progress;
+  of_part.anchored = nodes_of_part(part, anchored);
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    of_part.regions[r].nodes = nodes_of_part(part, regions[r]);
+  return of_part;
+}
+
 std::vector<PartTargets> measure_parts(const MassSpringModel& base,
                                        const CalibrateOptions& options) {
+  require_surface(base, options.targets);
+  const std::vector<std::uint8_t> anchored = node_flags(base, options.targets.anchored);
+  std::vector<std::vector<std::uint8_t>> regions;
+  for (const TargetRegion& region : options.targets.regions)
+    regions.push_back(node_flags(base, region.nodes));
   std::vector<PartTargets> all;
-  std::vector<bool> anchored(base.node_count(), false);
-  for (const std::uint32_t node : options.targets.anchored) anchored.at(node) = true;
   for (ModelPart& part : split_parts(base, connected_components(base))) {
-    TargetOptions of_part = options.targets;
-    of_part.progress = options.progress;
-    of_part.anchored.clear();
-    for (std::uint32_t i = 0; i < part.nodes.size(); ++i)
-      if (anchored[part.nodes[i]]) of_part.anchored.push_back(i);
-    ElasticTargets targets = measure_targets(part.model, of_part);
+    ElasticTargets targets =
+        measure_targets(part.model, options_of_part(part, anchored, regions, options));
     all.push_back({std::move(part), std::move(targets)});
   }
   return all;

@@ -111,7 +111,7 @@ void ElasticFit::add_modes(const MassSpringModel& level, const ElasticBody& body
   for (const auto& [i, j] : mode_pairs()) {
     if (j >= found.size()) break;  // a level of very few nodes
     const double scale = found[i].angular_frequency * found[j].angular_frequency;
-    const double weight = mode_weight(i);
+    const double weight = targets_.mode_weight * mode_weight(i);
     all.slopes.col(row) << weight / scale * k * stretch[i].array() * stretch[j].array(),
         -weight * m * dots(found[i].shape, found[j].shape).array();
     if (i == j) all.miss[row] = weight * std::log(wanted[i] / scale);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 
@@ -32,8 +33,9 @@ constexpr std::uint32_t kPatience = 10;
 /// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
 constexpr double kMargin = 1;
 
-/// What patch loads may be missed by, over the tolerance of the lowest frequencies.
-constexpr double kPatchLoadsTolerance = 20;
+/// What patch loads, and those of pieces, may be missed by, over the tolerance of the lowest
+/// frequencies; and those of regions, which are asked for because they matter.
+constexpr double kPatchLoadsTolerance = 20, kRegionLoadsTolerance = 8;
 
 double mean(const std::vector<double>& values, std::size_t begin, std::size_t end) {
   end = std::min(end, values.size());
@@ -155,12 +157,21 @@ class PartFit {
   /// Whether all kinds of misses are within what is wanted.
   bool good(const Point& point) const {
     const std::vector<double>& frequency = point.misses.frequency;
-    const std::vector<double>& compliance = point.misses.compliance;
-    const std::size_t smooth = targets_.smooth_loads;
     return mean(frequency, 0, kLowestModes) <= tolerance_ &&
            mean(frequency, kLowestModes, frequency.size()) <= kHigherModesTolerance * tolerance_ &&
-           mean(compliance, 0, smooth) <= kSmoothLoadsTolerance * tolerance_ &&
-           mean(compliance, smooth, compliance.size()) <= kPatchLoadsTolerance * tolerance_;
+           mean_of_loads(point, {LoadKind::smooth}) <= kSmoothLoadsTolerance * tolerance_ &&
+           mean_of_loads(point, {LoadKind::piece, LoadKind::patch}) <=
+               kPatchLoadsTolerance * tolerance_ &&
+           mean_of_loads(point, {LoadKind::region}) <= kRegionLoadsTolerance * tolerance_;
+  }
+
+  /// Mean miss of the loads of some kinds; 0 if there are none.
+  double mean_of_loads(const Point& point, std::initializer_list<LoadKind> kinds) const {
+    std::vector<double> of_kinds;
+    for (std::size_t l = 0; l < targets_.loads.size(); ++l)
+      if (std::find(kinds.begin(), kinds.end(), targets_.loads[l].kind) != kinds.end())
+        of_kinds.push_back(point.misses.compliance[l]);
+    return mean(of_kinds, 0, of_kinds.size());
   }
 
   void keep_if_better() {

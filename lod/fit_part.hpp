@@ -12,8 +12,8 @@ namespace springlod {
 struct FitOptions {
   std::uint32_t iterations = 90;
   /// Mean error of the ten lowest frequencies that is good enough [1], 0: see frequency_tolerance;
-  /// the other modes may miss by four times as much, smooth loads by eight and patch loads by
-  /// twenty times as much.
+  /// the other modes may miss by four times as much, smooth loads and those of regions by eight,
+  /// loads of patches and pieces by twenty times as much.
   double tolerance = 0;
   /// Where the largest frequency need not fall any further, over that of a lattice of as many
   /// nodes, omega0 (N / N0)^(1/3): below it local loads are answered worse.
