@@ -69,18 +69,19 @@ std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOpt
   return asked;
 }
 
-/// Fills in the compliances. Loads that find nothing to pull at go.
-void measure_loads(const ElasticBody& body, Progress* progress, std::vector<LoadTarget>& asked) {
+std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadTarget>& asked,
+                                Progress* progress) {
   Task task(progress, "solving for loads", asked.size());
+  std::vector<double> all;
   for (std::size_t first = 0; first < asked.size(); first += kTogether) {
     const std::size_t last = std::min(asked.size(), first + kTogether);
     std::vector<StaticLoad> loads;
     for (std::size_t l = first; l < last; ++l) loads.push_back(asked[l].load);
-    const std::vector<StaticSolution> solved = solve_static(body, loads);
-    for (std::size_t l = first; l < last; ++l) asked[l].compliance = solved[l - first].compliance;
+    for (const StaticSolution& solution : solve_static(body, loads))
+      all.push_back(solution.compliance);
     task.advance(last - first);
   }
-  std::erase_if(asked, [](const LoadTarget& target) { return !(target.compliance > 0); });
+  return all;
 }
 
 }  // namespace
@@ -107,21 +108,38 @@ std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const Targ
   return nodes;
 }
 
-ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options) {
+BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options) {
   check(options);
   const ElasticBody body = held_body(base, options.anchored, options.progress);
-  ElasticTargets targets;
-  targets.nodes = base.node_count();
-  targets.anchored = options.anchored;
-  targets.mode_weight = options.mode_weight;
-  targets.highest_frequency = largest_frequency(base);
+  BaseAnswers answers;
   if (options.modes > 0)
     for (const Mode& mode :
          lowest_modes(body, {.count = options.modes, .progress = options.progress}).modes)
-      targets.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
+      answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
+  answers.compliance = compliances(body, asked_loads(base, options), options.progress);
+  answers.highest_frequency = largest_frequency(base);
+  return answers;
+}
+
+ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& options,
+                          const BaseAnswers& answers) {
+  check(options);
+  ElasticTargets targets;
+  targets.squared_frequency = answers.squared_frequency;
+  targets.mode_weight = options.mode_weight;
   targets.loads = asked_loads(base, options);
-  measure_loads(body, options.progress, targets.loads);
+  for (std::size_t l = 0; l < targets.loads.size(); ++l)
+    targets.loads[l].compliance = answers.compliance.at(l);
+  // Those that find nothing to pull at go.
+  std::erase_if(targets.loads, [](const LoadTarget& target) { return !(target.compliance > 0); });
+  targets.highest_frequency = answers.highest_frequency;
+  targets.nodes = base.node_count();
+  targets.anchored = options.anchored;
   return targets;
+}
+
+ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options) {
+  return targets_of(base, options, measure_base(base, options));
 }
 
 }  // namespace springlod

@@ -60,11 +60,23 @@ struct TargetOptions {
   Progress* progress = nullptr;              ///< may be null
 };
 
+/// What is measured of a base, which takes long where it is large.
+struct BaseAnswers {
+  std::vector<double> squared_frequency;  ///< as in ElasticTargets
+  std::vector<double> compliance;         ///< of every load asked, also where it is 0 [J]
+  double highest_frequency = 0;           ///< omega_max [rad/s]
+};
+
 /// Of a region half the loads are pairs of patches if there is room for two of them, the others
 /// patches that are pushed against the inertia of the body, or whatever holds it. A region without
 /// border nodes that are free to move adds none.
 /// Throws InputError for weights below 0, and where elastic_body does.
 ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options = {});
+
+/// Its two halves, for those who keep the answers: the weights have no part in them.
+BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options);
+ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& options,
+                          const BaseAnswers& answers);
 
 /// The body held at the anchored nodes; what they leave free is balanced by its inertia, as if
 /// there were none, and not refused.

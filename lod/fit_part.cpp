@@ -11,6 +11,7 @@
 #include "lod/frequency_cap.hpp"
 #include "lod/mass_moments.hpp"
 #include "lod/tolerance.hpp"
+#include "model/error.hpp"
 #include "model/stable_step.hpp"
 
 namespace springlod {
@@ -58,24 +59,29 @@ class PartFit {
         moments_(level) {}
 
   MassSpringModel run() {
-    now_ = at(Eigen::VectorXd::Zero(springs() + nodes()));
-    limit_ = largest_node_bound(start_);
-    std::uint32_t tries = 0;  // steps since the level was good
-    for (std::uint32_t i = 0; i < options_.iterations; ++i) {
+    if (options_.from)
+      restore(*options_.from);
+    else
+      begin();
+    for (; !finished_ && iteration_ < options_.iterations; tell()) {
       if (good(now_)) {
         keep_if_better();
         if (best_->highest_frequency <= least_frequency_) break;
         limit_ = tighten_ * std::min(limit_, largest_node_bound(now_.model));
-        tries = 0;
-      } else if (best_ && (tries >= kPatience || damping_ > kMostDamping)) {
+        tries_ = 0;
+      } else if (best_ && (tries_ >= kPatience || damping_ > kMostDamping)) {
         if (!back_off()) break;
-        tries = 0;
+        tries_ = 0;
       }
-      ++tries;
+      ++tries_;
+      ++iteration_;
       if (!advance() && !best_) break;
-      if (options_.on_iteration) options_.on_iteration();
     }
-    if (good(now_)) keep_if_better();
+    if (!finished_) {
+      if (good(now_)) keep_if_better();
+      finished_ = true;
+      tell();
+    }
     return best_ ? std::move(best_->model) : std::move(now_.model);
   }
 
@@ -95,21 +101,96 @@ class PartFit {
   Eigen::Index springs() const { return start_.spring_count(); }
   Eigen::Index nodes() const { return start_.node_count(); }
 
-  Point at(Eigen::VectorXd theta) const {
-    Point point{std::move(theta), start_, {}};
+  void begin() {
+    now_ = at(Eigen::VectorXd::Zero(springs() + nodes()));
+    limit_ = largest_node_bound(start_);
+  }
+
+  void restore(const FitState& state) {
+    iteration_ = state.iteration;
+    tries_ = state.tries;
+    finished_ = state.finished;
+    limit_ = state.limit;
+    damping_ = state.damping;
+    tighten_ = state.tighten;
+    now_ = {state.now.theta, model_of(state.now), {}};
+    if (!finished_) measure(now_);
+    if (state.best) best_ = Best{state.best->theta, model_of(*state.best), state.best_frequency};
+  }
+
+  FitState state() const {
+    FitState state{.iteration = iteration_,
+                   .tries = tries_,
+                   .finished = finished_,
+                   .limit = limit_,
+                   .damping = damping_,
+                   .tighten = tighten_,
+                   .now = {now_.theta, now_.model.mass},
+                   .best = {},
+                   .best_frequency = best_ ? best_->highest_frequency : 0,
+                   .frequency_error = mean(now_.misses.frequency, 0, kLowestModes)};
+    if (best_) state.best = FitPoint{best_->theta, best_->model.mass};
+    return state;
+  }
+
+  void tell() const {
+    if (options_.on_iteration) options_.on_iteration(state());
+  }
+
+  /// The start with its springs changed.
+  MassSpringModel with_springs(const Eigen::VectorXd& theta) const {
+    MassSpringModel model = start_;
     for (std::uint32_t s = 0; s < start_.spring_count(); ++s) {
-      const double factor = std::exp(point.theta[s]);
-      point.model.stiffness[s] *= factor;
-      point.model.damping[s] *= factor;
+      const double factor = std::exp(theta[s]);
+      model.stiffness[s] *= factor;
+      model.damping[s] *= factor;
     }
+    return model;
+  }
+
+  MassSpringModel model_of(const FitPoint& point) const {
+    MassSpringModel model = with_springs(point.theta);
+    model.mass = point.mass;
+    return model;
+  }
+
+  /// Not yet measured.
+  Point moved(Eigen::VectorXd theta) const {
+    Point point{std::move(theta), {}, {}};
+    point.model = with_springs(point.theta);
     for (std::uint32_t i = 0; i < start_.node_count(); ++i)
       point.model.mass[i] *= std::exp(kMassScale * point.theta[springs() + i]);
     moments_.restore(point.model.mass);
     for (std::uint32_t i = 0; i < start_.node_count(); ++i)
       point.theta[springs() + i] = std::log(point.model.mass[i] / start_.mass[i]) / kMassScale;
+    return point;
+  }
+
+  void measure(Point& point) const {
     point.misses = fit_.misses(point.model);
     point.misses.slopes.bottomRows(nodes()) *= kMassScale;
     moments_.project(point.model.mass, point.misses.slopes.bottomRows(nodes()));
+  }
+
+  Point at(Eigen::VectorXd theta) const {
+    Point point = moved(std::move(theta));
+    measure(point);
+    return point;
+  }
+
+  /// The level a step further; none where it cannot be measured, or not in finite numbers.
+  std::optional<Point> after(const Eigen::VectorXd& step) const {
+    if (!step.allFinite()) return std::nullopt;
+    Point point = moved((now_.theta + step.cwiseMax(-kMostStep).cwiseMin(kMostStep))
+                            .cwiseMax(-kMostChange)
+                            .cwiseMin(kMostChange));
+    if (!point.theta.allFinite()) return std::nullopt;
+    try {
+      measure(point);
+    } catch (const InputError&) {
+      return std::nullopt;  // stiffnesses too far apart to be factorised, or for modes to be found
+    }
+    if (!point.misses.miss.allFinite() || !point.misses.slopes.allFinite()) return std::nullopt;
     return point;
   }
 
@@ -130,12 +211,10 @@ class PartFit {
                                               .excess = cap.excess,
                                               .limit_weight = kLimitWeight,
                                               .most_rms = kMostRms},
-                                             damping_)
-                                     .cwiseMax(-kMostStep)
-                                     .cwiseMin(kMostStep);
-    Point next = at((now_.theta + step).cwiseMax(-kMostChange).cwiseMin(kMostChange));
-    if (merit(next) < merit(now_)) {
-      now_ = std::move(next);
+                                             damping_);
+    std::optional<Point> next = after(step);
+    if (next && merit(*next) < merit(now_)) {
+      now_ = *std::move(next);
       damping_ = std::max(kLeastDamping, damping_ / kTrust);
     } else {
       damping_ *= kDistrust;
@@ -190,6 +269,9 @@ class PartFit {
   double limit_ = 0;  // of the nodes' own squared frequencies [rad2/s2]
   double damping_ = kFirstDamping;
   double tighten_ = kTighten;
+  std::uint32_t iteration_ = 0;
+  std::uint32_t tries_ = 0;  // steps since the level was good
+  bool finished_ = false;
 };
 
 }  // namespace

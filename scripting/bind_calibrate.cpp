@@ -1,5 +1,6 @@
 // Calibrating the levels of a chain, and certifying what came of it.
 
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -139,7 +140,13 @@ void describe_record(Api& api) {
             .help =
                 "where the largest frequency, which bounds the step, need not fall any further, "
                 "over that of a lattice of as many nodes"},
-           anchored_parameter()},
+           anchored_parameter(),
+           {.name = "store",
+            .type = "string",
+            .fallback = "none",
+            .help = "folder that keeps what was found so far: a call that was stopped, or killed, "
+                    "goes on from there when it is made again, to the same bits; what is of "
+                    "another base, level or options is not used"}},
       .example = "calibration = {targets = \"modes\", tolerance = 0.01}"});
 }
 
@@ -213,6 +220,9 @@ void read_calibration(Call& call, TableReader& reader, const MassSpringModel& ba
   record.read("iterations", fit.iterations);
   record.read("least_frequency", fit.least_frequency);
   targets.anchored = read_anchored(record, base);
+  std::string store;
+  record.read("store", store);
+  options.calibrate.store = store;
   record.finish();
   if (kinds == Kinds::loads) targets.modes = 0;
   if (kinds == Kinds::modes) {

@@ -1,12 +1,21 @@
 // What scripts and convert can ask of calibration.
 
+#include <filesystem>
+
 #include <catch2/catch.hpp>
 
 #include "tests/cli/program.hpp"
 
 using Catch::Matchers::Contains;
+using springlod::test::obj_of_boxes;
 using springlod::test::Ran;
+using springlod::test::Scratch;
+using springlod::test::slurp;
+using springlod::test::spit;
+using springlod::test::springlod_interrupted;
 using springlod::test::springlod_run;
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -49,4 +58,65 @@ TEST_CASE("scripts name regions that matter, and weights") {
         "nodes of region 1 is a border node that is free to move", "load_weight = -2 must be 0 or",
         "certify: within[1] must be a node number"})
     CHECK_THAT(ran.out, Contains(reason));
+}
+
+TEST_CASE("a script's calibration keeps its state in a store, and says where it cannot") {
+  const Scratch scratch;
+  spit(scratch / "file", "no folder");
+  const std::string code = std::string(kBar) +
+                           "local options = {store = arg[1], iterations = 4, patches = 5}\n"
+                           "local first, again = fit(options), fit(options)\n"
+                           "print(first[1].mass == again[1].mass, #s.files(arg[1]))\n"
+                           "print(pcall(fit, {store = arg[2]}))";
+  spit(scratch / "fit.lua", code);
+  const Ran ran = springlod_run({"run", (scratch / "fit.lua").string(), "--",
+                                 (scratch / "store").string(), (scratch / "file/store").string()});
+  CAPTURE(ran.out, ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("true\t3\n"));
+  CHECK_THAT(ran.out, Contains("its state cannot be kept in"));
+  CHECK_THAT(ran.err, Contains("goes on from what is kept in"));
+}
+
+TEST_CASE("convert that is stopped while it calibrates goes on to the same levels") {
+  const Scratch scratch;
+  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
+  const auto arguments = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"convert",     (scratch / "bar.obj").string(),
+                                 "-o",          (scratch / name).string(),
+                                 "--unit",      "m",
+                                 "--cell",      "14cm",
+                                 "--keep",      "0.4",
+                                 "--grouping",  "compact",
+                                 "--calibrate", "modes"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const auto bytes = [&](const std::string& name) { return slurp(scratch / name); };
+  const std::string mark = "its state is kept in";
+  const Ran whole = springlod_run(arguments("whole.glb", {}));
+  CAPTURE(whole.err);
+  REQUIRE(whole.exit_code == 0);
+  CHECK_FALSE(fs::exists(scratch / "whole.calibration"));
+
+  const Ran stopped = springlod_interrupted(arguments("bar.glb", {}), mark);
+  CAPTURE(stopped.err);
+  CHECK(stopped.exit_code == 130);
+  CHECK(fs::exists(scratch / "bar.calibration/level-1-part-1.bin"));
+  CHECK_FALSE(fs::exists(scratch / "bar.glb"));
+  const Ran resumed = springlod_run(arguments("bar.glb", {}));
+  CHECK(resumed.exit_code == 0);
+  CHECK_THAT(resumed.err, Contains("goes on from what is kept in"));
+  CHECK(bytes("bar.glb") == bytes("whole.glb"));
+  CHECK_FALSE(fs::exists(scratch / "bar.calibration"));
+
+  // A folder of the user's own stays; another base than the one kept is calibrated anew.
+  const std::vector<std::string> kept{"--resume", (scratch / "kept").string(), "--tolerance",
+                                      "0.1"};
+  CHECK(springlod_run(arguments("own.glb", kept)).exit_code == 0);
+  CHECK(fs::exists(scratch / "kept/own/level-1-part-1.bin"));
+  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));
+  const Ran other = springlod_run(arguments("own.glb", kept));
+  CHECK(other.exit_code == 0);
+  CHECK_THAT(other.err, Contains("is of another base"));
 }
