@@ -43,6 +43,9 @@ parser:option("--resume", "folder that keeps what --calibrate modes has found so
   .. "removed (default: NAME.calibration beside the asset, removed once that is written)")
   :argname("<folder>")
 local args = parser:parse()
+if args.resume and args.calibrate ~= "modes" then
+  parser:error("--resume is of --calibrate modes alone: nothing else takes long enough to be kept")
+end
 
 -- Where the calibration of an asset is kept while it goes on.
 local function store_of(asset)
@@ -51,11 +54,12 @@ local function store_of(asset)
   return args.resume:gsub("/*$", "") .. "/" .. command.stem(asset)
 end
 
--- What the store wrote, and the folder if it held nothing else.
+-- What the store wrote (".level-1-part-1.PID.bin": in the middle of which it was killed), and the
+-- folder if it held nothing else.
 local function remove_store(store)
   for _, path in ipairs(s.files(store, {endings = {".bin", ".txt"}})) do
     local name = command.base_name(path)
-    if name == "about.txt" or name:find("part%-%d+%.bin$") then os.remove(path) end
+    if name == "about.txt" or name:find("part%-%d+[%.%d]*%.bin$") then os.remove(path) end
   end
   os.remove(store)
 end

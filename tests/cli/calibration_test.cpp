@@ -85,7 +85,7 @@ TEST_CASE("convert that is stopped while it calibrates goes on to the same level
     std::vector<std::string> all{"convert",     (scratch / "bar.obj").string(),
                                  "-o",          (scratch / name).string(),
                                  "--unit",      "m",
-                                 "--cell",      "14cm",
+                                 "--cell",      "20cm",
                                  "--keep",      "0.4",
                                  "--grouping",  "compact",
                                  "--calibrate", "modes"};
@@ -109,14 +109,23 @@ TEST_CASE("convert that is stopped while it calibrates goes on to the same level
   CHECK_THAT(resumed.err, Contains("goes on from what is kept in"));
   CHECK(bytes("bar.glb") == bytes("whole.glb"));
   CHECK_FALSE(fs::exists(scratch / "bar.calibration"));
+}
 
-  // A folder of the user's own stays; another base than the one kept is calibrated anew.
-  const std::vector<std::string> kept{"--resume", (scratch / "kept").string(), "--tolerance",
-                                      "0.1"};
-  CHECK(springlod_run(arguments("own.glb", kept)).exit_code == 0);
-  CHECK(fs::exists(scratch / "kept/own/level-1-part-1.bin"));
-  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));
-  const Ran other = springlod_run(arguments("own.glb", kept));
+TEST_CASE(
+    "convert keeps a calibration in a folder of the user's own, and uses none of another base") {
+  const Scratch scratch;
+  const auto convert = [&](double length) {
+    spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, length}}));
+    return springlod_run({"convert", (scratch / "bar.obj").string(), "-o",
+                          (scratch / "bar.glb").string(), "--unit", "m", "--cell", "25cm",
+                          "--levels", "1", "--calibrate", "modes", "--resume",
+                          (scratch / "kept/").string()});
+  };
+  CHECK(convert(1).exit_code == 0);
+  CHECK(fs::exists(scratch / "kept/bar/level-1-part-1.bin"));
+  CHECK_FALSE(fs::exists(scratch / "bar.calibration"));
+  CHECK_THAT(convert(1).err, Contains("goes on from what is kept in"));
+  const Ran other = convert(1.5);
   CHECK(other.exit_code == 0);
   CHECK_THAT(other.err, Contains("is of another base"));
 }
