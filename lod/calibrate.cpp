@@ -1,7 +1,14 @@
 #include "lod/calibrate.hpp"
 
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "lod/calibration_store.hpp"
 #include "lod/long_springs.hpp"
 #include "lod/second_moments.hpp"
 #include "model/error.hpp"
@@ -17,18 +24,66 @@ struct PartTargets {
   ElasticTargets targets;
 };
 
-std::vector<PartTargets> measure_parts(const MassSpringModel& base,
-                                       const CalibrateOptions& options) {
+/// 1 for each of the nodes.
+std::vector<std::uint8_t> node_flags(const MassSpringModel& model,
+                                     const std::vector<std::uint32_t>& nodes) {
+  std::vector<std::uint8_t> flags(model.node_count(), 0);
+  for (const std::uint32_t node : nodes) flags.at(node) = 1;
+  return flags;
+}
+
+/// The nodes of a part among some of the model's, as the part numbers them.
+std::vector<std::uint32_t> nodes_of_part(const ModelPart& part,
+                                         const std::vector<std::uint8_t>& chosen) {
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t i = 0; i < part.nodes.size(); ++i)
+    if (chosen[part.nodes[i]] != 0) nodes.push_back(i);
+  return nodes;
+}
+
+void require_surface(const MassSpringModel& base, const TargetOptions& options) {
+  for (std::size_t r = 0; r < options.regions.size(); ++r)
+    if (movable_nodes(base, options.regions[r], options.anchored).empty())
+      throw InputError(
+          fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
+                      "free to move; name nodes of the surface, beside the anchored ones",
+                      options.regions[r].nodes.size(), r + 1));
+}
+
+/// The options for a part of the base: its own anchored nodes and regions.
+TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint8_t>& anchored,
+                              const std::vector<std::vector<std::uint8_t>>& regions,
+                              const CalibrateOptions& options) {
+  TargetOptions of_part = options.targets;
+  of_part.progress = options.progress;
+  of_part.anchored = nodes_of_part(part, anchored);
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    of_part.regions[r].nodes = nodes_of_part(part, regions[r]);
+  return of_part;
+}
+
+BaseAnswers answers_of(const MassSpringModel& part, std::size_t number,
+                       const TargetOptions& options, const CalibrationStore* store) {
+  if (store == nullptr) return measure_base(part, options);
+  const std::string fingerprint = fingerprint_of(part, options);
+  if (std::optional<BaseAnswers> kept = store->answers(number, fingerprint)) return *kept;
+  BaseAnswers answers = measure_base(part, options);
+  store->keep(number, fingerprint, answers);
+  return answers;
+}
+
+std::vector<PartTargets> measure_parts(const MassSpringModel& base, const CalibrateOptions& options,
+                                       const CalibrationStore* store) {
+  require_surface(base, options.targets);
+  const std::vector<std::uint8_t> anchored = node_flags(base, options.targets.anchored);
+  std::vector<std::vector<std::uint8_t>> regions;
+  for (const TargetRegion& region : options.targets.regions)
+    regions.push_back(node_flags(base, region.nodes));
   std::vector<PartTargets> all;
-  std::vector<bool> anchored(base.node_count(), false);
-  for (const std::uint32_t node : options.targets.anchored) anchored.at(node) = true;
   for (ModelPart& part : split_parts(base, connected_components(base))) {
-    TargetOptions of_part = options.targets;
-    of_part.progress = options.progress;
-    of_part.anchored.clear();
-    for (std::uint32_t i = 0; i < part.nodes.size(); ++i)
-      if (anchored[part.nodes[i]]) of_part.anchored.push_back(i);
-    ElasticTargets targets = measure_targets(part.model, of_part);
+    const TargetOptions of_part = options_of_part(part, anchored, regions, options);
+    ElasticTargets targets =
+        targets_of(part.model, of_part, answers_of(part.model, all.size(), of_part, store));
     all.push_back({std::move(part), std::move(targets)});
   }
   return all;
@@ -51,38 +106,148 @@ void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpring
   }
 }
 
-void calibrate_level(const std::vector<PartTargets>& base, Level& level,
-                     const FitOptions& options) {
-  const Components components = connected_components(level.model);
-  const std::vector<ModelPart> parts = split_parts(level.model, components);
-  for (const PartTargets& of_base : base) {
-    const std::uint32_t first = level.of_base.of[of_base.part.nodes.front()];
-    const ModelPart& part = parts[components.of_node[first]];
-    if (part.springs.empty()) continue;
-    const Groups groups = groups_of_part(of_base.part, part, level.of_base);
-    write_back(part, fit_part(part.model, groups, of_base.targets, options), level.model);
+/// Keeps the state of one fit, now and then.
+class FitKeeper {
+ public:
+  FitKeeper(const CalibrationStore& store, std::size_t level, std::size_t part,
+            std::string fingerprint)
+      : store_(store), level_(level), part_(part), fingerprint_(std::move(fingerprint)) {}
+
+  std::optional<FitState> kept() const { return store_.fit(level_, part_, fingerprint_); }
+
+  /// True if it was due.
+  bool offer(const FitState& state) {
+    if (!state.finished && Clock::now() < due_) return false;
+    keep(state);
+    return true;
   }
+
+  void keep(const FitState& state) {
+    store_.keep(level_, part_, fingerprint_, state);
+    due_ = Clock::now() + kEvery;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// As much as a user minds losing to a power cut; a state is some megabytes.
+  static constexpr std::chrono::seconds kEvery{2};
+
+  const CalibrationStore& store_;
+  std::size_t level_, part_;
+  std::string fingerprint_;
+  Clock::time_point due_ = Clock::now() + kEvery;
+};
+
+std::string detail_of(std::size_t level, const FitState& state, double base_frequency) {
+  constexpr double kPercent = 100;
+  std::string text = fmt::format("level {}, step {}: f1..10 off by {:.2g} %", level,
+                                 state.iteration, kPercent * state.frequency_error);
+  if (state.best_frequency > 0)
+    text += fmt::format(", omega_max {:.2f} of the base's", state.best_frequency / base_frequency);
+  return text;
 }
+
+class Calibrator {
+ public:
+  Calibrator(LodChain& chain, const CalibrateOptions& options) : chain_(chain), options_(options) {
+    if (!options.store.empty()) store_.emplace(options.store, options.progress);
+    base_ = measure_parts(chain.levels.front().model, options, store_ ? &*store_ : nullptr);
+  }
+
+  void run() {
+    const std::size_t levels = chain_.levels.size() - 1;
+    std::uint64_t steps = 0;
+    for (std::size_t level = 1; level <= levels; ++level) steps += steps_of(level) * base_.size();
+    Task task(options_.progress, "calibrating", steps);
+    try {
+      run_jobs(levels, options_.threads,
+               [&](std::uint64_t job, const std::function<bool()>& stopped) {
+                 fit_level(job + 1, stopped, task);
+               });
+    } catch (const InterruptedError&) {
+      if (store_ && !said_) say_where();
+      throw;
+    }
+  }
+
+ private:
+  void fit_level(std::size_t number, const std::function<bool()>& stopped, Task& task) {
+    Level& level = chain_.levels[number];
+    restore_second_moments(chain_.levels.front().model, level.of_base, level.model);
+    favour_long_springs(level.model);
+    const Components components = connected_components(level.model);
+    const std::vector<ModelPart> parts = split_parts(level.model, components);
+    for (std::size_t p = 0; p < base_.size(); ++p) {
+      const PartTargets& of_base = base_[p];
+      const std::uint32_t first = level.of_base.of[of_base.part.nodes.front()];
+      const ModelPart& part = parts[components.of_node[first]];
+      if (part.springs.empty()) continue;
+      const Groups groups = groups_of_part(of_base.part, part, level.of_base);
+      write_back(part, fit(number, p, part.model, groups, stopped, task), level.model);
+    }
+  }
+
+  MassSpringModel fit(std::size_t level, std::size_t part, const MassSpringModel& start,
+                      const Groups& groups, const std::function<bool()>& stopped, Task& task) {
+    const ElasticTargets& targets = base_[part].targets;
+    FitOptions options = options_.fit;
+    options.iterations = steps_of(level);
+    options.threads = options_.threads;
+    std::optional<FitKeeper> keeper;
+    if (store_) {
+      keeper.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options));
+      options.from = keeper->kept();
+    }
+    std::uint32_t told = 0;  // steps that the task knows of
+    const auto tell = [&](const FitState& state) {
+      if (stopped()) throw InterruptedError();
+      task.detail(detail_of(level, state, targets.highest_frequency));
+      const std::uint32_t done = state.finished ? options.iterations : state.iteration;
+      task.advance(done - std::exchange(told, done));
+    };
+    if (options.from) {
+      if (!resumed_.exchange(true))
+        say(fmt::format("calibration: goes on from what is kept in {}", store_->folder().string()));
+      tell(*options.from);
+    }
+    options.on_iteration = [&](const FitState& state) {
+      try {
+        tell(state);
+      } catch (const InterruptedError&) {
+        if (keeper) keeper->keep(state);
+        throw;
+      }
+      if (keeper && keeper->offer(state) && !state.finished && !said_.exchange(true)) say_where();
+    };
+    return fit_part(start, groups, targets, options);
+  }
+
+  /// At most, of each part.
+  std::uint32_t steps_of(std::size_t level) const {
+    return fit_steps(options_.fit, chain_.levels[level].model.node_count());
+  }
+
+  void say_where() const {
+    say(
+        fmt::format("calibration: its state is kept in {}; if it is stopped, the same call goes on "
+                    "from there",
+                    store_->folder().string()));
+  }
+  void say(const std::string& text) const {
+    if (options_.progress != nullptr) options_.progress->say(text);
+  }
+
+  LodChain& chain_;
+  const CalibrateOptions& options_;
+  std::optional<CalibrationStore> store_;
+  std::vector<PartTargets> base_;
+  std::atomic<bool> said_{false}, resumed_{false};
+};
 
 }  // namespace
 
 void calibrate(LodChain& chain, const CalibrateOptions& options) {
-  const MassSpringModel& base = chain.levels.front().model;
-  const std::vector<PartTargets> targets = measure_parts(base, options);
-  Task task(options.progress, "calibrating",
-            (chain.levels.size() - 1) * options.fit.iterations * targets.size());
-  run_jobs(chain.levels.size() - 1, options.threads,
-           [&](std::uint64_t job, const std::function<bool()>& stopped) {
-             Level& level = chain.levels[job + 1];
-             restore_second_moments(base, level.of_base, level.model);
-             favour_long_springs(level.model);
-             FitOptions fit = options.fit;
-             fit.on_iteration = [&] {
-               if (stopped()) throw InterruptedError();
-               task.advance();
-             };
-             calibrate_level(targets, level, fit);
-           });
+  Calibrator(chain, options).run();
 }
 
 }  // namespace springlod

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "lod/elastic_targets.hpp"
@@ -20,6 +21,9 @@ enum class Calibration {
 struct CalibrateOptions {
   TargetOptions targets{};
   FitOptions fit{};
+  /// Folder that keeps what was found so far (CalibrationStore): a calibration that was stopped
+  /// goes on from there when it is made again, to the same bits. Empty: nothing is kept.
+  std::filesystem::path store{};
   std::uint32_t threads = 1;     ///< 0: all cores
   Progress* progress = nullptr;  ///< may be null
 };
@@ -27,7 +31,9 @@ struct CalibrateOptions {
 /// Fits every level but the base to the base: gives it the base's second moments of mass
 /// (restore_second_moments), favours its long springs, and fits stiffnesses and masses (fit_part),
 /// each connected part by itself. What is measured of the base is measured once.
-/// The same bits for any number of threads. Throws InputError where elastic_body does.
+/// The same bits for any number of threads, and from a store. Throws InputError where elastic_body
+/// does and for regions that loads cannot move, IoError if the store cannot be written,
+/// InterruptedError once `progress` asks to stop.
 void calibrate(LodChain& chain, const CalibrateOptions& options = {});
 
 }  // namespace springlod

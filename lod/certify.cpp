@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "lod/compared_loads.hpp"
 #include "lod/elastic_targets.hpp"
 #include "lod/group_means.hpp"
 #include "lod/second_moments.hpp"
 #include "lod/tolerance.hpp"
 #include "model/error.hpp"
-#include "model/local_loads.hpp"
 #include "model/measured_moduli.hpp"
 #include "model/modes.hpp"
 #include "model/parallel.hpp"
@@ -30,11 +30,6 @@ constexpr double kLocalLoadsTolerance = 12;
 /// Masses and their moments are kept to rounding.
 constexpr double kExact = 1e-9;
 
-struct Loads {
-  std::vector<StaticLoad> all;
-  std::size_t fitted = 0;  // the first ones
-};
-
 /// What is measured of the base and of each level in the same way.
 struct Measured {
   std::vector<Mode> modes;
@@ -42,17 +37,6 @@ struct Measured {
   std::vector<MaterialModuli> moduli;
   double highest_frequency = 0, stable_step = 0, cost = 0;
 };
-
-Loads loads_of(const MassSpringModel& base, const CertifyOptions& options) {
-  Loads loads{smooth_loads(base), 0};
-  loads.fitted = loads.all.size();
-  if (border_count(base) == 0) return loads;
-  // Other patches than those that are fitted, whatever the seeds.
-  const LocalLoadOptions local{.count = options.held_out_loads, .seed = ~options.seed};
-  for (auto& kind : {pinches(base, local), pushes(base, local)})
-    loads.all.insert(loads.all.end(), kind.begin(), kind.end());
-  return loads;
-}
 
 Measured measure(const MassSpringModel& model, const std::vector<StaticLoad>& loads,
                  std::size_t smooth, const std::vector<std::uint32_t>& anchored,
@@ -95,12 +79,12 @@ void compare_modes(const LodChain& chain, const Level& level, const std::vector<
   }
 }
 
-void compare_loads(const Loads& loads, const Measured& base, const Measured& found,
+void compare_loads(const ComparedLoads& loads, const Measured& base, const Measured& found,
                    Certificate& certificate) {
   for (std::size_t l = 0; l < loads.all.size(); ++l) {
     const double compliance = base.solutions[l].compliance;
     if (!(compliance > 0)) continue;  // nothing to pull at
-    certificate.loads.push_back({loads.all[l].name, l >= loads.fitted, compliance,
+    certificate.loads.push_back({loads.all[l].name, loads.held_out(l), compliance,
                                  found.solutions[l].compliance / compliance - 1});
   }
 }
@@ -154,9 +138,10 @@ void judge(const CertifyOptions& options, const LodChain& chain, const Level& le
 
 void certify(LodChain& chain, const CertifyOptions& options) {
   const MassSpringModel& base = chain.levels.front().model;
-  const Loads loads = loads_of(base, options);
+  const ComparedLoads loads = compared_loads(
+      base, {.count = options.held_out_loads, .seed = options.seed, .within = options.within});
   Task task(options.progress, "certifying", chain.levels.size());
-  const Measured of_base = measure(base, loads.all, loads.fitted, options.anchored, options.modes);
+  const Measured of_base = measure(base, loads.all, loads.smooth, options.anchored, options.modes);
   task.advance();
   run_jobs(chain.levels.size() - 1, options.threads,
            [&](std::uint64_t job, const std::function<bool()>& stopped) {
@@ -167,7 +152,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
              for (const StaticLoad& load : loads.all)
                summed.push_back(carried(level.of_base, load));
              const Measured found =
-                 measure(level.model, summed, loads.fitted,
+                 measure(level.model, summed, loads.smooth,
                          carried(level.of_base, options.anchored), options.modes);
              Certificate c;
              compare_modes(chain, level, of_base.modes, found.modes, c);

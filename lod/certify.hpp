@@ -12,6 +12,7 @@ struct CertifyOptions {
   std::uint32_t modes = 20;
   std::uint32_t held_out_loads = 40;         ///< of each kind: pinches and pushes
   std::uint64_t seed = 1;                    ///< of where they act
+  std::vector<std::uint32_t> within = {};    ///< nodes of the base they act on; empty: the surface
   std::vector<std::uint32_t> anchored = {};  ///< nodes of the base that are held
   /// Mean error of the ten lowest frequencies asked for [1], as in FitOptions.
   double tolerance = 0;

@@ -1,9 +1,11 @@
 #include "lod/elastic_fit.hpp"
 
 #include <cmath>
+#include <functional>
 
 #include "lod/tolerance.hpp"
 #include "model/modes.hpp"
+#include "model/parallel.hpp"
 
 namespace springlod {
 namespace {
@@ -54,8 +56,9 @@ std::vector<Vec3> rigid_acceleration(const ElasticBody& body, const StaticLoad& 
 }  // namespace
 
 ElasticFit::ElasticFit(const MassSpringModel& level, const Groups& of_base,
-                       const ElasticTargets& targets)
+                       const ElasticTargets& targets, std::uint32_t threads)
     : targets_(targets),
+      threads_(threads),
       anchored_(carried(of_base, targets.anchored)),
       stretch_(level.spring_count(), 3 * static_cast<Eigen::Index>(level.node_count())) {
   for (const LoadTarget& target : targets.loads) loads_.push_back(carried(of_base, target.load));
@@ -88,8 +91,10 @@ ElasticMisses ElasticFit::misses(const MassSpringModel& level) const {
   ElasticMisses all;
   all.miss = Eigen::VectorXd::Zero(rows);
   all.slopes = Eigen::MatrixXd::Zero(level.spring_count() + level.node_count(), rows);
-  if (of_modes > 0) add_modes(level, body, 0, all);
-  if (!loads_.empty()) add_loads(level, body, of_modes, all);
+  run_jobs(2, threads_, [&](std::uint64_t job, const std::function<bool()>&) {
+    if (job == 0 && of_modes > 0) add_modes(level, body, 0, all);
+    if (job == 1 && !loads_.empty()) add_loads(level, body, of_modes, all);
+  });
   return all;
 }
 
@@ -111,7 +116,7 @@ void ElasticFit::add_modes(const MassSpringModel& level, const ElasticBody& body
   for (const auto& [i, j] : mode_pairs()) {
     if (j >= found.size()) break;  // a level of very few nodes
     const double scale = found[i].angular_frequency * found[j].angular_frequency;
-    const double weight = mode_weight(i);
+    const double weight = targets_.mode_weight * mode_weight(i);
     all.slopes.col(row) << weight / scale * k * stretch[i].array() * stretch[j].array(),
         -weight * m * dots(found[i].shape, found[j].shape).array();
     if (i == j) all.miss[row] = weight * std::log(wanted[i] / scale);

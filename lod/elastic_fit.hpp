@@ -27,7 +27,9 @@ struct ElasticMisses {
 /// nodes and springs stay. The level must be one connected part.
 class ElasticFit {
  public:
-  ElasticFit(const MassSpringModel& level, const Groups& of_base, const ElasticTargets& targets);
+  /// On two of the threads, if there are, modes and loads are found side by side.
+  ElasticFit(const MassSpringModel& level, const Groups& of_base, const ElasticTargets& targets,
+             std::uint32_t threads = 1);
 
   /// Squared frequencies in the order of their size, lambda = omega^2:
   ///   d ln lambda / d ln k = k (b.phi)^2 / lambda,   d ln lambda / d ln m = -m |phi|^2,
@@ -48,6 +50,7 @@ class ElasticFit {
                  ElasticMisses& all) const;
 
   const ElasticTargets& targets_;
+  std::uint32_t threads_;
   std::vector<std::uint32_t> anchored_;
   std::vector<StaticLoad> loads_;
   Eigen::SparseMatrix<double, Eigen::RowMajor> stretch_;  // S x 3N: b of each spring

@@ -1,14 +1,90 @@
 #include "lod/elastic_targets.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "model/anchors.hpp"
+#include "model/error.hpp"
 #include "model/local_loads.hpp"
 #include "model/modes.hpp"
 #include "model/piece_loads.hpp"
 #include "model/stable_step.hpp"
 
 namespace springlod {
+namespace {
+
+/// Loads solved for together: enough for the factors to be read seldom, few enough for a large
+/// base, of which each takes as much memory as six copies of the positions.
+constexpr std::size_t kTogether = 32;
+
+void check_weight(const char* name, double weight) {
+  if (!(weight >= 0 && std::isfinite(weight)))
+    throw InputError(fmt::format("calibration: {} = {} must be 0 or more", name, weight));
+}
+
+void check(const TargetOptions& options) {
+  check_weight("piece_weight", options.piece_weight);
+  check_weight("patch_weight", options.patch_weight);
+  check_weight("mode_weight", options.mode_weight);
+  check_weight("load_weight", options.load_weight);
+  for (const TargetRegion& region : options.regions)
+    check_weight("weight of a region", region.weight);
+}
+
+std::vector<StaticLoad> region_loads(const MassSpringModel& base, const TargetRegion& region,
+                                     const TargetOptions& options, std::size_t number) {
+  LocalLoadOptions local{.count = region.patches / 2,
+                         .seed = options.seed + number,
+                         .within = movable_nodes(base, region, options.anchored)};
+  if (local.within.empty()) return {};
+  std::vector<StaticLoad> loads = patch_pairs(base, local);
+  local.count = region.patches - static_cast<std::uint32_t>(loads.size());
+  std::vector<StaticLoad> single = pushes(base, local);
+  std::move(single.begin(), single.end(), std::back_inserter(loads));
+  for (StaticLoad& load : loads) load.name += fmt::format(" of region {}", number);
+  return loads;
+}
+
+/// All that are asked of the base; their compliances are yet to be measured.
+std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOptions& options) {
+  std::vector<LoadTarget> asked;
+  const auto ask = [&](LoadKind kind, double weight, std::vector<StaticLoad> loads) {
+    for (StaticLoad& load : loads)
+      asked.push_back({kind, std::move(load), 0, weight * options.load_weight});
+  };
+  if (options.smooth_loads) {
+    ask(LoadKind::smooth, 1, smooth_loads(base));
+    ask(LoadKind::piece, options.piece_weight, piece_loads(base));
+  }
+  if (options.patches > 0 && border_count(base) > 0)
+    ask(LoadKind::patch, options.patch_weight,
+        patch_pairs(base, {.count = options.patches, .seed = options.seed}));
+  for (std::size_t r = 0; r < options.regions.size(); ++r)
+    ask(LoadKind::region, options.regions[r].weight,
+        region_loads(base, options.regions[r], options, r + 1));
+  return asked;
+}
+
+std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadTarget>& asked,
+                                Progress* progress) {
+  Task task(progress, "solving for loads", asked.size());
+  std::vector<double> all;
+  for (std::size_t first = 0; first < asked.size(); first += kTogether) {
+    const std::size_t last = std::min(asked.size(), first + kTogether);
+    std::vector<StaticLoad> loads;
+    for (std::size_t l = first; l < last; ++l) loads.push_back(asked[l].load);
+    for (const StaticSolution& solution : solve_static(body, loads))
+      all.push_back(solution.compliance);
+    task.advance(last - first);
+  }
+  return all;
+}
+
+}  // namespace
 
 ElasticBody held_body(const MassSpringModel& model, const std::vector<std::uint32_t>& anchored,
                       Progress* progress) {
@@ -23,49 +99,47 @@ StaticLoad carried(const Groups& of_base, const StaticLoad& load) {
   return coarse;
 }
 
-namespace {
-
-struct WeightedLoads {
-  double weight = 1;
-  std::vector<StaticLoad> loads;
-};
-
-std::vector<WeightedLoads> kinds_of_loads(const MassSpringModel& base,
-                                          const TargetOptions& options) {
-  std::vector<WeightedLoads> kinds;
-  if (options.smooth_loads) {
-    kinds.push_back({1, smooth_loads(base)});
-    kinds.push_back({options.piece_weight, piece_loads(base)});
-  }
-  if (options.patches > 0 && border_count(base) > 0)
-    kinds.push_back({options.patch_weight,
-                     patch_pairs(base, {.count = options.patches, .seed = options.seed})});
-  return kinds;
+std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const TargetRegion& region,
+                                         const std::vector<std::uint32_t>& anchored) {
+  const std::vector<std::uint8_t> held = anchor_flags(base, anchored);
+  std::vector<std::uint32_t> nodes;
+  for (const std::uint32_t node : region.nodes)
+    if (base.border.at(node) != 0 && held[node] == 0) nodes.push_back(node);
+  return nodes;
 }
 
-}  // namespace
-
-ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options) {
+BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options) {
+  check(options);
   const ElasticBody body = held_body(base, options.anchored, options.progress);
-  ElasticTargets targets;
-  targets.nodes = base.node_count();
-  targets.anchored = options.anchored;
-  targets.highest_frequency = largest_frequency(base);
+  BaseAnswers answers;
   if (options.modes > 0)
     for (const Mode& mode :
          lowest_modes(body, {.count = options.modes, .progress = options.progress}).modes)
-      targets.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
+      answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
+  answers.compliance = compliances(body, asked_loads(base, options), options.progress);
+  answers.highest_frequency = largest_frequency(base);
+  return answers;
+}
 
-  for (WeightedLoads& kind : kinds_of_loads(base, options)) {
-    const std::vector<StaticSolution> solved = solve_static(body, kind.loads);
-    for (std::size_t l = 0; l < solved.size(); ++l)
-      if (solved[l].compliance > 0)
-        targets.loads.push_back({std::move(kind.loads[l]), solved[l].compliance, kind.weight});
-    // The first kind is that of the whole body.
-    if (options.smooth_loads && targets.smooth_loads == 0)
-      targets.smooth_loads = targets.loads.size();
-  }
+ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& options,
+                          const BaseAnswers& answers) {
+  check(options);
+  ElasticTargets targets;
+  targets.squared_frequency = answers.squared_frequency;
+  targets.mode_weight = options.mode_weight;
+  targets.loads = asked_loads(base, options);
+  for (std::size_t l = 0; l < targets.loads.size(); ++l)
+    targets.loads[l].compliance = answers.compliance.at(l);
+  // Those that find nothing to pull at go.
+  std::erase_if(targets.loads, [](const LoadTarget& target) { return !(target.compliance > 0); });
+  targets.highest_frequency = answers.highest_frequency;
+  targets.nodes = base.node_count();
+  targets.anchored = options.anchored;
   return targets;
+}
+
+ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options) {
+  return targets_of(base, options, measure_base(base, options));
 }
 
 }  // namespace springlod

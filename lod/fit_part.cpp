@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <utility>
 
 #include "lod/damped_step.hpp"
 #include "lod/elastic_fit.hpp"
 #include "lod/frequency_cap.hpp"
-#include "lod/mass_moments.hpp"
 #include "lod/tolerance.hpp"
 #include "model/dense_kernels.hpp"
+#include "model/error.hpp"
 #include "model/stable_step.hpp"
 
 namespace springlod {
 namespace {
 
-/// What ln m changes for each unit of an unknown, where ln k changes by 1: masses are better known.
-constexpr double kMassScale = 0.5;
 /// Bounds of the unknowns: of one step, its root mean square, and of all steps together.
 constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
 /// Damping over the mean of the slopes' squared norms: at the start, and bounds of it.
@@ -40,8 +39,9 @@ constexpr double kLeastLimit = 0.68;
 /// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
 constexpr double kMargin = 1;
 
-/// What patch loads may be missed by, over the tolerance of the lowest frequencies.
-constexpr double kPatchLoadsTolerance = 20;
+/// What patch loads, and those of pieces, may be missed by, over the tolerance of the lowest
+/// frequencies; and those of regions, which are asked for because they matter.
+constexpr double kPatchLoadsTolerance = 20, kRegionLoadsTolerance = 8;
 
 double mean(const std::vector<double>& values, std::size_t begin, std::size_t end) {
   end = std::min(end, values.size());
@@ -57,40 +57,45 @@ class PartFit {
       : start_(level),
         targets_(targets),
         options_(options),
+        steps_(fit_steps(options, level.node_count())),
         tolerance_(frequency_tolerance(options.tolerance, targets.nodes, level.node_count())),
         least_frequency_(options.least_frequency * targets.highest_frequency *
                          std::cbrt(static_cast<double>(level.node_count()) / targets.nodes)),
         limit_weight_(kLimitWeight * std::sqrt(std::min(1.0, kLimitNodes / level.node_count()))),
-        fit_(level, of_base, targets),
-        moments_(level) {}
+        variables_(level),
+        fit_(level, of_base, targets, options.threads) {}
 
   MassSpringModel run() {
-    now_ = at(Eigen::VectorXd::Zero(springs() + nodes()));
-    limit_ = largest_node_bound(start_);
-    std::uint32_t tries = 0;  // steps since the level was good
-    for (std::uint32_t i = 0; i < options_.iterations; ++i) {
+    if (options_.from)
+      restore(*options_.from);
+    else
+      begin();
+    for (; !finished_ && iteration_ < steps_; tell()) {
       if (good(now_)) {
         keep_if_better();
         if (best_->highest_frequency <= least_frequency_) break;
         const double bound = largest_node_bound(now_.model);
         limit_ = std::max(tighten_ * std::min(limit_, bound), kLeastLimit * bound);
-        tries = 0;
-      } else if (best_ && (tries >= kPatience || damping_ > kMostDamping)) {
+        tries_ = 0;
+      } else if (best_ && (tries_ >= kPatience || damping_ > kMostDamping)) {
         if (!back_off()) break;
-        tries = 0;
+        tries_ = 0;
       }
-      ++tries;
+      ++tries_;
+      ++iteration_;
       if (!advance() && !best_) break;
-      if (options_.on_iteration) options_.on_iteration();
     }
-    if (good(now_)) keep_if_better();
+    if (!finished_) {
+      if (good(now_)) keep_if_better();
+      finished_ = true;
+      tell();
+    }
     return best_ ? std::move(best_->model) : std::move(now_.model);
   }
 
  private:
-  using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   struct Point {
-    Eigen::VectorXd theta;  // ln k, then ln m / kMassScale, over those of the start
+    Eigen::VectorXd theta;
     MassSpringModel model;
     ElasticMisses misses;    // slopes by theta, along changes that keep the moments
     Eigen::MatrixXd normal;  // slopes^T slopes
@@ -101,32 +106,67 @@ class PartFit {
     double highest_frequency = 0;
   };
 
-  Eigen::Index springs() const { return start_.spring_count(); }
-  Eigen::Index nodes() const { return start_.node_count(); }
+  void begin() {
+    now_ = at(Eigen::VectorXd::Zero(variables_.count()));
+    limit_ = largest_node_bound(start_);
+  }
 
-  MassSpringModel model_at(const Eigen::VectorXd& theta) const {
-    MassSpringModel model = start_;
-    for (std::uint32_t s = 0; s < start_.spring_count(); ++s) {
-      const double factor = std::exp(theta[s]);
-      model.stiffness[s] *= factor;
-      model.damping[s] *= factor;
-    }
-    for (std::uint32_t i = 0; i < start_.node_count(); ++i)
-      model.mass[i] *= std::exp(kMassScale * theta[springs() + i]);
-    moments_.restore(model.mass);
-    return model;
+  void restore(const FitState& state) {
+    iteration_ = state.iteration;
+    tries_ = state.tries;
+    finished_ = state.finished;
+    limit_ = state.limit;
+    damping_ = state.damping;
+    tighten_ = state.tighten;
+    now_ = {state.now.theta, variables_.model(state.now), {}, {}};
+    if (!finished_) measure(now_);
+    if (state.best)
+      best_ = Best{state.best->theta, variables_.model(*state.best), state.best_frequency};
+  }
+
+  FitState state() const {
+    FitState state{.iteration = iteration_,
+                   .tries = tries_,
+                   .finished = finished_,
+                   .limit = limit_,
+                   .damping = damping_,
+                   .tighten = tighten_,
+                   .now = {now_.theta, now_.model.mass},
+                   .best = {},
+                   .best_frequency = best_ ? best_->highest_frequency : 0,
+                   .frequency_error = mean(now_.misses.frequency, 0, kLowestModes)};
+    if (best_) state.best = FitPoint{best_->theta, best_->model.mass};
+    return state;
+  }
+
+  void tell() const {
+    if (options_.on_iteration) options_.on_iteration(state());
+  }
+
+  void measure(Point& point) const {
+    point.misses = fit_.misses(point.model);
+    variables_.turn_slopes(point.model.mass, point.misses.slopes);
+    point.normal = gram(point.misses.slopes);
   }
 
   Point at(Eigen::VectorXd theta) const {
     Point point{std::move(theta), {}, {}, {}};
-    point.model = model_at(point.theta);
-    for (std::uint32_t i = 0; i < start_.node_count(); ++i)
-      point.theta[springs() + i] = std::log(point.model.mass[i] / start_.mass[i]) / kMassScale;
-    point.misses = fit_.misses(point.model);
-    point.misses.slopes.bottomRows(nodes()) *= kMassScale;
-    moments_.project(point.model.mass, point.misses.slopes.bottomRows(nodes()));
-    point.normal = gram(point.misses.slopes);
+    point.model = variables_.model(point.theta);
+    variables_.take_masses(point.model.mass, point.theta);
+    measure(point);
     return point;
+  }
+
+  /// The level a step further; none where it cannot be measured, or not in finite numbers.
+  std::optional<Point> after(const Eigen::VectorXd& step) const {
+    if (!step.allFinite()) return std::nullopt;
+    try {
+      Point point = at((now_.theta + step).cwiseMax(-kMostChange).cwiseMin(kMostChange));
+      if (point.theta.allFinite() && point.normal.allFinite()) return point;
+    } catch (const InputError&) {
+      // Stiffnesses too far apart to be factorised, or for modes to be found.
+    }
+    return std::nullopt;
   }
 
   double merit(const Point& point) const {
@@ -136,12 +176,10 @@ class PartFit {
 
   /// The step that suits the misses as they go on straight, and the limits as they bend.
   Eigen::VectorXd next_step() {
-    Eigen::VectorXd scale = Eigen::VectorXd::Ones(springs() + nodes());
-    scale.tail(nodes()).setConstant(kMassScale);
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(springs() + nodes());
-    for (int bend = 0; bend < kBends; ++bend) {
-      const CapRows cap = cap_rows(model_at(now_.theta + step), limit_, kMargin);
-      const SparseRows limits = cap.slopes * scale.asDiagonal();
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(variables_.count());
+    for (int bend = 0; bend < kBends && step.allFinite(); ++bend) {
+      const CapRows cap = cap_rows(variables_.model(now_.theta + step), limit_, kMargin);
+      const Eigen::SparseMatrix<double, Eigen::RowMajor> limits = variables_.turned(cap.slopes);
       const Eigen::VectorXd excess = cap.excess - limits * step;
       step = damped_step({.slopes = now_.misses.slopes,
                           .normal = now_.normal,
@@ -160,9 +198,9 @@ class PartFit {
 
   /// One step; it is taken back if it did not help. False if none will any more.
   bool advance() {
-    Point next = at((now_.theta + next_step()).cwiseMax(-kMostChange).cwiseMin(kMostChange));
-    if (merit(next) < merit(now_)) {
-      now_ = std::move(next);
+    std::optional<Point> next = after(next_step());
+    if (next && merit(*next) < merit(now_)) {
+      now_ = *std::move(next);
       damping_ = std::max(kLeastDamping, damping_ / kTrust);
     } else {
       damping_ *= kDistrust;
@@ -184,12 +222,21 @@ class PartFit {
   /// Whether all kinds of misses are within what is wanted.
   bool good(const Point& point) const {
     const std::vector<double>& frequency = point.misses.frequency;
-    const std::vector<double>& compliance = point.misses.compliance;
-    const std::size_t smooth = targets_.smooth_loads;
     return mean(frequency, 0, kLowestModes) <= tolerance_ &&
            mean(frequency, kLowestModes, frequency.size()) <= kHigherModesTolerance * tolerance_ &&
-           mean(compliance, 0, smooth) <= kSmoothLoadsTolerance * tolerance_ &&
-           mean(compliance, smooth, compliance.size()) <= kPatchLoadsTolerance * tolerance_;
+           mean_of_loads(point, {LoadKind::smooth}) <= kSmoothLoadsTolerance * tolerance_ &&
+           mean_of_loads(point, {LoadKind::piece, LoadKind::patch}) <=
+               kPatchLoadsTolerance * tolerance_ &&
+           mean_of_loads(point, {LoadKind::region}) <= kRegionLoadsTolerance * tolerance_;
+  }
+
+  /// Mean miss of the loads of some kinds; 0 if there are none.
+  double mean_of_loads(const Point& point, std::initializer_list<LoadKind> kinds) const {
+    std::vector<double> of_kinds;
+    for (std::size_t l = 0; l < targets_.loads.size(); ++l)
+      if (std::find(kinds.begin(), kinds.end(), targets_.loads[l].kind) != kinds.end())
+        of_kinds.push_back(point.misses.compliance[l]);
+    return mean(of_kinds, 0, of_kinds.size());
   }
 
   void keep_if_better() {
@@ -200,17 +247,28 @@ class PartFit {
   const MassSpringModel& start_;
   const ElasticTargets& targets_;
   const FitOptions& options_;
+  std::uint32_t steps_;
   double tolerance_, least_frequency_, limit_weight_;
+  LevelVariables variables_;
   ElasticFit fit_;
-  MassMoments moments_;
   Point now_;
   std::optional<Best> best_;
   double limit_ = 0;  // of the nodes' own squared frequencies [rad2/s2]
   double damping_ = kFirstDamping;
   double tighten_ = kTighten;
+  std::uint32_t iteration_ = 0;
+  std::uint32_t tries_ = 0;  // steps since the level was good
+  bool finished_ = false;
 };
 
 }  // namespace
+
+std::uint32_t fit_steps(const FitOptions& options, std::uint32_t nodes) {
+  if (options.iterations > 0) return options.iterations;
+  constexpr double kMost = 90, kLeast = 10, kFew = 500, kFall = 0.85;
+  const double fewer = std::pow(std::min(1.0, kFew / nodes), kFall);
+  return static_cast<std::uint32_t>(std::max(kLeast, kMost * fewer));
+}
 
 MassSpringModel fit_part(const MassSpringModel& level, const Groups& of_base,
                          const ElasticTargets& targets, const FitOptions& options) {

@@ -9,12 +9,12 @@
 
 #include <fmt/format.h>
 
+#include "lod/compared_loads.hpp"
 #include "lod/compliance_change.hpp"
 #include "lod/elastic_targets.hpp"
 #include "lod/group_means.hpp"
 #include "lod/transfer.hpp"
 #include "model/error.hpp"
-#include "model/local_loads.hpp"
 #include "model/modes.hpp"
 #include "model/parallel.hpp"
 #include "model/static_loads.hpp"
@@ -41,28 +41,19 @@ struct Answers {
   std::vector<std::vector<double>> work;
 };
 
-void ask(Questions& questions, Answer::Kind kind, std::vector<StaticLoad> loads) {
-  for (StaticLoad& load : loads) {
-    questions.answers.push_back({load.name, kind});
-    questions.loads.push_back(std::move(load));
-  }
-}
-
 /// Static loads that find something to pull at: not the width of a flat model.
 Questions loads_of(const MassSpringModel& base, const ElasticBody& body,
                    const MergeLogOptions& options) {
-  Questions all;
-  ask(all, Answer::Kind::smooth, smooth_loads(base));
-  if (options.local_loads > 0 && border_count(base) > 0) {
-    // Those that certify asks for.
-    const LocalLoadOptions local{.count = options.local_loads, .seed = ~options.seed};
-    ask(all, Answer::Kind::local, pinches(base, local));
-    ask(all, Answer::Kind::local, pushes(base, local));
-  }
+  // Those that certify asks for.
+  ComparedLoads loads = compared_loads(base, {.count = options.local_loads, .seed = options.seed});
   Questions kept;
-  const std::vector<StaticSolution> solved = solve_static(body, all.loads);
-  for (std::size_t l = 0; l < all.loads.size(); ++l)
-    if (solved[l].compliance > 0) ask(kept, all.answers[l].kind, {std::move(all.loads[l])});
+  const std::vector<StaticSolution> solved = solve_static(body, loads.all);
+  for (std::size_t l = 0; l < loads.all.size(); ++l) {
+    if (!(solved[l].compliance > 0)) continue;
+    kept.answers.push_back(
+        {loads.all[l].name, loads.held_out(l) ? Answer::Kind::local : Answer::Kind::smooth});
+    kept.loads.push_back(std::move(loads.all[l]));
+  }
   return kept;
 }
 

@@ -126,6 +126,22 @@ ElasticPart make_part(const ModelPart& whole, const std::vector<std::uint32_t>& 
   return part;
 }
 
+/// Numbers that are not finite would send the solvers round and round.
+void require_finite(const MassSpringModel& model) {
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    if (!model.rest[i].allFinite() || !(model.mass[i] > 0 && std::isfinite(model.mass[i])))
+      throw InputError(
+          fmt::format("elastic analysis: node {} (counted from 0) has a mass of {} kg and is at {} "
+                      "{} {} m; all of them must be finite, and the mass above 0",
+                      i, model.mass[i], model.rest[i].x(), model.rest[i].y(), model.rest[i].z()));
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+    if (!std::isfinite(model.stiffness[s]))
+      throw InputError(
+          fmt::format("elastic analysis: the spring of the nodes {} and {} (counted from 0) has a "
+                      "stiffness of {} N/m, which must be finite",
+                      model.a[s], model.b[s], model.stiffness[s]));
+}
+
 }  // namespace
 
 void ElasticPart::remove_zero_modes(Eigen::MatrixXd& y) const {
@@ -161,6 +177,7 @@ std::uint32_t ElasticBody::zero_mode_count() const {
 }
 
 ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& options) {
+  require_finite(model);
   const std::vector<std::uint8_t> held = anchor_flags(model, options.anchored);
   const std::vector<PartModes> found = zero_modes(model, options.anchored);
   const std::vector<ModelPart> parts = split_parts(model, connected_components(model));

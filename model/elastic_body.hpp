@@ -57,7 +57,8 @@ struct ElasticOptions {
 /// a hundred times.
 ///
 /// 20k nodes as a cube: 4 s and 0.7 GB; time goes with N^2, storage with N^4/3.
-/// Throws InputError for a model with more mechanisms than can be stored (hundreds, in a large
+/// Throws InputError for places, masses or stiffnesses that are not finite or masses not above 0,
+/// for a model with more mechanisms than can be stored (hundreds, in a large
 /// part), for stiffnesses so uneven that no small shift makes the matrix positive, and for anchored
 /// nodes that the model does not have. Anchors that leave motions free are no error here: those
 /// are zero modes, which solve_static refuses to push at.

@@ -13,23 +13,35 @@ namespace {
 /// Where patches can be, and how wide they are.
 class Surface {
  public:
-  Surface(const MassSpringModel& model, double radius)
-      : model_(model), radius_(radius * mean_spring_length(model)) {
-    for (std::uint32_t i = 0; i < model.node_count(); ++i)
-      if (model.border[i] != 0) border_.push_back(i);
-    if (border_.empty()) throw InputError("local loads: the model has no border nodes to push at");
+  Surface(const MassSpringModel& model, const LocalLoadOptions& options)
+      : model_(model),
+        radius_(options.radius * mean_spring_length(model)),
+        chosen_(model.node_count(), options.within.empty()) {
+    for (const std::uint32_t i : options.within) chosen_.at(i) = true;
+    for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+      if (model.border[i] == 0) continue;
+      border_.push_back(i);
+      if (chosen_[i]) middles_.push_back(i);
+    }
+    if (middles_.empty())
+      throw InputError(options.within.empty()
+                           ? "local loads: the model has no border nodes to push at"
+                           : "local loads: none of the nodes chosen is a border node to push at");
     find_normals();
   }
 
+  /// The middle of a patch.
   std::uint32_t any(ChanceStream& chance) const {
-    return border_[chance.below(static_cast<std::uint32_t>(border_.size()))];
+    return middles_[chance.below(static_cast<std::uint32_t>(middles_.size()))];
   }
 
-  /// Shares `force` among the border nodes around `center`.
+  /// Shares `force` among the border nodes around `center`; a patch does not reach across the edge
+  /// of what is chosen.
   void pull(std::uint32_t center, const Vec3& force, StaticLoad& load) const {
     std::vector<std::uint32_t> patch;
     for (const std::uint32_t i : border_)
-      if (i == center || (model_.rest[i] - model_.rest[center]).norm() <= radius_)
+      if (chosen_[i] == chosen_[center] &&
+          (i == center || (model_.rest[i] - model_.rest[center]).norm() <= radius_))
         patch.push_back(i);
     for (const std::uint32_t i : patch) load.force[i] += force / static_cast<double>(patch.size());
   }
@@ -68,9 +80,11 @@ class Surface {
   }
 
   const MassSpringModel& model_;
-  double radius_;  // of a patch [m]
+  double radius_;             // of a patch [m]
+  std::vector<bool> chosen_;  // N
   std::vector<std::uint32_t> border_;
-  std::vector<Vec3> normal_;  // N, length 1, or 0 where the springs cancel out
+  std::vector<std::uint32_t> middles_;  // the chosen ones of them
+  std::vector<Vec3> normal_;            // N, length 1, or 0 where the springs cancel out
 };
 
 /// Evenly over the sphere.
@@ -104,7 +118,7 @@ std::vector<StaticLoad> draw_loads(const MassSpringModel& model, std::uint32_t c
 }  // namespace
 
 std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoadOptions& options) {
-  const Surface surface(model, options.radius);
+  const Surface surface(model, options);
   ChanceStream chance(options.seed);
   return draw_loads(model, options.count, "patches", [&](std::size_t number, StaticLoad& load) {
     const std::uint32_t p = surface.any(chance);
@@ -123,7 +137,7 @@ std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoa
 }
 
 std::vector<StaticLoad> pinches(const MassSpringModel& model, const LocalLoadOptions& options) {
-  const Surface surface(model, options.radius);
+  const Surface surface(model, options);
   ChanceStream chance(options.seed);
   return draw_loads(model, options.count, "pinch", [&](std::size_t, StaticLoad& load) {
     const std::uint32_t p = surface.any(chance);
@@ -137,7 +151,7 @@ std::vector<StaticLoad> pinches(const MassSpringModel& model, const LocalLoadOpt
 }
 
 std::vector<StaticLoad> pushes(const MassSpringModel& model, const LocalLoadOptions& options) {
-  const Surface surface(model, options.radius);
+  const Surface surface(model, options);
   ChanceStream chance(options.seed);
   return draw_loads(model, options.count, "push", [&](std::size_t, StaticLoad& load) {
     const std::uint32_t p = surface.any(chance);

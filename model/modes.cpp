@@ -156,7 +156,19 @@ class BlockLanczos {
   Eigen::MatrixXd ritz_;
 };
 
+/// Iterating on what is not a number neither converges nor fails until all room is used up.
+void require_finite(const ElasticPart& part) {
+  const Eigen::Map<const Eigen::VectorXd> entries(part.stiffness.valuePtr(),
+                                                  part.stiffness.nonZeros());
+  if (!entries.allFinite())
+    throw InputError(fmt::format(
+        "modes: the stiffness over the masses of the part at node {} (counted from 0) "
+        "is not finite; look for springs that are far too stiff or masses far too small",
+        part.nodes.front()));
+}
+
 PartSpectrum solve(const ElasticPart& part, const ModeOptions& options) {
+  require_finite(part);
   const Eigen::Index there = part.unknowns() - part.zero_modes.cols();
   const auto count = std::min(static_cast<Eigen::Index>(options.count), there);
   if (part.unknowns() > kDenseUnknowns)

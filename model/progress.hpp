@@ -14,6 +14,10 @@ class Progress {
   /// May throw InterruptedError: that is how long work is stopped.
   virtual void advance(std::uint64_t /*count*/) {}
   virtual void end() {}
+  /// What the work that began last is at, shown beside how far it is; from several threads.
+  virtual void detail(std::string_view /*text*/) {}
+  /// A remark that the user should read; from several threads.
+  virtual void say(std::string_view /*text*/) {}
 };
 
 /// One piece of long work, reported to `sink` (which may be null) for as long as it lives.
@@ -30,6 +34,9 @@ class Task {
 
   void advance(std::uint64_t count = 1) {
     if (sink_ != nullptr) sink_->advance(count);
+  }
+  void detail(std::string_view text) {
+    if (sink_ != nullptr) sink_->detail(text);
   }
 
  private:

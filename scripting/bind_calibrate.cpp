@@ -1,8 +1,10 @@
 // Calibrating the levels of a chain, and certifying what came of it.
 
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <lua.hpp>
 
 #include "lod/certify.hpp"
 #include "scripting/calibration_option.hpp"
@@ -14,6 +16,35 @@ namespace springlod {
 
 namespace {
 
+TargetRegion read_region(Call& call, int table, const std::string& owner,
+                         const MassSpringModel& base) {
+  TargetRegion region;
+  TableReader reader = call.record(table, "Region", owner);
+  region.nodes = read_nodes(reader, "nodes", base);
+  if (region.nodes.empty())
+    reader.refuse("nodes", "given: a list of node numbers or a function of a node");
+  reader.read("weight", region.weight);
+  reader.read("patches", region.patches);
+  reader.finish();
+  return region;
+}
+
+std::vector<TargetRegion> read_regions(Call& call, TableReader& reader,
+                                       const MassSpringModel& base) {
+  std::vector<TargetRegion> regions;
+  const int list = reader.raw("regions");
+  if (list == 0) return regions;
+  lua_State* L = call.lua();
+  if (!lua_istable(L, list)) reader.refuse("regions", "a list of Region tables");
+  for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, list)); ++i) {
+    lua_rawgeti(L, list, i);
+    regions.push_back(
+        read_region(call, lua_gettop(L), fmt::format("{}: regions[{}]", reader.owner(), i), base));
+    lua_pop(L, 1);
+  }
+  return regions;
+}
+
 int certify_binding(Call& call) {
   const auto asset = std::make_shared<LodAsset>(*call.value<LodAsset>(1));
   CertifyOptions options;
@@ -24,10 +55,33 @@ int certify_binding(Call& call) {
   reader.read("held_out_loads", options.held_out_loads);
   reader.read("seed", options.seed);
   reader.read("tolerance", options.tolerance);
+  options.within = read_nodes(reader, "within", asset->chain.levels.front().model);
   options.anchored = read_anchored(reader, asset->chain.levels.front().model);
   reader.finish();
   certify(asset->chain, options);
   return call.give(std::shared_ptr<const LodAsset>(asset));
+}
+
+void describe_regions(Api& api) {
+  const TargetRegion usual;
+  api.add(RecordEntry{
+      .name = "Region",
+      .summary = "Where a calibrated level shall give way as the base does: a contact patch, the "
+                 "neighbourhood of an anchored end.",
+      .fields = {{.name = "nodes",
+                  .type = "list of integers or function",
+                  .help = "of the base: their numbers, or a function of a Node that returns true "
+                          "for them; those on the border that are not anchored count"},
+                 {.name = "weight",
+                  .type = "number",
+                  .fallback = fmt::format("{}", usual.weight),
+                  .help = "of each load on it, where a smooth load has 1"},
+                 {.name = "patches",
+                  .type = "integer",
+                  .fallback = fmt::format("{}", usual.patches),
+                  .help = "loads on patches within it: half of them pairs that are pulled apart, "
+                          "if there is room, the others pushed against the body's inertia"}},
+      .example = "regions = {{nodes = function(node) return node.z < 0.02 end, weight = 2}}"});
 }
 
 void describe_record(Api& api) {
@@ -54,6 +108,18 @@ void describe_record(Api& api) {
             .type = "number",
             .fallback = fmt::format("{}", calibrate.targets.patch_weight),
             .help = "of each of them, where a smooth load has 1"},
+           {.name = "regions",
+            .type = "list of Region",
+            .fallback = "none",
+            .help = "parts of the surface that matter, with loads of their own"},
+           {.name = "mode_weight",
+            .type = "number",
+            .fallback = fmt::format("{}", calibrate.targets.mode_weight),
+            .help = "how much modes count, over what they usually do"},
+           {.name = "load_weight",
+            .type = "number",
+            .fallback = fmt::format("{}", calibrate.targets.load_weight),
+            .help = "how much static loads of every kind count, over what they usually do"},
            {.name = "seed",
             .type = "integer",
             .fallback = fmt::format("{}", calibrate.targets.seed),
@@ -62,18 +128,25 @@ void describe_record(Api& api) {
             .type = "number",
             .fallback = "0.002 sqrt(N0 / N)",
             .help = "mean error of the ten lowest frequencies that is good enough; other modes may "
-                    "miss by four times as much, smooth loads by eight, patches by twenty"},
+                    "miss by four times as much, smooth loads and regions by eight, patches by "
+                    "twenty"},
            {.name = "iterations",
             .type = "integer",
-            .fallback = fmt::format("{}", calibrate.fit.iterations),
-            .help = "at most"},
+            .fallback = "90",
+            .help = "steps at most; by itself fewer for levels of more than 500 nodes, down to 10"},
            {.name = "least_frequency",
             .type = "number",
             .fallback = fmt::format("{}", calibrate.fit.least_frequency),
             .help =
                 "where the largest frequency, which bounds the step, need not fall any further, "
                 "over that of a lattice of as many nodes"},
-           anchored_parameter()},
+           anchored_parameter(),
+           {.name = "store",
+            .type = "string",
+            .fallback = "none",
+            .help = "folder that keeps what was found so far: a call that was stopped, or killed, "
+                    "goes on from there when it is made again, to the same bits; what is of "
+                    "another base, level or options is not used"}},
       .example = "calibration = {targets = \"modes\", tolerance = 0.01}"});
 }
 
@@ -98,6 +171,11 @@ void describe_certify(Api& api) {
                    .type = "integer",
                    .fallback = fmt::format("{}", certify.seed),
                    .help = "of where they act"},
+                  {.name = "within",
+                   .type = "list of integers or function",
+                   .fallback = "anywhere",
+                   .help = "nodes of the base whose surface the held-out loads act on, such as a "
+                           "region that calibration was told of"},
                   {.name = "tolerance",
                    .type = "number",
                    .fallback = "0.002 sqrt(N0 / N)",
@@ -134,20 +212,29 @@ void read_calibration(Call& call, TableReader& reader, const MassSpringModel& ba
   record.read("modes", targets.modes);
   record.read("patches", targets.patches);
   record.read("patch_weight", targets.patch_weight);
+  targets.regions = read_regions(call, record, base);
+  record.read("mode_weight", targets.mode_weight);
+  record.read("load_weight", targets.load_weight);
   record.read("seed", targets.seed);
   record.read("tolerance", fit.tolerance);
   record.read("iterations", fit.iterations);
   record.read("least_frequency", fit.least_frequency);
   targets.anchored = read_anchored(record, base);
+  std::string store;
+  record.read("store", store);
+  options.calibrate.store = store;
   record.finish();
   if (kinds == Kinds::loads) targets.modes = 0;
   if (kinds == Kinds::modes) {
     targets.smooth_loads = false;
     targets.patches = 0;
+    if (!targets.regions.empty())
+      record.refuse("regions", "left out beside targets = \"modes\": they are regions of loads");
   }
 }
 
 void describe_calibrate(Api& api) {
+  describe_regions(api);
   describe_record(api);
   describe_certify(api);
 }

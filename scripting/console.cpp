@@ -84,8 +84,13 @@ void Console::begin(std::string_view task, std::uint64_t total) {
   if (!running_.empty()) running_.back().done += pending_.exchange(0);
   pending_ = 0;
   const auto now = Clock::now();
-  running_.push_back({std::string(task), total, 0, now,
-                      now + (terminal_ ? Clock::duration(kSilentFor) : kLogLine), false});
+  running_.push_back({std::string(task),
+                      total,
+                      0,
+                      now,
+                      now + (terminal_ ? Clock::duration(kSilentFor) : kLogLine),
+                      false,
+                      {}});
   next_look_ = 0;
 }
 
@@ -115,13 +120,18 @@ void Console::end() {
   }
 }
 
+void Console::detail(std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  if (!running_.empty()) running_.back().detail = text;
+}
+
 void Console::report(Running& running, Clock::time_point now, bool last) {
   running.next_report = now + (terminal_ ? Clock::duration(kRedraw) : kLogLine);
   if (verbosity_ == Verbosity::quiet) return;
   running.reported = true;
   const double seconds = std::chrono::duration<double>(now - running.start).count();
-  const std::string line =
-      progress_line(running.name, running.done, running.total, seconds, terminal_);
+  std::string line = progress_line(running.name, running.done, running.total, seconds, terminal_);
+  if (!last && !running.detail.empty()) line += "  " + running.detail;
   if (!terminal_) {
     fmt::print(stderr, "{}\n", line);
     return;

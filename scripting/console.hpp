@@ -22,7 +22,7 @@ class Console : public Progress {
   explicit Console(Verbosity verbosity);
 
   /// A remark; not shown if quiet.
-  void say(std::string_view text);
+  void say(std::string_view text) override;
   /// A remark for the curious; shown if verbose.
   void say_more(std::string_view text);
   bool verbose() const { return verbosity_ == Verbosity::verbose; }
@@ -30,6 +30,7 @@ class Console : public Progress {
   void begin(std::string_view task, std::uint64_t total) override;
   void advance(std::uint64_t count) override;
   void end() override;
+  void detail(std::string_view text) override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -40,6 +41,7 @@ class Console : public Progress {
     Clock::time_point start;
     Clock::time_point next_report;
     bool reported = false;
+    std::string detail;
   };
 
   void report(Running& running, Clock::time_point now, bool last);

@@ -65,10 +65,15 @@ std::vector<std::uint32_t> nodes_at(lua_State* L, int index, const MassSpringMod
   return nodes;
 }
 
-std::vector<std::uint32_t> read_anchored(TableReader& reader, const MassSpringModel& model) {
-  const int given = reader.raw("anchored");
+std::vector<std::uint32_t> read_nodes(TableReader& reader, const char* name,
+                                      const MassSpringModel& model) {
+  const int given = reader.raw(name);
   if (given == 0) return {};
-  return nodes_at(reader.lua(), given, model, reader.owner() + ": anchored");
+  return nodes_at(reader.lua(), given, model, fmt::format("{}: {}", reader.owner(), name));
+}
+
+std::vector<std::uint32_t> read_anchored(TableReader& reader, const MassSpringModel& model) {
+  return read_nodes(reader, "anchored", model);
 }
 
 Parameter anchored_parameter() {

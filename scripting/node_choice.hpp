@@ -13,6 +13,9 @@ namespace springlod {
 /// returns true for those it means. Reads what is at `index`; messages call it `what`.
 std::vector<std::uint32_t> nodes_at(lua_State* L, int index, const MassSpringModel& model,
                                     const std::string& what);
+/// The option `name`; empty if it is not given.
+std::vector<std::uint32_t> read_nodes(TableReader& reader, const char* name,
+                                      const MassSpringModel& model);
 /// The option `anchored`; empty if it is not given.
 std::vector<std::uint32_t> read_anchored(TableReader& reader, const MassSpringModel& model);
 Parameter anchored_parameter();

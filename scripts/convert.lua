@@ -8,7 +8,8 @@ local mesh_endings = {".obj", ".stl", ".ply", ".glb", ".gltf", ".fbx", ".off", "
 
 local parser = command.parser("convert", "Turns meshes into LOD assets: one .glb each, with the "
   .. "base model, its coarser levels and the mesh. Several meshes, or a folder, make a batch that "
-  .. "goes on past a bad file.")
+  .. "goes on past a bad file. A calibration that was stopped goes on where it was when the same "
+  .. "command is given again.")
 parser:argument("mesh", "mesh files, or a folder of them"):args("+")
 parser:option("-o", "asset to write, NAME.glb; for a batch a folder")
   :target("output"):argname("<asset>"):count(1)
@@ -38,19 +39,44 @@ parser:option("--calibrate", "fit the coarser levels to the base: its moduli, or
 parser:option("--tolerance", "mean error of the ten lowest frequencies that calibrated levels may "
   .. "have, such as 0.005 (default: 0.002 times the root of base nodes over nodes)")
   :convert(command.number("--tolerance", 0))
+parser:option("--resume", "folder that keeps what --calibrate modes has found so far, and is not "
+  .. "removed (default: NAME.calibration beside the asset, removed once that is written)")
+  :argname("<folder>")
 local args = parser:parse()
+if args.resume and args.calibrate ~= "modes" then
+  parser:error("--resume is of --calibrate modes alone: nothing else takes long enough to be kept")
+end
+
+-- Where the calibration of an asset is kept while it goes on.
+local function store_of(asset)
+  if args.calibrate ~= "modes" then return nil end
+  if not args.resume then return (asset:gsub("%.glb$", "")) .. ".calibration" end
+  return args.resume:gsub("/*$", "") .. "/" .. command.stem(asset)
+end
+
+-- What the store wrote (".level-1-part-1.PID.bin": in the middle of which it was killed), and the
+-- folder if it held nothing else.
+local function remove_store(store)
+  for _, path in ipairs(s.files(store, {endings = {".bin", ".txt"}})) do
+    local name = command.base_name(path)
+    if name == "about.txt" or name:find("part%-%d+[%.%d]*%.bin$") then os.remove(path) end
+  end
+  os.remove(store)
+end
 
 -- Mesh -> cells -> lattice -> levels -> asset. This is all there is to it.
 local function convert(path, asset, materials)
   local mesh = s.import(path, {unit = args.unit, up = args.up})
   local grid = s.voxelize(mesh, {cell = args.cell, materials = materials})
   local base = s.lattice(grid, {style = args.lattice, hinges = args.hinges})
+  local store = store_of(asset)
   local chain = s.simplify(base, {
     levels = args.levels or not args.keep and 2 or nil, keep = args.keep,
     grouping = args.grouping, border = args.border, seed = s.seed, calibrate = args.calibrate,
-    calibration = {tolerance = args.tolerance},
+    calibration = {tolerance = args.tolerance, store = store},
   })
   s.save(asset, chain)
+  if store and not args.resume then remove_store(store) end
   return chain
 end
 

@@ -1,6 +1,7 @@
 #include "model/modes.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <catch2/catch.hpp>
@@ -191,6 +192,33 @@ TEST_CASE("Options that make no sense are refused") {
   CHECK_THROWS_AS(lowest_modes(m, {.count = 0}), InputError);
   CHECK_THROWS_AS(lowest_modes(m, {.accuracy = 0}), InputError);
   CHECK_THROWS_AS(lowest_modes(m, {.accuracy = NAN}), InputError);
+}
+
+TEST_CASE("Models that are not finite are refused at once, by the node or spring that is not") {
+  const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
+  for (const int n : {4, 12}) {  // solved densely, and by iterating
+    const MassSpringModel sound = test::box_lattice(n, n, n);
+    for (const double wrong : {nan, infinite}) {
+      MassSpringModel m = sound;
+      m.stiffness[5] = wrong;
+      CHECK_THROWS_WITH(lowest_modes(m), Catch::Contains("the spring of the nodes"));
+      m = sound;
+      m.mass[3] = wrong;
+      CHECK_THROWS_WITH(lowest_modes(m), Catch::Contains("node 3 (counted from 0)"));
+      m = sound;
+      m.rest[2].y() = wrong;
+      CHECK_THROWS_WITH(lowest_modes(m), Catch::Contains("node 2 (counted from 0)"));
+    }
+    ElasticBody body = elastic_body(sound);
+    body.parts.front().stiffness.coeffRef(0, 0) = nan;
+    CHECK_THROWS_WITH(lowest_modes(body), Catch::Contains("is not finite"));
+    MassSpringModel light = sound;
+    light.mass[0] = 0;
+    CHECK_THROWS_AS(lowest_modes(light), InputError);
+    light.mass[0] = 1e-308;
+    light.stiffness.assign(light.spring_count(), 1e300);
+    CHECK_THROWS_AS(lowest_modes(light), InputError);
+  }
 }
 
 TEST_CASE("Work on modes can be interrupted") {

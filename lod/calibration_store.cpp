@@ -1,0 +1,222 @@
+#include "lod/calibration_store.hpp"
+
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "model/error.hpp"
+#include "model/file.hpp"
+#include "model/packed.hpp"
+
+namespace springlod {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// To be raised whenever a fit would go another way from the same state, or a file look otherwise:
+/// what an older program kept is then not used.
+constexpr std::uint32_t kFormat = 1;
+constexpr std::size_t kChecksumSize = 16;  // of content_hash [bytes]
+
+const char* const kAbout =
+    "What a calibration of springlod has found so far. The call that was stopped goes on from here "
+    "when it is made again; without this folder it begins anew.\n";
+
+void pack(Packer& to, const MassSpringModel& model) {
+  to.add(model.rest);
+  to.add(model.mass);
+  to.add(model.volume);
+  to.add(model.border);
+  to.add(model.material);
+  to.add(model.a);
+  to.add(model.b);
+  to.add(model.rest_length);
+  to.add(model.stiffness);
+  to.add(model.damping);
+}
+
+void pack(Packer& to, const Eigen::VectorXd& values) {
+  to.add(std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
+}
+
+Eigen::VectorXd take_vector(Unpacker& from) {
+  const std::vector<double> values = from.take_list<double>();
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+void pack(Packer& to, const FitPoint& point) {
+  pack(to, point.theta);
+  to.add(point.mass);
+}
+
+FitPoint take_point(Unpacker& from) {
+  Eigen::VectorXd theta = take_vector(from);
+  return {std::move(theta), from.take_list<double>()};
+}
+
+std::string packed(const FitState& state) {
+  Packer to;
+  to.add(state.iteration);
+  to.add(state.tries);
+  to.add(state.finished);
+  to.add(state.limit);
+  to.add(state.damping);
+  to.add(state.tighten);
+  pack(to, state.now);
+  to.add(state.best.has_value());
+  if (state.best) pack(to, *state.best);
+  to.add(state.best_frequency);
+  to.add(state.frequency_error);
+  return to.bytes();
+}
+
+FitState take_state(std::string_view bytes) {
+  Unpacker from(bytes);
+  FitState state;
+  state.iteration = from.take<std::uint32_t>();
+  state.tries = from.take<std::uint32_t>();
+  state.finished = from.take<bool>();
+  state.limit = from.take<double>();
+  state.damping = from.take<double>();
+  state.tighten = from.take<double>();
+  state.now = take_point(from);
+  if (from.take<bool>()) state.best = take_point(from);
+  state.best_frequency = from.take<double>();
+  state.frequency_error = from.take<double>();
+  return state;
+}
+
+std::string name_of_answers(std::size_t part) {
+  return fmt::format("base-part-{}", part + 1);
+}
+
+std::string name_of_fit(std::size_t level, std::size_t part) {
+  return fmt::format("level-{}-part-{}", level, part + 1);
+}
+
+}  // namespace
+
+std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options) {
+  Packer all;
+  pack(all, base_part);
+  all.add(options.modes);
+  all.add(options.smooth_loads);
+  all.add(options.patches);
+  all.add(options.seed);
+  all.add(options.anchored);
+  for (const TargetRegion& region : options.regions) {
+    all.add(region.nodes);
+    all.add(region.patches);
+  }
+  return content_hash(all.bytes());
+}
+
+std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel& level_part,
+                           const Groups& of_base, const FitOptions& options) {
+  Packer all;
+  all.add(targets.squared_frequency);
+  all.add(targets.mode_weight);
+  for (const LoadTarget& target : targets.loads) {
+    all.add(static_cast<int>(target.kind));
+    all.add(target.load.force);
+    all.add(target.compliance);
+    all.add(target.weight);
+  }
+  all.add(targets.highest_frequency);
+  all.add(targets.nodes);
+  all.add(targets.anchored);
+  pack(all, level_part);
+  all.add(of_base.of);
+  all.add(of_base.count);
+  all.add(options.iterations);
+  all.add(options.tolerance);
+  all.add(options.least_frequency);
+  return content_hash(all.bytes());
+}
+
+CalibrationStore::CalibrationStore(fs::path folder, Progress* progress)
+    : folder_(std::move(folder)), progress_(progress) {
+  try {
+    write_text_file(folder_ / "about.txt", kAbout);
+  } catch (const IoError& error) {
+    throw IoError(
+        fmt::format("calibration: its state cannot be kept in {}: {}; name a folder that can be "
+                    "written to, or none",
+                    folder_.string(), error.what()));
+  }
+}
+
+std::optional<BaseAnswers> CalibrationStore::answers(std::size_t part,
+                                                     const std::string& fingerprint) const {
+  const std::optional<std::string> payload = read(name_of_answers(part), fingerprint);
+  if (!payload) return std::nullopt;
+  Unpacker from(*payload);
+  BaseAnswers answers;
+  answers.squared_frequency = from.take_list<double>();
+  answers.compliance = from.take_list<double>();
+  answers.highest_frequency = from.take<double>();
+  return answers;
+}
+
+void CalibrationStore::keep(std::size_t part, const std::string& fingerprint,
+                            const BaseAnswers& answers) const {
+  Packer to;
+  to.add(answers.squared_frequency);
+  to.add(answers.compliance);
+  to.add(answers.highest_frequency);
+  write(name_of_answers(part), fingerprint, to.bytes());
+}
+
+std::optional<FitState> CalibrationStore::fit(std::size_t level, std::size_t part,
+                                              const std::string& fingerprint) const {
+  const std::optional<std::string> payload = read(name_of_fit(level, part), fingerprint);
+  if (!payload) return std::nullopt;
+  return take_state(*payload);
+}
+
+void CalibrationStore::keep(std::size_t level, std::size_t part, const std::string& fingerprint,
+                            const FitState& state) const {
+  write(name_of_fit(level, part), fingerprint, packed(state));
+}
+
+fs::path CalibrationStore::place(const std::string& name) const {
+  return folder_ / (name + ".bin");
+}
+
+std::optional<std::string> CalibrationStore::read(const std::string& name,
+                                                  const std::string& fingerprint) const {
+  std::error_code error;
+  if (!fs::exists(place(name), error)) return std::nullopt;
+  const auto refuse = [&](const char* why) {
+    if (progress_ != nullptr)
+      progress_->say(
+          fmt::format("calibration: {} {}; that part begins anew", place(name).string(), why));
+    return std::nullopt;
+  };
+  const std::string bytes = read_file(place(name));
+  const std::size_t size = bytes.size() < kChecksumSize ? 0 : bytes.size() - kChecksumSize;
+  const std::string_view body = std::string_view(bytes).substr(0, size);
+  if (size == 0 || bytes.substr(size) != content_hash(body)) return refuse("is damaged");
+  try {
+    Unpacker from(body);
+    if (from.take<std::uint32_t>() != kFormat) return refuse("is by another version of springlod");
+    if (from.take_text() != fingerprint)
+      return refuse("is of another base, another level or other options");
+    return from.take_text();
+  } catch (const IoError&) {
+    return refuse("is damaged");
+  }
+}
+
+void CalibrationStore::write(const std::string& name, const std::string& fingerprint,
+                             const std::string& payload) const {
+  Packer file;
+  file.add(kFormat);
+  file.add(std::string_view(fingerprint));
+  file.add(std::string_view(payload));
+  write_text_file(place(name), file.bytes() + content_hash(file.bytes()));
+}
+
+}  // namespace springlod
