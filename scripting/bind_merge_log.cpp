@@ -10,6 +10,7 @@
 #include "lod/merge_log.hpp"
 #include "scripting/call.hpp"
 #include "scripting/node_choice.hpp"
+#include "scripting/result_table.hpp"
 #include "scripting/values.hpp"
 
 namespace springlod {
@@ -39,9 +40,8 @@ void push_answers(lua_State* L, const MergeStep& step) {
   }
 }
 
-void push_merge(lua_State* L, const MassSpringModel& model, const Merge& merge,
-                std::uint32_t base_nodes) {
-  begin_table(L);
+void set_merge(lua_State* L, const MassSpringModel& model, const Merge& merge,
+               std::uint32_t base_nodes) {
   set_field(L, "node", merge.node + 1);
   set_field(L, "pieces", merge.pieces);
   set_field(L, "base_nodes", base_nodes);
@@ -62,11 +62,9 @@ void push_merges(lua_State* L, const Level& level, const MergeStep& step) {
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return step.merges[a].frequencies > step.merges[b].frequencies;
   });
-  begin_list(L, order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    push_merge(L, level.model, step.merges[order[i]], base_nodes[order[i]]);
-    end_list_entry(L, i + 1);
-  }
+  push_tables(L, order, [&](std::uint32_t merge) {
+    set_merge(L, level.model, step.merges[merge], base_nodes[merge]);
+  });
 }
 
 int merge_log_binding(Call& call) {
@@ -83,10 +81,7 @@ int merge_log_binding(Call& call) {
   reader.finish();
   const MergeLog log = log_merges(asset->chain, options);
   lua_State* L = call.lua();
-  begin_list(L, log.steps.size());
-  for (std::size_t n = 0; n < log.steps.size(); ++n) {
-    const MergeStep& step = log.steps[n];
-    begin_table(L);
+  push_tables(L, log.steps, [&](const MergeStep& step) {
     set_field(L, "from", step.from);
     set_field(L, "level", step.level);
     set_field(L, "frequency_error", mean_error(step, Answer::Kind::mode));
@@ -96,13 +91,8 @@ int merge_log_binding(Call& call) {
     end_field(L, "answers");
     push_merges(L, asset->chain.levels[step.level], step);
     end_field(L, "merges");
-    end_list_entry(L, n + 1);
-  }
+  });
   return 1;
-}
-
-Parameter field(const char* name, const char* type, const char* help) {
-  return {.name = name, .type = type, .help = help};
 }
 
 void describe_records(Api& api) {
@@ -111,36 +101,40 @@ void describe_records(Api& api) {
       .summary = "What making one level changed: an entry of merge_log. Errors and changes are "
                  "natural logarithms of level over base: 0.01 is 1 %.",
       .fields =
-          {field("from", "integer", "the level that was merged; 0 if not the one before"),
-           field("level", "integer", "the level that came of it"),
-           field("frequency_error", "number",
-                 "mean |error| of the level's lowest frequencies, each against what the base "
-                 "makes of the same motion; above f1_10_error where the base has no such motion"),
-           field("smooth_load_error", "number", "mean |error| of the smooth loads"),
-           field("local_load_error", "number", "mean |error| of pinches and pushes"),
-           field("answers", "list of tables",
-                 "what was asked: name, kind (mode, smooth, local), change (of this step; ln of "
-                 "the frequency, for loads of the compliance), error (since the base)"),
-           field("merges", "list of MergeEntry", "the nodes of the level, the costliest first")},
+          {result_field("from", "integer", "the level that was merged; 0 if not the one before"),
+           result_field("level", "integer", "the level that came of it"),
+           result_field(
+               "frequency_error", "number",
+               "mean |error| of the level's lowest frequencies, each against what the base "
+               "makes of the same motion; above f1_10_error where the base has no such motion"),
+           result_field("smooth_load_error", "number", "mean |error| of the smooth loads"),
+           result_field("local_load_error", "number", "mean |error| of pinches and pushes"),
+           result_field(
+               "answers", "list of tables",
+               "what was asked: name, kind (mode, smooth, local), change (of this step; ln of "
+               "the frequency, for loads of the compliance), error (since the base)"),
+           result_field("merges", "list of MergeEntry",
+                        "the nodes of the level, the costliest first")},
       .example = "s.merge_log(chain)[1].merges[1].position"});
   api.add(RecordEntry{
       .name = "MergeEntry",
       .summary = "What one merge cost: its part in the errors of a MergeStep.",
-      .fields = {field("node", "integer", "of the level, that came of it"),
-                 field("pieces", "integer",
-                       "nodes that became it; 1: it was not merged in this step"),
-                 field("base_nodes", "integer", "nodes of the base in it"),
-                 field("position", "{x, y, z}", "[m]"),
-                 field("material", "string", "that of most of its volume"),
-                 field("border", "boolean", "whether it lies on the surface"),
-                 field(
+      .fields = {result_field("node", "integer", "of the level, that came of it"),
+                 result_field("pieces", "integer",
+                              "nodes that became it; 1: it was not merged in this step"),
+                 result_field("base_nodes", "integer", "nodes of the base in it"),
+                 result_field("position", "{x, y, z}", "[m]"),
+                 result_field("material", "string", "that of most of its volume"),
+                 result_field("border", "boolean", "whether it lies on the surface"),
+                 result_field(
                      "frequencies", "number",
                      "how much farther it brought the mean |error| of the frequencies; below 0: it "
                      "mended what others did"),
-                 field("smooth_loads", "number", "likewise, of the smooth loads"),
-                 field("local_loads", "number", "likewise, of pinches and pushes"),
-                 field("change", "list of numbers",
-                       "its part in the change of each of the step's answers; they add up to it")},
+                 result_field("smooth_loads", "number", "likewise, of the smooth loads"),
+                 result_field("local_loads", "number", "likewise, of pinches and pushes"),
+                 result_field(
+                     "change", "list of numbers",
+                     "its part in the change of each of the step's answers; they add up to it")},
       .example = "s.merge_log(chain)[1].merges[1].frequencies"});
 }
 

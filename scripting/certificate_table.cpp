@@ -4,17 +4,14 @@
 
 #include <lua.hpp>
 
+#include "scripting/result_table.hpp"
+
 namespace springlod {
 namespace {
 
-template <class Entry, class Push>
-void set_list(lua_State* L, const char* name, const std::vector<Entry>& entries, Push push_entry) {
-  begin_list(L, entries.size());
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    begin_table(L);
-    push_entry(entries[i]);
-    end_list_entry(L, i + 1);
-  }
+template <class Entry, class Fill>
+void set_list(lua_State* L, const char* name, const std::vector<Entry>& entries, const Fill& fill) {
+  push_tables(L, entries, fill);
   end_field(L, name);
 }
 
@@ -51,10 +48,6 @@ void set_means(lua_State* L, const Certificate& certificate) {
                 mean_load_error(certificate, held_out));
 }
 
-Parameter field(const char* name, const char* type, const char* help) {
-  return {.name = name, .type = type, .help = help};
-}
-
 }  // namespace
 
 void push_certificate(lua_State* L, const Certificate& certificate) {
@@ -83,29 +76,35 @@ void describe_certificate(Api& api) {
       .summary = "What a level was measured to be beside its base: s.info(chain).levels[i]"
                  ".certificate. Errors are level over base minus 1.",
       .fields =
-          {field("moduli", "list of tables",
-                 "material, young and base_young [Pa], poisson and base_poisson"),
-           field("frequencies", "list of tables",
-                 "the lowest: level and base [Hz], error, mac (0..1: the same mode)"),
-           field("loads", "list of tables",
-                 "static loads: name, held_out (no calibration is fitted to it), error of the "
-                 "compliance"),
-           field("f1_10_error", "number", "mean |error| of the ten lowest frequencies"),
-           field("f11_20_error", "number", "mean |error| of the next ten; nil if there are none"),
-           field("fitted_load_error", "number", "mean |error|; nil if there are no such loads"),
-           field("held_out_load_error", "number", "mean |error|; nil if there are no such loads"),
-           field("mass_error", "number", "error of the mass"),
-           field("center_shift", "number", "of the centre of mass, over the radius of gyration"),
-           field("second_moment_error", "number",
-                 "largest of the tensor's entries, over its largest entry"),
-           field("highest_frequency", "number", "omega_max [rad/s]; base_highest_frequency too"),
-           field("stable_step", "number", "of explicit steps [s]; base_stable_step too"),
-           field("cost", "number", "springs over the stable step [1/s]; base_cost too"),
-           field("cost_ratio", "number", "cost / base_cost"),
-           field("zero_modes", "integer", "motions that no spring resists"),
-           field("expected_zero_modes", "integer", "how many there should be"),
-           field("tolerance", "number", "f1_10_error that was asked for"),
-           field("misses", "list of strings", "what of it was not reached; empty: nothing")},
+          {result_field("moduli", "list of tables",
+                        "material, young and base_young [Pa], poisson and base_poisson"),
+           result_field("frequencies", "list of tables",
+                        "the lowest: level and base [Hz], error, mac (0..1: the same mode)"),
+           result_field(
+               "loads", "list of tables",
+               "static loads: name, held_out (no calibration is fitted to it), error of the "
+               "compliance"),
+           result_field("f1_10_error", "number", "mean |error| of the ten lowest frequencies"),
+           result_field("f11_20_error", "number",
+                        "mean |error| of the next ten; nil if there are none"),
+           result_field("fitted_load_error", "number",
+                        "mean |error|; nil if there are no such loads"),
+           result_field("held_out_load_error", "number",
+                        "mean |error|; nil if there are no such loads"),
+           result_field("mass_error", "number", "error of the mass"),
+           result_field("center_shift", "number",
+                        "of the centre of mass, over the radius of gyration"),
+           result_field("second_moment_error", "number",
+                        "largest of the tensor's entries, over its largest entry"),
+           result_field("highest_frequency", "number",
+                        "omega_max [rad/s]; base_highest_frequency too"),
+           result_field("stable_step", "number", "of explicit steps [s]; base_stable_step too"),
+           result_field("cost", "number", "springs over the stable step [1/s]; base_cost too"),
+           result_field("cost_ratio", "number", "cost / base_cost"),
+           result_field("zero_modes", "integer", "motions that no spring resists"),
+           result_field("expected_zero_modes", "integer", "how many there should be"),
+           result_field("tolerance", "number", "f1_10_error that was asked for"),
+           result_field("misses", "list of strings", "what of it was not reached; empty: nothing")},
       .example = "s.info(chain).levels[2].certificate.f1_10_error"});
 }
 
