@@ -55,6 +55,7 @@ TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint
                               const std::vector<std::vector<std::uint8_t>>& regions,
                               const CalibrateOptions& options) {
   TargetOptions of_part = options.targets;
+  of_part.threads = options.threads;
   of_part.progress = options.progress;
   of_part.anchored = nodes_of_part(part, anchored);
   for (std::size_t r = 0; r < regions.size(); ++r)

@@ -15,35 +15,12 @@ namespace {
 constexpr int kPasses = 3;
 /// By what the damping grows while the step is too long.
 constexpr double kRaise = 3;
-/// Limits hardly couple (neighbours share one of a dozen springs), so that a few iterations do.
-constexpr double kAccuracy = 1e-6;
-constexpr int kMostIterations = 200;
+/// How well the limits' part of a step is solved for, and after how many iterations what there is
+/// will do: misses are made up for exactly all the same, and limits bend more than is left then.
+constexpr double kAccuracy = 1e-7;
+constexpr int kMostIterations = 60;
 
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-/// What belongs to a limit lies together.
-using RowBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// (A + shift I) x = b for all columns at once by conjugate gradients, each by itself, going on
-/// from the x given.
-void solve_columns(const Rows& a, double shift, const RowBlock& b, RowBlock& x) {
-  const auto product = [&](const RowBlock& y) -> RowBlock { return a * y + shift * y; };
-  using Each = Eigen::Array<double, 1, Eigen::Dynamic>;
-  const Each small = kAccuracy * kAccuracy * b.colwise().squaredNorm().array();
-  RowBlock rest = b - product(x);
-  RowBlock direction = rest;
-  Each size = rest.colwise().squaredNorm();
-  for (int i = 0; i < kMostIterations && (size > small).any(); ++i) {
-    const RowBlock image = product(direction);
-    const Each energy = direction.cwiseProduct(image).colwise().sum();
-    const Each length = (energy > 0).select(size / energy, 0);
-    x += direction * length.matrix().asDiagonal();
-    rest -= image * length.matrix().asDiagonal();
-    const Each next = rest.colwise().squaredNorm();
-    const Each part = (size > 0).select(next / size, 0);
-    direction = rest + direction * part.matrix().asDiagonal();
-    size = next;
-  }
-}
 
 Rows chosen(const Rows& all, const std::vector<Eigen::Index>& active) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -55,42 +32,65 @@ Rows chosen(const Rows& all, const std::vector<Eigen::Index>& active) {
   return rows;
 }
 
-/// Solves for fixed active limits: with B = [J^T; w H] the step is B^T (B B^T + a I)^-1 [miss; -w
-/// excess], the limits eliminated first as there may be many and they are sparse.
+/// Solves for fixed active limits: with B = [J^T; w H] the step is B^T x of
+///   (B B^T + a I) x = [miss; -w excess],
+/// the dense rows eliminated first, the limits' part z solved for by conjugate gradients.
 class ActiveStep {
  public:
   ActiveStep(const StepProblem& problem, const std::vector<Eigen::Index>& active)
       : problem_(problem),
         limits_(problem.limit_weight * chosen(problem.limits, active)),
         product_(limits_ * Rows(limits_.transpose())),
-        right_(limits_.rows(), problem.miss.size() + 1),
-        eliminated_(RowBlock::Zero(right_.rows(), right_.cols())) {
-    right_.leftCols(problem.miss.size()) = limits_ * problem.slopes;
-    for (Eigen::Index r = 0; r < right_.rows(); ++r)
-      right_(r, problem.miss.size()) =
-          -problem.limit_weight * problem.excess[active[static_cast<std::size_t>(r)]];
+        coupling_(limits_ * problem.slopes),
+        over_(limits_.rows()) {
+    for (Eigen::Index r = 0; r < over_.size(); ++r)
+      over_[r] = -problem.limit_weight * problem.excess[active[static_cast<std::size_t>(r)]];
   }
 
-  Eigen::VectorXd solve(double damping) {
-    Eigen::MatrixXd schur = problem_.normal;
-    schur.diagonal().array() += damping;
-    if (right_.rows() == 0) return problem_.slopes * schur.ldlt().solve(problem_.miss);
-    solve_columns(product_, damping, right_, eliminated_);
-    const Eigen::Index rows = problem_.miss.size();
-    // The coupling w H J stands in the first columns, -w excess in the last.
-    const Eigen::MatrixXd reduced = transposed_product(right_.leftCols(rows), eliminated_);
-    schur -= reduced.leftCols(rows);
-    const Eigen::VectorXd y = schur.ldlt().solve(problem_.miss - reduced.col(rows));
-    const Eigen::VectorXd z = eliminated_.col(rows) - eliminated_.leftCols(rows) * y;
+  Eigen::VectorXd solve(double damping) const {
+    Eigen::MatrixXd normal = problem_.normal;
+    normal.diagonal().array() += damping;
+    const Eigen::LLT<Eigen::MatrixXd> dense(normal);
+    if (over_.size() == 0) return problem_.slopes * dense.solve(problem_.miss);
+    Eigen::MatrixXd along = coupling_;  // w H J L^-T, L L^T = J^T J + a I
+    solve_right_transposed(dense.matrixLLT(), along);
+    const Eigen::VectorXd z =
+        solve_limits(along, damping, over_ - along * dense.matrixL().solve(problem_.miss));
+    const Eigen::VectorXd y = dense.solve(problem_.miss - coupling_.transpose() * z);
     return problem_.slopes * y + limits_.transpose() * z;
   }
 
  private:
+  /// (product + damping I - along along^T) z = right.
+  Eigen::VectorXd solve_limits(const Eigen::MatrixXd& along, double damping,
+                               const Eigen::VectorXd& right) const {
+    const Eigen::VectorXd scale =
+        (product_.diagonal().array() + damping - along.rowwise().squaredNorm().array()).inverse();
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(right.size());
+    Eigen::VectorXd rest = right;
+    Eigen::VectorXd scaled = scale.cwiseProduct(rest);
+    Eigen::VectorXd direction = scaled;
+    double size = rest.dot(scaled);
+    const double small = kAccuracy * kAccuracy * size;
+    for (int i = 0; i < kMostIterations && size > small; ++i) {
+      Eigen::VectorXd image = product_ * direction + damping * direction;
+      image.noalias() -= along * (along.transpose() * direction).eval();
+      const double length = size / direction.dot(image);
+      z += length * direction;
+      rest -= length * image;
+      scaled = scale.cwiseProduct(rest);
+      const double next = rest.dot(scaled);
+      direction = scaled + next / size * direction;
+      size = next;
+    }
+    return z;
+  }
+
   const StepProblem& problem_;
-  Rows limits_;          // w H of the active ones
-  Rows product_;         // w^2 H H^T
-  RowBlock right_;       // [w H J, -w excess]
-  RowBlock eliminated_;  // (product + damping)^-1 of it, of the last damping
+  Rows limits_;               // w H of the active ones
+  Rows product_;              // w^2 H H^T
+  Eigen::MatrixXd coupling_;  // w H J
+  Eigen::VectorXd over_;      // -w excess
 };
 
 double rms(const Eigen::VectorXd& d) {
@@ -108,7 +108,7 @@ Eigen::VectorXd damped_step(const StepProblem& problem, double& damping) {
     std::vector<Eigen::Index> active;
     for (Eigen::Index r = 0; r < over.size(); ++r)
       if (over[r] > 0) active.push_back(r);
-    ActiveStep step(problem, active);
+    const ActiveStep step(problem, active);
     d = step.solve(damping * scale);
     for (; rms(d) > problem.most_rms; d = step.solve(damping * scale)) damping *= kRaise;
     const Eigen::VectorXd after = problem.excess + problem.limits * d;

@@ -15,9 +15,6 @@ constexpr double kSameFrequency = 0.01;
 /// Of squared frequencies: an order finer than what calibration is meant to reach.
 constexpr double kAccuracy = 1e-3;
 
-/// Of loads: leaves compliances right to a hundredth of a percent and better.
-constexpr double kBalance = 1e-8;
-
 /// Weights of the modes, where a smooth load has 1: the lowest ten carry most of a motion, and each
 /// kind of miss counts about as much at its tolerance.
 double mode_weight(std::size_t mode) {
@@ -126,7 +123,7 @@ void ElasticFit::add_modes(const MassSpringModel& level, const ElasticBody& body
 
 void ElasticFit::add_loads(const MassSpringModel& level, const ElasticBody& body,
                            Eigen::Index first, ElasticMisses& all) const {
-  const std::vector<StaticSolution> solved = solve_static(body, loads_, {.balance = kBalance});
+  const std::vector<StaticSolution> solved = solve_static(body, loads_, {.balance = kLoadBalance});
   const auto k = as_vector(level.stiffness).array();
   const auto m = as_vector(level.mass).array();
   for (std::size_t l = 0; l < loads_.size(); ++l) {

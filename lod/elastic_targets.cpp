@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "model/error.hpp"
 #include "model/local_loads.hpp"
 #include "model/modes.hpp"
+#include "model/parallel.hpp"
 #include "model/piece_loads.hpp"
 #include "model/stable_step.hpp"
 
@@ -69,17 +71,14 @@ std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOpt
   return asked;
 }
 
-std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadTarget>& asked,
-                                Progress* progress) {
-  Task task(progress, "solving for loads", asked.size());
+std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadTarget>& asked) {
   std::vector<double> all;
   for (std::size_t first = 0; first < asked.size(); first += kTogether) {
     const std::size_t last = std::min(asked.size(), first + kTogether);
     std::vector<StaticLoad> loads;
     for (std::size_t l = first; l < last; ++l) loads.push_back(asked[l].load);
-    for (const StaticSolution& solution : solve_static(body, loads))
+    for (const StaticSolution& solution : solve_static(body, loads, {.balance = kLoadBalance}))
       all.push_back(solution.compliance);
-    task.advance(last - first);
   }
   return all;
 }
@@ -112,11 +111,13 @@ BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& optio
   check(options);
   const ElasticBody body = held_body(base, options.anchored, options.progress);
   BaseAnswers answers;
-  if (options.modes > 0)
-    for (const Mode& mode :
-         lowest_modes(body, {.count = options.modes, .progress = options.progress}).modes)
-      answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
-  answers.compliance = compliances(body, asked_loads(base, options), options.progress);
+  run_jobs(2, options.threads, [&](std::uint64_t job, const std::function<bool()>&) {
+    if (job == 0 && options.modes > 0)
+      for (const Mode& mode :
+           lowest_modes(body, {.count = options.modes, .progress = options.progress}).modes)
+        answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
+    if (job == 1) answers.compliance = compliances(body, asked_loads(base, options));
+  });
   answers.highest_frequency = largest_frequency(base);
   return answers;
 }

@@ -57,8 +57,13 @@ struct TargetOptions {
   double mode_weight = 1, load_weight = 1;
   std::uint64_t seed = 1;                    ///< of the patches
   std::vector<std::uint32_t> anchored = {};  ///< nodes of the base that are held
+  std::uint32_t threads = 1;                 ///< up to two are used; the same bits for any number
   Progress* progress = nullptr;              ///< may be null
 };
+
+/// StaticOptions::balance of loads in a calibration: leaves compliances right to a hundredth of a
+/// percent and better.
+constexpr double kLoadBalance = 1e-8;
 
 /// What is measured of a base, which takes long where it is large.
 struct BaseAnswers {

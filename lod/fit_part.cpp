@@ -265,9 +265,8 @@ class PartFit {
 
 std::uint32_t fit_steps(const FitOptions& options, std::uint32_t nodes) {
   if (options.iterations > 0) return options.iterations;
-  constexpr double kMost = 90, kLeast = 10, kFew = 500, kFall = 0.85;
-  const double fewer = std::pow(std::min(1.0, kFew / nodes), kFall);
-  return static_cast<std::uint32_t>(std::max(kLeast, kMost * fewer));
+  constexpr double kMost = 90, kLeast = 10, kFew = 500;
+  return static_cast<std::uint32_t>(std::clamp(kMost * kFew / nodes, kLeast, kMost));
 }
 
 MassSpringModel fit_part(const MassSpringModel& level, const Groups& of_base,
