@@ -41,19 +41,35 @@ std::optional<Depth> depth_in(const SolidBox& box, std::array<std::int8_t, 3>& s
   return Depth{depth, side[static_cast<std::size_t>(axis)] * box.rotation.col(axis)};
 }
 
-Contact make_contact(const Obstacle& obstacle, std::uint32_t point, double area, const Depth& at,
-                     const Vec3& velocity) {
+// What the obstacles together may add to the stiffness of a point in one direction at most [N/m].
+double stiffness_of_point(const ContactPoints& points, std::uint32_t point,
+                          const std::vector<Obstacle>& obstacles) {
+  Mat3 planes = Mat3::Zero();  // sum of k n n^T
+  double boxes = 0;            // a box may push along any of its axes
+  for (const Obstacle& obstacle : obstacles) {
+    const double stiffness = points.stiffness(point, obstacle.stiffness);
+    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
+      planes += stiffness * plane->normal * plane->normal.transpose();
+    else
+      boxes += stiffness;
+  }
+  return boxes +
+         Eigen::SelfAdjointEigenSolver<Mat3>(planes, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
+Contact make_contact(const Obstacle& obstacle, const ContactPoints& points, std::uint32_t point,
+                     const Depth& at, const Vec3& velocity) {
   Contact contact;
   contact.point = point;
   contact.depth = at.depth;
-  contact.stiffness = obstacle.stiffness * area;
-  contact.damping = obstacle.damping;
+  contact.stiffness = points.stiffness(point, obstacle.stiffness);
+  contact.damping = points.damping(point, obstacle.stiffness, obstacle.damping);
   contact.friction = obstacle.friction;
   contact.normal = at.normal;
   const double elastic = contact.stiffness * at.depth;
   const double rate = -at.normal.dot(velocity);
   contact.normal_force =
-      std::max(0.0, elastic + contact.stiffness * obstacle.damping * rate);  // never pulling
+      std::max(0.0, elastic + contact.stiffness * contact.damping * rate);  // never pulling
   contact.damping_force = contact.normal_force - elastic;
   return contact;
 }
@@ -94,7 +110,7 @@ std::optional<Contact> ContactFinder::find_one(std::size_t obstacle, std::uint32
       plane != nullptr ? depth_in(*plane, x)
                        : depth_in(std::get<SolidBox>(thing.shape), sides_[obstacle][point], x);
   if (!depth) return std::nullopt;
-  return make_contact(thing, point, points_->area(point), *depth, v);
+  return make_contact(thing, *points_, point, *depth, v);
 }
 
 void add_normal_forces(const ContactPoints& points, const std::vector<Contact>& contacts,
@@ -130,20 +146,12 @@ double contact_energy(const std::vector<Contact>& contacts) {
 
 std::vector<double> contact_stiffness(const ContactPoints& points,
                                       const std::vector<Obstacle>& obstacles) {
-  Mat3 planes = Mat3::Zero();  // sum of kappa n n^T
-  double boxes = 0;            // a box may push along any of its axes
-  for (const Obstacle& obstacle : obstacles) {
-    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
-      planes += obstacle.stiffness * plane->normal * plane->normal.transpose();
-    else
-      boxes += obstacle.stiffness;
-  }
-  const double kappa =
-      boxes + Eigen::SelfAdjointEigenSolver<Mat3>(planes, Eigen::EigenvaluesOnly).eigenvalues()[2];
   std::vector<double> stiffness(points.node_count(), 0.0);
-  for (std::uint32_t p = 0; p < points.count(); ++p)
+  for (std::uint32_t p = 0; p < points.count(); ++p) {
+    const double most = points.reach(p) * stiffness_of_point(points, p, obstacles);
     for (const ContactPoints::Share& share : points.shares(p))
-      stiffness[share.node] += std::abs(share.weight) * points.reach(p) * kappa * points.area(p);
+      stiffness[share.node] += std::abs(share.weight) * most;
+  }
   return stiffness;
 }
 

@@ -29,6 +29,18 @@ class ContactPoints {
   std::uint32_t count() const { return static_cast<std::uint32_t>(area_.size()); }
   std::uint32_t node_count() const { return node_count_; }
   double area(std::size_t point) const { return area_[point]; }  ///< [m2]
+  /// Of its contact with an obstacle of stiffness kappa [N/m3], what the point gives by itself in a
+  /// row with it: kappa A / (1 + kappa A give) [N/m].
+  double stiffness(std::size_t point, double kappa) const {
+    const double bare = kappa * area_[point];
+    return bare / (1 + bare * give_[point]);
+  }
+  /// Damping time of that contact if the obstacle's is `damping` [s]: what gives is damped as the
+  /// springs of the nodes that carry the point are.
+  double damping(std::size_t point, double kappa, double damping) const {
+    const double given = stiffness(point, kappa) * give_[point];  // part of the depth [1]
+    return (1 - given) * damping + given * give_damping_[point];
+  }
   /// What an impulse at the point meets, 1 / sum (w_i^2 / m_i) [kg].
   double mass(std::size_t point) const { return mass_[point]; }
   /// sum |w_i| [1]: the point moves at most so much farther than any of its nodes.
@@ -57,13 +69,13 @@ class ContactPoints {
   }
 
  private:
-  void end_point(const MassSpringModel& model, double area, std::uint32_t number);
+  void end_point(const MassSpringModel& model, std::uint32_t number, double area, double give);
 
   std::uint32_t node_count_ = 0;
   bool skin_ = false;
   std::vector<std::uint32_t> start_{0};
   std::vector<Share> shares_;
-  std::vector<double> area_, mass_, reach_;
+  std::vector<double> area_, give_, give_damping_, mass_, reach_;
   std::vector<std::uint32_t> number_;
 };
 

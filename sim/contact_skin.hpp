@@ -15,6 +15,10 @@ struct ContactSkin {
   Binding of_nodes;                      ///< P rows; see lod/transfer.hpp
   std::vector<double> area;              ///< [m2] > 0, P
   std::vector<std::uint32_t> base_node;  ///< which of the base's they are, rising, P
+  /// How far the base's node gives way to a force out of its surface while its neighbours stay
+  /// [m/N], P. Merging took that from all nodes that are not their own group; the contact gives it
+  /// back, as a spring between point and obstacle.
+  std::vector<double> give;
 };
 
 /// Where the levels of a chain touch obstacles.

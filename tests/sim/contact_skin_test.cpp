@@ -13,6 +13,7 @@
 #include "sim/leapfrog.hpp"
 #include "sim/run.hpp"
 #include "tests/sim/side_by_side.hpp"
+#include "tests/support/models.hpp"
 
 using namespace springlod;
 using namespace springlod::bodies;
@@ -93,6 +94,32 @@ TEST_CASE("A level's skin carries every affine motion to the base's surface, are
   double wanted = 0;
   for (const double a : base.contact_area) wanted += a;
   CHECK(area == Approx(wanted));
+}
+
+TEST_CASE("What merging took from the base's nodes gives way in the contact of the skin") {
+  // Two nodes side by side on a third: a pair merged, one left alone.
+  MassSpringModel base = test::table_model({{0, 0, 0}, {1, 0, 0}, {0, 0, -1}}, {1, 3, 2},
+                                           {{0, 1, 100}, {0, 2, 300}, {1, 2, 200}});
+  base.contact_area = {0.1, 0.1, 0.1};
+  for (std::uint32_t s = 0; s < base.spring_count(); ++s)
+    base.damping[s] = 0.01 * base.stiffness[s];
+  LodChain chain;
+  chain.levels = {{base, identity_groups(3), ""}, {base, {{0, 0, 1}, 2}, ""}};
+  MassSpringModel& level = chain.levels[1].model;
+  level = test::table_model({{0.75, 0, 0}, {0, 0, -1}}, {4, 2}, {{0, 1, 500}});
+  level.damping[0] = 0.01 * 500;
+  const ContactSkin skin = contact_skin(chain, 1);
+  // Node 0 pulls along (1, 0, -3) / sqrt(10), where it has (100 + 9 * 300) / 10 N/m; of its freedom
+  // it lost 3/4, the rest is the pair's.
+  CHECK(skin.give[0] == Approx(0.75 / 280));
+  CHECK(skin.give[2] == 0);
+  const ContactPoints points(level, skin);
+  CHECK(points.stiffness(0, 1000) == Approx(1 / (1 / 100. + skin.give[0])));
+  CHECK(points.stiffness(2, 1000) == Approx(100));
+  const double given = points.stiffness(0, 1000) * skin.give[0];
+  CHECK(points.damping(0, 1000, 0.002) == Approx((1 - given) * 0.002 + given * 0.01));
+  CHECK(points.damping(2, 1000, 0.002) == 0.002);
+  for (const double give : contact_skin(chain, 0).give) CHECK(give == 0);
 }
 
 TEST_CASE("A force on the skin is the same force and torque on the nodes") {
@@ -275,6 +302,9 @@ TEST_CASE("A skin of another model or of no level is refused") {
   CHECK_THROWS_AS(run(chain.levels[2].model, scene, {.skin = skin_of(chain, 1)}), InputError);
   ContactSkin skin = contact_skin(chain, 1);
   skin.area[0] = 0;
+  CHECK_THROWS_AS(validate(skin, chain.levels[1].model.node_count()), InputError);
+  skin = contact_skin(chain, 1);
+  skin.give[0] = -1;
   CHECK_THROWS_AS(validate(skin, chain.levels[1].model.node_count()), InputError);
   skin = contact_skin(chain, 1);
   skin.base_node.pop_back();
