@@ -18,7 +18,7 @@ Ran with_ball(const std::string& script) {
         return (x - 0.35) ^ 2 + (y - 0.35) ^ 2 + (z - 0.35) ^ 2 < 0.12 and "rubber" or nil
       end,
       materials = {rubber = {young = "1 MPa", density = 1000, damping = 0.002}}})
-    local chain = s.simplify(ball, {levels = 2})
+    local chain = s.simplify(ball, {grouping = "compact", keep = {0.3, 0.1}})
     local drop = {duration = 0.4, throw = {position = {0, 0, 0.6}},
                   obstacles = {{plane = {0, 0, 1, 0}, friction = 0.5}}}
     local function touches(model, contact)
@@ -35,9 +35,9 @@ TEST_CASE("a level told to touch at the surface comes to the floor with its base
     print(touches(ball, "surface") == base, touches(chain[0], "surface") == base)
     for level = 1, 2 do
       local bare, skinned = touches(chain[level], "nodes"), touches(chain[level], "surface")
-      print(touches(chain[level]) == bare, math.abs(skinned - base) < 2e-3,
-        math.abs(bare - base) > 4e-3)
+      print(touches(chain[level]) == bare, math.abs(skinned - base) < 2e-3)
     end
+    print(touches(chain[2]) > base + 0.02) -- its lowest node lies well inside
     local far = {}
     for i, contact in ipairs{"nodes", "surface"} do
       far[i] = s.ensemble(chain[1], drop, {starts = 1, contact = contact})[1].spring_updates
@@ -46,7 +46,7 @@ TEST_CASE("a level told to touch at the surface comes to the floor with its base
     print(#s.compare(chain, drop, {contact = "surface"}):starts()))");
   CAPTURE(ran.err);
   CHECK(ran.exit_code == 0);
-  CHECK(ran.out == "true\ttrue\ntrue\ttrue\ttrue\ntrue\ttrue\ttrue\ntrue\n3\n");
+  CHECK(ran.out == "true\ttrue\ntrue\ttrue\ntrue\ttrue\ntrue\ntrue\n3\n");
 }
 
 TEST_CASE("a wrong place of contact is refused with the right ones") {
