@@ -66,6 +66,7 @@ int compare_binding(Call& call) {
   CompareOptions options;
   TableReader reader = call.options(3);
   read_start_options(call, reader, options);
+  options.contact = read_contact(reader);
   reader.read("error_window", options.error_window);
   reader.read("variant", options.variant);
   reader.finish();
@@ -87,6 +88,7 @@ int ensemble_binding(Call& call) {
   if (first == 0) reader.refuse("first", "1 or more");
   options.first_start = first - 1;
   read_start_options(call, reader, options);
+  options.run.skin = skin_of(*model, read_contact(reader));
   reader.finish();
   const std::vector<EnsembleRun> runs = run_ensemble(*model->model, *scenario, options);
   lua_State* L = call.lua();

@@ -42,6 +42,7 @@ int run_binding(Call& call) {
   options.threads = call.session().settings().threads;
   TableReader reader = call.options(3);
   read_run_options(call, reader, options);
+  options.skin = skin_of(*value->model, read_contact(reader));
   reader.read("threads", options.threads);
   bool quiet = false;
   reader.read("quiet", quiet);

@@ -39,6 +39,12 @@ std::vector<Parameter> run_parameters(const RunOptions& usual) {
            .help = "of the numbers symplectic_euler moves a body with; a step in single takes some "
                    "two thirds of the time, docs/precision.md tells what it costs",
            .choices = {"double", "single"}},
+          {.name = "contact",
+           .type = "one of",
+           .fallback = "\"nodes\"",
+           .help = "where a level touches obstacles: at its own nodes, which lie inside its base's "
+                   "surface, or at the base's \"surface\", which its nodes carry",
+           .choices = {"nodes", "surface"}},
           {.name = "sleep",
            .type = "number",
            .fallback = fmt::format("{}", usual.sleep),
@@ -67,6 +73,17 @@ void read_run_options(Call& call, TableReader& reader, RunOptions& options) {
   reader.read("frame_rate", options.frame_rate);
   reader.read("ledger", options.ledger);
   options.progress = call.progress();
+}
+
+ContactAt read_contact(TableReader& reader) {
+  ContactAt contact = ContactAt::nodes;
+  reader.choose("contact", contact, {{"nodes", ContactAt::nodes}, {"surface", ContactAt::surface}});
+  return contact;
+}
+
+std::shared_ptr<const ContactSkin> skin_of(const ModelValue& model, ContactAt contact) {
+  if (contact == ContactAt::nodes || !model.chain || model.level == 0) return nullptr;
+  return std::make_shared<ContactSkin>(contact_skin(model.chain->chain, model.level));
 }
 
 }  // namespace springlod

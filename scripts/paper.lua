@@ -34,7 +34,8 @@ parser:option("--speed-scale", "m/s of one of the paper's units of speed")
 parser:option("--ball-materials", "Lua file that returns core and shell"):argname("<file.lua>")
 parser:option("--rods-materials", "Lua file that returns rod and rubber"):argname("<file.lua>")
 parser:flag("--calibrated", "also levels of 45 and 20 % of the nodes fitted to the base: LOD-fit-b "
-  .. "(the paper's groups), LOD-fit-compact-b; goes on in a folder without them too")
+  .. "(the paper's groups), LOD-fit-compact-b, and LOD-fit-compact-s and -bs that touch at the "
+  .. "base's surface; goes on in a folder without them too")
 parser:flag("--no-figures", "tables only")
 local args = parser:parse()
 

@@ -142,10 +142,18 @@ void BackwardEuler::linearise(const std::vector<Vec3>& x) {
       for (int row = 0; row < 3; ++row) column[row] -= block(row, d);
     }
   }
-  for (const Contact& c : trial_contacts_) {
-    gradient_.segment<3>(row_of(c.node)) -= c.normal_force * c.normal;
-    if (c.normal_force > 0)
-      add_to_diagonal(c.node, c.implicit_stiffness(step_) * c.normal * c.normal.transpose());
+  for (const Contact& c : trial_contacts_) add_contact(c);
+}
+
+void BackwardEuler::add_contact(const Contact& contact) {
+  const double reach = points_.reach(contact.point);
+  for (const ContactPoints::Share& share : points_.shares(contact.point)) {
+    gradient_.segment<3>(row_of(share.node)) -=
+        share.weight * contact.normal_force * contact.normal;
+    if (contact.normal_force > 0)
+      add_to_diagonal(share.node, std::abs(share.weight) * reach *
+                                      contact.implicit_stiffness(step_) * contact.normal *
+                                      contact.normal.transpose());
   }
 }
 

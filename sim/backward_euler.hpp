@@ -43,6 +43,9 @@ class BackwardEuler final : public WholeStep {
   double energy(const std::vector<Vec3>& x);
   /// Its gradient into gradient_ and its matrix into matrix_, with trial_contacts_ of x.
   void linearise(const std::vector<Vec3>& x);
+  /// A point that several nodes carry joins these, in the matrix by a bound on the diagonal alone:
+  /// that keeps its pattern, and costs Newton's method some iterations.
+  void add_contact(const Contact& contact);
   void make_pattern();
   void add_to_diagonal(std::uint32_t node, const Mat3& block);
   /// Goes from x_next_ against the gradient; false if that brings nothing any more.

@@ -94,7 +94,10 @@ class Comparing {
     for (StartSlot& slot : slots_) slot.users = static_cast<std::uint32_t>(chain.levels.size());
     for (std::uint32_t level = 0; level < chain.levels.size(); ++level) {
       bindings_.push_back(base_from_level(chain, level));
-      plans_.push_back(plan_runs(chain.levels[level].model, scenario, options.run));
+      RunOptions& run = run_options_.emplace_back(options.run);
+      if (options.contact == ContactAt::surface && level > 0)
+        run.skin = std::make_shared<ContactSkin>(contact_skin(chain, level));
+      plans_.push_back(plan_runs(chain.levels[level].model, scenario, run));
       LevelRuns& runs = result_.levels.emplace_back();
       runs.level = level;
       runs.label = label_of(level, options.variant);
@@ -170,7 +173,7 @@ class Comparing {
     Scenario scenario = result_.scenario;
     scenario.start = jittered(scenario.start, base_center_, options_.jitter, options_.seed, start);
     RunProgress progress(options_.progress, stopped);
-    RunOptions run_options = options_.run;
+    RunOptions run_options = run_options_[level];
     run_options.progress = &progress;
     LevelRuns& runs = result_.levels[level];
     Trajectory trajectory =
@@ -191,8 +194,9 @@ class Comparing {
   const LodChain& chain_;
   const CompareOptions& options_;
   std::vector<StartSlot> slots_;
-  std::vector<Binding> bindings_;  // level 0 from each level
-  std::vector<RunPlan> plans_;     // by level
+  std::vector<Binding> bindings_;        // level 0 from each level
+  std::vector<RunOptions> run_options_;  // by level
+  std::vector<RunPlan> plans_;           // by level
   Vec3 base_center_;
   Comparison result_;
 };

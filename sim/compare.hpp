@@ -17,8 +17,9 @@ struct CompareOptions {
   double jitter = 0.02;  ///< relative, uniform, on speed and start height; the first start has none
   std::uint64_t seed = 1;
   std::uint32_t threads =
-      0;  ///< runs are spread over threads; 0: all cores. Never changes the result
-  RunOptions run = {};
+      0;                ///< runs are spread over threads; 0: all cores. Never changes the result
+  RunOptions run = {};  ///< of all levels; they have no skin in common
+  ContactAt contact = ContactAt::nodes;
   /// Errors are averaged from t = 0 to this long after the base's first contact [s].
   double error_window = 0.25;
   /// Goes into the labels of the levels: "hb" makes "LOD-hb-1"; empty: "LOD-1".

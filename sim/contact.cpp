@@ -12,75 +12,20 @@ std::int8_t side_of(double coordinate) {
   return coordinate < 0 ? -1 : 1;
 }
 
-Contact make_contact(const Obstacle& obstacle, std::uint32_t node, double area, double depth,
-                     const Vec3& normal, const Vec3& velocity) {
-  Contact contact;
-  contact.node = node;
-  contact.depth = depth;
-  contact.stiffness = obstacle.stiffness * area;
-  contact.damping = obstacle.damping;
-  contact.friction = obstacle.friction;
-  contact.normal = normal;
-  const double elastic = contact.stiffness * depth;
-  const double rate = -normal.dot(velocity);
-  contact.normal_force =
-      std::max(0.0, elastic + contact.stiffness * obstacle.damping * rate);  // never pulling
-  contact.damping_force = contact.normal_force - elastic;
-  return contact;
-}
+/// How deep a point is in an obstacle.
+struct Depth {
+  double depth = 0;  // [m]
+  Vec3 normal = Vec3::UnitZ();
+};
 
-}  // namespace
-
-ContactFinder::ContactFinder(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
-                             const std::vector<Vec3>& x)
-    : obstacles_(&obstacles), sides_(obstacles.size()) {
-  for (std::uint32_t i = 0; i < model.node_count(); ++i)
-    if (model.contact_area[i] > 0) {
-      node_.push_back(i);
-      area_.push_back(model.contact_area[i]);
-    }
-  for (std::size_t o = 0; o < obstacles.size(); ++o) {
-    if (!std::holds_alternative<SolidBox>(obstacles[o].shape)) continue;
-    sides_[o].resize(node_.size());
-    for (std::size_t n = 0; n < node_.size(); ++n) take_sides(o, n, x[node_[n]]);
-  }
-}
-
-void ContactFinder::take_sides(std::size_t obstacle, std::size_t number, const Vec3& x) {
-  const auto* box = std::get_if<SolidBox>(&(*obstacles_)[obstacle].shape);
-  if (box == nullptr) return;
-  const Vec3 local = box->local(x);
-  sides_[obstacle][number] = {side_of(local[0]), side_of(local[1]), side_of(local[2])};
-}
-
-void ContactFinder::find(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                         std::vector<Contact>& contacts) {
-  contacts.clear();
-  for (std::size_t o = 0; o < obstacles_->size(); ++o)
-    for (std::size_t n = 0; n < node_.size(); ++n)
-      if (const auto contact = find_one(o, n, x[node_[n]], v[node_[n]]))
-        contacts.push_back(*contact);
-}
-
-std::optional<Contact> ContactFinder::find_one(std::size_t obstacle, std::size_t number,
-                                               const Vec3& x, const Vec3& v) {
-  const Obstacle& thing = (*obstacles_)[obstacle];
-  if (const auto* plane = std::get_if<Plane>(&thing.shape))
-    return touch_plane(thing, *plane, number, x, v);
-  return touch_box(thing, std::get<SolidBox>(thing.shape), sides_[obstacle][number], number, x, v);
-}
-
-std::optional<Contact> ContactFinder::touch_plane(const Obstacle& obstacle, const Plane& plane,
-                                                  std::size_t number, const Vec3& x,
-                                                  const Vec3& v) const {
+std::optional<Depth> depth_in(const Plane& plane, const Vec3& x) {
   const double depth = plane.offset - plane.normal.dot(x);
   if (!(depth > 0)) return std::nullopt;
-  return make_contact(obstacle, node_[number], area_[number], depth, plane.normal, v);
+  return Depth{depth, plane.normal};
 }
 
-std::optional<Contact> ContactFinder::touch_box(const Obstacle& obstacle, const SolidBox& box,
-                                                Sides& side, std::size_t number, const Vec3& x,
-                                                const Vec3& v) const {
+std::optional<Depth> depth_in(const SolidBox& box, std::array<std::int8_t, 3>& side,
+                              const Vec3& x) {
   const Vec3 local = box.local(x);
   Eigen::Index axis = 0;
   const double depth =
@@ -93,12 +38,84 @@ std::optional<Contact> ContactFinder::touch_box(const Obstacle& obstacle, const 
     if (free_to_change) side[static_cast<std::size_t>(i)] = side_of(local[i]);
   }
   if (!(depth > 0)) return std::nullopt;
-  const Vec3 normal = side[static_cast<std::size_t>(axis)] * box.rotation.col(axis);
-  return make_contact(obstacle, node_[number], area_[number], depth, normal, v);
+  return Depth{depth, side[static_cast<std::size_t>(axis)] * box.rotation.col(axis)};
 }
 
-void add_normal_forces(const std::vector<Contact>& contacts, std::vector<Vec3>& force) {
-  for (const Contact& c : contacts) force[c.node] += c.normal_force * c.normal;
+// What the obstacles together may add to the stiffness of a point in one direction at most [N/m].
+double stiffness_of_point(const ContactPoints& points, std::uint32_t point,
+                          const std::vector<Obstacle>& obstacles) {
+  Mat3 planes = Mat3::Zero();  // sum of k n n^T
+  double boxes = 0;            // a box may push along any of its axes
+  for (const Obstacle& obstacle : obstacles) {
+    const double stiffness = points.stiffness(point, obstacle.stiffness);
+    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
+      planes += stiffness * plane->normal * plane->normal.transpose();
+    else
+      boxes += stiffness;
+  }
+  return boxes +
+         Eigen::SelfAdjointEigenSolver<Mat3>(planes, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
+Contact make_contact(const Obstacle& obstacle, const ContactPoints& points, std::uint32_t point,
+                     const Depth& at, const Vec3& velocity) {
+  Contact contact;
+  contact.point = point;
+  contact.depth = at.depth;
+  contact.stiffness = points.stiffness(point, obstacle.stiffness);
+  contact.damping = points.damping(point, obstacle.stiffness, obstacle.damping);
+  contact.friction = obstacle.friction;
+  contact.normal = at.normal;
+  const double elastic = contact.stiffness * at.depth;
+  const double rate = -at.normal.dot(velocity);
+  contact.normal_force =
+      std::max(0.0, elastic + contact.stiffness * contact.damping * rate);  // never pulling
+  contact.damping_force = contact.normal_force - elastic;
+  return contact;
+}
+
+}  // namespace
+
+ContactFinder::ContactFinder(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
+                             const std::vector<Vec3>& x)
+    : points_(&points), obstacles_(&obstacles), sides_(obstacles.size()) {
+  for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    if (!std::holds_alternative<SolidBox>(obstacles[o].shape)) continue;
+    sides_[o].resize(points.count());
+    for (std::uint32_t p = 0; p < points.count(); ++p) take_sides(o, p, points.carried(p, x));
+  }
+}
+
+void ContactFinder::take_sides(std::size_t obstacle, std::uint32_t point, const Vec3& x) {
+  const auto* box = std::get_if<SolidBox>(&(*obstacles_)[obstacle].shape);
+  if (box == nullptr) return;
+  const Vec3 local = box->local(x);
+  sides_[obstacle][point] = {side_of(local[0]), side_of(local[1]), side_of(local[2])};
+}
+
+void ContactFinder::find(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                         std::vector<Contact>& contacts) {
+  contacts.clear();
+  for (std::size_t o = 0; o < obstacles_->size(); ++o)
+    for (std::uint32_t p = 0; p < points_->count(); ++p)
+      if (const auto contact = find_one(o, p, points_->carried(p, x), points_->carried(p, v)))
+        contacts.push_back(*contact);
+}
+
+std::optional<Contact> ContactFinder::find_one(std::size_t obstacle, std::uint32_t point,
+                                               const Vec3& x, const Vec3& v) {
+  const Obstacle& thing = (*obstacles_)[obstacle];
+  const auto* plane = std::get_if<Plane>(&thing.shape);
+  const std::optional<Depth> depth =
+      plane != nullptr ? depth_in(*plane, x)
+                       : depth_in(std::get<SolidBox>(thing.shape), sides_[obstacle][point], x);
+  if (!depth) return std::nullopt;
+  return make_contact(thing, *points_, point, *depth, v);
+}
+
+void add_normal_forces(const ContactPoints& points, const std::vector<Contact>& contacts,
+                       std::vector<Vec3>& force) {
+  for (const Contact& c : contacts) points.add_force(c.point, c.normal_force * c.normal, force);
 }
 
 Vec3 friction_slip_change(const Contact& contact, double mass, double step, const Vec3& v) {
@@ -108,12 +125,17 @@ Vec3 friction_slip_change(const Contact& contact, double mass, double step, cons
   return most < speed ? Vec3(slip * (-most / speed)) : Vec3(-slip);
 }
 
-void apply_friction(const MassSpringModel& model, double step, std::vector<Contact>& contacts,
-                    std::vector<Vec3>& v) {
+double apply_friction(const ContactPoints& points, double step, std::vector<Contact>& contacts,
+                      std::vector<Vec3>& v) {
+  double taken = 0;
   for (Contact& c : contacts) {
-    c.slip_change = friction_slip_change(c, model.mass[c.node], step, v[c.node]);
-    v[c.node] += c.slip_change;
+    const double mass = points.mass(c.point);
+    const Vec3 before = points.carried(c.point, v);
+    c.slip_change = friction_slip_change(c, mass, step, before);
+    points.kick(c.point, c.slip_change, v);
+    taken -= mass * c.slip_change.dot(before + 0.5 * c.slip_change);
   }
+  return taken;
 }
 
 double contact_energy(const std::vector<Contact>& contacts) {
@@ -122,21 +144,14 @@ double contact_energy(const std::vector<Contact>& contacts) {
   return energy;
 }
 
-std::vector<double> contact_stiffness(const MassSpringModel& model,
+std::vector<double> contact_stiffness(const ContactPoints& points,
                                       const std::vector<Obstacle>& obstacles) {
-  Mat3 planes = Mat3::Zero();  // sum of kappa n n^T
-  double boxes = 0;            // a box may push along any of its axes
-  for (const Obstacle& obstacle : obstacles) {
-    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
-      planes += obstacle.stiffness * plane->normal * plane->normal.transpose();
-    else
-      boxes += obstacle.stiffness;
+  std::vector<double> stiffness(points.node_count(), 0.0);
+  for (std::uint32_t p = 0; p < points.count(); ++p) {
+    const double most = points.reach(p) * stiffness_of_point(points, p, obstacles);
+    for (const ContactPoints::Share& share : points.shares(p))
+      stiffness[share.node] += std::abs(share.weight) * most;
   }
-  const double kappa =
-      boxes + Eigen::SelfAdjointEigenSolver<Mat3>(planes, Eigen::EigenvaluesOnly).eigenvalues()[2];
-  std::vector<double> stiffness(model.node_count());
-  for (std::uint32_t i = 0; i < model.node_count(); ++i)
-    stiffness[i] = kappa * model.contact_area[i];
   return stiffness;
 }
 

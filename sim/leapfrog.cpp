@@ -9,7 +9,7 @@ namespace springlod {
 
 Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
                    double step, const StepperOptions& options)
-    : StepByStep(model, scenario, start, step),
+    : StepByStep(model, scenario, start, step, options.skin.get()),
       integrator_(options.integrator),
       with_ledger_(options.ledger),
       v_minus_(start.v),
@@ -33,14 +33,14 @@ void Leapfrog::find_forces(bool with_damping) {
     add_spring_forces<false>(*model_, x_, w, force_, damping_force_);
   }
   finder_.find(x_, w, contacts_);
-  add_normal_forces(contacts_, force_);
+  add_normal_forces(points_, contacts_, force_);
 }
 
 void Leapfrog::prepare() {
   find_forces(with_ledger_);
   for (std::size_t i = 0; i < x_.size(); ++i)
     v_plus_[i] = v_minus_[i] + step_ * (force_[i] / model_->mass[i] + gravity_);
-  apply_friction(*model_, step_, contacts_, v_plus_);
+  apply_friction(points_, step_, contacts_, v_plus_);
   if (with_ledger_ && n_ > 0) book_half_step(v_minus_, -step_);
 }
 
@@ -59,7 +59,8 @@ void Leapfrog::book_half_step(const std::vector<Vec3>& v, double to_neighbour) {
   for (std::size_t i = 0; i < x_.size(); ++i) damping -= damping_force_[i].dot(v[i]);
   losses_.lost_damping += 0.5 * step_ * damping;
   for (const Contact& c : contacts_)
-    book_contact(c, model_->mass[c.node], step_, v[c.node], to_neighbour, losses_);
+    book_contact(c, points_.mass(c.point), step_, points_.carried(c.point, v), to_neighbour,
+                 losses_);
 }
 
 std::vector<Vec3> Leapfrog::positions_at(double time) const {

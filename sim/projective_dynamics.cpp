@@ -1,5 +1,7 @@
 #include "sim/projective_dynamics.hpp"
 
+#include <cmath>
+
 namespace springlod {
 
 ProjectiveDynamics::ProjectiveDynamics(const MassSpringModel& model, const Scenario& scenario,
@@ -30,12 +32,20 @@ void ProjectiveDynamics::make_matrix() {
   matrix_.setFromTriplets(entries.begin(), entries.end());
 }
 
+// At least the node's part of the stiffness of a point that several carry: see contact_stiffness.
+double ProjectiveDynamics::held_by(const Contact& contact,
+                                   const ContactPoints::Share& share) const {
+  return std::abs(share.weight) * points_.reach(contact.point) * contact.implicit_stiffness(step_);
+}
+
 void ProjectiveDynamics::take_contacts() {
   for (std::size_t i = 0; i < x_.size(); ++i) v_next_[i] = (x_next_[i] - x_[i]) / step_;
   ContactFinder finder = finder_;  // a trial must not change from which side a node came
   finder.find(x_next_, v_next_, trial_contacts_);
   std::vector<double> touching(model_->node_count(), 0.0);
-  for (const Contact& c : trial_contacts_) touching[c.node] += c.implicit_stiffness(step_);
+  for (const Contact& c : trial_contacts_)
+    for (const ContactPoints::Share& share : points_.shares(c.point))
+      touching[share.node] += held_by(c, share);
   if (factorized_ && touching == touching_) return;
   touching_ = touching;
   Matrix with_contacts = matrix_;
@@ -56,8 +66,10 @@ void ProjectiveDynamics::global_step() {
   }
   // A node that touches is held where it is but for the way out of the obstacle.
   for (const Contact& c : trial_contacts_)
-    right_.row(c.node) +=
-        (c.implicit_stiffness(step_) * x_next_[c.node] + c.normal_force * c.normal).transpose();
+    for (const ContactPoints::Share& share : points_.shares(c.point))
+      right_.row(share.node) +=
+          (held_by(c, share) * x_next_[share.node] + share.weight * c.normal_force * c.normal)
+              .transpose();
   const Columns x = factor_.solve(right_);
   for (std::uint32_t i = 0; i < model_->node_count(); ++i) x_next_[i] = x.row(i);
   spring_updates_ += model_->spring_count();

@@ -28,6 +28,8 @@ class ProjectiveDynamics final : public WholeStep {
   void make_matrix();
   /// Makes contacts at x_next_ part of the matrix; factorizes it anew if they are others.
   void take_contacts();
+  /// Stiffness by which a contact holds one of the nodes that carry its point [N/m].
+  double held_by(const Contact& contact, const ContactPoints::Share& share) const;
   void global_step();
 
   ImplicitSprings springs_;

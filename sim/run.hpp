@@ -8,6 +8,7 @@
 
 #include "model/mass_spring.hpp"
 #include "model/progress.hpp"
+#include "sim/contact_skin.hpp"
 #include "sim/fast/fast_model.hpp"
 #include "sim/integrator.hpp"
 #include "sim/ledger.hpp"
@@ -36,6 +37,9 @@ struct RunOptions {
   Precision precision = Precision::double_precision;
   /// Threads for symplectic Euler; 0: as many as the body is worth. Never changes the result.
   std::uint32_t threads = 1;
+  /// Where the body touches obstacles; none: at its own nodes, those of a coarse level deep inside
+  /// the base's surface. See contact_skin.
+  std::shared_ptr<const ContactSkin> skin = nullptr;
   Progress* progress = nullptr;
 };
 

@@ -26,11 +26,12 @@ bool StepLimit::set_by_damping() const {
   return step < kDampingPart * without_damping;
 }
 
-StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario,
-                     Integrator integrator) {
+StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario, Integrator integrator,
+                     const ContactSkin* skin) {
   if (is_implicit(integrator)) return {};
   FrequencyOptions contact;
-  contact.ground_stiffness = contact_stiffness(model, scenario.obstacles);
+  contact.ground_stiffness = contact_stiffness(
+      skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model), scenario.obstacles);
   const double omega = largest_frequency(model, contact);
   if (!(omega > 0)) return {};
   double damping_time = largest_damping_time(model);
@@ -43,9 +44,9 @@ StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario,
           .ground_stiffness = std::move(contact.ground_stiffness)};
 }
 
-double predicted_step(const MassSpringModel& model, const Scenario& scenario,
-                      Integrator integrator) {
-  return step_limit(model, scenario, integrator).step;
+double predicted_step(const MassSpringModel& model, const Scenario& scenario, Integrator integrator,
+                      const ContactSkin* skin) {
+  return step_limit(model, scenario, integrator, skin).step;
 }
 
 }  // namespace springlod

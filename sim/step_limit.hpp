@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/mass_spring.hpp"
+#include "sim/contact_skin.hpp"
 #include "sim/integrator.hpp"
 #include "sim/scenario.hpp"
 
@@ -27,11 +28,14 @@ struct StepLimit {
 /// From the highest frequency of the model, with the contact stiffness of the nodes with an area
 /// added to the springs, and the largest damping time of springs and obstacles: see stable_step.
 /// Velocity Verlet counts damping twice (see Leapfrog), Runge-Kutta has its own limit.
+/// `skin`: where the body touches obstacles; null: at its nodes.
 StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario,
-                     Integrator integrator = Integrator::symplectic_euler);
+                     Integrator integrator = Integrator::symplectic_euler,
+                     const ContactSkin* skin = nullptr);
 
 /// step_limit(...).step [s].
 double predicted_step(const MassSpringModel& model, const Scenario& scenario,
-                      Integrator integrator = Integrator::symplectic_euler);
+                      Integrator integrator = Integrator::symplectic_euler,
+                      const ContactSkin* skin = nullptr);
 
 }  // namespace springlod

@@ -12,13 +12,14 @@
 namespace springlod {
 
 Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start,
-                 double step)
+                 double step, const ContactSkin* skin)
     : model_(&model),
       gravity_(scenario.gravity),
       step_(step),
       x_(start.x),
-      finder_(model, scenario.obstacles, start.x),
-      walls_(model, scenario.obstacles, start.x),
+      points_(skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model)),
+      finder_(points_, scenario.obstacles, start.x),
+      walls_(points_, scenario.obstacles, start.x),
       total_mass_(std::accumulate(model.mass.begin(), model.mass.end(), 0.0)),
       first_center_(center_of_mass()) {}
 

@@ -7,6 +7,7 @@
 
 #include "model/mass_spring.hpp"
 #include "sim/contact.hpp"
+#include "sim/contact_points.hpp"
 #include "sim/fast/fast_model.hpp"
 #include "sim/integrator.hpp"
 #include "sim/ledger.hpp"
@@ -59,7 +60,9 @@ class Stepper {
   double kinetic_after(std::uint32_t* fastest) const;
 
  protected:
-  Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start, double step);
+  /// `skin`: where the body touches obstacles; null: at its nodes.
+  Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
+          const ContactSkin* skin);
 
   double time_of(std::uint64_t n) const {
     return start_time_ + static_cast<double>(n - start_n_) * step_;
@@ -77,6 +80,7 @@ class Stepper {
   std::uint64_t start_n_ = 0;
   double start_time_ = 0;  // [s]
   std::vector<Vec3> x_;
+  ContactPoints points_;
   ContactFinder finder_;
   std::vector<Contact> contacts_;
   TunnelWatch walls_;
@@ -106,6 +110,8 @@ struct StepperOptions {
   std::uint32_t threads = 1;  ///< for symplectic Euler; never change the result
   /// The model laid out for `precision`, for many runs of it; made for this one if there is none.
   std::shared_ptr<const FastModel> layout = nullptr;
+  /// Where the body touches obstacles; none: at its nodes.
+  std::shared_ptr<const ContactSkin> skin = nullptr;
 };
 
 std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenario& scenario,

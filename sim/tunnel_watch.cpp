@@ -24,33 +24,32 @@ std::int8_t nearest_face(const Vec3& half_size, const Vec3& at) {
 
 }  // namespace
 
-TunnelWatch::TunnelWatch(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
-                         const std::vector<Vec3>& x) {
-  for (std::uint32_t i = 0; i < model.node_count(); ++i)
-    if (model.contact_area[i] > 0) node_.push_back(i);
+TunnelWatch::TunnelWatch(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
+                         const std::vector<Vec3>& x)
+    : points_(&points) {
   for (const Obstacle& obstacle : obstacles) {
     const auto* box = std::get_if<SolidBox>(&obstacle.shape);
     if (box == nullptr) continue;
     Wall& wall = walls_.emplace_back(Wall{obstacle.name, *box, {}});
-    for (const std::uint32_t node : node_)
-      wall.entry.push_back(nearest_face(box->half_size, box->local(x[node])));
+    for (std::uint32_t p = 0; p < points.count(); ++p)
+      wall.entry.push_back(nearest_face(box->half_size, box->local(points.carried(p, x))));
   }
   if (walls_.empty()) return;
-  for (const std::uint32_t node : node_) at_.push_back(x[node]);
+  for (std::uint32_t p = 0; p < points.count(); ++p) at_.push_back(points.carried(p, x));
 }
 
 void TunnelWatch::look(const std::vector<Vec3>& x, double time, double step) {
   for (std::size_t w = 0; w < walls_.size(); ++w)
-    for (std::size_t n = 0; n < node_.size(); ++n)
-      if (goes_through(w, n, at_[n], x[node_[n]]))
-        throw_tunnelled(w, n, at_[n], x[node_[n]], time, step);
-  for (std::size_t n = 0; n < at_.size(); ++n) at_[n] = x[node_[n]];
+    for (std::size_t p = 0; p < at_.size(); ++p)
+      if (goes_through(w, p, at_[p], points_->carried(p, x)))
+        throw_tunnelled(w, p, at_[p], points_->carried(p, x), time, step);
+  for (std::size_t p = 0; p < at_.size(); ++p) at_[p] = points_->carried(p, x);
 }
 
-bool TunnelWatch::goes_through(std::size_t wall, std::size_t number, const Vec3& from,
+bool TunnelWatch::goes_through(std::size_t wall, std::size_t point, const Vec3& from,
                                const Vec3& to) {
   const SolidBox& box = walls_[wall].box;
-  Face& entry = walls_[wall].entry[number];
+  Face& entry = walls_[wall].entry[point];
   const Pass way = pass(box.half_size, box.local(from), box.local(to));
   if (!way.hits) {
     entry = 0;
@@ -90,7 +89,7 @@ TunnelWatch::Pass TunnelWatch::pass(const Vec3& half_size, const Vec3& from, con
   return pass;
 }
 
-void TunnelWatch::throw_tunnelled(std::size_t wall, std::size_t number, const Vec3& from,
+void TunnelWatch::throw_tunnelled(std::size_t wall, std::size_t point, const Vec3& from,
                                   const Vec3& to, double time, double step) const {
   const SolidBox& box = walls_[wall].box;
   const Vec3 start = box.local(from);
@@ -107,10 +106,10 @@ void TunnelWatch::throw_tunnelled(std::size_t wall, std::size_t number, const Ve
                      "its contact is too soft to hold the body: give it more stiffness, or make it "
                      "thicker");
   throw TunnelError(
-      fmt::format("node {} went through obstacle \"{}\" by t = {:.6g} s: it moved {:.3g} m in a "
+      fmt::format("{} went through obstacle \"{}\" by t = {:.6g} s: it moved {:.3g} m in a "
                   "step of {:.3g} s, and the obstacle is {:.3g} m thick; {}",
-                  node_[number], walls_[wall].name, time, moved, step, thickness, advice),
-      node_[number], walls_[wall].name, time);
+                  points_->name(point), walls_[wall].name, time, moved, step, thickness, advice),
+      points_->number(point), walls_[wall].name, time);
 }
 
 }  // namespace springlod

@@ -5,34 +5,32 @@
 #include <string>
 #include <vector>
 
-#include "model/mass_spring.hpp"
+#include "sim/contact_points.hpp"
 #include "sim/scenario.hpp"
 
 namespace springlod {
 
-/// Follows the nodes with an area through the boxes of a scenario, step by step, whatever the
-/// scheme: a node that leaves a box by the face opposite to the one by which it came in, in one
+/// Follows the points of a body through the boxes of a scenario, step by step, whatever the
+/// scheme: a point that leaves a box by the face opposite to the one by which it came in, in one
 /// step or in many, has gone through. (Cutting a corner, in by one face and out by one beside it,
-/// happens at any step and is let pass.) A step costs one turn into the axes of each box a node;
+/// happens at any step and is let pass.) A step costs one turn into the axes of each box a point;
 /// nothing without boxes.
 class TunnelWatch {
  public:
-  /// `x`: the start positions.
-  TunnelWatch(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
+  /// `x`: the start positions of the nodes. The points must outlive the watch.
+  TunnelWatch(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
               const std::vector<Vec3>& x);
-  /// Positions at the end of the next step. Throws TunnelError for the first node that went
-  /// through.
+  /// Positions of the nodes at the end of the next step. Throws TunnelError for the first point
+  /// that went through.
   void look(const std::vector<Vec3>& x, double time, double step);
 
-  /// The same for one box and one of nodes(), from where it was to where it is: whether it went
-  /// through. A node that stays outside need not be looked at.
-  bool goes_through(std::size_t wall, std::size_t number, const Vec3& from, const Vec3& to);
-  [[noreturn]] void throw_tunnelled(std::size_t wall, std::size_t number, const Vec3& from,
+  /// The same for one box and one point, from where it was to where it is: whether it went
+  /// through. A point that stays outside need not be looked at.
+  bool goes_through(std::size_t wall, std::size_t point, const Vec3& from, const Vec3& to);
+  [[noreturn]] void throw_tunnelled(std::size_t wall, std::size_t point, const Vec3& from,
                                     const Vec3& to, double time, double step) const;
   std::size_t wall_count() const { return walls_.size(); }
   const SolidBox& wall(std::size_t number) const { return walls_[number].box; }
-  /// Those with an area, rising.
-  const std::vector<std::uint32_t>& nodes() const { return node_; }
 
  private:
   /// A face of a box: 1 to 3 for those at the positive end of its axes, -1 to -3 for the others.
@@ -50,7 +48,7 @@ class TunnelWatch {
   };
   static Pass pass(const Vec3& half_size, const Vec3& from, const Vec3& to);
 
-  std::vector<std::uint32_t> node_;
+  const ContactPoints* points_;
   std::vector<Vec3> at_;  // where they are [m]; nothing without walls
   std::vector<Wall> walls_;
 };

@@ -8,7 +8,7 @@ namespace springlod {
 
 WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, const State& start,
                      double step, const StepperOptions& options)
-    : StepByStep(model, scenario, start, step),
+    : StepByStep(model, scenario, start, step, options.skin.get()),
       with_ledger_(options.ledger),
       v_(start.v),
       x_next_(start.x),
@@ -23,7 +23,8 @@ void WholeStep::prepare() {
   add_friction();
   next_losses_.lost_damping = lost_damping_;
   for (const Contact& c : next_contacts_)
-    next_losses_.lost_contact -= step_ * c.damping_force * c.normal.dot(v_next_[c.node]);
+    next_losses_.lost_contact -=
+        step_ * c.damping_force * c.normal.dot(points_.carried(c.point, v_next_));
 }
 
 void WholeStep::finish_implicit(const ImplicitSprings& springs) {
@@ -32,13 +33,9 @@ void WholeStep::finish_implicit(const ImplicitSprings& springs) {
 }
 
 void WholeStep::add_friction() {
-  apply_friction(*model_, step_, next_contacts_, v_next_);
-  for (const Contact& c : next_contacts_) {
-    if (friction_moves_) x_next_[c.node] += step_ * c.slip_change;
-    // The kinetic energy before less that after.
-    next_losses_.lost_friction -=
-        model_->mass[c.node] * c.slip_change.dot(v_next_[c.node] - 0.5 * c.slip_change);
-  }
+  next_losses_.lost_friction += apply_friction(points_, step_, next_contacts_, v_next_);
+  if (!friction_moves_) return;
+  for (const Contact& c : next_contacts_) points_.kick(c.point, step_ * c.slip_change, x_next_);
 }
 
 void WholeStep::commit() {

@@ -37,13 +37,15 @@ void Xpbd::sweep_contacts() {
     const Contact& c = candidates_[i];
     // Depth less the part at which damping alone would hold, along the normal of the first find.
     const double stiffness = c.implicit_stiffness(step_);
-    const double depth = c.normal_force / stiffness - c.normal.dot(x_next_[c.node] - found_at_[i]);
+    const double depth =
+        c.normal_force / stiffness - c.normal.dot(points_.carried(c.point, x_next_) - found_at_[i]);
     const double compliance = 1 / (stiffness * step_ * step_);
+    const double inverse_mass = 1 / points_.mass(c.point);
     const double wanted =
-        (depth - compliance * contact_multiplier_[i]) / (inverse_mass_[c.node] + compliance);
+        (depth - compliance * contact_multiplier_[i]) / (inverse_mass + compliance);
     const double change = std::max(wanted, -contact_multiplier_[i]);  // it never pulls
     contact_multiplier_[i] += change;
-    x_next_[c.node] += inverse_mass_[c.node] * change * c.normal;
+    points_.kick(c.point, inverse_mass * change * c.normal, x_next_);
   }
 }
 
@@ -56,7 +58,7 @@ void Xpbd::solve() {
   }
   finder_.find(x_next_, v_next_, candidates_);
   found_at_.clear();
-  for (const Contact& c : candidates_) found_at_.push_back(x_next_[c.node]);
+  for (const Contact& c : candidates_) found_at_.push_back(points_.carried(c.point, x_next_));
   contact_multiplier_.assign(candidates_.size(), 0.0);
   for (std::uint32_t sweep = 0; sweep < sweeps_; ++sweep) {
     sweep_springs();

@@ -79,7 +79,8 @@ local function samples(one, settings)
   paper_runs.each_level(one, function(label, variant, level)
     paper_runs.by_seed(settings, function(seed)
       local function model() return paper_runs.chain(one.base, variant, seed)[level] end
-      add(("%s-seed-%d"):format(label, seed), label, model, {starts = settings.starts})
+      add(("%s-seed-%d"):format(label, seed), label, model,
+        {starts = settings.starts, contact = variant.contact})
     end)
   end)
   return list

@@ -18,8 +18,9 @@ local function kept_as(name, settings)
   return settings.calibrated and name .. "-calibrated" or name
 end
 
-local function positions_at(model, scene, time)
-  return s.run(model, cut(scene, time), {frame_rate = 0, ledger = false, quiet = true}).final.x
+local function positions_at(model, scene, time, contact)
+  return s.run(model, cut(scene, time),
+    {frame_rate = 0, ledger = false, quiet = true, contact = contact}).final.x
 end
 
 -- Mass-weighted RMS distance of a level's nodes from the centres of mass of their groups in the
@@ -59,7 +60,7 @@ function paper_studies.early_errors(cases, settings, store)
           return mean(paper_runs.by_seed(settings, function(seed)
             local chain = paper_runs.chain(one.base, variant, seed)
             return level_error(chain, level, base[i],
-              positions_at(chain[level], one.table, times[i]))
+              positions_at(chain[level], one.table, times[i], variant.contact))
           end))
         end
         rows[#rows + 1] = {
@@ -77,10 +78,11 @@ end
 function paper_studies.three_runs(cases, settings, store)
   local columns = {"speed", "model", "distance", "spread", "paper_distance", "paper_spread"}
   local safeties = {0.8, 0.7, 0.6}
-  local function row(one, label, model)
+  local function row(one, label, model, contact)
     local found = {}
     for i, safety in ipairs(safeties) do
-      found[i] = s.ensemble(model, one.scene, {starts = 1, safety = safety})[1].distance
+      found[i] = s.ensemble(model, one.scene,
+        {starts = 1, safety = safety, contact = contact})[1].distance
     end
     local theirs = paper_numbers.at(label, one.speed) or {}
     return {
@@ -94,7 +96,7 @@ function paper_studies.three_runs(cases, settings, store)
       rows[#rows + 1] = row(one, "base", one.base)
       paper_runs.each_level(one, function(label, variant, level)
         rows[#rows + 1] = row(one, label,
-          paper_runs.chain(one.base, variant, settings.seed)[level])
+          paper_runs.chain(one.base, variant, settings.seed)[level], variant.contact)
       end)
     end
     return rows
@@ -102,9 +104,10 @@ function paper_studies.three_runs(cases, settings, store)
 end
 
 -- Mechanical energy of each frame and the largest kinetic energy, of a run from the plain start.
-local function energies(model, scene, safety)
+local function energies(model, scene, options)
   local list, kinetic = {}, 0
-  local run = s.run(model, scene, {frame_rate = 60, safety = safety, quiet = true})
+  local run = s.run(model, scene,
+    {frame_rate = 60, quiet = true, safety = options.safety, contact = options.contact})
   for i, entry in ipairs(run.ledger) do
     list[i] = entry.kinetic + entry.elastic + entry.gravity + entry.contact
     kinetic = math.max(kinetic, entry.kinetic)
@@ -125,17 +128,19 @@ function paper_studies.energy(cases, settings, store)
   return store:rows(kept_as("energy", settings), columns, function()
     local rows = {}
     for _, one in ipairs(cases) do
-      local base, kinetic = energies(one.base, one.scene)
+      local base, kinetic = energies(one.base, one.scene, {})
       local function add(label, differences)
         rows[#rows + 1] = {
           case = one.name, model = label, energy_difference = mean(differences) / kinetic,
         }
       end
-      add("base at half the step", {largest_difference(base, energies(one.base, one.scene, 0.4))})
+      local at_half = energies(one.base, one.scene, {safety = 0.4})
+      add("base at half the step", {largest_difference(base, at_half)})
       paper_runs.each_level(one, function(label, variant, level)
         add(label, paper_runs.by_seed(settings, function(seed)
           local model = paper_runs.chain(one.base, variant, seed)[level]
-          return largest_difference(base, (energies(model, one.scene)))
+          return largest_difference(base,
+            (energies(model, one.scene, {contact = variant.contact})))
         end))
       end)
     end

@@ -9,12 +9,17 @@ local paper_variants = {
 }
 
 -- The paper's groups and compact ones, fitted. With weak borders, for what touches floor and wall
--- then stays where the surface was; about as many nodes as the paper's levels.
+-- then stays where the surface was, or (s) touching at the base's surface itself; about as many
+-- nodes as the paper's levels.
 paper_variants.calibrated = {
   {name = "fit-b", grouping = "standard", border = "weak", calibrate = "modes",
    keep = {0.45, 0.2}},
   {name = "fit-compact-b", grouping = "compact", border = "weak", calibrate = "modes",
    keep = {0.45, 0.2}},
+  {name = "fit-compact-s", grouping = "compact", border = "none", calibrate = "modes",
+   keep = {0.45, 0.2}, contact = "surface"},
+  {name = "fit-compact-bs", grouping = "compact", border = "weak", calibrate = "modes",
+   keep = {0.45, 0.2}, contact = "surface"},
 }
 
 -- `variants`, and the calibrated ones after them if the settings ask for them.

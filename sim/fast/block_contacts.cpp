@@ -4,36 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "sim/fast/regions.hpp"
+
 namespace springlod {
 namespace {
-
-/// World-axes bounds of a turned box.
-Box3 bounds_of(const SolidBox& box) {
-  const Vec3 reach = box.rotation.cwiseAbs() * box.half_size;
-  return {box.center - reach, box.center + reach};
-}
-
-/// Bounds of the part of the box that lies behind the plane.
-Box3 part_behind(const Plane& plane, const Box3& box) {
-  Vec3 least;  // of each term of normal . x
-  for (int axis = 0; axis < 3; ++axis)
-    least[axis] = plane.normal[axis] * (plane.normal[axis] > 0 ? box.min()[axis] : box.max()[axis]);
-  Box3 part = box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double normal = plane.normal[axis];
-    if (normal == 0) continue;
-    const double end = (plane.offset - (least.sum() - least[axis])) / normal;
-    if (normal > 0)
-      part.max()[axis] = std::min(part.max()[axis], end);
-    else
-      part.min()[axis] = std::max(part.min()[axis], end);
-  }
-  return least.sum() < plane.offset ? part : Box3();
-}
-
-Box3 moved(const Box3& box, const Vec3& way) {
-  return {box.min() + way, box.max() + way};
-}
 
 // Nodes without an area have no number.
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -44,10 +18,10 @@ constexpr double kRounding = 1e-6;
 
 }  // namespace
 
-BlockContacts::BlockContacts(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
+BlockContacts::BlockContacts(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
                              std::uint32_t block, std::vector<std::uint32_t> numbers,
                              FastBody& body, ContactFinder& finder, TunnelWatch& walls)
-    : model_(&model),
+    : points_(&points),
       obstacles_(&obstacles),
       block_(block),
       body_(&body),
@@ -55,17 +29,11 @@ BlockContacts::BlockContacts(const MassSpringModel& model, const std::vector<Obs
       walls_(&walls),
       numbers_(std::move(numbers)) {
   for (const std::uint32_t number : numbers_) {
-    const std::uint32_t index = body.place(finder.nodes()[number]).index;
+    const std::uint32_t index = place(number).index;
     if (number_of_.size() <= index) number_of_.resize(index + 1, kNone);
     number_of_[index] = number;
   }
   looked_at_.assign(obstacles.size(), std::vector<std::uint64_t>(number_of_.size(), 0));
-}
-
-Box3 BlockContacts::region(std::size_t obstacle, const Box3& bounds) const {
-  const Obstacle& thing = (*obstacles_)[obstacle];
-  if (const auto* plane = std::get_if<Plane>(&thing.shape)) return part_behind(*plane, bounds);
-  return bounds_of(std::get<SolidBox>(thing.shape)).intersection(bounds);
 }
 
 void BlockContacts::press(std::uint64_t n, const MovingFrame& frame, double step) {
@@ -74,7 +42,7 @@ void BlockContacts::press(std::uint64_t n, const MovingFrame& frame, double step
   const Box3& bounds = body_->bounds(block_);
   const Vec3 margin = Vec3::Constant(kRounding * bounds.sizes().maxCoeff());
   for (std::size_t o = 0; o < obstacles_->size(); ++o) {
-    const Box3 near = region(o, moved(bounds, frame.origin));
+    const Box3 near = region_touching((*obstacles_)[o], moved(bounds, frame.origin));
     if (near.isEmpty()) continue;
     found_.clear();
     body_->nodes_in(block_,
@@ -103,8 +71,8 @@ void BlockContacts::press_node(std::uint64_t n, std::size_t obstacle, std::uint3
 
 void BlockContacts::rub(const MovingFrame& frame, double kick, double step) {
   for (Contact& c : contacts_) {
-    const Place at = body_->place(c.node);
-    const double mass = model_->mass[c.node];
+    const Place at = place(c.point);
+    const double mass = points_->mass(c.point);
     const Vec3 kicked = velocity(c, frame) + kick / mass * body_->force(at);
     c.slip_change = friction_slip_change(c, mass, step, kicked);
     body_->add_force(at, mass / kick * c.slip_change);
@@ -119,7 +87,7 @@ void BlockContacts::watch(std::uint64_t n, const MovingFrame& before, const Movi
   for (std::size_t w = 0; w < walls_->wall_count(); ++w) {
     if (!bounds_of(walls_->wall(w)).intersects(swept)) continue;
     for (const std::uint32_t number : numbers_) {
-      const Place at = body_->place(walls_->nodes()[number]);
+      const Place at = place(number);
       const Vec3 to = after.origin + body_->x(at);
       const Vec3 from = to - step * (before.velocity + body_->v(at));
       if (!walls_->goes_through(w, number, from, to) || passage_) continue;
@@ -129,7 +97,7 @@ void BlockContacts::watch(std::uint64_t n, const MovingFrame& before, const Movi
 }
 
 Vec3 BlockContacts::velocity(const Contact& contact, const MovingFrame& frame) const {
-  return frame.velocity + body_->v(body_->place(contact.node));
+  return frame.velocity + body_->v(place(contact.point));
 }
 
 }  // namespace springlod

@@ -6,26 +6,18 @@
 
 #include "sim/contact.hpp"
 #include "sim/fast/fast_body.hpp"
+#include "sim/fast/passage.hpp"
 #include "sim/tunnel_watch.hpp"
 
 namespace springlod {
-
-/// A node that went through a wall.
-struct Passage {
-  std::uint64_t step = 0;    ///< number of the step at which it was behind it
-  std::size_t wall = 0;      ///< as TunnelWatch numbers them
-  std::size_t number = 0;    ///< among the nodes with an area
-  Vec3 from = Vec3::Zero();  ///< [m]
-  Vec3 to = Vec3::Zero();    ///< [m]
-};
 
 /// What the nodes of one block touch. An obstacle costs nothing while the block's bounds are clear
 /// of it.
 class BlockContacts {
  public:
-  /// `numbers`: of the block's nodes among those with an area. Finder and watch are those of the
-  /// whole body, which the blocks share; they and the body must outlive this.
-  BlockContacts(const MassSpringModel& model, const std::vector<Obstacle>& obstacles,
+  /// `points`: nodes with an area; `numbers`: which of them are the block's. Finder and watch are
+  /// those of the whole body, which the blocks share; all but the numbers must outlive this.
+  BlockContacts(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
                 std::uint32_t block, std::vector<std::uint32_t> numbers, FastBody& body,
                 ContactFinder& finder, TunnelWatch& walls);
 
@@ -50,18 +42,18 @@ class BlockContacts {
   Vec3 velocity(const Contact& contact, const MovingFrame& frame) const;
 
  private:
-  /// Where nodes of the block that touch the obstacle must be, all in world axes; may be empty.
-  Box3 region(std::size_t obstacle, const Box3& bounds) const;
   void press_node(std::uint64_t n, std::size_t obstacle, std::uint32_t index,
                   const MovingFrame& frame, double step);
 
-  const MassSpringModel* model_;
+  Place place(std::uint32_t point) const { return body_->place(points_->number(point)); }
+
+  const ContactPoints* points_;
   const std::vector<Obstacle>* obstacles_;
   std::uint32_t block_;
   FastBody* body_;
   ContactFinder* finder_;
   TunnelWatch* walls_;
-  std::vector<std::uint32_t> numbers_;                 // the block's nodes among those with an area
+  std::vector<std::uint32_t> numbers_;                 // which points are the block's
   std::vector<std::uint32_t> number_of_;               // by index in the block; kNone
   std::vector<std::vector<std::uint64_t>> looked_at_;  // by obstacle and index: last step, plus 1
   std::vector<std::uint32_t> found_;                   // indices, kept for their memory

@@ -36,7 +36,7 @@ void add_losses(const LedgerEntry& more, LedgerEntry& sum) {
 
 FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenario,
                            const State& start, double step, const StepperOptions& options)
-    : Stepper(model, scenario, start, step),
+    : Stepper(model, scenario, start, step, options.skin.get()),
       layout_(options.layout ? options.layout : make_fast_model(model, options.precision)),
       body_(layout_->new_body(options.ledger)),
       team_(team_size(options.threads, body_->block_count(), model.node_count())),
@@ -47,11 +47,14 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
       v_minus_(start.v),
       v_plus_(start.v) {
   std::vector<std::vector<std::uint32_t>> numbers(body_->block_count());
-  for (std::uint32_t number = 0; number < finder_.nodes().size(); ++number)
-    numbers[body_->place(finder_.nodes()[number]).block].push_back(number);
+  if (options.skin)
+    skin_.emplace(model, points_, scenario.obstacles, *body_, finder_, walls_);
+  else
+    for (std::uint32_t p = 0; p < points_.count(); ++p)
+      numbers[body_->place(points_.number(p)).block].push_back(p);
   for (std::uint32_t b = 0; b < body_->block_count(); ++b)
-    contacts_of_.emplace_back(model, scenario.obstacles, b, std::move(numbers[b]), *body_, finder_,
-                              walls_);
+    contacts_of_.emplace_back(points_, scenario.obstacles, b, std::move(numbers[b]), *body_,
+                              finder_, walls_);
 }
 
 void FastLeapfrog::prepare() {
@@ -106,7 +109,8 @@ void FastLeapfrog::finish_look() {
   gather_contacts();
   if (n_ != start_n_) return;
   for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
-  for (const Contact& c : contacts_) v_minus_[c.node] += c.slip_change;  // no part of a
+  for (const Contact& c : contacts_)
+    points_.kick(c.point, c.slip_change, v_minus_);  // no part of a
 }
 
 // Summed up block by block, so that it is the same whoever does which.
@@ -138,6 +142,7 @@ bool FastLeapfrog::change_step(double step) {
   start_n_ = n_;
   step_ = step;
   for (Losses& losses : losses_) losses.next = {};
+  skin_losses_.next = {};
   prepare();
   lost_to_new_steps_ += before - kinetic();
   return true;
@@ -152,7 +157,10 @@ MovingFrame FastLeapfrog::after(const Pass& pass, const MovingFrame& frame) cons
 
 MovingFrame FastLeapfrog::go(const std::vector<Pass>& passes, Share& share, MovingFrame frame) {
   for (const Pass& pass : passes) {
-    find_and_move(pass, frame, share);
+    if (skin_)
+      find_touch_and_move(pass, frame, share);
+    else
+      find_and_move(pass, frame, share);
     frame = after(pass, frame);
     share.member.meet();
   }
@@ -182,6 +190,39 @@ void FastLeapfrog::find_and_move(const Pass& pass, const MovingFrame& frame, Sha
   }
 }
 
+void FastLeapfrog::find_touch_and_move(const Pass& pass, const MovingFrame& frame,
+                                       const Share& share) {
+  if (pass.kick != 0) {
+    for (std::uint32_t b = share.first; b < share.end; ++b) body_->find_forces(b);
+    share.member.meet();
+    for (std::uint32_t b = share.first; b < share.end; ++b) body_->collect_forces(b);
+    share.member.meet();
+  }
+  const MovingFrame kicked{frame.origin, after(pass, frame).velocity};
+  if (share.member.number == 0) touch_with_skin(pass, frame, kicked);
+  share.member.meet();
+  for (std::uint32_t b = share.first; b < share.end; ++b) move_block(pass, frame, kicked, b);
+}
+
+void FastLeapfrog::touch_with_skin(const Pass& pass, const MovingFrame& frame,
+                                   const MovingFrame& kicked) {
+  skin_->act({.number = pass.number,
+              .frame = frame,
+              .kicked = kicked,
+              .kick = pass.kick,
+              .length = step_});
+  if (!with_ledger_) return;
+  if (pass.kick != 0)
+    for (std::size_t i = 0; i < skin_->now().size(); ++i) {
+      const Contact& c = skin_->now()[i];
+      const double mass = points_.mass(c.point);
+      if (pass.number > start_n_)
+        book_contact(c, mass, step_, skin_->velocities_before()[i], -step_, skin_losses_.until_now);
+      book_contact(c, mass, step_, skin_->velocities_after()[i], step_, skin_losses_.next);
+    }
+  if (pass.drift != 0) take_next(skin_losses_);
+}
+
 void FastLeapfrog::wait_for_others(std::uint32_t block, const Share& share) const {
   const FastBody::BlockRange needs = body_->needs(block);
   for (std::uint32_t b = needs.first; b <= needs.last; ++b)
@@ -198,13 +239,15 @@ void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame, st
     contacts.rub(kicked, pass.kick, step_);
   }
   contacts.leave();
-  if (with_ledger_) {
-    if (pass.kick != 0) kick_and_book(pass, frame, kicked, block);
-    if (pass.drift != 0) drift_and_book(pass, block);
-  } else {
-    body_->move(block, pass.kick, pass.drift);
-  }
+  move_block(pass, frame, kicked, block);
   if (pass.drift != 0) contacts.watch(pass.number + 1, kicked, next, step_);
+}
+
+void FastLeapfrog::move_block(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
+                              std::uint32_t block) {
+  if (!with_ledger_) return body_->move(block, pass.kick, pass.drift);
+  if (pass.kick != 0) kick_and_book(pass, frame, kicked, block);
+  if (pass.drift != 0) drift_and_book(pass, block);
 }
 
 void FastLeapfrog::kick_and_book(const Pass& pass, const MovingFrame& frame,
@@ -214,7 +257,7 @@ void FastLeapfrog::kick_and_book(const Pass& pass, const MovingFrame& frame,
   const auto book = [&](const MovingFrame& at, double step, LedgerEntry& entry) {
     entry.lost_damping -= 0.5 * step_ * body_->damping_power(block);
     for (const Contact& c : contacts.now())
-      book_contact(c, model_->mass[c.node], step_, contacts.velocity(c, at), step, entry);
+      book_contact(c, points_.mass(c.point), step_, contacts.velocity(c, at), step, entry);
   };
   if (pass.number > start_n_) book(frame, -step_, losses.until_now);
   body_->move(block, pass.kick, 0);
@@ -222,30 +265,36 @@ void FastLeapfrog::kick_and_book(const Pass& pass, const MovingFrame& frame,
 }
 
 void FastLeapfrog::drift_and_book(const Pass& pass, std::uint32_t block) {
-  add_losses(losses_[block].next, losses_[block].until_now);
-  losses_[block].next = {};
+  take_next(losses_[block]);
   body_->move(block, 0, pass.drift);
+}
+
+void FastLeapfrog::take_next(Losses& losses) {
+  add_losses(losses.next, losses.until_now);
+  losses.next = {};
 }
 
 void FastLeapfrog::gather_contacts() {
   contacts_.clear();
   std::optional<std::uint64_t> first;
-  for (const BlockContacts& block : contacts_of_) {
-    contacts_.insert(contacts_.end(), block.now().begin(), block.now().end());
-    const auto& step = block.first_step();
+  const auto gather = [&](const auto& part) {
+    contacts_.insert(contacts_.end(), part.now().begin(), part.now().end());
+    const auto& step = part.first_step();
     if (step && (!first || *step < *first)) first = step;
-  }
+  };
+  for (const BlockContacts& block : contacts_of_) gather(block);
+  if (skin_) gather(*skin_);
   if (first && !first_contact_) first_contact_ = time_of(*first);
 }
 
 void FastLeapfrog::throw_if_tunnelled() const {
   const Passage* earliest = nullptr;
-  for (const BlockContacts& block : contacts_of_) {
-    const auto& passage = block.passage();
-    if (!passage) continue;
-    const auto rank = [](const Passage& p) { return std::tuple(p.step, p.wall, p.number); };
-    if (earliest == nullptr || rank(*passage) < rank(*earliest)) earliest = &*passage;
-  }
+  const auto rank = [](const Passage& p) { return std::tuple(p.step, p.wall, p.number); };
+  const auto look_at = [&](const std::optional<Passage>& passage) {
+    if (passage && (earliest == nullptr || rank(*passage) < rank(*earliest))) earliest = &*passage;
+  };
+  for (const BlockContacts& block : contacts_of_) look_at(block.passage());
+  if (skin_) look_at(skin_->passage());
   if (earliest != nullptr)
     walls_.throw_tunnelled(earliest->wall, earliest->number, earliest->from, earliest->to,
                            time_of(earliest->step), step_);
@@ -274,6 +323,7 @@ double FastLeapfrog::kinetic() const {
 LedgerEntry FastLeapfrog::ledger_entry() const {
   LedgerEntry entry;
   for (const Losses& losses : losses_) add_losses(losses.until_now, entry);
+  add_losses(skin_losses_.until_now, entry);
   entry.lost_switch = lost_to_new_steps_;
   entry.time = time();
   entry.kinetic = kinetic();

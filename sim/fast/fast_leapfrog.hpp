@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "sim/fast/block_contacts.hpp"
 #include "sim/fast/fast_model.hpp"
+#include "sim/fast/skin_contacts.hpp"
 #include "sim/fast/step_team.hpp"
 #include "sim/stepper.hpp"
 
@@ -69,13 +71,19 @@ class FastLeapfrog final : public Stepper {
   MovingFrame look(Share& share, MovingFrame frame);
   MovingFrame take_new_frame(const Share& share);
   void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
+  /// The same for a body whose skin joins nodes of several blocks: blocks wait for it.
+  void find_touch_and_move(const Pass& pass, const MovingFrame& frame, const Share& share);
+  void touch_with_skin(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked);
   /// For the forces of the blocks of others that this one needs.
   void wait_for_others(std::uint32_t block, const Share& share) const;
 
   void kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block);
+  void move_block(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
+                  std::uint32_t block);
   void kick_and_book(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
                      std::uint32_t block);
   void drift_and_book(const Pass& pass, std::uint32_t block);
+  static void take_next(Losses& losses);
   MovingFrame after(const Pass& pass, const MovingFrame& frame) const;
   void finish_look();
   double kinetic() const;
@@ -88,10 +96,12 @@ class FastLeapfrog final : public Stepper {
   Milestones found_;  // kicks for which each block has found its forces
   bool with_ledger_;
   MovingFrame frame_;
-  std::vector<BlockContacts> contacts_of_;  // by block
-  std::vector<Losses> losses_;              // by block
-  std::vector<MovingFrame> sums_;           // over the nodes of each block
-  double lost_to_new_steps_ = 0;            // [J]
+  std::vector<BlockContacts> contacts_of_;  // by block; of no points if there is a skin
+  std::optional<SkinContacts> skin_;
+  std::vector<Losses> losses_;  // by block
+  Losses skin_losses_;
+  std::vector<MovingFrame> sums_;  // over the nodes of each block
+  double lost_to_new_steps_ = 0;   // [J]
   std::vector<Vec3> v_minus_, v_plus_;
 };
 

@@ -38,7 +38,8 @@ TEST_CASE("A node is pushed out by kappa times area times depth, damping never p
   std::vector<Obstacle> obstacles{bodies::floor(1e5, 0.3)};
   obstacles[0].damping = 0.01;
   const std::vector<Vec3> x{Vec3(0, 0, -0.005)};
-  ContactFinder finder(model, obstacles, x);
+  const ContactPoints points(model);
+  ContactFinder finder(points, obstacles, x);
   std::vector<Contact> contacts;
   const auto force_at = [&](double vz) {
     finder.find(x, {Vec3(1, 2, vz)}, contacts);
@@ -61,27 +62,28 @@ TEST_CASE("Friction slows a slip by at most mu f dt / m and never turns it round
   contact.normal_force = 20;
   contact.friction = 0.5;
   std::vector<Contact> contacts{contact};
+  const ContactPoints points(model);
   std::vector<Vec3> v{Vec3(3, 4, -7)};
-  apply_friction(model, 0.1, contacts, v);  // takes 0.5 * 20 * 0.1 / 1 = 1 of 5
+  apply_friction(points, 0.1, contacts, v);  // takes 0.5 * 20 * 0.1 / 1 = 1 of 5
   CHECK((v[0] - Vec3(2.4, 3.2, -7)).norm() < 1e-12);
-  apply_friction(model, 1, contacts, v);
+  apply_friction(points, 1, contacts, v);
   CHECK((v[0] - Vec3(0, 0, -7)).norm() < 1e-12);
-  apply_friction(model, 1, contacts, v);
+  apply_friction(points, 1, contacts, v);
   CHECK((v[0] - Vec3(0, 0, -7)).norm() < 1e-12);
 }
 
 TEST_CASE("Contact stiffness adds up only where obstacles push the same way") {
-  const auto model = one_node(0.5);
+  const ContactPoints points(one_node(0.5));
   Obstacle floor = bodies::floor(1e6, 0);
   Obstacle wall = bodies::floor(3e6, 0);
   wall.shape = Plane{Vec3::UnitX(), 0};
   Obstacle ceiling = bodies::floor(1e6, 0);
   ceiling.shape = Plane{-Vec3::UnitZ(), -5};
-  CHECK(contact_stiffness(model, {floor})[0] == Approx(0.5e6));
-  CHECK(contact_stiffness(model, {floor, wall})[0] == Approx(1.5e6));
-  CHECK(contact_stiffness(model, {floor, ceiling})[0] == Approx(1e6));
-  CHECK(contact_stiffness(model, {floor, box_obstacle({})})[0] == Approx(0.55e6));
-  CHECK(contact_stiffness(model, {})[0] == 0);
+  CHECK(contact_stiffness(points, {floor})[0] == Approx(0.5e6));
+  CHECK(contact_stiffness(points, {floor, wall})[0] == Approx(1.5e6));
+  CHECK(contact_stiffness(points, {floor, ceiling})[0] == Approx(1e6));
+  CHECK(contact_stiffness(points, {floor, box_obstacle({})})[0] == Approx(0.55e6));
+  CHECK(contact_stiffness(points, {})[0] == 0);
 }
 
 TEST_CASE("A node pressed past the middle of a thin box goes back where it came from") {
@@ -91,7 +93,8 @@ TEST_CASE("A node pressed past the middle of a thin box goes back where it came 
   const auto model = one_node(1);
   const std::vector<Obstacle> obstacles{box_obstacle(plate)};
   const Vec3 out = plate.rotation.col(2);
-  ContactFinder finder(model, obstacles, {0.02 * out});
+  const ContactPoints points(model);
+  ContactFinder finder(points, obstacles, {0.02 * out});
   std::vector<Contact> contacts;
   for (const double height : {0.011, 0.009, 0.003, -0.003, -0.009, -0.012}) {
     finder.find({height * out}, {Vec3::Zero()}, contacts);
@@ -101,7 +104,7 @@ TEST_CASE("A node pressed past the middle of a thin box goes back where it came 
     CHECK((contacts[0].normal - out).norm() < 1e-12);
   }
   // Seen from below the same plate pushes down.
-  ContactFinder from_below(model, obstacles, {-0.02 * out});
+  ContactFinder from_below(points, obstacles, {-0.02 * out});
   from_below.find({-0.003 * out}, {Vec3::Zero()}, contacts);
   REQUIRE(contacts.size() == 1);
   CHECK((contacts[0].normal + out).norm() < 1e-12);
@@ -114,7 +117,8 @@ TEST_CASE("The depth in a box never jumps while a node slides across its top and
   const std::vector<Obstacle> obstacles{box_obstacle(box)};
   const double step = 1e-3;
   Vec3 at(-0.45, -0.25, 0.21);
-  ContactFinder finder(model, obstacles, {at});
+  const ContactPoints points(model);
+  ContactFinder finder(points, obstacles, {at});
   std::vector<Contact> contacts;
   double before = 0;
   const auto go_on = [&] {

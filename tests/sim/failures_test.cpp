@@ -99,7 +99,8 @@ TEST_CASE("A way over the edge, a corner cut and a rest on top of a box are no t
   std::vector<Vec3> x = model.rest;
   const auto follow = [&](const std::vector<Vec3>& path) {
     x[0] = path.front();
-    TunnelWatch watch(model, {box}, x);
+    const ContactPoints points(model);
+    TunnelWatch watch(points, {box}, x);
     for (const Vec3& place : path) {
       x[0] = place;
       watch.look(x, 1, 0.1);

@@ -13,79 +13,12 @@
 #include "sim/leapfrog.hpp"
 #include "sim/run.hpp"
 #include "sim/step_limit.hpp"
-#include "tests/sim/bodies.hpp"
-#include "voxelize/lattice.hpp"
+#include "tests/sim/side_by_side.hpp"
 
 using namespace springlod;
+using namespace springlod::bodies;
 
 namespace {
-
-/// A block of cells of two materials with a bite taken out of it.
-MassSpringModel two_material_block(int side) {
-  MaterialGrid grid;
-  grid.cell = 0.01;
-  grid.materials = {Material{.name = "soft", .young = 1e5, .damping = 0.002},
-                    Material{.name = "hard", .young = 8e5, .damping = 0.001}};
-  for (int z = 0; z < side; ++z)
-    for (int y = 0; y < side + 1; ++y)
-      for (int x = 0; x < side + 3; ++x) {
-        if (x < 2 && y < 2) continue;
-        grid.cells.push_back({x, y, z});
-        grid.material.push_back(x > side / 2 ? 1 : 0);
-      }
-  return build_lattice(grid).model;
-}
-
-/// Falls onto a floor, slides into a turned block, spinning.
-Scenario rough_scene(const MassSpringModel& model) {
-  Scenario scene;
-  Obstacle floor = bodies::floor(2e6, 0.4);
-  floor.damping = 1e-4;
-  Obstacle block;
-  block.name = "block";
-  block.stiffness = 2e6;
-  block.friction = 0.3;
-  const Box3 box = bounds(model.rest);
-  std::get<Plane>(floor.shape).offset = box.min().z() - 1e-4;
-  block.shape = SolidBox{.center = box.center() + Vec3(0.55 * box.sizes().x() + 0.02, 0, 0),
-                         .half_size = {0.02, 0.2, 0.2},
-                         .rotation = Eigen::AngleAxisd(0.1, Vec3::UnitZ()).toRotationMatrix()};
-  scene.obstacles = {floor, block};
-  scene.start.velocity = {1.5, 0.2, -0.5};
-  scene.start.spin = {1, 3, -2};
-  return scene;
-}
-
-struct Outcome {
-  State state;
-  LedgerEntry ledger;
-  std::size_t contacts = 0;
-  std::optional<double> first_contact;
-};
-
-template <class Scheme>
-Outcome after(const MassSpringModel& model, const Scenario& scene, std::uint64_t steps,
-              const StepperOptions& options, std::uint64_t stride) {
-  const double step = 0.5 * predicted_step(model, scene);
-  Scheme body(model, scene, initial_state(model, scene.start), step, options);
-  body.prepare();
-  while (body.step_number() < steps) body.advance(std::min(stride, steps - body.step_number()));
-  return {body.state(), body.ledger_entry(), body.contacts().size(), body.first_contact()};
-}
-
-double largest_difference(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
-  double most = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) most = std::max(most, (p[i] - q[i]).norm());
-  return most;
-}
-
-void check_same_bits(const Outcome& p, const Outcome& q) {
-  CHECK(p.state.x == q.state.x);
-  CHECK(p.state.v == q.state.v);
-  CHECK(p.ledger.total() == q.ledger.total());
-  CHECK(p.contacts == q.contacts);
-  CHECK(p.first_contact == q.first_contact);
-}
 
 constexpr std::uint64_t kSteps = 300;
 

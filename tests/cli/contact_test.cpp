@@ -1,0 +1,56 @@
+// Where levels touch obstacles, as scripts say it.
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/program.hpp"
+
+using Catch::Matchers::Contains;
+using springlod::test::Ran;
+using springlod::test::springlod_run;
+
+namespace {
+
+Ran with_ball(const std::string& script) {
+  return springlod_run({"-e", R"(
+    local s = require "springlod"
+    local ball = s.lattice(s.grid{cell = "10 cm", size = {7, 7, 7},
+      fill = function(x, y, z)
+        return (x - 0.35) ^ 2 + (y - 0.35) ^ 2 + (z - 0.35) ^ 2 < 0.12 and "rubber" or nil
+      end,
+      materials = {rubber = {young = "1 MPa", density = 1000, damping = 0.002}}})
+    local chain = s.simplify(ball, {grouping = "compact", keep = {0.3, 0.1}})
+    local drop = {duration = 0.4, throw = {position = {0, 0, 0.6}},
+                  obstacles = {{plane = {0, 0, 1, 0}, friction = 0.5}}}
+    local function touches(model, contact)
+      return s.run(model, drop, {contact = contact, quiet = true}).first_contact
+    end
+  )" + script});
+}
+
+}  // namespace
+
+TEST_CASE("a level told to touch at the surface comes to the floor with its base") {
+  const Ran ran = with_ball(R"(
+    local base = touches(ball)
+    print(touches(ball, "surface") == base, touches(chain[0], "surface") == base)
+    for level = 1, 2 do
+      local bare, skinned = touches(chain[level], "nodes"), touches(chain[level], "surface")
+      print(touches(chain[level]) == bare, math.abs(skinned - base) < 2e-3)
+    end
+    print(touches(chain[2]) > base + 0.02) -- its lowest node lies well inside
+    local far = {}
+    for i, contact in ipairs{"nodes", "surface"} do
+      far[i] = s.ensemble(chain[1], drop, {starts = 1, contact = contact})[1].spring_updates
+    end
+    print(far[1] ~= far[2])
+    print(#s.compare(chain, drop, {contact = "surface"}):starts()))");
+  CAPTURE(ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK(ran.out == "true\ttrue\ntrue\ttrue\ntrue\ttrue\ntrue\ntrue\n3\n");
+}
+
+TEST_CASE("a wrong place of contact is refused with the right ones") {
+  const Ran ran = with_ball(R"(touches(chain[1], "skin"))");
+  CHECK(ran.exit_code != 0);
+  CHECK_THAT(ran.err, Contains("contact") && Contains("nodes") && Contains("surface"));
+}
