@@ -103,7 +103,7 @@ std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions
   pack(all, base_part);
   all.add(options.modes);
   all.add(options.smooth_loads);
-  all.add(options.patches);
+  all.add(patch_count(options, base_part.node_count()));
   all.add(options.seed);
   all.add(options.anchored);
   for (const TargetRegion& region : options.regions) {

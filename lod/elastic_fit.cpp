@@ -12,7 +12,7 @@ namespace {
 
 /// Squared frequencies of the base nearer than this count as one.
 constexpr double kSameFrequency = 0.01;
-/// Of squared frequencies: an order finer than what calibration is meant to reach.
+/// Of squared frequencies, as a bound; what they really miss by is about the square of it.
 constexpr double kAccuracy = 1e-3;
 
 /// Weights of the modes, where a smooth load has 1: the lowest ten carry most of a motion, and each

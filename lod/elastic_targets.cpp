@@ -62,9 +62,10 @@ std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOpt
     ask(LoadKind::smooth, 1, smooth_loads(base));
     ask(LoadKind::piece, options.piece_weight, piece_loads(base));
   }
-  if (options.patches > 0 && border_count(base) > 0)
+  const std::uint32_t patches = patch_count(options, base.node_count());
+  if (patches > 0 && border_count(base) > 0)
     ask(LoadKind::patch, options.patch_weight,
-        patch_pairs(base, {.count = options.patches, .seed = options.seed}));
+        patch_pairs(base, {.count = patches, .seed = options.seed}));
   for (std::size_t r = 0; r < options.regions.size(); ++r)
     ask(LoadKind::region, options.regions[r].weight,
         region_loads(base, options.regions[r], options, r + 1));
@@ -105,6 +106,12 @@ std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const Targ
   for (const std::uint32_t node : region.nodes)
     if (base.border.at(node) != 0 && held[node] == 0) nodes.push_back(node);
   return nodes;
+}
+
+std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes) {
+  if (options.patches) return *options.patches;
+  constexpr double kMost = 150, kLeast = 60, kFew = 2000;
+  return static_cast<std::uint32_t>(std::clamp(kMost * std::sqrt(kFew / nodes), kLeast, kMost));
 }
 
 BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "model/chain.hpp"
@@ -50,7 +51,8 @@ struct TargetOptions {
   double piece_weight = 0.3;  ///< of each of the latter, where one of the nine has 1
   /// Pairs of opposed loads on patches of the surface, see patch_pairs: without them what is not
   /// fitted gets worse than it was.
-  std::uint32_t patches = 150;
+  /// None named: see patch_count.
+  std::optional<std::uint32_t> patches = {};
   double patch_weight = 0.2;
   std::vector<TargetRegion> regions = {};
   /// How much modes and static loads of every kind count, over what they usually do.
@@ -60,6 +62,10 @@ struct TargetOptions {
   std::uint32_t threads = 1;                 ///< up to two are used; the same bits for any number
   Progress* progress = nullptr;              ///< may be null
 };
+
+/// Pairs of patches for a base of so many nodes: 150, and fewer for more than 2000 nodes, which a
+/// fit does not bend for the loads of some patches as those of a small body, down to 60.
+std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes);
 
 /// StaticOptions::balance of loads in a calibration: leaves compliances right to a hundredth of a
 /// percent and better.

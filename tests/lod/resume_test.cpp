@@ -29,8 +29,8 @@ namespace {
 /// Stops the calibration when it goes on for so many times, and remembers what it was told.
 class Watcher : public Progress {
  public:
-  explicit Watcher(std::uint64_t steps = std::numeric_limits<std::uint64_t>::max())
-      : left_(steps) {}
+  explicit Watcher(std::uint64_t stop_after = std::numeric_limits<std::uint64_t>::max())
+      : left_(stop_after) {}
 
   void begin(std::string_view task, std::uint64_t /*total*/) override { tasks.emplace_back(task); }
   void advance(std::uint64_t count) override {
@@ -122,13 +122,13 @@ TEST_CASE("What is measured of the base, and levels that are finished, are not m
   const TemporaryFolder folder;
   Watcher first(9);
   CHECK_THROWS_AS(calibrated(options_with(folder / "store", &first)), InterruptedError);
-  CHECK(std::count(first.tasks.begin(), first.tasks.end(), "solving for loads") == 1);
+  CHECK(std::count(first.tasks.begin(), first.tasks.end(), "iterating for modes") == 1);
   CHECK_THAT(first.last_detail, Contains("level 1, step 10: f1..10 off by"));
 
   Watcher second;
   const LodChain whole = calibrated(options_with(folder / "store", &second));
   CHECK_THAT(second.said, Contains("goes on from what is kept in"));
-  CHECK(std::count(second.tasks.begin(), second.tasks.end(), "solving for loads") == 0);
+  CHECK(std::count(second.tasks.begin(), second.tasks.end(), "iterating for modes") == 0);
 
   Watcher third;
   CHECK(same_bits(calibrated(options_with(folder / "store", &third)), whole));
@@ -185,6 +185,7 @@ TEST_CASE("A fit state reads back as it was kept") {
                  .damping = 1e-3,
                  .tighten = 0.9,
                  .now = {Eigen::VectorXd::LinSpaced(5, 0, 1), {1, 2, 3}},
+                 .best = {},
                  .best_frequency = 12};
   for (const bool good : {false, true}) {
     if (good) state.best = FitPoint{Eigen::VectorXd::LinSpaced(5, 1, 2), {3, 2, 1}};
