@@ -6,6 +6,7 @@ local command = require "lib.command"
 local bodies = require "lib.accuracy_bodies"
 local intervals = require "lib.intervals"
 local timed_run = require "lib.timed_run"
+local trade_off = require "lib.trade_off"
 
 local function names_of(list)
   local names = {}
@@ -39,10 +40,13 @@ local function some_of(option, list)
 end
 some_of("--bodies", bodies)
 some_of("--methods", methods)
+parser:flag("--trade-off", "levels of 80 % to 10 % of the nodes of compact groups, plain and "
+  .. "calibrated, and a chart, trade-off.svg and .png: errors against saved cost")
 parser:flag("--quick", "one seed of one small body: some seconds")
 local args = parser:parse()
 
-local keep = {0.45, 0.2}
+local keep = args.trade_off and trade_off.keep or {0.45, 0.2}
+if args.trade_off then args.methods = trade_off.methods end
 local seeds = args.quick and 1 or args.seeds
 if args.quick then args.bodies = {"sphere"} end
 
@@ -186,6 +190,20 @@ local function wanted(list, one)
   return false
 end
 
+-- The column of a measure, by its name.
+local function place_of(name)
+  for i, measure in ipairs(measures) do
+    if measure[1] == name then return i end
+  end
+end
+
+local function draw_trade_off()
+  trade_off.chart(args.folder .. "/trade-off", function(level, method, measure)
+    local sample = samples[level .. " " .. method]
+    return sample and (summary(sample))[place_of(measure)]
+  end)
+end
+
 local ok, failure = command.try(function()
   for _, body in ipairs(bodies) do
     if wanted(args.bodies, body) then
@@ -207,6 +225,7 @@ local ok, failure = command.try(function()
   local all = summary_rows()
   s.csv(args.folder .. "/methods.csv", all, {columns = method_columns})
   show(all)
+  if args.trade_off then draw_trade_off() end
 end)
 if not ok then command.fail("accuracy: %s", failure) end
 s.say("wrote " .. args.folder)

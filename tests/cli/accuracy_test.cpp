@@ -73,3 +73,14 @@ TEST_CASE("springlod accuracy measures methods side by side") {
   CHECK(nothing.exit_code == 2);
   CHECK_THAT(nothing.err, Contains("must be one of sphere, rods"));
 }
+
+TEST_CASE("springlod accuracy charts errors of smaller and smaller levels against their cost") {
+  const Scratch scratch;
+  const std::string folder = (scratch / "accuracy").string();
+  const Ran ran = springlod_run({"accuracy", folder, "--trade-off", "--quick", "-q"});
+  CAPTURE(ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(slurp(scratch / "accuracy" / "levels.csv"),
+             Contains("sphere,compact calibrated,1,6,28"));
+  CHECK_THAT(slurp(scratch / "accuracy" / "trade-off.svg"), Contains("held-out loads, calibrated"));
+}
