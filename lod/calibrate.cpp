@@ -11,6 +11,7 @@
 #include "lod/calibration_store.hpp"
 #include "lod/long_springs.hpp"
 #include "lod/second_moments.hpp"
+#include "model/anchors.hpp"
 #include "model/error.hpp"
 #include "model/parallel.hpp"
 #include "model/parts.hpp"
@@ -24,14 +25,6 @@ struct PartTargets {
   ElasticTargets targets;
 };
 
-/// 1 for each of the nodes.
-std::vector<std::uint8_t> node_flags(const MassSpringModel& model,
-                                     const std::vector<std::uint32_t>& nodes) {
-  std::vector<std::uint8_t> flags(model.node_count(), 0);
-  for (const std::uint32_t node : nodes) flags.at(node) = 1;
-  return flags;
-}
-
 /// The nodes of a part among some of the model's, as the part numbers them.
 std::vector<std::uint32_t> nodes_of_part(const ModelPart& part,
                                          const std::vector<std::uint8_t>& chosen) {
@@ -42,12 +35,18 @@ std::vector<std::uint32_t> nodes_of_part(const ModelPart& part,
 }
 
 void require_surface(const MassSpringModel& base, const TargetOptions& options) {
-  for (std::size_t r = 0; r < options.regions.size(); ++r)
+  for (std::size_t r = 0; r < options.regions.size(); ++r) {
+    for (const std::uint32_t node : options.regions[r].nodes)
+      if (node >= base.node_count())
+        throw InputError(
+            fmt::format("calibration: region {} names node {}; there are {}, counted from 0", r + 1,
+                        node, base.node_count()));
     if (movable_nodes(base, options.regions[r], options.anchored).empty())
       throw InputError(
           fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
                       "free to move; name nodes of the surface, beside the anchored ones",
                       options.regions[r].nodes.size(), r + 1));
+  }
 }
 
 /// The options for a part of the base: its own anchored nodes and regions.
@@ -76,10 +75,10 @@ BaseAnswers answers_of(const MassSpringModel& part, std::size_t number,
 std::vector<PartTargets> measure_parts(const MassSpringModel& base, const CalibrateOptions& options,
                                        const CalibrationStore* store) {
   require_surface(base, options.targets);
-  const std::vector<std::uint8_t> anchored = node_flags(base, options.targets.anchored);
+  const std::vector<std::uint8_t> anchored = anchor_flags(base, options.targets.anchored);
   std::vector<std::vector<std::uint8_t>> regions;
   for (const TargetRegion& region : options.targets.regions)
-    regions.push_back(node_flags(base, region.nodes));
+    regions.push_back(anchor_flags(base, region.nodes));
   std::vector<PartTargets> all;
   for (ModelPart& part : split_parts(base, connected_components(base))) {
     const TargetOptions of_part = options_of_part(part, anchored, regions, options);
@@ -182,7 +181,10 @@ class Calibrator {
       const PartTargets& of_base = base_[p];
       const std::uint32_t first = level.of_base.of[of_base.part.nodes.front()];
       const ModelPart& part = parts[components.of_node[first]];
-      if (part.springs.empty()) continue;
+      if (part.springs.empty()) {
+        task.advance(steps_of(number));
+        continue;
+      }
       const Groups groups = groups_of_part(of_base.part, part, level.of_base);
       write_back(part, fit(number, p, part.model, groups, stopped, task), level.model);
     }

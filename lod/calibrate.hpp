@@ -24,7 +24,9 @@ struct CalibrateOptions {
   /// Folder that keeps what was found so far (CalibrationStore): a calibration that was stopped
   /// goes on from there when it is made again, to the same bits. Empty: nothing is kept.
   std::filesystem::path store{};
-  std::uint32_t threads = 1;     ///< 0: all cores
+  /// Levels that are fitted at a time, 0: as many as cores; of more than one each may take a second
+  /// thread, for the levels differ much in size.
+  std::uint32_t threads = 1;
   Progress* progress = nullptr;  ///< may be null
 };
 

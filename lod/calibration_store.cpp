@@ -17,7 +17,7 @@ namespace {
 
 /// To be raised whenever a fit would go another way from the same state, or a file look otherwise:
 /// what an older program kept is then not used.
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
 constexpr std::size_t kChecksumSize = 16;  // of content_hash [bytes]
 
 const char* const kAbout =

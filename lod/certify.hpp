@@ -24,7 +24,8 @@ struct CertifyOptions {
 /// nodes and are summed over the groups. Misses of the tolerance are those of fit_part: the other
 /// modes may be off by four times as much, smooth loads by eight times, held-out ones by twelve;
 /// mechanisms, and masses that moved, never.
-/// The same for any number of threads. Throws InputError where elastic_body does.
+/// The same for any number of threads. Throws InputError where elastic_body does, and if
+/// no node of `within` lies on the surface.
 void certify(LodChain& chain, const CertifyOptions& options = {});
 
 }  // namespace springlod

@@ -13,8 +13,11 @@ ComparedLoads compared_loads(const MassSpringModel& base, const ComparedLoadOpti
   // The other bits of the seed: patches that are fitted have the seed itself.
   const LocalLoadOptions local{
       .count = options.count, .seed = ~options.seed, .within = options.within};
-  for (auto kind : {pinches(base, local), pushes(base, local)})
+  for (auto kind : {pinches(base, local), pushes(base, local)}) {
+    if (!options.within.empty())
+      for (StaticLoad& load : kind) load.name += " within the chosen nodes";
     std::move(kind.begin(), kind.end(), std::back_inserter(loads.all));
+  }
   return loads;
 }
 

@@ -35,6 +35,10 @@ void check(const TargetOptions& options) {
   check_weight("load_weight", options.load_weight);
   for (const TargetRegion& region : options.regions)
     check_weight("weight of a region", region.weight);
+  const bool any_load = options.smooth_loads || options.patches != 0U || !options.regions.empty();
+  if ((options.modes == 0 || options.mode_weight == 0) && (!any_load || options.load_weight == 0))
+    throw InputError(
+        "calibration: nothing is left to be fitted; ask for modes or loads, with a weight above 0");
 }
 
 std::vector<StaticLoad> region_loads(const MassSpringModel& base, const TargetRegion& region,
@@ -72,9 +76,11 @@ std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOpt
   return asked;
 }
 
-std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadTarget>& asked) {
+std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadTarget>& asked,
+                                const std::function<bool()>& stopped) {
   std::vector<double> all;
   for (std::size_t first = 0; first < asked.size(); first += kTogether) {
+    if (stopped()) throw InterruptedError();
     const std::size_t last = std::min(asked.size(), first + kTogether);
     std::vector<StaticLoad> loads;
     for (std::size_t l = first; l < last; ++l) loads.push_back(asked[l].load);
@@ -118,12 +124,12 @@ BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& optio
   check(options);
   const ElasticBody body = held_body(base, options.anchored, options.progress);
   BaseAnswers answers;
-  run_jobs(2, options.threads, [&](std::uint64_t job, const std::function<bool()>&) {
+  run_jobs(2, options.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
     if (job == 0 && options.modes > 0)
       for (const Mode& mode :
            lowest_modes(body, {.count = options.modes, .progress = options.progress}).modes)
         answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
-    if (job == 1) answers.compliance = compliances(body, asked_loads(base, options));
+    if (job == 1) answers.compliance = compliances(body, asked_loads(base, options), stopped);
   });
   answers.highest_frequency = largest_frequency(base);
   return answers;

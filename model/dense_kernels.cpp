@@ -12,7 +12,7 @@ namespace {
 /// Up to so many rows Eigen's kernels lose nothing to wider vectors.
 constexpr Eigen::Index kSmall = 48;
 
-/// Held while BLAS is called. Threads are this program's own, one a level: BLAS gets one each. Its
+/// Held while BLAS is called. Threads are this program's own: BLAS gets one each. Its
 /// builds without threads mix up the calls of several (1 in 100 products comes out wrong), so with
 /// these one calls at a time.
 class BlasTurn {

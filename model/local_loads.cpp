@@ -17,16 +17,23 @@ class Surface {
       : model_(model),
         radius_(options.radius * mean_spring_length(model)),
         chosen_(model.node_count(), options.within.empty()) {
-    for (const std::uint32_t i : options.within) chosen_.at(i) = true;
+    for (const std::uint32_t i : options.within) {
+      if (i >= model.node_count())
+        throw InputError(fmt::format("local loads: there is no node {}, only {} (counted from 0)",
+                                     i, model.node_count()));
+      chosen_[i] = true;
+    }
     for (std::uint32_t i = 0; i < model.node_count(); ++i) {
       if (model.border[i] == 0) continue;
       border_.push_back(i);
       if (chosen_[i]) middles_.push_back(i);
     }
     if (middles_.empty())
-      throw InputError(options.within.empty()
-                           ? "local loads: the model has no border nodes to push at"
-                           : "local loads: none of the nodes chosen is a border node to push at");
+      throw InputError(
+          options.within.empty()
+              ? "local loads: the model has no border nodes to push at"
+              : "local loads: none of the nodes chosen is a border node to push at; choose "
+                "nodes of the surface");
     find_normals();
   }
 

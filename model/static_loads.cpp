@@ -89,7 +89,7 @@ Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force, dou
   const Eigen::VectorXd left = part.shift * y.colwise().norm();
   const Eigen::VectorXd allowed = balance * force.colwise().norm();
   if ((left.array() > allowed.array()).any()) return iterate(part, force, std::move(y), balance);
-  return {std::move(y), left.cwiseAbs2()};
+  return {std::move(y), Eigen::VectorXd::Zero(force.cols())};
 }
 
 /// Sums of squares over the parts, for each load.

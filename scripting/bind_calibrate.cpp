@@ -40,7 +40,7 @@ std::vector<TargetRegion> read_regions(Call& call, TableReader& reader,
     lua_rawgeti(L, list, i);
     regions.push_back(
         read_region(call, lua_gettop(L), fmt::format("{}: regions[{}]", reader.owner(), i), base));
-    lua_pop(L, 1);
+    lua_settop(L, list);  // reading a region leaves what it read on the stack
   }
   return regions;
 }

@@ -59,7 +59,9 @@ end
 local function remove_store(store)
   for _, path in ipairs(s.files(store, {endings = {".bin", ".txt"}})) do
     local name = command.base_name(path)
-    if name == "about.txt" or name:find("part%-%d+[%.%d]*%.bin$") then os.remove(path) end
+    if name:find("^%.?about[%.%d]*%.txt$") or name:find("part%-%d+[%.%d]*%.bin$") then
+      os.remove(path)
+    end
   end
   os.remove(store)
 end

@@ -14,9 +14,9 @@ namespace springlod {
 struct Contact {
   std::uint32_t point = 0;          ///< as ContactPoints counts them
   double depth = 0;                 ///< d [m] > 0
-  double stiffness = 0;             ///< kappa A [N/m]
-  double normal_force = 0;          ///< kappa A (d + damping * rate of d), cut off at 0 [N]
-  double damping_force = 0;         ///< the part of normal_force that is not kappa A d [N]
+  double stiffness = 0;             ///< k = ContactPoints::stiffness, of a node kappa A [N/m]
+  double normal_force = 0;          ///< k (d + damping * rate of d), cut off at 0 [N]
+  double damping_force = 0;         ///< the part of normal_force that is not k d [N]
   double damping = 0;               ///< contact damping time [s]
   double friction = 0;              ///< mu
   Vec3 normal = Vec3::UnitZ();      ///< out of the obstacle
@@ -67,12 +67,12 @@ Vec3 friction_slip_change(const Contact& contact, double mass, double step, cons
 double apply_friction(const ContactPoints& points, double step, std::vector<Contact>& contacts,
                       std::vector<Vec3>& v);
 
-/// Sum of kappa A d^2 / 2 [J].
+/// Sum of k d^2 / 2 [J].
 double contact_energy(const std::vector<Contact>& contacts);
 
-/// What the obstacles may add to the stiffness of each node in one direction at most [N/m]: kappa A
+/// What the obstacles may add to the stiffness of each node in one direction at most [N/m]: k
 /// summed over the obstacles, where planes at an angle only count by how far they reinforce each
-/// other. Points that several nodes carry join these; the sum |w_i| sum |w_j| kappa A over the
+/// other. Points that several nodes carry join these; the sum |w_i| sum |w_j| k over the
 /// points of a node bounds that, for (sum w_j x_j)^2 <= sum |w_j| sum |w_j| x_j^2.
 std::vector<double> contact_stiffness(const ContactPoints& points,
                                       const std::vector<Obstacle>& obstacles);

@@ -54,7 +54,10 @@ end
 local chains = setmetatable({}, {__mode = "k"})
 function paper_runs.chain(base, variant, seed)
   chains[base] = chains[base] or {}
-  local key = variant.name .. " " .. seed
+  -- Variants may differ in how they are run alone.
+  local key = table.concat({tostring(variant.grouping), tostring(variant.border),
+                            tostring(variant.calibrate), seed,
+                            table.unpack(variant.keep or {})}, " ")
   chains[base][key] = chains[base][key] or s.simplify(base, {
     levels = not variant.keep and 2 or nil, keep = variant.keep, grouping = variant.grouping,
     border = variant.border, calibrate = variant.calibrate, seed = seed,

@@ -61,7 +61,8 @@ void BlockContacts::press_node(std::uint64_t n, std::size_t obstacle, std::uint3
   const Vec3 x = frame.origin + body_->x(at);
   const Vec3 v = frame.velocity + body_->v(at);
   std::uint64_t& looked_at = looked_at_[obstacle][index];
-  if (looked_at != n) finder_->take_sides(obstacle, number, x - step * v);
+  // Not where the step is made once more, shorter: the node may be inside by now.
+  if (looked_at != n && looked_at != n + 1) finder_->take_sides(obstacle, number, x - step * v);
   looked_at = n + 1;
   const std::optional<Contact> contact = finder_->find_one(obstacle, number, x, v);
   if (!contact) return;

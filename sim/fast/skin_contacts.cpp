@@ -24,7 +24,7 @@ SkinContacts::SkinContacts(const MassSpringModel& model, const ContactPoints& po
       finder_(&finder),
       walls_(&walls),
       x_(model.rest),
-      v_(model.rest),
+      v_(model.node_count(), Vec3::Zero()),
       views_(obstacles.size()) {
   for (std::uint32_t p = 0; p < points.count(); ++p) reach_ = std::max(reach_, points.reach(p));
   for (View& view : views_) view.due.resize(points.count());
@@ -93,12 +93,14 @@ void SkinContacts::press(const Step& step, std::size_t obstacle) {
   if (region_touching(thing, bounds_).isEmpty()) return;
   View& view = views_[obstacle];
   const bool afresh = !view.last || *view.last + 1 < step.number;
+  // The step is made once more, shorter: what is inside by now came from the sides it has.
+  const bool again = view.last == step.number;
   view.last = step.number;
   for (std::uint32_t p = 0; p < points_->count(); ++p) {
     if (!afresh && travel_ < view.due[p]) continue;
     const Vec3 x = points_->carried(p, x_);
     const Vec3 v = points_->carried(p, v_);
-    if (afresh || travel_before_ < view.due[p])
+    if (afresh || (!again && travel_before_ < view.due[p]))
       finder_->take_sides(obstacle, p, x - step.length * v);
     const std::optional<Contact> contact = finder_->find_one(obstacle, p, x, v);
     view.due[p] = travel_;

@@ -47,6 +47,10 @@ TEST_CASE("scripts name regions that matter, and weights") {
     refused{regions = {{nodes = foot}}, targets = "modes"}
     refused{regions = {{nodes = foot}}, anchored = foot}
     refused{load_weight = -2}
+    refused{mode_weight = 0, load_weight = 0}
+    local many = {}
+    for i = 1, 50 do many[i] = {nodes = {1}, patches = 1} end
+    print("many", #s.info(fit{regions = many, iterations = 1}).levels)
     print(pcall(s.certify, chain, {within = {10000}})))"});
   CAPTURE(ran.err);
   CHECK(ran.exit_code == 0);
@@ -56,7 +60,7 @@ TEST_CASE("scripts name regions that matter, and weights") {
         "regions[1]: nodes[1] must be a node number", "regions must be a list of Region tables",
         "left out beside targets = \"modes\"",
         "nodes of region 1 is a border node that is free to move", "load_weight = -2 must be 0 or",
-        "certify: within[1] must be a node number"})
+        "nothing is left to be fitted", "many\t2", "certify: within[1] must be a node number"})
     CHECK_THAT(ran.out, Contains(reason));
 }
 

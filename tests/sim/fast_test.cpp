@@ -1,5 +1,6 @@
 // Fast layouts held to the plain kernel.
 
+#include <memory>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -8,6 +9,7 @@
 #include "lod/build.hpp"
 #include "model/error.hpp"
 #include "model/stable_step.hpp"
+#include "sim/contact_skin.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
 #include "sim/fast/row_layout.hpp"
 #include "sim/leapfrog.hpp"
@@ -164,6 +166,44 @@ TEST_CASE("A fast run may change its step: same way, ledger closed") {
   CHECK(changing.ledger_entry().lost_switch != 0);
   CHECK(changing.ledger_entry().total() == Approx(energy).epsilon(2e-3));
   CHECK(steady.ledger_entry().total() == Approx(energy).epsilon(2e-3));
+}
+
+TEST_CASE("Bodies past the middle of a thin box stay on their side of it when the step changes") {
+  const MassSpringModel model = two_material_block(5);
+  const Box3 box = bounds(model.rest);
+  Scenario scene;
+  scene.gravity = Vec3::Zero();
+  scene.start.velocity = {0, 0, -1};
+  const double half = 0.01;
+  Obstacle plate;
+  plate.name = "plate";
+  plate.friction = 0;
+  // Would stop a rigid body three thicknesses deep, m v^2 = kappa A d^2: well past the middle.
+  const double face = box.sizes().x() * box.sizes().y();
+  plate.stiffness = mass_properties(model).mass / (face * std::pow(3 * 2 * half, 2));
+  plate.shape = SolidBox{.center = box.center() - Vec3(0, 0, 0.5 * box.sizes().z() + 1.1 * half),
+                         .half_size = {10, 10, half},
+                         .rotation = Mat3::Identity()};
+  scene.obstacles = {plate};
+  const double step = 0.5 * predicted_step(model, scene);
+  const State start = initial_state(model, scene.start);
+  LodChain chain;
+  chain.levels.push_back({model, identity_groups(model.node_count()), "base"});
+  const auto skin = std::make_shared<const ContactSkin>(contact_skin(chain, 0));
+  for (const auto& touches : {std::shared_ptr<const ContactSkin>{}, skin}) {
+    CAPTURE(touches != nullptr);
+    FastLeapfrog stepper(model, scene, start, step, {.skin = touches});
+    stepper.prepare();
+    const double middle = box.min().z() - 1.1 * half;
+    const auto lowest = [&] { return bounds(stepper.state().x).min().z(); };
+    while (lowest() > middle - 0.3 * half && stepper.time() < 0.1) stepper.advance(1);
+    REQUIRE(lowest() < middle);
+    for (int i = 0; i < 3; ++i) {
+      REQUIRE(stepper.change_step(i % 2 == 0 ? step / 2 : step));
+      for (const Contact& contact : stepper.contacts()) CHECK(contact.normal.z() > 0.99);
+      stepper.advance(1);
+    }
+  }
 }
 
 TEST_CASE("Rounding in single precision is not taken for a run that blows up, which is told") {
