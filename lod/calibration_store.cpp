@@ -1,6 +1,8 @@
 #include "lod/calibration_store.hpp"
 
+#include <span>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -37,55 +39,52 @@ void pack(Packer& to, const MassSpringModel& model) {
   to.add(model.damping);
 }
 
-void pack(Packer& to, const Eigen::VectorXd& values) {
-  to.add(std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
+template <class Number>
+requires std::is_arithmetic_v<Number>
+void pack(Packer& to, Number number) {
+  to.add(number);
 }
 
-Eigen::VectorXd take_vector(Unpacker& from) {
-  const std::vector<double> values = from.take_list<double>();
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+template <class Number>
+requires std::is_arithmetic_v<Number>
+void take(Unpacker& from, Number& number) {
+  number = from.take<Number>();
 }
 
 void pack(Packer& to, const FitPoint& point) {
-  pack(to, point.theta);
+  to.add(std::span<const double>(point.theta.data(), static_cast<std::size_t>(point.theta.size())));
   to.add(point.mass);
 }
 
-FitPoint take_point(Unpacker& from) {
-  Eigen::VectorXd theta = take_vector(from);
-  return {std::move(theta), from.take_list<double>()};
+void take(Unpacker& from, FitPoint& point) {
+  const std::vector<double> theta = from.take_list<double>();
+  point.theta =
+      Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(theta.size()));
+  point.mass = from.take_list<double>();
 }
 
-std::string packed(const FitState& state) {
-  Packer to;
-  to.add(state.iteration);
-  to.add(state.tries);
-  to.add(state.finished);
-  to.add(state.limit);
-  to.add(state.damping);
-  to.add(state.tighten);
-  pack(to, state.now);
-  to.add(state.best.has_value());
-  if (state.best) pack(to, *state.best);
-  to.add(state.best_frequency);
-  to.add(state.frequency_error);
-  return to.bytes();
+void pack(Packer& to, const std::optional<FitPoint>& point) {
+  to.add(point.has_value());
+  if (point) pack(to, *point);
 }
 
-FitState take_state(std::string_view bytes) {
-  Unpacker from(bytes);
-  FitState state;
-  state.iteration = from.take<std::uint32_t>();
-  state.tries = from.take<std::uint32_t>();
-  state.finished = from.take<bool>();
-  state.limit = from.take<double>();
-  state.damping = from.take<double>();
-  state.tighten = from.take<double>();
-  state.now = take_point(from);
-  if (from.take<bool>()) state.best = take_point(from);
-  state.best_frequency = from.take<double>();
-  state.frequency_error = from.take<double>();
-  return state;
+void take(Unpacker& from, std::optional<FitPoint>& point) {
+  if (from.take<bool>()) take(from, point.emplace());
+}
+
+/// Visits all that a state is, in the order in which it stands in a file.
+template <class State, class Visit>
+void visit_members(State& state, const Visit& visit) {
+  visit(state.iteration);
+  visit(state.tries);
+  visit(state.finished);
+  visit(state.limit);
+  visit(state.damping);
+  visit(state.tighten);
+  visit(state.now);
+  visit(state.best);
+  visit(state.best_frequency);
+  visit(state.frequency_error);
 }
 
 std::string name_of_answers(std::size_t part) {
@@ -173,12 +172,17 @@ std::optional<FitState> CalibrationStore::fit(std::size_t level, std::size_t par
                                               const std::string& fingerprint) const {
   const std::optional<std::string> payload = read(name_of_fit(level, part), fingerprint);
   if (!payload) return std::nullopt;
-  return take_state(*payload);
+  Unpacker from(*payload);
+  FitState state;
+  visit_members(state, [&](auto& member) { take(from, member); });
+  return state;
 }
 
 void CalibrationStore::keep(std::size_t level, std::size_t part, const std::string& fingerprint,
                             const FitState& state) const {
-  write(name_of_fit(level, part), fingerprint, packed(state));
+  Packer to;
+  visit_members(state, [&](const auto& member) { pack(to, member); });
+  write(name_of_fit(level, part), fingerprint, to.bytes());
 }
 
 fs::path CalibrationStore::place(const std::string& name) const {
