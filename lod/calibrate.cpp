@@ -63,11 +63,12 @@ TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint
 }
 
 BaseAnswers answers_of(const MassSpringModel& part, std::size_t number,
-                       const TargetOptions& options, const CalibrationStore* store) {
-  if (store == nullptr) return measure_base(part, options);
+                       const TargetOptions& options, const std::vector<LoadTarget>& asked,
+                       const CalibrationStore* store) {
+  if (store == nullptr) return measure_base(part, options, asked);
   const std::string fingerprint = fingerprint_of(part, options);
   if (std::optional<BaseAnswers> kept = store->answers(number, fingerprint)) return *kept;
-  BaseAnswers answers = measure_base(part, options);
+  BaseAnswers answers = measure_base(part, options, asked);
   store->keep(number, fingerprint, answers);
   return answers;
 }
@@ -82,8 +83,9 @@ std::vector<PartTargets> measure_parts(const MassSpringModel& base, const Calibr
   std::vector<PartTargets> all;
   for (ModelPart& part : split_parts(base, connected_components(base))) {
     const TargetOptions of_part = options_of_part(part, anchored, regions, options);
-    ElasticTargets targets =
-        targets_of(part.model, of_part, answers_of(part.model, all.size(), of_part, store));
+    std::vector<LoadTarget> asked = asked_loads(part.model, of_part);
+    const BaseAnswers answers = answers_of(part.model, all.size(), of_part, asked, store);
+    ElasticTargets targets = targets_of(part.model, of_part, std::move(asked), answers);
     all.push_back({std::move(part), std::move(targets)});
   }
   return all;

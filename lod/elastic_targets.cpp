@@ -55,27 +55,6 @@ std::vector<StaticLoad> region_loads(const MassSpringModel& base, const TargetRe
   return loads;
 }
 
-/// All that are asked of the base; their compliances are yet to be measured.
-std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOptions& options) {
-  std::vector<LoadTarget> asked;
-  const auto ask = [&](LoadKind kind, double weight, std::vector<StaticLoad> loads) {
-    for (StaticLoad& load : loads)
-      asked.push_back({kind, std::move(load), 0, weight * options.load_weight});
-  };
-  if (options.smooth_loads) {
-    ask(LoadKind::smooth, 1, smooth_loads(base));
-    ask(LoadKind::piece, options.piece_weight, piece_loads(base));
-  }
-  const std::uint32_t patches = patch_count(options, base.node_count());
-  if (patches > 0 && border_count(base) > 0)
-    ask(LoadKind::patch, options.patch_weight,
-        patch_pairs(base, {.count = patches, .seed = options.seed}));
-  for (std::size_t r = 0; r < options.regions.size(); ++r)
-    ask(LoadKind::region, options.regions[r].weight,
-        region_loads(base, options.regions[r], options, r + 1));
-  return asked;
-}
-
 std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadTarget>& asked,
                                 const std::function<bool()>& stopped) {
   std::vector<double> all;
@@ -120,8 +99,29 @@ std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes) {
   return static_cast<std::uint32_t>(std::clamp(kMost * std::sqrt(kFew / nodes), kLeast, kMost));
 }
 
-BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options) {
+std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOptions& options) {
   check(options);
+  std::vector<LoadTarget> asked;
+  const auto ask = [&](LoadKind kind, double weight, std::vector<StaticLoad> loads) {
+    for (StaticLoad& load : loads)
+      asked.push_back({kind, std::move(load), 0, weight * options.load_weight});
+  };
+  if (options.smooth_loads) {
+    ask(LoadKind::smooth, 1, smooth_loads(base));
+    ask(LoadKind::piece, options.piece_weight, piece_loads(base));
+  }
+  const std::uint32_t patches = patch_count(options, base.node_count());
+  if (patches > 0 && border_count(base) > 0)
+    ask(LoadKind::patch, options.patch_weight,
+        patch_pairs(base, {.count = patches, .seed = options.seed}));
+  for (std::size_t r = 0; r < options.regions.size(); ++r)
+    ask(LoadKind::region, options.regions[r].weight,
+        region_loads(base, options.regions[r], options, r + 1));
+  return asked;
+}
+
+BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options,
+                         const std::vector<LoadTarget>& asked) {
   const ElasticBody body = held_body(base, options.anchored, options.progress);
   BaseAnswers answers;
   run_jobs(2, options.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
@@ -129,19 +129,18 @@ BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& optio
       for (const Mode& mode :
            lowest_modes(body, {.count = options.modes, .progress = options.progress}).modes)
         answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
-    if (job == 1) answers.compliance = compliances(body, asked_loads(base, options), stopped);
+    if (job == 1) answers.compliance = compliances(body, asked, stopped);
   });
   answers.highest_frequency = largest_frequency(base);
   return answers;
 }
 
 ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& options,
-                          const BaseAnswers& answers) {
-  check(options);
+                          std::vector<LoadTarget> asked, const BaseAnswers& answers) {
   ElasticTargets targets;
   targets.squared_frequency = answers.squared_frequency;
   targets.mode_weight = options.mode_weight;
-  targets.loads = asked_loads(base, options);
+  targets.loads = std::move(asked);
   for (std::size_t l = 0; l < targets.loads.size(); ++l)
     targets.loads[l].compliance = answers.compliance.at(l);
   // Those that find nothing to pull at go.
@@ -153,7 +152,9 @@ ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& opti
 }
 
 ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options) {
-  return targets_of(base, options, measure_base(base, options));
+  std::vector<LoadTarget> asked = asked_loads(base, options);
+  const BaseAnswers answers = measure_base(base, options, asked);
+  return targets_of(base, options, std::move(asked), answers);
 }
 
 }  // namespace springlod

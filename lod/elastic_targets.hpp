@@ -84,10 +84,13 @@ struct BaseAnswers {
 /// Throws InputError for weights below 0, and where elastic_body does.
 ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options = {});
 
-/// Its two halves, for those who keep the answers: the weights have no part in them.
-BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options);
+/// Its parts, for those who keep the answers: the loads, whose compliances are yet to be measured;
+/// what is measured of the base, in which the weights have no part; and both together.
+std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOptions& options);
+BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options,
+                         const std::vector<LoadTarget>& asked);
 ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& options,
-                          const BaseAnswers& answers);
+                          std::vector<LoadTarget> asked, const BaseAnswers& answers);
 
 /// The body held at the anchored nodes; what they leave free is balanced by its inertia, as if
 /// there were none, and not refused.
