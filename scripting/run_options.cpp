@@ -39,6 +39,12 @@ std::vector<Parameter> run_parameters(const RunOptions& usual) {
            .help = "of the numbers symplectic_euler moves a body with; a step in single takes some "
                    "two thirds of the time, docs/precision.md tells what it costs",
            .choices = {"double", "single"}},
+          {.name = "layout",
+           .type = "one of",
+           .fallback = "\"fastest\"",
+           .help = "of the springs for symplectic_euler: the fastest, rows for a lattice, or that "
+                   "for \"any shape\", to time a lattice and its levels by one kernel",
+           .choices = {"fastest", "any shape"}},
           {.name = "contact",
            .type = "one of",
            .fallback = "\"nodes\"",
@@ -69,6 +75,8 @@ void read_run_options(Call& call, TableReader& reader, RunOptions& options) {
   reader.read("safety", options.safety);
   reader.choose("precision", options.precision,
                 {{"double", Precision::double_precision}, {"single", Precision::single_precision}});
+  reader.choose("layout", options.layout,
+                {{"fastest", Layout::fastest}, {"any shape", Layout::any_shape}});
   reader.read("sleep", options.sleep);
   reader.read("frame_rate", options.frame_rate);
   reader.read("ledger", options.ledger);

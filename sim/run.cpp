@@ -55,7 +55,7 @@ RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
   validate(options);
   RunPlan plan{.limit = step_limit(model, scenario, options.integrator, options.skin.get())};
   if (options.integrator == Integrator::symplectic_euler)
-    plan.layout = make_fast_model(model, options.precision);
+    plan.layout = make_fast_model(model, options.precision, options.layout);
   return plan;
 }
 

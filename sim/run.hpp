@@ -35,6 +35,7 @@ struct RunOptions {
   bool ledger = true;
   /// Of the numbers that symplectic Euler moves the body with; see docs/precision.md.
   Precision precision = Precision::double_precision;
+  Layout layout = Layout::fastest;  ///< of the springs for symplectic Euler
   /// Threads for symplectic Euler; 0: as many as the body is worth. Never changes the result.
   std::uint32_t threads = 1;
   /// Where the body touches obstacles; none: at its own nodes, those of a coarse level deep inside

@@ -25,17 +25,21 @@ class Laid final : public FastModel {
 };
 
 template <class Real>
-std::unique_ptr<FastModel> lay_out(const MassSpringModel& model) {
-  RowLayout<Real> rows = make_row_layout<Real>(model);
-  if (model.spring_count() >= kLeastFill * rows.rows.size())
-    return std::make_unique<Laid<RowLayout<Real>, RowBody<Real>>>(std::move(rows));
+std::unique_ptr<FastModel> lay_out(const MassSpringModel& model, Layout layout) {
+  if (layout == Layout::fastest) {
+    RowLayout<Real> rows = make_row_layout<Real>(model);
+    if (model.spring_count() >= kLeastFill * rows.rows.size())
+      return std::make_unique<Laid<RowLayout<Real>, RowBody<Real>>>(std::move(rows));
+  }
   return std::make_unique<Laid<QuadLayout<Real>, QuadBody<Real>>>(make_quad_layout<Real>(model));
 }
 
 }  // namespace
 
-std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision) {
-  return precision == Precision::single_precision ? lay_out<float>(model) : lay_out<double>(model);
+std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision,
+                                           Layout layout) {
+  return precision == Precision::single_precision ? lay_out<float>(model, layout)
+                                                  : lay_out<double>(model, layout);
 }
 
 }  // namespace springlod

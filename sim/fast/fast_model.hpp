@@ -4,12 +4,12 @@
 
 #include "model/mass_spring.hpp"
 #include "sim/fast/fast_body.hpp"
+#include "sim/fast/layout.hpp"
 #include "sim/fast/precision.hpp"
 
 namespace springlod {
 
-/// A model laid out for speed, made once and shared by its bodies: in rows if it is a lattice, in
-/// quads if not.
+/// A model laid out for speed, made once and shared by its bodies.
 class FastModel {
  public:
   virtual ~FastModel() = default;
@@ -25,7 +25,8 @@ class FastModel {
 };
 
 /// `model` must be valid.
-std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision);
+std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision,
+                                           Layout layout = Layout::fastest);
 
 /// "AVX3", "AVX2", ...: the vectors that bodies move with on this processor.
 const char* vector_target();

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace springlod {
+
+/// How the springs of a model are laid out for speed.
+enum class Layout {
+  fastest,   ///< in rows if it is a lattice, in quads if not
+  any_shape  ///< in quads whatever it is: so that bodies are timed by one kernel
+};
+
+}  // namespace springlod
