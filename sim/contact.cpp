@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -61,6 +62,8 @@ Contact make_contact(const Obstacle& obstacle, const ContactPoints& points, std:
                      const Depth& at, const Vec3& velocity) {
   Contact contact;
   contact.point = point;
+  if (points.give(point) > 0) contact.grip = 1 / points.give(point);
+  contact.grip_damping = points.give_damping(point);
   contact.depth = at.depth;
   contact.stiffness = points.stiffness(point, obstacle.stiffness);
   contact.damping = points.damping(point, obstacle.stiffness, obstacle.damping);
@@ -110,7 +113,9 @@ std::optional<Contact> ContactFinder::find_one(std::size_t obstacle, std::uint32
       plane != nullptr ? depth_in(*plane, x)
                        : depth_in(std::get<SolidBox>(thing.shape), sides_[obstacle][point], x);
   if (!depth) return std::nullopt;
-  return make_contact(thing, *points_, point, *depth, v);
+  Contact contact = make_contact(thing, *points_, point, *depth, v);
+  contact.obstacle = static_cast<std::uint32_t>(obstacle);
+  return contact;
 }
 
 void add_normal_forces(const ContactPoints& points, const std::vector<Contact>& contacts,
@@ -118,11 +123,39 @@ void add_normal_forces(const ContactPoints& points, const std::vector<Contact>& 
   for (const Contact& c : contacts) points.add_force(c.point, c.normal_force * c.normal, force);
 }
 
-Vec3 friction_slip_change(const Contact& contact, double mass, double step, const Vec3& v) {
-  const Vec3 slip = v - contact.normal.dot(v) * contact.normal;
-  const double speed = slip.norm();
-  const double most = contact.friction * contact.normal_force * step / mass;
-  return most < speed ? Vec3(slip * (-most / speed)) : Vec3(-slip);
+void keep_grips(const std::vector<Contact>& before, std::vector<Contact>& now) {
+  const auto place = [](const Contact& c) { return std::pair(c.obstacle, c.point); };
+  auto was = before.begin();
+  for (Contact& c : now) {
+    while (was != before.end() && place(*was) < place(c)) ++was;
+    if (was == before.end()) return;
+    if (place(*was) == place(c)) c.stretch = was->stretch;
+  }
+}
+
+void rub(Contact& contact, double mass, double step, const Vec3& v) {
+  const auto along_face = [&](const Vec3& u) {
+    return Vec3(u - contact.normal.dot(u) * contact.normal);
+  };
+  const auto at_most = [](const Vec3& u, double most) {
+    const double size = u.norm();
+    return size > most ? Vec3(u * (most / size)) : u;
+  };
+  const Vec3 slip = along_face(v);
+  const double most = contact.friction * contact.normal_force * step;  // [N s]
+  if (contact.grip == 0) {
+    contact.slip_change = at_most(-slip, most / mass);
+    return;
+  }
+  const double held = contact.grip_energy();
+  const double late = step + contact.grip_damping;
+  const Vec3 start = along_face(contact.stretch);
+  const Vec3 impulse = at_most(contact.grip * step * (start + late * slip) /
+                                   (1 + contact.grip * step * late / mass),
+                               most);
+  contact.slip_change = -impulse / mass;
+  contact.stretch = (impulse / contact.grip + contact.grip_damping * start) / late;
+  contact.grip_gain = contact.grip_energy() - held;
 }
 
 double apply_friction(const ContactPoints& points, double step, std::vector<Contact>& contacts,
@@ -131,7 +164,7 @@ double apply_friction(const ContactPoints& points, double step, std::vector<Cont
   for (Contact& c : contacts) {
     const double mass = points.mass(c.point);
     const Vec3 before = points.carried(c.point, v);
-    c.slip_change = friction_slip_change(c, mass, step, before);
+    rub(c, mass, step, before);
     points.kick(c.point, c.slip_change, v);
     taken -= mass * c.slip_change.dot(before + 0.5 * c.slip_change);
   }
@@ -140,7 +173,8 @@ double apply_friction(const ContactPoints& points, double step, std::vector<Cont
 
 double contact_energy(const std::vector<Contact>& contacts) {
   double energy = 0;
-  for (const Contact& c : contacts) energy += 0.5 * c.stiffness * c.depth * c.depth;
+  for (const Contact& c : contacts)
+    energy += 0.5 * c.stiffness * c.depth * c.depth + c.grip_energy();
   return energy;
 }
 

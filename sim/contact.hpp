@@ -12,6 +12,7 @@ namespace springlod {
 
 /// One point of the body pressed into one obstacle at this instant.
 struct Contact {
+  std::uint32_t obstacle = 0;       ///< of the scenario
   std::uint32_t point = 0;          ///< as ContactPoints counts them
   double depth = 0;                 ///< d [m] > 0
   double stiffness = 0;             ///< k = ContactPoints::stiffness, of a node kappa A [N/m]
@@ -21,6 +22,14 @@ struct Contact {
   double friction = 0;              ///< mu
   Vec3 normal = Vec3::UnitZ();      ///< out of the obstacle
   Vec3 slip_change = Vec3::Zero();  ///< what friction took from the point's velocity [m/s]
+
+  /// A point that gives way is held by friction through a spring along the obstacle, the grip, as
+  /// stiff as 1 / ContactPoints::give [N/m]; 0: friction holds the point itself.
+  double grip = 0;
+  double grip_damping = 0;          ///< c / k of the grip [s]
+  Vec3 stretch = Vec3::Zero();      ///< of the grip, which pulls the point against it [m]
+  double grip_gain = 0;             ///< what the grip took in this step [J]
+  double grip_energy() const { return 0.5 * grip * stretch.squaredNorm(); }  ///< [J]
 
   /// Change of normal_force with depth where the rate is that of a step of length dt [N/m].
   double implicit_stiffness(double step) const { return stiffness * (1 + damping / step); }
@@ -57,17 +66,25 @@ class ContactFinder {
 void add_normal_forces(const ContactPoints& points, const std::vector<Contact>& contacts,
                        std::vector<Vec3>& force);
 
-/// Change of the velocity v of a point by friction over a step: see apply_friction.
-Vec3 friction_slip_change(const Contact& contact, double mass, double step, const Vec3& v);
+/// Points that touch the same obstacle as they did a step before keep the stretch of their grip;
+/// others start with none. Both as ContactFinder lists them.
+void keep_grips(const std::vector<Contact>& before, std::vector<Contact>& now);
 
-/// Coulomb friction as a cap on slip: takes from the tangential velocity at most
-/// mu f_n dt / m and never more than there is, so that no step reverses a slip. `v` are the
-/// velocities of the nodes after all other forces of the step. Contact after contact, for points
-/// may share nodes. Returns the kinetic energy that it took [J].
+/// Friction over a step on a point of velocity v and mass m: its slip_change, and stretch and
+/// grip_gain of its grip by the end of the step. Without a grip, it takes from the tangential
+/// velocity at most mu f_n dt / m and never more than there is, so that no step reverses a slip.
+/// With one, the spring is stretched by the slip and pulls, to the end of the step (implicit, so
+/// that no stiffness is too much for a step), and slides where it pulls more than mu f_n: spring and
+/// slider in a row (Cundall and Strack 1979, "A discrete numerical model for granular assemblies").
+void rub(Contact& contact, double mass, double step, const Vec3& v);
+
+/// Coulomb friction on all contacts: see rub. `v` are the velocities of the nodes after all other
+/// forces of the step. Contact after contact, for points may share nodes. Returns the kinetic energy
+/// that it took [J], that which the grips keep included.
 double apply_friction(const ContactPoints& points, double step, std::vector<Contact>& contacts,
                       std::vector<Vec3>& v);
 
-/// Sum of k d^2 / 2 [J].
+/// Sum of k d^2 / 2, and what the grips hold [J].
 double contact_energy(const std::vector<Contact>& contacts);
 
 /// What the obstacles may add to the stiffness of each node in one direction at most [N/m]: k

@@ -29,14 +29,16 @@ class ContactPoints {
   std::uint32_t count() const { return static_cast<std::uint32_t>(area_.size()); }
   std::uint32_t node_count() const { return node_count_; }
   double area(std::size_t point) const { return area_[point]; }  ///< [m2]
+  double give(std::size_t point) const { return give_[point]; }  ///< see ContactSkin [m/N]
+  /// Damping time of what gives: that of the springs of the nodes that carry the point [s].
+  double give_damping(std::size_t point) const { return give_damping_[point]; }
   /// Of its contact with an obstacle of stiffness kappa [N/m3], what the point gives by itself in a
   /// row with it: kappa A / (1 + kappa A give) [N/m].
   double stiffness(std::size_t point, double kappa) const {
     const double bare = kappa * area_[point];
     return bare / (1 + bare * give_[point]);
   }
-  /// Damping time of that contact if the obstacle's is `damping` [s]: what gives is damped as the
-  /// springs of the nodes that carry the point are.
+  /// Damping time of that contact if the obstacle's is `damping` [s].
   double damping(std::size_t point, double kappa, double damping) const {
     const double given = stiffness(point, kappa) * give_[point];  // part of the depth [1]
     return (1 - given) * damping + given * give_damping_[point];

@@ -32,7 +32,9 @@ void Leapfrog::find_forces(bool with_damping) {
   } else {
     add_spring_forces<false>(*model_, x_, w, force_, damping_force_);
   }
+  std::swap(contacts_, contacts_before_);
   finder_.find(x_, w, contacts_);
+  keep_grips(contacts_before_, contacts_);
   add_normal_forces(points_, contacts_, force_);
 }
 

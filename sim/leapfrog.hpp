@@ -52,6 +52,7 @@ class Leapfrog final : public StepByStep {
   std::vector<Vec3> v_minus_, v_plus_;
   std::vector<Vec3> v_damping_;  // w_n; unused by symplectic Euler
   std::vector<Vec3> force_, damping_force_;
+  std::vector<Contact> contacts_before_;  // a step ago
   LedgerEntry losses_;
 };
 

@@ -20,6 +20,7 @@ WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, con
 void WholeStep::prepare() {
   solve();
   finder_.find(x_next_, v_next_, next_contacts_);
+  keep_grips(contacts_, next_contacts_);
   add_friction();
   next_losses_.lost_damping = lost_damping_;
   for (const Contact& c : next_contacts_)
@@ -33,7 +34,13 @@ void WholeStep::finish_implicit(const ImplicitSprings& springs) {
 }
 
 void WholeStep::add_friction() {
+  const auto held = [](const std::vector<Contact>& contacts) {
+    double energy = 0;
+    for (const Contact& c : contacts) energy += c.grip_energy();
+    return energy;
+  };
   next_losses_.lost_friction += apply_friction(points_, step_, next_contacts_, v_next_);
+  next_losses_.lost_friction += held(contacts_) - held(next_contacts_);
   if (!friction_moves_) return;
   for (const Contact& c : next_contacts_) points_.kick(c.point, step_ * c.slip_change, x_next_);
 }

@@ -75,7 +75,7 @@ void BlockContacts::rub(const MovingFrame& frame, double kick, double step) {
     const Place at = place(c.point);
     const double mass = points_->mass(c.point);
     const Vec3 kicked = velocity(c, frame) + kick / mass * body_->force(at);
-    c.slip_change = friction_slip_change(c, mass, step, kicked);
+    springlod::rub(c, mass, step, kicked);
     body_->add_force(at, mass / kick * c.slip_change);
   }
 }

@@ -136,7 +136,7 @@ MovingFrame FastLeapfrog::take_new_frame(const Share& share) {
 }
 
 bool FastLeapfrog::change_step(double step) {
-  const double before = kinetic();
+  const double before = kinetic() + contact_energy(contacts_);
   v_minus_ = state().v;
   start_time_ = time();
   start_n_ = n_;
@@ -144,7 +144,7 @@ bool FastLeapfrog::change_step(double step) {
   for (Losses& losses : losses_) losses.next = {};
   skin_losses_.next = {};
   prepare();
-  lost_to_new_steps_ += before - kinetic();
+  lost_to_new_steps_ += before - kinetic() - contact_energy(contacts_);
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/fast/regions.hpp"
 
@@ -44,9 +45,13 @@ void SkinContacts::act(const Step& step) {
   bounds_ = here;
   if (arrives) arrive(step, near, swept);
   if (step.kick == 0) return;
+  // The step may be made once more, shorter: then the one before is still the one before.
+  if (kicked_ != step.number) contacts_before_ = std::move(contacts_);
+  kicked_ = step.number;
   contacts_.clear();
   if (near)
     for (std::size_t o = 0; o < obstacles_->size(); ++o) press(step, o);
+  keep_grips(contacts_before_, contacts_);
   if (!first_step_ && !contacts_.empty()) first_step_ = step.number;
   rub(step);
 }
@@ -121,7 +126,7 @@ void SkinContacts::rub(const Step& step) {
   for (Contact& c : contacts_) {
     before_.push_back(points_->carried(c.point, v_));
     const double mass = points_->mass(c.point);
-    c.slip_change = friction_slip_change(c, mass, step.length, kicked_velocity(c, step));
+    springlod::rub(c, mass, step.length, kicked_velocity(c, step));
     for (const ContactPoints::Share& share : points_->shares(c.point))
       body_->add_force(body_->place(share.node), share.weight * mass / step.kick * c.slip_change);
   }

@@ -1,6 +1,7 @@
 #include "sim/contact.hpp"
 
 #include <cmath>
+#include <random>
 
 #include <catch2/catch.hpp>
 
@@ -70,6 +71,83 @@ TEST_CASE("Friction slows a slip by at most mu f dt / m and never turns it round
   CHECK((v[0] - Vec3(0, 0, -7)).norm() < 1e-12);
   apply_friction(points, 1, contacts, v);
   CHECK((v[0] - Vec3(0, 0, -7)).norm() < 1e-12);
+}
+
+TEST_CASE("A grip swings the point that it holds and slides at mu f") {
+  const double mass = 2;
+  Contact contact;
+  contact.normal_force = 100;
+  contact.friction = 10;
+  contact.grip = 800;  // omega = 20 rad/s: the point stops after pi/40 s, 3 / 20 m on
+  const double step = 1e-6;
+  Vec3 v(3, 0, -1);
+  double time = 0;
+  for (; v[0] > 0; time += step) {
+    rub(contact, mass, step, v);
+    v += contact.slip_change;
+  }
+  CHECK(time == Approx(std::acos(-1.0) / 40).epsilon(1e-4));
+  CHECK(contact.stretch[0] == Approx(3.0 / 20).epsilon(1e-4));
+  CHECK(v[2] == -1);
+  contact.friction = 0.1;
+  v = Vec3(3, 0, -1);
+  rub(contact, mass, step, v);
+  CHECK(contact.slip_change[0] == Approx(-0.1 * 100 * step / mass));
+  CHECK(contact.stretch[0] == Approx(0.1 * 100 / 800));
+}
+
+TEST_CASE("A grip without end to its stiffness holds as friction without a grip does") {
+  Contact bare;
+  bare.normal_force = 20;
+  bare.friction = 0.5;
+  Contact gripping = bare;
+  gripping.grip = 1e15;
+  for (const double step : {1e-3, 0.1, 1.0}) {
+    rub(bare, 1, step, {3, 4, -7});
+    rub(gripping, 1, step, {3, 4, -7});
+    CHECK((gripping.slip_change - bare.slip_change).norm() < 1e-9);
+  }
+}
+
+TEST_CASE("No grip gives back more than it took, whatever the step") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto vector = [&] { return Vec3(unit(random), unit(random), unit(random)); };
+  for (int i = 0; i < 1000; ++i) {
+    CAPTURE(i);
+    const auto decades = [&](double from, double to) {
+      return std::pow(10, from + (to - from) * (unit(random) + 1) / 2);
+    };
+    Contact contact;
+    contact.normal = vector().normalized();
+    contact.normal_force = decades(-2, 4);
+    contact.friction = decades(-2, 1);
+    contact.grip = decades(0, 6);
+    contact.grip_damping = i % 2 == 0 ? 0 : decades(-4, 0);
+    contact.stretch = 0.01 * vector();
+    const double mass = decades(-2, 2);
+    const Vec3 v = vector();
+    rub(contact, mass, decades(-5, 0), v);
+    const double taken = -mass * contact.slip_change.dot(v + 0.5 * contact.slip_change);
+    CHECK(taken - contact.grip_gain >= -1e-12 * (std::abs(taken) + contact.grip_energy()));
+    CHECK(std::abs(contact.normal.dot(contact.slip_change)) < 1e-12);
+  }
+}
+
+TEST_CASE("A grip is kept while its point touches the same obstacle, and no longer") {
+  const auto at = [](std::uint32_t obstacle, std::uint32_t point, double stretch) {
+    Contact contact;
+    contact.obstacle = obstacle;
+    contact.point = point;
+    contact.stretch = Vec3(stretch, 0, 0);
+    return contact;
+  };
+  std::vector<Contact> now{at(0, 2, 0), at(0, 5, 0), at(1, 2, 0), at(1, 4, 0)};
+  keep_grips({at(0, 1, 1), at(0, 5, 2), at(0, 6, 3), at(1, 2, 4)}, now);
+  CHECK(now[0].stretch[0] == 0);
+  CHECK(now[1].stretch[0] == 2);
+  CHECK(now[2].stretch[0] == 4);
+  CHECK(now[3].stretch[0] == 0);
 }
 
 TEST_CASE("Contact stiffness adds up only where obstacles push the same way") {

@@ -37,14 +37,19 @@ TEST_CASE("A sliding block stops after 1.5 m on every level of a chain") {
   options.grouping.border = border;
   const LodChain chain = simplify(base, options);
   REQUIRE(chain.levels.size() == 3);
+  const bool at_surface = GENERATE(false, true);
   for (std::size_t level = 0; level < chain.levels.size(); ++level) {
     const MassSpringModel& model = chain.levels[level].model;
-    const Scenario scene = slide(model);
-    const auto t = run(model, scene, {.frame_rate = 0});
+    const Scenario scene = slide(at_surface ? base : model);
+    RunOptions how{.frame_rate = 0};
+    if (at_surface)
+      how.skin =
+          std::make_shared<ContactSkin>(contact_skin(chain, static_cast<std::uint32_t>(level)));
+    const auto t = run(model, scene, how);
     const double way =
         measured_distance(scene, scene.start.position, center_of_mass(model, t.final.x));
     INFO("style " << static_cast<int>(style) << " border " << to_string(border) << " level "
-                  << level << " nodes " << model.node_count() << " way " << way);
+                  << level << " at surface " << at_surface << " nodes " << model.node_count() << " way " << way);
     CHECK(way == Approx(1.5).epsilon(0.01));
     CHECK(closure_error(t.ledger) < 0.01);
   }
