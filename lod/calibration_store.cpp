@@ -132,6 +132,7 @@ std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel&
   all.add(options.iterations);
   all.add(options.tolerance);
   all.add(options.least_frequency);
+  all.add(static_cast<int>(options.moments));
   return content_hash(all.bytes());
 }
 

@@ -62,7 +62,7 @@ class PartFit {
         least_frequency_(options.least_frequency * targets.highest_frequency *
                          std::cbrt(static_cast<double>(level.node_count()) / targets.nodes)),
         limit_weight_(kLimitWeight * std::sqrt(std::min(1.0, kLimitNodes / level.node_count()))),
-        variables_(level),
+        variables_(level, options.moments),
         fit_(level, of_base, targets, options.threads) {}
 
   MassSpringModel run() {

@@ -35,6 +35,9 @@ struct FitOptions {
   /// Where the largest frequency need not fall any further, over that of a lattice of as many
   /// nodes, omega0 (N / N0)^(1/3): below it local loads are answered worse.
   double least_frequency = 0.85;
+  /// Of pieces too: how a body moves when it is hit in one place then is more like its base, its
+  /// largest frequency less low, for the nodes that are stiff may not be given the others' mass.
+  KeptMoments moments = KeptMoments::body;
   std::uint32_t threads = 1;       ///< up to two are used; the same bits for any number
   std::optional<FitState> from{};  ///< goes on from here, where a fit of the same things was
   /// Called after each step, and once when the fit is finished. May throw to stop.

@@ -18,10 +18,10 @@ struct FitPoint {
 
 /// What a fit changes of a level: theta = changes of ln k of each spring, S, then of ln m of each
 /// node, N, in units of one half, as masses are better known. Damping keeps its part of stiffness,
-/// the masses their moments. Refers to the level, which must outlive it.
+/// the masses the moments that are to be kept. Refers to the level, which must outlive it.
 class LevelVariables {
  public:
-  explicit LevelVariables(const MassSpringModel& start) : start_(start), moments_(start) {}
+  LevelVariables(const MassSpringModel& start, KeptMoments kept) : start_(start), moments_(start, kept) {}
 
   Eigen::Index springs() const { return start_.spring_count(); }
   Eigen::Index nodes() const { return start_.node_count(); }

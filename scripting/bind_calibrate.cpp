@@ -140,6 +140,13 @@ void describe_record(Api& api) {
             .help =
                 "where the largest frequency, which bounds the step, need not fall any further, "
                 "over that of a lattice of as many nodes"},
+           {.name = "moments",
+            .type = "one of",
+            .fallback = "\"body\"",
+            .help = "masses shift between nodes; mass, centre and second moments stay those of the "
+                    "whole body, or of each of its \"pieces\" of one material too: truer where "
+                    "things collide, of a shorter step",
+            .choices = {"body", "pieces"}},
            anchored_parameter(),
            {.name = "store",
             .type = "string",
@@ -219,6 +226,8 @@ void read_calibration(Call& call, TableReader& reader, const MassSpringModel& ba
   record.read("tolerance", fit.tolerance);
   record.read("iterations", fit.iterations);
   record.read("least_frequency", fit.least_frequency);
+  record.choose("moments", fit.moments,
+                {{"body", KeptMoments::body}, {"pieces", KeptMoments::pieces}});
   targets.anchored = read_anchored(record, base);
   std::string store;
   record.read("store", store);

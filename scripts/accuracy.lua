@@ -65,9 +65,9 @@ local function make_chain(body, method, seed)
   return chain
 end
 
--- How many times less a simulated second takes by the clock than one of the base, run by turns, each
--- at its own step: the body floats by itself. Both by the kernel for "any shape", or each by its
--- "fastest", which for a lattice is another.
+-- How many times less a simulated second takes by the clock than one of the base, run by turns, each at
+-- its own step: the body floats by itself. Both by the kernel for "any shape", or each by its "fastest",
+-- which for a lattice is another.
 local function times_faster(body, model, layout)
   local turns, least_seconds = 3, 0.02
   body.seconds = body.seconds or least_seconds / timed_run.once(body.base, {duration = 0.1})

@@ -7,6 +7,7 @@ local paper_numbers = require "lib.paper_numbers"
 local paper_runs = require "lib.paper_runs"
 local paper_studies = require "lib.paper_studies"
 local paper_tables = require "lib.paper_tables"
+local paper_variants = require "lib.paper_variants"
 local run_store = require "lib.run_store"
 local save_text = require "lib.save_text"
 
@@ -34,8 +35,10 @@ parser:option("--speed-scale", "m/s of one of the paper's units of speed")
 parser:option("--ball-materials", "Lua file that returns core and shell"):argname("<file.lua>")
 parser:option("--rods-materials", "Lua file that returns rod and rubber"):argname("<file.lua>")
 parser:flag("--calibrated", "also levels of 45 and 20 % of the nodes fitted to the base: LOD-fit-b "
-  .. "(the paper's groups), LOD-fit-compact-b, and LOD-fit-compact-s and -bs that touch at the "
+  .. "(the paper's groups), LOD-fit-compact-b, and LOD-fit-compact-s and -sp that touch at the "
   .. "base's surface; goes on in a folder without them too")
+parser:option("--variants", "these ways only, fitted ones among them or not")
+  :argname("<name>"):args("+"):choices(paper_variants.labels())
 parser:flag("--no-figures", "tables only")
 local args = parser:parse()
 
@@ -45,7 +48,8 @@ local settings = {
   jitter = args.jitter, margin = args.margin, friction = args.friction, seed = s.seed,
   ball_speed = args.ball_speed, speed_scale = args.speed_scale,
   speeds = args.speeds or (args.quick and {30} or paper_numbers.speeds),
-  calibrated = args.calibrated,
+  variants = args.variants
+    or (args.calibrated and paper_variants.labels() or paper_variants.paper_labels()),
   ball_materials = args.ball_materials and command.load_table(args.ball_materials),
   rods_materials = args.rods_materials and command.load_table(args.rods_materials),
 }

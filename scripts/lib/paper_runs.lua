@@ -56,11 +56,12 @@ function paper_runs.chain(base, variant, seed)
   chains[base] = chains[base] or {}
   -- Variants may differ in how they are run alone.
   local key = table.concat({tostring(variant.grouping), tostring(variant.border),
-                            tostring(variant.calibrate), seed,
+                            tostring(variant.calibrate), tostring(variant.moments), seed,
                             table.unpack(variant.keep or {})}, " ")
   chains[base][key] = chains[base][key] or s.simplify(base, {
     levels = not variant.keep and 2 or nil, keep = variant.keep, grouping = variant.grouping,
-    border = variant.border, calibrate = variant.calibrate, seed = seed,
+    border = variant.border, calibrate = variant.calibrate,
+    calibration = variant.moments and {moments = variant.moments}, seed = seed,
   })
   return chains[base][key]
 end

@@ -13,9 +13,9 @@ local paper_studies = {}
 
 local mean, standard_deviation = averages.mean, averages.standard_deviation
 
--- What a study of all variants is kept as: a folder may get the calibrated ones later.
+-- What a study of the variants is kept as: a folder may get other ones later.
 local function kept_as(name, settings)
-  return settings.calibrated and name .. "-calibrated" or name
+  return name .. "-of-" .. table.concat(settings.variants, "+")
 end
 
 local function positions_at(model, scene, time, contact)

@@ -9,8 +9,8 @@ local paper_variants = {
 }
 
 -- The paper's groups and compact ones, fitted. With weak borders, for what touches floor and wall
--- then stays where the surface was, or (s) touching at the base's surface itself; about as many
--- nodes as the paper's levels.
+-- then stays where the surface was, or (s) touching at the base's surface itself, or so and (p) with
+-- the moments of pieces of one material kept; about as many nodes as the paper's levels.
 paper_variants.calibrated = {
   {name = "fit-b", grouping = "standard", border = "weak", calibrate = "modes",
    keep = {0.45, 0.2}},
@@ -18,15 +18,34 @@ paper_variants.calibrated = {
    keep = {0.45, 0.2}},
   {name = "fit-compact-s", grouping = "compact", border = "none", calibrate = "modes",
    keep = {0.45, 0.2}, contact = "surface"},
-  {name = "fit-compact-bs", grouping = "compact", border = "weak", calibrate = "modes",
-   keep = {0.45, 0.2}, contact = "surface"},
+  {name = "fit-compact-sp", grouping = "compact", border = "none", calibrate = "modes",
+   keep = {0.45, 0.2}, contact = "surface", moments = "pieces"},
 }
 
--- `variants`, and the calibrated ones after them if the settings ask for them.
+local function labels_of(...)
+  local labels = {}
+  for _, variants in ipairs{...} do
+    for _, variant in ipairs(variants) do
+      labels[#labels + 1] = paper_variants.label(variant.name)
+    end
+  end
+  return labels
+end
+
+-- "LOD", "LOD-b", ... of the paper's variants, and of all.
+function paper_variants.paper_labels() return labels_of(paper_variants) end
+function paper_variants.labels() return labels_of(paper_variants, paper_variants.calibrated) end
+
+-- Of `variants` and the calibrated ones those whose labels `settings.variants` lists.
 function paper_variants.wanted(variants, settings)
-  if not settings.calibrated then return variants end
-  local all = table.move(variants, 1, #variants, 1, {})
-  return table.move(paper_variants.calibrated, 1, #paper_variants.calibrated, #all + 1, all)
+  local asked, wanted = {}, {}
+  for _, label in ipairs(settings.variants) do asked[label] = true end
+  for _, list in ipairs{variants, paper_variants.calibrated} do
+    for _, variant in ipairs(list) do
+      if asked[paper_variants.label(variant.name)] then wanted[#wanted + 1] = variant end
+    end
+  end
+  return wanted
 end
 
 -- "base", "LOD-1", "LOD-hb-2" of the variant's name and the level; without one that of all levels,

@@ -47,6 +47,17 @@ TEST_CASE("paper goes on where it was stopped, and comes to the same tables on a
   CHECK(more.err.find("ball/LOD-1") == std::string::npos);  // kept ones are not run again
   CHECK(std::filesystem::exists(scratch / "whole/runs/ball/LOD-fit-b-1-seed-1.csv"));
 
+  std::vector<std::string> one_way = paper(scratch / "whole", "5", "2");
+  one_way.insert(one_way.end(), {"--variants", "LOD-b"});
+  const Ran fewer = springlod_run(one_way);
+  CHECK(fewer.exit_code == 0);
+  CHECK(fewer.err.find("ball/LOD") == std::string::npos);
+  const std::string table = slurp(scratch / "whole/table-1.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 4);  // columns, base, two levels
+  CHECK_THAT(table, Contains("LOD-b-2"));
+  one_way.back() = "LOD-x";
+  CHECK(springlod_run(one_way).exit_code == 2);
+
   const Ran mixed = springlod_run(paper(scratch / "whole", "6", "2"));
   CHECK(mixed.exit_code == 1);
   CHECK_THAT(mixed.err, Contains("holds runs with starts = 5, not 6; take another folder"));
