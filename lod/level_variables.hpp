@@ -21,7 +21,8 @@ struct FitPoint {
 /// the masses the moments that are to be kept. Refers to the level, which must outlive it.
 class LevelVariables {
  public:
-  LevelVariables(const MassSpringModel& start, KeptMoments kept) : start_(start), moments_(start, kept) {}
+  LevelVariables(const MassSpringModel& start, KeptMoments kept)
+      : start_(start), moments_(start, kept) {}
 
   Eigen::Index springs() const { return start_.spring_count(); }
   Eigen::Index nodes() const { return start_.node_count(); }

@@ -29,9 +29,8 @@ std::vector<std::vector<std::uint32_t>> pieces_of(const MassSpringModel& model) 
   const DisjointSets::Numbers numbers = joined.numbers();
   std::vector<std::vector<std::uint32_t>> pieces(numbers.count);
   for (std::uint32_t i = 0; i < model.node_count(); ++i) pieces[numbers.of[i]].push_back(i);
-  const auto small =
-      std::stable_partition(pieces.begin(), pieces.end(),
-                            [](const auto& nodes) { return nodes.size() >= kLeastPiece; });
+  const auto small = std::stable_partition(
+      pieces.begin(), pieces.end(), [](const auto& nodes) { return nodes.size() >= kLeastPiece; });
   std::vector<std::uint32_t> rest;
   for (auto piece = small; piece != pieces.end(); ++piece)
     rest.insert(rest.end(), piece->begin(), piece->end());
@@ -50,7 +49,8 @@ MassMoments::MassMoments(const MassSpringModel& model, KeptMoments kept) {
     monomials_.emplace_back() << 1, x, x.cwiseAbs2(), x.x() * x.y(), x.x() * x.z(), x.y() * x.z();
   }
   if (kept == KeptMoments::pieces) {
-    for (std::vector<std::uint32_t>& nodes : pieces_of(model)) pieces_.push_back({std::move(nodes)});
+    for (std::vector<std::uint32_t>& nodes : pieces_of(model))
+      pieces_.push_back({std::move(nodes)});
   } else {
     pieces_.emplace_back().nodes.resize(model.node_count());
     std::iota(pieces_[0].nodes.begin(), pieces_[0].nodes.end(), 0U);

@@ -20,6 +20,9 @@ local methods = {
   {name = "calibrated", options = {grouping = "standard", calibrate = "modes"}},
   {name = "compact plain", options = {grouping = "compact"}},
   {name = "compact calibrated", options = {grouping = "compact", calibrate = "modes"}},
+  {name = "compact pieces", options = {
+    grouping = "compact", calibrate = "modes", calibration = {moments = "pieces"},
+  }},
   {name = "METIS plain", options = {grouping = "metis"}},
   {name = "METIS calibrated", options = {grouping = "metis", calibrate = "modes"}},
   {name = "random refill", refill = "random"},
@@ -65,9 +68,9 @@ local function make_chain(body, method, seed)
   return chain
 end
 
--- How many times less a simulated second takes by the clock than one of the base, run by turns, each at
--- its own step: the body floats by itself. Both by the kernel for "any shape", or each by its "fastest",
--- which for a lattice is another.
+-- How many times less a simulated second takes by the clock than one of the base, run by turns,
+-- each at its own step: the body floats by itself. Both by the kernel for "any shape", or each by
+-- its "fastest", which for a lattice is another.
 local function times_faster(body, model, layout)
   local turns, least_seconds = 3, 0.02
   body.seconds = body.seconds or least_seconds / timed_run.once(body.base, {duration = 0.1})

@@ -150,9 +150,8 @@ void rub(Contact& contact, double mass, double step, const Vec3& v) {
   const double held = contact.grip_energy();
   const double late = step + contact.grip_damping;
   const Vec3 start = along_face(contact.stretch);
-  const Vec3 impulse = at_most(contact.grip * step * (start + late * slip) /
-                                   (1 + contact.grip * step * late / mass),
-                               most);
+  const Vec3 impulse = at_most(
+      contact.grip * step * (start + late * slip) / (1 + contact.grip * step * late / mass), most);
   contact.slip_change = -impulse / mass;
   contact.stretch = (impulse / contact.grip + contact.grip_damping * start) / late;
   contact.grip_gain = contact.grip_energy() - held;

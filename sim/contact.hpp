@@ -26,9 +26,9 @@ struct Contact {
   /// A point that gives way is held by friction through a spring along the obstacle, the grip, as
   /// stiff as 1 / ContactPoints::give [N/m]; 0: friction holds the point itself.
   double grip = 0;
-  double grip_damping = 0;          ///< c / k of the grip [s]
-  Vec3 stretch = Vec3::Zero();      ///< of the grip, which pulls the point against it [m]
-  double grip_gain = 0;             ///< what the grip took in this step [J]
+  double grip_damping = 0;      ///< c / k of the grip [s]
+  Vec3 stretch = Vec3::Zero();  ///< of the grip, which pulls the point against it [m]
+  double grip_gain = 0;         ///< what the grip took in this step [J]
   double grip_energy() const { return 0.5 * grip * stretch.squaredNorm(); }  ///< [J]
 
   /// Change of normal_force with depth where the rate is that of a step of length dt [N/m].
@@ -74,13 +74,14 @@ void keep_grips(const std::vector<Contact>& before, std::vector<Contact>& now);
 /// grip_gain of its grip by the end of the step. Without a grip, it takes from the tangential
 /// velocity at most mu f_n dt / m and never more than there is, so that no step reverses a slip.
 /// With one, the spring is stretched by the slip and pulls, to the end of the step (implicit, so
-/// that no stiffness is too much for a step), and slides where it pulls more than mu f_n: spring and
-/// slider in a row (Cundall and Strack 1979, "A discrete numerical model for granular assemblies").
+/// that no stiffness is too much for a step), and slides where it pulls more than mu f_n: spring
+/// and slider in a row (Cundall and Strack 1979, "A discrete numerical model for granular
+/// assemblies").
 void rub(Contact& contact, double mass, double step, const Vec3& v);
 
 /// Coulomb friction on all contacts: see rub. `v` are the velocities of the nodes after all other
-/// forces of the step. Contact after contact, for points may share nodes. Returns the kinetic energy
-/// that it took [J], that which the grips keep included.
+/// forces of the step. Contact after contact, for points may share nodes. Returns the kinetic
+/// energy that it took [J], that which the grips keep included.
 double apply_friction(const ContactPoints& points, double step, std::vector<Contact>& contacts,
                       std::vector<Vec3>& v);
 

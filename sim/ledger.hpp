@@ -27,12 +27,12 @@ struct LedgerEntry {
   double time = 0;  ///< [s]
   double kinetic = 0;
   double elastic = 0;
-  double gravity = 0;       ///< potential
-  double contact = 0;       ///< stored in the penalty springs and grips
-  double lost_damping = 0;  ///< to spring damping
+  double gravity = 0;        ///< potential
+  double contact = 0;        ///< stored in the penalty springs and grips
+  double lost_damping = 0;   ///< to spring damping
   double lost_friction = 0;  ///< to rubbing, and to the dampers of grips
-  double lost_contact = 0;  ///< to contact damping and to contact beginning or ending in mid-step
-  double lost_switch = 0;   ///< to a switch of the level, or of the step (K_n depends on it)
+  double lost_contact = 0;   ///< to contact damping and to contact beginning or ending in mid-step
+  double lost_switch = 0;    ///< to a switch of the level, or of the step (K_n depends on it)
   /// What is still there and could move the body.
   double mechanical() const { return kinetic + elastic + gravity + contact; }
   double total() const {

@@ -9,8 +9,8 @@ local paper_variants = {
 }
 
 -- The paper's groups and compact ones, fitted. With weak borders, for what touches floor and wall
--- then stays where the surface was, or (s) touching at the base's surface itself, or so and (p) with
--- the moments of pieces of one material kept; about as many nodes as the paper's levels.
+-- then stays where the surface was, or (s) touching at the base's surface itself, or so and (p)
+-- with the moments of pieces of one material kept; about as many nodes as the paper's levels.
 paper_variants.calibrated = {
   {name = "fit-b", grouping = "standard", border = "weak", calibrate = "modes",
    keep = {0.45, 0.2}},

@@ -72,7 +72,7 @@ class SkinContacts {
   std::optional<std::uint64_t> arrived_;   // at which step
   double travel_ = 0, travel_before_ = 0;  // of the fastest node, step by step [m]
   std::vector<View> views_;                // by obstacle
-  std::optional<std::uint64_t> kicked_;  // at which step
+  std::optional<std::uint64_t> kicked_;    // at which step
   std::vector<Contact> contacts_, contacts_before_;
   std::vector<Vec3> before_, after_;
   std::optional<std::uint64_t> first_step_;

@@ -63,7 +63,7 @@ TEST_CASE("Moments of mass are kept while masses shift, of the body or of its pi
       std::vector<double> shift(model.node_count());
       for (std::size_t i = 0; i < shift.size(); ++i)
         shift[i] = model.mass[i] * changes(static_cast<Eigen::Index>(i), column);
-      CHECK(largest_part(moments(model, shift, material),
-                         moments(model, model.mass, material)) < 1e-12);
+      CHECK(largest_part(moments(model, shift, material), moments(model, model.mass, material)) <
+            1e-12);
     }
 }

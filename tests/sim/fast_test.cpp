@@ -129,14 +129,15 @@ TEST_CASE("A lattice laid out as any shape moves as it does in rows, to rounding
   const Scenario scene = rough_scene(model);
   constexpr std::uint64_t kFew = 50;
   const auto in = [&](Layout layout) {
-    const StepperOptions options{
-        .layout = make_fast_model(model, Precision::double_precision, layout)};
+    const StepperOptions options{.layout =
+                                     make_fast_model(model, Precision::double_precision, layout)};
     return after<FastLeapfrog>(model, scene, kFew, options, 1000);
   };
   const Outcome rows = in(Layout::fastest);
   const Outcome quads = in(Layout::any_shape);
   CHECK(rows.state.x != quads.state.x);  // sums in another order: it is another kernel
-  CHECK(largest_difference(rows.state.x, quads.state.x) < 1e-11 * bounds(model.rest).sizes().norm());
+  CHECK(largest_difference(rows.state.x, quads.state.x) <
+        1e-11 * bounds(model.rest).sizes().norm());
 }
 
 TEST_CASE("Bodies of one layout do not disturb each other") {

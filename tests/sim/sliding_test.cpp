@@ -49,7 +49,8 @@ TEST_CASE("A sliding block stops after 1.5 m on every level of a chain") {
     const double way =
         measured_distance(scene, scene.start.position, center_of_mass(model, t.final.x));
     INFO("style " << static_cast<int>(style) << " border " << to_string(border) << " level "
-                  << level << " at surface " << at_surface << " nodes " << model.node_count() << " way " << way);
+                  << level << " at surface " << at_surface << " nodes " << model.node_count()
+                  << " way " << way);
     CHECK(way == Approx(1.5).epsilon(0.01));
     CHECK(closure_error(t.ledger) < 0.01);
   }
