@@ -17,7 +17,8 @@ struct ContactSkin {
   std::vector<std::uint32_t> base_node;  ///< which of the base's they are, rising, P
   /// How far the base's node gives way to a force out of its surface while its neighbours stay
   /// [m/N], P. Merging took that from all nodes that are not their own group; the contact gives it
-  /// back, as a spring between point and obstacle.
+  /// back, as a spring between point and obstacle, and as soft a one along the surface, by which
+  /// friction holds the point.
   std::vector<double> give;
 };
 
