@@ -6,7 +6,7 @@
 
 #include <Eigen/QR>
 
-#include "model/disjoint_sets.hpp"
+#include "model/material_pieces.hpp"
 
 namespace springlod {
 namespace {
@@ -20,15 +20,9 @@ constexpr int kCorrections = 3;
 /// Pieces of fewer nodes, twice the ten moments, would hardly be free to change [1].
 constexpr std::size_t kLeastPiece = 20;
 
-/// The nodes of each connected piece of one material, and those of all small ones together.
+/// The nodes of each piece of one material, and those of all small ones together.
 std::vector<std::vector<std::uint32_t>> pieces_of(const MassSpringModel& model) {
-  DisjointSets joined(model.node_count());
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
-    if (model.material[model.a[s]] == model.material[model.b[s]])
-      joined.unite(model.a[s], model.b[s]);
-  const DisjointSets::Numbers numbers = joined.numbers();
-  std::vector<std::vector<std::uint32_t>> pieces(numbers.count);
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) pieces[numbers.of[i]].push_back(i);
+  std::vector<std::vector<std::uint32_t>> pieces = material_pieces(model);
   const auto small = std::stable_partition(
       pieces.begin(), pieces.end(), [](const auto& nodes) { return nodes.size() >= kLeastPiece; });
   std::vector<std::uint32_t> rest;

@@ -5,24 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "model/disjoint_sets.hpp"
+#include "model/material_pieces.hpp"
 
 namespace springlod {
 namespace {
 
 using Nodes = std::vector<std::uint32_t>;
-
-/// By their lowest node.
-std::vector<Nodes> pieces_of(const MassSpringModel& model) {
-  DisjointSets sets(model.node_count());
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
-    if (model.material[model.a[s]] == model.material[model.b[s]])
-      sets.unite(model.a[s], model.b[s]);
-  const DisjointSets::Numbers numbers = sets.numbers();
-  std::vector<Nodes> pieces(numbers.count);
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) pieces[numbers.of[i]].push_back(i);
-  return pieces;
-}
 
 bool reaches_surface(const MassSpringModel& model, const Nodes& piece) {
   return std::any_of(piece.begin(), piece.end(),
@@ -32,7 +20,7 @@ bool reaches_surface(const MassSpringModel& model, const Nodes& piece) {
 }  // namespace
 
 std::vector<StaticLoad> piece_loads(const MassSpringModel& model, const PieceOptions& options) {
-  std::vector<Nodes> pieces = pieces_of(model);
+  std::vector<Nodes> pieces = material_pieces(model);
   if (pieces.size() == 1) return {};
   std::erase_if(pieces, [&](const Nodes& piece) {
     return piece.size() < options.least_nodes || !reaches_surface(model, piece);

@@ -22,28 +22,27 @@ paper_variants.calibrated = {
    keep = {0.45, 0.2}, contact = "surface", moments = "pieces"},
 }
 
-local function labels_of(...)
+local function with_calibrated(variants)
+  local all = table.move(variants, 1, #variants, 1, {})
+  return table.move(paper_variants.calibrated, 1, #paper_variants.calibrated, #all + 1, all)
+end
+
+local function labels_of(variants)
   local labels = {}
-  for _, variants in ipairs{...} do
-    for _, variant in ipairs(variants) do
-      labels[#labels + 1] = paper_variants.label(variant.name)
-    end
-  end
+  for i, variant in ipairs(variants) do labels[i] = paper_variants.label(variant.name) end
   return labels
 end
 
 -- "LOD", "LOD-b", ... of the paper's variants, and of all.
 function paper_variants.paper_labels() return labels_of(paper_variants) end
-function paper_variants.labels() return labels_of(paper_variants, paper_variants.calibrated) end
+function paper_variants.labels() return labels_of(with_calibrated(paper_variants)) end
 
 -- Of `variants` and the calibrated ones those whose labels `settings.variants` lists.
 function paper_variants.wanted(variants, settings)
   local asked, wanted = {}, {}
   for _, label in ipairs(settings.variants) do asked[label] = true end
-  for _, list in ipairs{variants, paper_variants.calibrated} do
-    for _, variant in ipairs(list) do
-      if asked[paper_variants.label(variant.name)] then wanted[#wanted + 1] = variant end
-    end
+  for _, variant in ipairs(with_calibrated(variants)) do
+    if asked[paper_variants.label(variant.name)] then wanted[#wanted + 1] = variant end
   end
   return wanted
 end

@@ -1,5 +1,7 @@
 // `springlod paper`, in small: the paper's tables from few runs.
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
 #include "tests/cli/program.hpp"

@@ -1,0 +1,18 @@
+#include "model/material_pieces.hpp"
+
+#include "model/disjoint_sets.hpp"
+
+namespace springlod {
+
+std::vector<std::vector<std::uint32_t>> material_pieces(const MassSpringModel& model) {
+  DisjointSets sets(model.node_count());
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+    if (model.material[model.a[s]] == model.material[model.b[s]])
+      sets.unite(model.a[s], model.b[s]);
+  const DisjointSets::Numbers numbers = sets.numbers();
+  std::vector<std::vector<std::uint32_t>> pieces(numbers.count);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) pieces[numbers.of[i]].push_back(i);
+  return pieces;
+}
+
+}  // namespace springlod
