@@ -228,6 +228,6 @@ TEST_CASE("A ball bounces off a thin turned plate and keeps its energy account")
   Vec3 v = Vec3::Zero();
   for (std::uint32_t i = 0; i < model.node_count(); ++i) v += model.mass[i] * t.final.v[i];
   CHECK(v.x() < 0);
-  for (const Vec3& x : t.final.x) CHECK(surface_point(scene.obstacles[0], x).distance > 0);
+  for (const Vec3& x : t.final.x) CHECK(surface_distance(scene.obstacles[0], x).distance > 0);
   CHECK(closure_error(t.ledger) < 0.01);
 }
