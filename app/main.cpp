@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "app/cli.hpp"
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "scripting/interrupt.hpp"
 #include "scripting/paths.hpp"
 #include "scripting/repl.hpp"

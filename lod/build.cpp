@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "lod/compact_groups.hpp"
 #include "lod/exact_count.hpp"
 #include "lod/metis_groups.hpp"
 #include "lod/rescale_moduli.hpp"
-#include "model/error.hpp"
 
 namespace springlod {
 namespace {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "lod/calibrate.hpp"
 #include "lod/grouping.hpp"
 #include "lod/guard.hpp"
 #include "lod/merge.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 
 namespace springlod {
 

@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "lod/calibration_store.hpp"
 #include "lod/long_springs.hpp"
 #include "lod/second_moments.hpp"
 #include "model/anchors.hpp"
-#include "model/error.hpp"
-#include "model/parallel.hpp"
 #include "model/parts.hpp"
 
 namespace springlod {

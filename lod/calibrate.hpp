@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "lod/elastic_targets.hpp"
 #include "lod/fit_part.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 
 namespace springlod {
 

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
+#include "base/progress.hpp"
 #include "lod/elastic_targets.hpp"
 #include "lod/fit_part.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
-#include "model/progress.hpp"
 
 namespace springlod {
 

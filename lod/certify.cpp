@@ -6,15 +6,15 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "lod/compared_loads.hpp"
 #include "lod/elastic_targets.hpp"
 #include "lod/group_means.hpp"
 #include "lod/second_moments.hpp"
 #include "lod/tolerance.hpp"
-#include "model/error.hpp"
 #include "model/measured_moduli.hpp"
 #include "model/modes.hpp"
-#include "model/parallel.hpp"
 #include "model/stable_step.hpp"
 #include "model/static_loads.hpp"
 #include "model/zero_modes.hpp"

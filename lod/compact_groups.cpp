@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "base/chance.hpp"
+#include "base/error.hpp"
 #include "lod/connected_groups.hpp"
 #include "lod/graded_shares.hpp"
-#include "model/chance.hpp"
-#include "model/error.hpp"
 #include "model/point_bins.hpp"
 #include "model/stable_step.hpp"
 

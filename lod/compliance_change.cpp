@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "lod/group_means.hpp"
 #include "lod/transfer.hpp"
-#include "model/error.hpp"
 #include "model/stiffness.hpp"
 
 namespace springlod {

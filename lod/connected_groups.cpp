@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
 namespace springlod {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <functional>
 
+#include "base/parallel.hpp"
 #include "lod/tolerance.hpp"
 #include "model/modes.hpp"
-#include "model/parallel.hpp"
 
 namespace springlod {
 namespace {

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "model/anchors.hpp"
-#include "model/error.hpp"
 #include "model/local_loads.hpp"
 #include "model/modes.hpp"
-#include "model/parallel.hpp"
 #include "model/piece_loads.hpp"
 #include "model/stable_step.hpp"
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/chain.hpp"
 #include "model/elastic_body.hpp"
-#include "model/progress.hpp"
 #include "model/static_loads.hpp"
 
 namespace springlod {

@@ -6,12 +6,12 @@
 #include <optional>
 #include <utility>
 
+#include "base/error.hpp"
 #include "lod/damped_step.hpp"
 #include "lod/elastic_fit.hpp"
 #include "lod/frequency_cap.hpp"
 #include "lod/tolerance.hpp"
 #include "model/dense_kernels.hpp"
-#include "model/error.hpp"
 #include "model/stable_step.hpp"
 
 namespace springlod {

@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "base/chance.hpp"
+#include "base/error.hpp"
 #include "lod/grouping_keys.hpp"
 #include "lod/radix_sort.hpp"
-#include "model/chance.hpp"
-#include "model/error.hpp"
 
 namespace springlod {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 
 namespace springlod {
 namespace {

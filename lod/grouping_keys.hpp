@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "base/prefetch.hpp"
 #include "lod/grouping.hpp"
-#include "model/prefetch.hpp"
 
 namespace springlod {
 

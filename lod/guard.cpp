@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
+#include "base/disjoint_sets.hpp"
 #include "lod/relink.hpp"
 #include "lod/rigidity.hpp"
-#include "model/disjoint_sets.hpp"
 
 namespace springlod {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "lod/relink.hpp"
-#include "model/error.hpp"
 
 namespace springlod {
 namespace {

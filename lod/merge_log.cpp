@@ -9,14 +9,14 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "lod/compared_loads.hpp"
 #include "lod/compliance_change.hpp"
 #include "lod/elastic_targets.hpp"
 #include "lod/group_means.hpp"
 #include "lod/transfer.hpp"
-#include "model/error.hpp"
 #include "model/modes.hpp"
-#include "model/parallel.hpp"
 #include "model/static_loads.hpp"
 
 namespace springlod {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 
 namespace springlod {
 

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <metis.h>
 
+#include "base/error.hpp"
 #include "lod/connected_groups.hpp"
 #include "lod/exact_count.hpp"
-#include "model/error.hpp"
 #include "model/spring_rows.hpp"
 
 namespace springlod {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "model/asset_json.hpp"
-#include "model/error.hpp"
 
 namespace springlod {
 namespace {

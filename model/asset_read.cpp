@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "model/asset.hpp"
 #include "model/asset_certificate.hpp"
 #include "model/asset_format.hpp"
-#include "model/error.hpp"
-#include "model/file.hpp"
 
 // The extension is read with a JSON parser and range checks alone: a general glTF reader would
 // look at everything that a damaged file says.

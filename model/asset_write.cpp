@@ -7,14 +7,14 @@
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "model/asset.hpp"
 #include "model/asset_buffer.hpp"
 #include "model/asset_certificate.hpp"
 #include "model/asset_display.hpp"
 #include "model/asset_format.hpp"
 #include "model/asset_json.hpp"
-#include "model/error.hpp"
-#include "model/file.hpp"
 
 namespace springlod {
 namespace {

@@ -8,9 +8,9 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "model/anchors.hpp"
 #include "model/dense_kernels.hpp"
-#include "model/error.hpp"
 #include "model/parts.hpp"
 #include "model/random_block.hpp"
 #include "model/stable_step.hpp"

@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "base/progress.hpp"
 #include "model/mass_spring.hpp"
-#include "model/progress.hpp"
 #include "model/sparse_cholesky.hpp"
 
 namespace springlod {

@@ -10,8 +10,8 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "model/dense_kernels.hpp"
-#include "model/error.hpp"
 #include "model/random_block.hpp"
 
 namespace springlod {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/elastic_body.hpp"
 #include "model/mass_spring.hpp"
-#include "model/progress.hpp"
 
 namespace springlod {
 

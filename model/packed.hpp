@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/vec.hpp"
 
 namespace springlod {

@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "base/progress.hpp"
 #include "model/dissection.hpp"
-#include "model/progress.hpp"
 
 namespace springlod {
 

@@ -8,7 +8,7 @@
 #include <Spectra/SymEigsSolver.h>
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/random_block.hpp"
 
 namespace springlod {

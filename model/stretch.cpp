@@ -8,7 +8,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/stiffness.hpp"
 
 namespace springlod {

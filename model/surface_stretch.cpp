@@ -7,7 +7,7 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/stiffness.hpp"
 
 namespace springlod {

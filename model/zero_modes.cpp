@@ -8,8 +8,8 @@
 #include <Eigen/QR>
 #include <Eigen/SparseCholesky>
 
+#include "base/error.hpp"
 #include "model/anchors.hpp"
-#include "model/error.hpp"
 #include "model/random_block.hpp"
 #include "model/rigid_pieces.hpp"
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/estimate.hpp"
 #include "render/value_colour.hpp"
 

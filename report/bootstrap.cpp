@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "model/chance.hpp"
-#include "model/error.hpp"
+#include "base/chance.hpp"
+#include "base/error.hpp"
 #include "report/probability.hpp"
 #include "report/statistics.hpp"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "model/progress.hpp"
+#include "base/progress.hpp"
 #include "report/start_sample.hpp"
 
 namespace springlod {

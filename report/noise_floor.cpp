@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "model/chance.hpp"
-#include "model/error.hpp"
+#include "base/chance.hpp"
+#include "base/error.hpp"
 #include "report/statistics.hpp"
 
 namespace springlod {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/units.hpp"
+#include "base/units.hpp"
 
 struct lua_State;
 

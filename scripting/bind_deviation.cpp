@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "base/error.hpp"
 #include "lod/transfer.hpp"
-#include "model/error.hpp"
 #include "scripting/call.hpp"
 #include "scripting/scenario_table.hpp"
 #include "scripting/values.hpp"

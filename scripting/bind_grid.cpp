@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/error.hpp"
-#include "model/units.hpp"
+#include "base/error.hpp"
+#include "base/units.hpp"
 #include "scripting/call.hpp"
 #include "scripting/records.hpp"
 #include "scripting/values.hpp"

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "base/error.hpp"
 #include "lod/build.hpp"
 #include "lod/certify.hpp"
-#include "model/error.hpp"
 #include "scripting/calibration_option.hpp"
 #include "scripting/call.hpp"
 #include "scripting/grouping_script.hpp"

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "base/error.hpp"
+#include "base/units.hpp"
 #include "model/asset.hpp"
-#include "model/error.hpp"
 #include "model/estimate.hpp"
 #include "model/stable_step.hpp"
-#include "model/units.hpp"
 #include "scripting/call.hpp"
 #include "scripting/certificate_table.hpp"
 #include "scripting/model_table.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "render/frames.hpp"
 #include "render/scene.hpp"
 #include "scripting/call.hpp"

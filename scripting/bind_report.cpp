@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "report/animate.hpp"
 #include "report/chart.hpp"
 #include "report/csv.hpp"

@@ -11,7 +11,7 @@
 #include <lua.hpp>
 #include <nlohmann/json.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "scripting/call.hpp"
 #include "scripting/help.hpp"
 #include "scripting/inspect.hpp"

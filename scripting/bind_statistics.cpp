@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "report/noise_floor.hpp"
 #include "report/sample_comparison.hpp"
 #include "report/statistics.hpp"

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/error.hpp"
-#include "model/units.hpp"
+#include "base/error.hpp"
+#include "base/units.hpp"
 #include "scripting/script_error.hpp"
 #include "scripting/suggest.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "scripting/interrupt.hpp"
 
 namespace springlod {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/progress.hpp"
+#include "base/progress.hpp"
 
 namespace springlod {
 

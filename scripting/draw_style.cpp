@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 
 namespace springlod {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "base/error.hpp"
 #include "lod/grouping.hpp"
-#include "model/error.hpp"
 #include "scripting/model_table.hpp"
 
 namespace springlod {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "render/drawables.hpp"
 #include "render/node_values.hpp"
 #include "render/overlay.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "scripting/call.hpp"
 #include "scripting/interrupt.hpp"
 #include "scripting/paths.hpp"

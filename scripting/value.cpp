@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "scripting/call.hpp"
 #include "scripting/script_error.hpp"
 #include "scripting/suggest.hpp"

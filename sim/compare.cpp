@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "lod/transfer.hpp"
-#include "model/error.hpp"
-#include "model/parallel.hpp"
 #include "sim/deviation.hpp"
 #include "sim/run_progress.hpp"
 #include "sim/starts.hpp"

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "lod/transfer.hpp"
-#include "model/error.hpp"
 #include "model/stable_step.hpp"
 
 namespace springlod {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/parallel.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "sim/run_progress.hpp"
 
 namespace springlod {

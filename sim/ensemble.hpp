@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/mass_spring.hpp"
-#include "model/progress.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
 #include "sim/starts.hpp"

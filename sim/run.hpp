@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/mass_spring.hpp"
-#include "model/progress.hpp"
 #include "sim/contact_skin.hpp"
 #include "sim/fast/fast_model.hpp"
 #include "sim/integrator.hpp"

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string_view>
 
-#include "model/error.hpp"
-#include "model/progress.hpp"
+#include "base/error.hpp"
+#include "base/progress.hpp"
 
 namespace springlod {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 
 namespace springlod {
 namespace {
@@ -117,7 +117,8 @@ State initial_state(const MassSpringModel& model, const Throw& start) {
 }
 
 SurfaceDistance surface_distance(const Obstacle& obstacle, const Vec3& point) {
-  return std::visit([&](const auto& shape) { return surface_distance(shape, point); }, obstacle.shape);
+  return std::visit([&](const auto& shape) { return surface_distance(shape, point); },
+                    obstacle.shape);
 }
 
 }  // namespace springlod

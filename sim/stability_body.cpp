@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/modes.hpp"
 #include "model/zero_modes.hpp"
 #include "sim/stiffness_ratio.hpp"

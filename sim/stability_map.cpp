@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/parallel.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "sim/run_progress.hpp"
 #include "sim/stability_body.hpp"
 #include "sim/stiffness_ratio.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 #include "sim/integrator.hpp"
 
 namespace springlod {

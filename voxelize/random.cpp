@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/point_bins.hpp"
 #include "model/stiffness.hpp"
 #include "model/surface_stretch.hpp"

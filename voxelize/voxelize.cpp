@@ -6,7 +6,7 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "voxelize/depth.hpp"
 #include "voxelize/frame.hpp"
 #include "voxelize/grid.hpp"

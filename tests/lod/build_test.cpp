@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "lod/transfer.hpp"
-#include "model/error.hpp"
 #include "model/zero_modes.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/support/models.hpp"

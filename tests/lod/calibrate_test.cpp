@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "lod/build.hpp"
 #include "lod/certify.hpp"
 #include "lod/elastic_fit.hpp"
@@ -13,7 +14,6 @@
 #include "lod/rescale_moduli.hpp"
 #include "lod/second_moments.hpp"
 #include "lod/tolerance.hpp"
-#include "model/error.hpp"
 #include "model/stable_step.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/support/models.hpp"

@@ -5,12 +5,12 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/disjoint_sets.hpp"
+#include "base/error.hpp"
 #include "lod/connected_groups.hpp"
 #include "lod/exact_count.hpp"
 #include "lod/metis_groups.hpp"
 #include "lod/relink.hpp"
-#include "model/disjoint_sets.hpp"
-#include "model/error.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/support/models.hpp"
 

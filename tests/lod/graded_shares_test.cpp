@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "lod/compact_groups.hpp"
-#include "model/error.hpp"
 #include "tests/lod/bodies.hpp"
 
 using namespace springlod;

@@ -7,9 +7,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "lod/build.hpp"
 #include "lod/merge.hpp"
-#include "model/error.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/support/models.hpp"
 

@@ -7,10 +7,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "lod/build.hpp"
 #include "lod/certify.hpp"
 #include "lod/compliance_change.hpp"
-#include "model/error.hpp"
 #include "model/modes.hpp"
 #include "model/stiffness.hpp"
 #include "tests/lod/bodies.hpp"

@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "lod/grouping.hpp"
 #include "lod/guard.hpp"
-#include "model/error.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/chance.hpp"
+#include "base/chance.hpp"
 
 using namespace springlod;
 

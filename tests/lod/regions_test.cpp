@@ -5,11 +5,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "lod/build.hpp"
 #include "lod/certify.hpp"
 #include "lod/compared_loads.hpp"
 #include "lod/elastic_fit.hpp"
-#include "model/error.hpp"
 #include "tests/lod/bodies.hpp"
 
 using namespace springlod;

@@ -10,10 +10,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "lod/build.hpp"
 #include "lod/calibration_store.hpp"
-#include "model/error.hpp"
-#include "model/file.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/model/sample_assets.hpp"
 

@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "model/chain.hpp"
-#include "model/error.hpp"
 #include "model/modes.hpp"
 #include "model/static_loads.hpp"
 #include "model/zero_modes.hpp"

@@ -5,9 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "model/asset.hpp"
-#include "model/error.hpp"
-#include "model/file.hpp"
 #include "tests/model/glb_text.hpp"
 #include "tests/model/sample_assets.hpp"
 

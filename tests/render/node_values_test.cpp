@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/estimate.hpp"
 #include "render/camera.hpp"
 #include "render/drawables.hpp"

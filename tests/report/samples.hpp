@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/chance.hpp"
+#include "base/chance.hpp"
 #include "report/probability.hpp"
 
 namespace springlod::test {

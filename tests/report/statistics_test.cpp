@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "report/probability.hpp"
 #include "tests/report/samples.hpp"
 

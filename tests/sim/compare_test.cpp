@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
-#include "model/parallel.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "sim/deviation.hpp"
 #include "sim/starts.hpp"
 #include "tests/sim/bodies.hpp"

@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/stable_step.hpp"
 #include "sim/compare.hpp"
 #include "sim/contact.hpp"

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "sim/run.hpp"
 #include "sim/stiffness_ratio.hpp"
 #include "sim/tunnel_watch.hpp"

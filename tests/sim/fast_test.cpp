@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <hwy/targets.h>
 
+#include "base/error.hpp"
 #include "lod/build.hpp"
-#include "model/error.hpp"
 #include "model/stable_step.hpp"
 #include "sim/contact_skin.hpp"
 #include "sim/fast/fast_leapfrog.hpp"

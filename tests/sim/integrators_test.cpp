@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "sim/run.hpp"
 #include "sim/runge_kutta.hpp"
 #include "tests/sim/bodies.hpp"

@@ -5,8 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
 #include "lod/merge.hpp"
-#include "model/error.hpp"
 #include "model/stable_step.hpp"
 #include "sim/motion.hpp"
 #include "sim/probe.hpp"

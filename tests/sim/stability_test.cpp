@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "sim/run.hpp"
 #include "tests/sim/bodies.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/stable_step.hpp"
 #include "sim/run.hpp"
 #include "tests/sim/bodies.hpp"

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/stiffness.hpp"
 #include "model/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"

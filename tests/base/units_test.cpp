@@ -1,8 +1,8 @@
-#include "model/units.hpp"
+#include "base/units.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 
 namespace springlod {
 namespace {

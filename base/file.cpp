@@ -1,4 +1,4 @@
-#include "model/file.hpp"
+#include "base/file.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -10,7 +10,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 
 namespace springlod {
 

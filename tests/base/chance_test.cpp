@@ -1,4 +1,4 @@
-#include "model/chance.hpp"
+#include "base/chance.hpp"
 
 #include <array>
 #include <cmath>

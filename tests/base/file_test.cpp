@@ -1,11 +1,11 @@
-#include "model/file.hpp"
+#include "base/file.hpp"
 
 #include <fstream>
 #include <iterator>
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "tests/model/sample_assets.hpp"
 
 namespace springlod {

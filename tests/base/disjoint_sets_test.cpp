@@ -1,4 +1,4 @@
-#include "model/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
 #include <catch2/catch.hpp>
 
