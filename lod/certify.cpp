@@ -8,16 +8,16 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "elastic/loads/static_loads.hpp"
+#include "elastic/modes.hpp"
+#include "elastic/moduli/measured_moduli.hpp"
+#include "elastic/stable_step.hpp"
+#include "elastic/zero_modes.hpp"
 #include "lod/compared_loads.hpp"
 #include "lod/elastic_targets.hpp"
 #include "lod/group_means.hpp"
 #include "lod/second_moments.hpp"
 #include "lod/tolerance.hpp"
-#include "model/measured_moduli.hpp"
-#include "model/modes.hpp"
-#include "model/stable_step.hpp"
-#include "model/static_loads.hpp"
-#include "model/zero_modes.hpp"
 
 namespace springlod {
 namespace {

@@ -12,10 +12,10 @@
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
+#include "elastic/stable_step.hpp"
 #include "lod/connected_groups.hpp"
 #include "lod/graded_shares.hpp"
 #include "model/point_bins.hpp"
-#include "model/stable_step.hpp"
 
 namespace springlod {
 namespace {

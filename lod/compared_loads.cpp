@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-#include "model/local_loads.hpp"
+#include "elastic/loads/local_loads.hpp"
 
 namespace springlod {
 

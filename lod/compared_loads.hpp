@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "elastic/loads/static_loads.hpp"
 #include "model/mass_spring.hpp"
-#include "model/static_loads.hpp"
 
 namespace springlod {
 

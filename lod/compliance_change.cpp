@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/stiffness.hpp"
 #include "lod/group_means.hpp"
 #include "lod/transfer.hpp"
-#include "model/stiffness.hpp"
 
 namespace springlod {
 namespace {

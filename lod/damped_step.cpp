@@ -5,7 +5,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "model/dense_kernels.hpp"
+#include "elastic/solver/dense_kernels.hpp"
 
 namespace springlod {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "base/parallel.hpp"
+#include "elastic/modes.hpp"
 #include "lod/tolerance.hpp"
-#include "model/modes.hpp"
 
 namespace springlod {
 namespace {

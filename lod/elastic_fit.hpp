@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "elastic/elastic_body.hpp"
 #include "lod/elastic_targets.hpp"
 #include "model/chain.hpp"
-#include "model/elastic_body.hpp"
 #include "model/mass_spring.hpp"
 
 namespace springlod {

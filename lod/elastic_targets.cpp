@@ -10,11 +10,11 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "elastic/loads/local_loads.hpp"
+#include "elastic/loads/piece_loads.hpp"
+#include "elastic/modes.hpp"
+#include "elastic/stable_step.hpp"
 #include "model/anchors.hpp"
-#include "model/local_loads.hpp"
-#include "model/modes.hpp"
-#include "model/piece_loads.hpp"
-#include "model/stable_step.hpp"
 
 namespace springlod {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/progress.hpp"
+#include "elastic/elastic_body.hpp"
+#include "elastic/loads/static_loads.hpp"
 #include "model/chain.hpp"
-#include "model/elastic_body.hpp"
-#include "model/static_loads.hpp"
 
 namespace springlod {
 

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "elastic/solver/dense_kernels.hpp"
+#include "elastic/stable_step.hpp"
 #include "lod/damped_step.hpp"
 #include "lod/elastic_fit.hpp"
 #include "lod/frequency_cap.hpp"
 #include "lod/tolerance.hpp"
-#include "model/dense_kernels.hpp"
-#include "model/stable_step.hpp"
 
 namespace springlod {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "elastic/stable_step.hpp"
 #include "model/spring_rows.hpp"
-#include "model/stable_step.hpp"
 
 namespace springlod {
 namespace {

@@ -11,13 +11,13 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "elastic/loads/static_loads.hpp"
+#include "elastic/modes.hpp"
 #include "lod/compared_loads.hpp"
 #include "lod/compliance_change.hpp"
 #include "lod/elastic_targets.hpp"
 #include "lod/group_means.hpp"
 #include "lod/transfer.hpp"
-#include "model/modes.hpp"
-#include "model/static_loads.hpp"
 
 namespace springlod {
 namespace {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "model/estimate.hpp"
+#include "elastic/moduli/estimate.hpp"
 #include "render/value_colour.hpp"
 
 namespace springlod {

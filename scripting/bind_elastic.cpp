@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "model/modes.hpp"
-#include "model/static_loads.hpp"
-#include "model/stiffness.hpp"
-#include "model/zero_modes.hpp"
+#include "elastic/loads/static_loads.hpp"
+#include "elastic/modes.hpp"
+#include "elastic/stiffness.hpp"
+#include "elastic/zero_modes.hpp"
 #include "scripting/call.hpp"
 #include "scripting/node_choice.hpp"
 #include "scripting/values.hpp"

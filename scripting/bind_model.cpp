@@ -7,9 +7,9 @@
 
 #include "base/error.hpp"
 #include "base/units.hpp"
+#include "elastic/moduli/estimate.hpp"
+#include "elastic/stable_step.hpp"
 #include "model/asset.hpp"
-#include "model/estimate.hpp"
-#include "model/stable_step.hpp"
 #include "scripting/call.hpp"
 #include "scripting/certificate_table.hpp"
 #include "scripting/model_table.hpp"

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/stable_step.hpp"
 #include "lod/transfer.hpp"
-#include "model/stable_step.hpp"
 
 namespace springlod {
 namespace {

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "model/modes.hpp"
-#include "model/zero_modes.hpp"
+#include "elastic/modes.hpp"
+#include "elastic/zero_modes.hpp"
 #include "sim/stiffness_ratio.hpp"
 
 namespace springlod {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/stable_step.hpp"
+#include "elastic/stable_step.hpp"
 #include "sim/contact.hpp"
 #include "sim/runge_kutta.hpp"
 

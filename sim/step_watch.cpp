@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/stable_step.hpp"
+#include "elastic/stable_step.hpp"
 
 namespace springlod {
 namespace {

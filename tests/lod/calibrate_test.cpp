@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/stable_step.hpp"
 #include "lod/build.hpp"
 #include "lod/certify.hpp"
 #include "lod/elastic_fit.hpp"
@@ -14,7 +15,6 @@
 #include "lod/rescale_moduli.hpp"
 #include "lod/second_moments.hpp"
 #include "lod/tolerance.hpp"
-#include "model/stable_step.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/support/models.hpp"
 

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 
-#include "model/random_block.hpp"
+#include "elastic/solver/random_block.hpp"
 
 using namespace springlod;
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;

@@ -8,11 +8,11 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/modes.hpp"
+#include "elastic/stiffness.hpp"
 #include "lod/build.hpp"
 #include "lod/certify.hpp"
 #include "lod/compliance_change.hpp"
-#include "model/modes.hpp"
-#include "model/stiffness.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/support/models.hpp"
 

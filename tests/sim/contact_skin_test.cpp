@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "model/stable_step.hpp"
+#include "elastic/stable_step.hpp"
 #include "sim/compare.hpp"
 #include "sim/contact.hpp"
 #include "sim/fast/fast_leapfrog.hpp"

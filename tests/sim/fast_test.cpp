@@ -7,8 +7,8 @@
 #include <hwy/targets.h>
 
 #include "base/error.hpp"
+#include "elastic/stable_step.hpp"
 #include "lod/build.hpp"
-#include "model/stable_step.hpp"
 #include "sim/contact_skin.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
 #include "sim/fast/row_layout.hpp"

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/stable_step.hpp"
+#include "elastic/stable_step.hpp"
 #include "sim/kernel.hpp"
 #include "sim/run.hpp"
 #include "tests/sim/bodies.hpp"

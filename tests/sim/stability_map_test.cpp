@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/stable_step.hpp"
 #include "lod/merge.hpp"
-#include "model/stable_step.hpp"
 #include "sim/motion.hpp"
 #include "sim/probe.hpp"
 #include "sim/run.hpp"

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "model/stable_step.hpp"
+#include "elastic/stable_step.hpp"
 #include "sim/run.hpp"
 #include "tests/sim/bodies.hpp"
 

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "model/stiffness.hpp"
-#include "model/zero_modes.hpp"
+#include "elastic/stiffness.hpp"
+#include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
 
 namespace springlod {
