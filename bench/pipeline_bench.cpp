@@ -9,7 +9,7 @@
 
 #include "lod/build.hpp"
 #include "lod/transfer.hpp"
-#include "model/asset.hpp"
+#include "model/asset/asset.hpp"
 #include "render/frames.hpp"
 #include "render/scene.hpp"
 #include "report/animate.hpp"

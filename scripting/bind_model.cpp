@@ -9,7 +9,7 @@
 #include "base/units.hpp"
 #include "elastic/moduli/estimate.hpp"
 #include "elastic/stable_step.hpp"
-#include "model/asset.hpp"
+#include "model/asset/asset.hpp"
 #include "scripting/call.hpp"
 #include "scripting/certificate_table.hpp"
 #include "scripting/model_table.hpp"

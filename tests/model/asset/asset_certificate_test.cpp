@@ -7,8 +7,8 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "model/asset.hpp"
-#include "tests/model/glb_text.hpp"
+#include "model/asset/asset.hpp"
+#include "tests/model/asset/glb_text.hpp"
 #include "tests/model/sample_assets.hpp"
 
 namespace springlod {

@@ -1,4 +1,4 @@
-#include "model/asset_display.hpp"
+#include "model/asset/asset_display.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "model/asset_certificate.hpp"
+#include "model/asset/asset_certificate.hpp"
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "model/asset_json.hpp"
+#include "model/asset/asset_json.hpp"
 
 namespace springlod {
 namespace {

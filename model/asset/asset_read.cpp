@@ -8,9 +8,9 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "model/asset.hpp"
-#include "model/asset_certificate.hpp"
-#include "model/asset_format.hpp"
+#include "model/asset/asset.hpp"
+#include "model/asset/asset_certificate.hpp"
+#include "model/asset/asset_format.hpp"
 
 // The extension is read with a JSON parser and range checks alone: a general glTF reader would
 // look at everything that a damaged file says.

@@ -1,4 +1,4 @@
-#include "model/asset_json.hpp"
+#include "model/asset/asset_json.hpp"
 
 #include <limits>
 #include <utility>

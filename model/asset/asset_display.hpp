@@ -4,7 +4,7 @@
 
 #include <tiny_gltf.h>
 
-#include "model/asset_buffer.hpp"
+#include "model/asset/asset_buffer.hpp"
 #include "model/chain.hpp"
 
 namespace springlod {

@@ -9,12 +9,12 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "model/asset.hpp"
-#include "model/asset_buffer.hpp"
-#include "model/asset_certificate.hpp"
-#include "model/asset_display.hpp"
-#include "model/asset_format.hpp"
-#include "model/asset_json.hpp"
+#include "model/asset/asset.hpp"
+#include "model/asset/asset_buffer.hpp"
+#include "model/asset/asset_certificate.hpp"
+#include "model/asset/asset_display.hpp"
+#include "model/asset/asset_format.hpp"
+#include "model/asset/asset_json.hpp"
 
 namespace springlod {
 namespace {

@@ -1,4 +1,4 @@
-#include "model/asset.hpp"
+#include "model/asset/asset.hpp"
 
 #include <cstring>
 #include <fstream>
@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "tests/model/glb_text.hpp"
+#include "tests/model/asset/glb_text.hpp"
 #include "tests/model/sample_assets.hpp"
 
 namespace springlod {
