@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "lod/calibrate.hpp"
-#include "lod/grouping.hpp"
-#include "lod/guard.hpp"
-#include "lod/merge.hpp"
+#include "lod/calibration/calibrate.hpp"
+#include "lod/grouping/grouping.hpp"
+#include "lod/merging/guard.hpp"
+#include "lod/merging/merge.hpp"
 #include "model/chain.hpp"
 
 namespace springlod {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "lod/certify.hpp"
+#include "lod/quality/certify.hpp"
 #include "scripting/calibration_option.hpp"
 #include "scripting/call.hpp"
 #include "scripting/node_choice.hpp"

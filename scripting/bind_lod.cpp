@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "lod/build.hpp"
-#include "lod/certify.hpp"
+#include "lod/quality/certify.hpp"
 #include "scripting/calibration_option.hpp"
 #include "scripting/call.hpp"
 #include "scripting/grouping_script.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "lod/merge_log.hpp"
+#include "lod/quality/merge_log.hpp"
 #include "scripting/call.hpp"
 #include "scripting/node_choice.hpp"
 #include "scripting/result_table.hpp"

@@ -7,7 +7,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
-#include "lod/grouping.hpp"
+#include "lod/grouping/grouping.hpp"
 #include "scripting/model_table.hpp"
 
 namespace springlod {

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "elastic/stable_step.hpp"
-#include "lod/merge.hpp"
+#include "lod/merging/merge.hpp"
 #include "sim/motion.hpp"
 #include "sim/probe.hpp"
 #include "sim/run.hpp"
