@@ -14,7 +14,7 @@
 #include "render/scene.hpp"
 #include "report/animate.hpp"
 #include "report/video.hpp"
-#include "sim/compare.hpp"
+#include "sim/study/compare.hpp"
 #include "voxelize/lattice.hpp"
 
 namespace {

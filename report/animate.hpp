@@ -8,7 +8,7 @@
 #include "base/progress.hpp"
 #include "model/chain.hpp"
 #include "render/scene.hpp"
-#include "sim/compare.hpp"
+#include "sim/study/compare.hpp"
 
 namespace springlod {
 

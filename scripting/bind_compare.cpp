@@ -13,8 +13,8 @@
 #include "scripting/run_options.hpp"
 #include "scripting/scenario_table.hpp"
 #include "scripting/values.hpp"
-#include "sim/compare.hpp"
-#include "sim/ensemble.hpp"
+#include "sim/study/compare.hpp"
+#include "sim/study/ensemble.hpp"
 
 namespace springlod {
 

@@ -11,8 +11,8 @@
 #include "scripting/call.hpp"
 #include "scripting/scenario_table.hpp"
 #include "scripting/values.hpp"
-#include "sim/compare.hpp"
-#include "sim/deviation.hpp"
+#include "sim/study/compare.hpp"
+#include "sim/study/deviation.hpp"
 
 namespace springlod {
 

@@ -16,7 +16,7 @@
 #include "scripting/chart_table.hpp"
 #include "scripting/draw_style.hpp"
 #include "scripting/values.hpp"
-#include "sim/stability_map.hpp"
+#include "sim/study/stability_map.hpp"
 
 namespace springlod {
 

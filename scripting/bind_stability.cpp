@@ -11,7 +11,7 @@
 #include "scripting/chart_table.hpp"
 #include "scripting/integrator_word.hpp"
 #include "scripting/values.hpp"
-#include "sim/stability_map.hpp"
+#include "sim/study/stability_map.hpp"
 
 namespace springlod {
 

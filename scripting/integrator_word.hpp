@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scripting/call.hpp"
-#include "sim/integrator.hpp"
+#include "sim/integrators/integrator.hpp"
 
 namespace springlod {
 

@@ -9,9 +9,9 @@
 #include "model/mesh.hpp"
 #include "report/noise_floor.hpp"
 #include "scripting/value.hpp"
-#include "sim/compare.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
+#include "sim/study/compare.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/import.hpp"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "sim/integration.hpp"
+#include "sim/run/integration.hpp"
 
 namespace springlod {
 namespace {
