@@ -8,9 +8,9 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
-#include "report/noise_floor.hpp"
-#include "report/sample_comparison.hpp"
-#include "report/statistics.hpp"
+#include "report/stats/noise_floor.hpp"
+#include "report/stats/sample_comparison.hpp"
+#include "report/stats/statistics.hpp"
 #include "scripting/call.hpp"
 #include "scripting/values.hpp"
 

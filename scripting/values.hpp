@@ -7,7 +7,7 @@
 #include "model/binding.hpp"
 #include "model/chain.hpp"
 #include "model/mesh.hpp"
-#include "report/noise_floor.hpp"
+#include "report/stats/noise_floor.hpp"
 #include "scripting/value.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/chance.hpp"
-#include "report/probability.hpp"
+#include "report/stats/probability.hpp"
 
 namespace springlod::test {
 

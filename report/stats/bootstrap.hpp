@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "report/start_sample.hpp"
+#include "report/stats/start_sample.hpp"
 
 namespace springlod {
 

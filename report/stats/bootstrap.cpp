@@ -1,4 +1,4 @@
-#include "report/bootstrap.hpp"
+#include "report/stats/bootstrap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
-#include "report/probability.hpp"
-#include "report/statistics.hpp"
+#include "report/stats/probability.hpp"
+#include "report/stats/statistics.hpp"
 
 namespace springlod {
 

@@ -1,4 +1,4 @@
-#include "report/probability.hpp"
+#include "report/stats/probability.hpp"
 
 #include <cmath>
 #include <limits>

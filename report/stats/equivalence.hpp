@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "report/bootstrap.hpp"
+#include "report/stats/bootstrap.hpp"
 
 namespace springlod {
 

@@ -1,4 +1,4 @@
-#include "report/noise_floor.hpp"
+#include "report/stats/noise_floor.hpp"
 
 #include <algorithm>
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
-#include "report/statistics.hpp"
+#include "report/stats/statistics.hpp"
 
 namespace springlod {
 

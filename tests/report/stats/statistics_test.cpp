@@ -1,4 +1,4 @@
-#include "report/statistics.hpp"
+#include "report/stats/statistics.hpp"
 
 #include <cmath>
 #include <functional>
@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "report/probability.hpp"
+#include "report/stats/probability.hpp"
 #include "tests/report/samples.hpp"
 
 using namespace springlod;

@@ -1,11 +1,11 @@
-#include "report/noise_floor.hpp"
+#include "report/stats/noise_floor.hpp"
 
 #include <limits>
 
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "report/statistics.hpp"
+#include "report/stats/statistics.hpp"
 #include "tests/report/samples.hpp"
 
 using namespace springlod;

@@ -1,4 +1,4 @@
-#include "report/statistics.hpp"
+#include "report/stats/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "report/bootstrap.hpp"
+#include "report/stats/bootstrap.hpp"
 
 #include <cmath>
 #include <limits>
@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "report/sample_comparison.hpp"
-#include "report/statistics.hpp"
+#include "report/stats/sample_comparison.hpp"
+#include "report/stats/statistics.hpp"
 #include "tests/report/samples.hpp"
 
 using namespace springlod;

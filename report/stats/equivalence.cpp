@@ -1,4 +1,4 @@
-#include "report/equivalence.hpp"
+#include "report/stats/equivalence.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "report/probability.hpp"
-#include "report/statistics.hpp"
+#include "report/stats/probability.hpp"
+#include "report/stats/statistics.hpp"
 
 namespace springlod {
 

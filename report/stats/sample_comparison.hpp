@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "report/bootstrap.hpp"
-#include "report/equivalence.hpp"
+#include "report/stats/bootstrap.hpp"
+#include "report/stats/equivalence.hpp"
 
 namespace springlod {
 

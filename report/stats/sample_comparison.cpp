@@ -1,8 +1,8 @@
-#include "report/sample_comparison.hpp"
+#include "report/stats/sample_comparison.hpp"
 
 #include <vector>
 
-#include "report/statistics.hpp"
+#include "report/stats/statistics.hpp"
 
 namespace springlod {
 

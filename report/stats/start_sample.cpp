@@ -1,9 +1,9 @@
-#include "report/start_sample.hpp"
+#include "report/stats/start_sample.hpp"
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "report/statistics.hpp"
+#include "report/stats/statistics.hpp"
 
 namespace springlod {
 

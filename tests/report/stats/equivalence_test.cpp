@@ -1,12 +1,12 @@
-#include "report/equivalence.hpp"
+#include "report/stats/equivalence.hpp"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "report/probability.hpp"
-#include "report/statistics.hpp"
+#include "report/stats/probability.hpp"
+#include "report/stats/statistics.hpp"
 #include "tests/report/samples.hpp"
 
 using namespace springlod;
