@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "scripting/suggest.hpp"
+#include "scripting/engine/suggest.hpp"
 
 namespace springlod {
 
