@@ -13,6 +13,27 @@ namespace springlod {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Sorted by name.
+std::vector<StockCommand> commands_in(const fs::path& folder, bool study) {
+  std::vector<StockCommand> commands;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".lua") continue;
+    std::ifstream in(entry.path());
+    std::string line;
+    std::getline(in, line);
+    const std::size_t text = line.find_first_not_of("- ");
+    commands.push_back({entry.path().stem().string(),
+                        text == std::string::npos ? "" : line.substr(text), entry.path(), study});
+  }
+  std::sort(commands.begin(), commands.end(),
+            [](const StockCommand& a, const StockCommand& b) { return a.name < b.name; });
+  return commands;
+}
+
+}  // namespace
+
 fs::path stock_script_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -30,18 +51,9 @@ fs::path sample_folder() {
 }
 
 std::vector<StockCommand> stock_commands() {
-  std::vector<StockCommand> commands;
-  for (const fs::directory_entry& entry : fs::directory_iterator(stock_script_folder())) {
-    if (entry.path().extension() != ".lua") continue;
-    std::ifstream in(entry.path());
-    std::string line;
-    std::getline(in, line);
-    const std::size_t text = line.find_first_not_of("- ");
-    commands.push_back({entry.path().stem().string(),
-                        text == std::string::npos ? "" : line.substr(text), entry.path()});
-  }
-  std::sort(commands.begin(), commands.end(),
-            [](const StockCommand& a, const StockCommand& b) { return a.name < b.name; });
+  std::vector<StockCommand> commands = commands_in(stock_script_folder(), false);
+  const std::vector<StockCommand> studies = commands_in(stock_script_folder() / "studies", true);
+  commands.insert(commands.end(), studies.begin(), studies.end());
   return commands;
 }
 

@@ -14,13 +14,15 @@ std::filesystem::path stock_script_folder();
 /// The folder of the sample meshes and scenes, beside that of the stock scripts.
 std::filesystem::path sample_folder();
 
-/// A stock command: scripts/NAME.lua; its first line, a comment, says what it does.
+/// A stock command: scripts/NAME.lua, or scripts/studies/NAME.lua for the studies that measure the
+/// methods themselves. The first line, a comment, says what it does.
 struct StockCommand {
   std::string name;
   std::string summary;
   std::filesystem::path script;
+  bool study = false;
 };
-/// Sorted by name.
+/// Studies last, each of the two sorted by name.
 std::vector<StockCommand> stock_commands();
 
 /// $XDG_STATE_HOME/springlod/history, or ~/.local/state/springlod/history; empty without a home.

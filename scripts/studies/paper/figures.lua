@@ -2,9 +2,9 @@
 -- counted or computed here. figures.draw draws them all.
 
 local s = require "springlod"
-local paper_numbers = require "lib.paper_numbers"
-local paper_scenes = require "lib.paper_scenes"
-local paper_variants = require "lib.paper_variants"
+local paper_numbers = require "studies.paper.numbers"
+local paper_scenes = require "studies.paper.scenes"
+local paper_variants = require "studies.paper.variants"
 
 local figures = {}
 

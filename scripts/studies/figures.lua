@@ -2,7 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
-local paper_figures = require "lib.paper_figures"
+local paper_figures = require "studies.paper.figures"
 
 local parser = command.parser("figures", "Draws the figures of Kot, Nagahashi and Gracki, "
   .. "\"Simplification of mass spring models\", as figure-1.png to figure-8.png, and E and density "

@@ -2,7 +2,7 @@
 -- paper's variants; the points of the front have names.
 
 local command = require "lib.command"
-local pareto_front = require "lib.pareto_front"
+local pareto_front = require "studies.pareto.front"
 
 local pareto_charts = {}
 

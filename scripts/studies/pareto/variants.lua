@@ -1,6 +1,6 @@
 -- What springlod pareto compares: ways of making levels, ways of stepping them, and their names.
 
-local paper_variants = require "lib.paper_variants"
+local paper_variants = require "studies.paper.variants"
 
 local pareto_variants = {}
 

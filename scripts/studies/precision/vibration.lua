@@ -1,6 +1,6 @@
--- The frequency of what swings: A cos(w t) + B sin(w t) + C by least squares.
+-- The frequency of a vibration A cos(w t) + B sin(w t) + C, by least squares.
 
-local swing = {}
+local vibration = {}
 
 -- Solves matrix x = right by elimination with pivots; changes both.
 local function solve(matrix, right)
@@ -52,7 +52,7 @@ end
 
 -- The fit of values at times [s], from a frequency [Hz] good to a small part of a turn over all:
 -- frequency, and rest (what the fit leaves of each value).
-function swing.fit(times, values, frequency)
+function vibration.fit(times, values, frequency)
   local fit = {frequency = frequency, middle = (times[1] + times[#times]) / 2,
     cosine = 0, sine = 0, offset = 0}
   local last = math.huge
@@ -75,11 +75,11 @@ end
 
 -- Standard error of the difference of two fits at the same times [Hz]: what both leave alike, such
 -- as a bend of the springs' law, is no error of the difference.
-function swing.error_of_difference(one, other, times)
+function vibration.error_of_difference(one, other, times)
   local squares = 0
   for i, rest in ipairs(one.rest) do squares = squares + (rest - other.rest[i]) ^ 2 end
   local inverse = solve(normal_equations(one, times, one.rest), {0, 0, 0, 1})
   return math.sqrt(squares / (#times - 4) * inverse[4])
 end
 
-return swing
+return vibration

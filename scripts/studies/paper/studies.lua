@@ -4,10 +4,10 @@
 local s = require "springlod"
 local averages = require "lib.averages"
 local cut = require "lib.cut_scene"
-local paper_numbers = require "lib.paper_numbers"
-local paper_runs = require "lib.paper_runs"
-local paper_scenes = require "lib.paper_scenes"
-local paper_variants = require "lib.paper_variants"
+local paper_numbers = require "studies.paper.numbers"
+local paper_runs = require "studies.paper.runs"
+local paper_scenes = require "studies.paper.scenes"
+local paper_variants = require "studies.paper.variants"
 
 local paper_studies = {}
 

@@ -4,9 +4,9 @@
 local s = require "springlod"
 local averages = require "lib.averages"
 local by_start = require "lib.by_start"
-local paper_numbers = require "lib.paper_numbers"
-local paper_runs = require "lib.paper_runs"
-local paper_variants = require "lib.paper_variants"
+local paper_numbers = require "studies.paper.numbers"
+local paper_runs = require "studies.paper.runs"
+local paper_variants = require "studies.paper.variants"
 
 local mean = averages.mean
 

@@ -3,7 +3,7 @@
 local s = require "springlod"
 local command = require "lib.command"
 local size_of = require "lib.body_size"
-local swing = require "lib.swing"
+local vibration = require "studies.precision.vibration"
 
 local parser = command.parser("precision", "Swings bodies in their ten lowest modes and drops them "
   .. "on a floor, in single and in double precision. Writes frequencies.csv, amplitudes.csv, "
@@ -97,13 +97,13 @@ local function swing_mode(body, mode, part)
       {start = start, step = step, precision = precision, frame_rate = 1 / every, ledger = false})
     local values
     times, values = share_of_mode(run, body.nodes, mode.shape)
-    fits[precision] = swing.fit(times, values, stepped)
+    fits[precision] = vibration.fit(times, values, stepped)
   end
   local double, single = fits.double.frequency, fits.single.frequency
   return {
     modal = mode.frequency, stepped = stepped, double = double, single = single,
     difference = single / double - 1,
-    error = swing.error_of_difference(fits.double, fits.single, times) / double,
+    error = vibration.error_of_difference(fits.double, fits.single, times) / double,
     off = double / stepped - 1,
   }
 end

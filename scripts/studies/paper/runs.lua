@@ -2,8 +2,8 @@
 
 local s = require "springlod"
 local noise_samples = require "lib.noise_samples"
-local paper_scenes = require "lib.paper_scenes"
-local paper_variants = require "lib.paper_variants"
+local paper_scenes = require "studies.paper.scenes"
+local paper_variants = require "studies.paper.variants"
 local teller = require "lib.teller"
 
 local paper_runs = {}

@@ -3,7 +3,7 @@
 -- corner, a random model of two materials with a hole). Chosen before anything was tuned on them.
 
 local s = require "springlod"
-local scenes = require "lib.paper_scenes"
+local scenes = require "studies.paper.scenes"
 
 -- A block of one material with a node at the centre of each cell of 10 cm.
 local function block(size)

@@ -3,10 +3,10 @@
 
 local s = require "springlod"
 local command = require "lib.command"
-local bodies = require "lib.accuracy_bodies"
+local bodies = require "studies.accuracy.bodies"
 local intervals = require "lib.intervals"
 local timed_run = require "lib.timed_run"
-local trade_off = require "lib.trade_off"
+local trade_off = require "studies.accuracy.trade_off"
 
 local function names_of(list)
   local names = {}

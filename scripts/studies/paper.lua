@@ -2,12 +2,12 @@
 
 local s = require "springlod"
 local command = require "lib.command"
-local paper_figures = require "lib.paper_figures"
-local paper_numbers = require "lib.paper_numbers"
-local paper_runs = require "lib.paper_runs"
-local paper_studies = require "lib.paper_studies"
-local paper_tables = require "lib.paper_tables"
-local paper_variants = require "lib.paper_variants"
+local paper_figures = require "studies.paper.figures"
+local paper_numbers = require "studies.paper.numbers"
+local paper_runs = require "studies.paper.runs"
+local paper_studies = require "studies.paper.studies"
+local paper_tables = require "studies.paper.tables"
+local paper_variants = require "studies.paper.variants"
 local run_store = require "lib.run_store"
 local save_text = require "lib.save_text"
 
