@@ -12,7 +12,7 @@
 #include "lod/grouping/exact_count.hpp"
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// METIS weighs edges by whole numbers: what the largest spring work becomes.
@@ -66,4 +66,4 @@ Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint
   return groups;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod
