@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "sim/contact/contact_losses.hpp"
+#include "sim/integrators/contact_losses.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -35,7 +35,7 @@ void add_losses(const LedgerEntry& more, LedgerEntry& sum) {
 }  // namespace
 
 FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenario,
-                           const State& start, double step, const StepperOptions& options)
+                           const State& start, double step, const FastOptions& options)
     : Stepper(model, scenario, start, step, options.skin.get()),
       layout_(options.layout ? options.layout : make_fast_model(model, options.precision)),
       body_(layout_->new_body(options.ledger)),

@@ -14,6 +14,16 @@
 
 namespace springlod::sim {
 
+struct FastOptions {
+  bool ledger = true;  ///< keep account of the losses
+  Precision precision = Precision::double_precision;
+  std::uint32_t threads = 1;  ///< at most; 0: as many as the body is worth. Never change the result
+  /// The model laid out for `precision`, shared by many runs; null: made for this run.
+  std::shared_ptr<const FastModel> layout = nullptr;
+  /// Where the body touches obstacles; null: at its nodes.
+  std::shared_ptr<const ContactSkin> skin = nullptr;
+};
+
 /// The scheme of Leapfrog with symplectic Euler's damping, on a body laid out for speed: the same
 /// steps to rounding, in single or double precision, on one thread or several, which changes no
 /// bit.
@@ -25,7 +35,7 @@ namespace springlod::sim {
 class FastLeapfrog final : public Stepper {
  public:
   FastLeapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
-               double step, const StepperOptions& options);
+               double step, const FastOptions& options);
 
   void prepare() override;
   void advance(std::uint64_t steps) override;
