@@ -9,6 +9,7 @@
 #include "sim/contact/tunnel_watch.hpp"
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/passage.hpp"
+#include "sim/fast/regions.hpp"
 #include "sim/integrators/ledger.hpp"
 
 namespace springlod::sim {
@@ -81,7 +82,15 @@ class FastContacts {
   /// the end, velocity of the drift.
   template <class MotionOf>
   void check_walls(std::uint64_t number, double length, const Box3& swept,
-                   const std::vector<std::uint32_t>& points, MotionOf motion_of);
+                   const std::vector<std::uint32_t>& points, const MotionOf& motion_of) {
+    for (std::size_t w = 0; w < walls().wall_count(); ++w) {
+      if (!bounds_of(walls().wall(w)).intersects(swept)) continue;
+      for (const std::uint32_t point : points) {
+        const Motion motion = motion_of(point);
+        check_wall({number, w, point, motion.x - length * motion.v, motion.x});
+      }
+    }
+  }
 
   std::vector<Contact> contacts_;
 
@@ -91,6 +100,9 @@ class FastContacts {
   virtual Vec3 velocity_after_kick(std::size_t contact) const = 0;
   /// ... and what it will be after the kick with the forces of now.
   virtual Vec3 kicked_velocity(const Contact& contact, const Step& step) const = 0;
+
+  /// Keeps `way` if it is the first through a wall.
+  void check_wall(const Passage& way);
 
   Shared shared_;
   std::optional<std::uint64_t> first_step_;

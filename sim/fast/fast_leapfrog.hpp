@@ -83,20 +83,21 @@ class FastLeapfrog final : public Stepper {
   void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
   /// The same for a body whose skin joins nodes of several blocks: blocks wait for it.
   void find_touch_and_move(const Pass& pass, const MovingFrame& frame, const Share& share);
-  void touch_with_skin(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked);
+  void apply_skin_contacts(const Pass& pass, const MovingFrame& frame);
   /// For the forces of the blocks of others that this one needs.
   void wait_for_others(std::uint32_t block, const Share& share) const;
 
   void kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block);
-  void move_block(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
-                  std::uint32_t block);
-  void kick_and_book(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
-                     std::uint32_t block);
+  void move_block(const Pass& pass, std::uint32_t block);
+  void kick_and_book(const Pass& pass, std::uint32_t block);
   void drift_and_book(const Pass& pass, std::uint32_t block);
   static void take_next(Losses& losses);
   MovingFrame after(const Pass& pass, const MovingFrame& frame) const;
+  FastContacts::Step contact_step(const Pass& pass, const MovingFrame& frame) const;
   void finish_look();
   double kinetic() const;
+  /// Those of the blocks, or that of the skin.
+  std::vector<const FastContacts*> contact_sets() const;
   void gather_contacts();
   void throw_if_tunnelled() const;
 
@@ -106,7 +107,7 @@ class FastLeapfrog final : public Stepper {
   Milestones found_;  // kicks for which each block has found its forces
   bool with_ledger_;
   MovingFrame frame_;
-  std::vector<BlockContacts> contacts_of_;  // by block; of no points if there is a skin
+  std::vector<BlockContacts> block_contacts_;  // by block; empty if there is a skin
   std::optional<SkinContacts> skin_;
   std::vector<Losses> losses_;  // by block
   Losses skin_losses_;
