@@ -18,7 +18,7 @@ namespace {
 // a trajectory too.
 constexpr double kLongestStep = 0.01;
 
-// Schemes without a limit take steps that follow contacts and the swing of whole bodies [s].
+// Schemes without a limit take steps that follow contacts and the vibration of whole bodies [s].
 constexpr double kImplicitStep = 1e-3;
 
 void validate(const RunOptions& options) {

@@ -46,12 +46,12 @@ struct RunOptions {
   Progress* progress = nullptr;
 };
 
-/// Two nodes joined by a spring that went past each other: it turned over between two looks at the
+/// Two nodes joined by a spring that went past each other: it turned over between two checks of the
 /// body, beyond what the body as a whole turned.
 struct Crossing {
   std::uint32_t a = 0;  ///< node
   std::uint32_t b = 0;  ///< node
-  double time = 0;      ///< of the look that saw it [s]
+  double time = 0;      ///< of the check that found it [s]
 };
 
 struct Frame {
@@ -107,7 +107,7 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Sta
 Trajectory run(const MassSpringModel& model, const Scenario& scenario, const State& start,
                const RunOptions& options, const RunPlan& plan);
 
-/// What Scenario::measure_from asks for [m], from the way of the centre of mass.
+/// What Scenario::measure_from asks for [m], from the displacement of the centre of mass.
 double measured_distance(const Scenario& scenario, const Vec3& first_center,
                          const Vec3& final_center);
 

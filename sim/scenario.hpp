@@ -60,7 +60,7 @@ struct Scenario {
   double duration = 1;  ///< [s] > 0
   std::optional<StopRule> stop;
   /// Distance measured at the end: from this obstacle's surface to the centre of mass; empty: the
-  /// way of the centre of mass in the horizontal plane from the start.
+  /// displacement of the centre of mass in the horizontal plane from the start.
   std::string measure_from;
 };
 

@@ -91,15 +91,15 @@ void Console::begin(std::string_view task, std::uint64_t total) {
                       now + (terminal_ ? Clock::duration(kSilentFor) : kLogLine),
                       false,
                       {}});
-  next_look_ = 0;
+  next_check_ = 0;
 }
 
 void Console::advance(std::uint64_t count) {
   if (interrupt_requested()) throw InterruptedError();
   pending_.fetch_add(count, std::memory_order_relaxed);
   const auto now = Clock::now();
-  if (now.time_since_epoch().count() < next_look_.load(std::memory_order_relaxed)) return;
-  next_look_ = (now + kRedraw).time_since_epoch().count();
+  if (now.time_since_epoch().count() < next_check_.load(std::memory_order_relaxed)) return;
+  next_check_ = (now + kRedraw).time_since_epoch().count();
   const std::lock_guard lock(mutex_);
   if (running_.empty()) return;
   Running& running = running_.back();

@@ -53,7 +53,7 @@ class Console : public Progress {
   std::mutex mutex_;
   std::vector<Running> running_;           // work within work: the innermost is shown
   std::atomic<std::uint64_t> pending_{0};  // counts not yet added to running_.back()
-  std::atomic<Clock::rep> next_look_{0};
+  std::atomic<Clock::rep> next_check_{0};
   bool bar_shown_ = false;
 };
 

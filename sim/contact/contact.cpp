@@ -62,8 +62,8 @@ Contact make_contact(const Obstacle& obstacle, const ContactPoints& points, std:
                      const Depth& at, const Vec3& velocity) {
   Contact contact;
   contact.point = point;
-  if (points.give(point) > 0) contact.grip = 1 / points.give(point);
-  contact.grip_damping = points.give_damping(point);
+  if (points.compliance(point) > 0) contact.stick_stiffness = 1 / points.compliance(point);
+  contact.stick_damping = points.compliance_damping(point);
   contact.depth = at.depth;
   contact.stiffness = points.stiffness(point, obstacle.stiffness);
   contact.damping = points.damping(point, obstacle.stiffness, obstacle.damping);
@@ -123,7 +123,7 @@ void add_normal_forces(const ContactPoints& points, const std::vector<Contact>& 
   for (const Contact& c : contacts) points.add_force(c.point, c.normal_force * c.normal, force);
 }
 
-void keep_grips(const std::vector<Contact>& before, std::vector<Contact>& now) {
+void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>& now) {
   const auto place = [](const Contact& c) { return std::pair(c.obstacle, c.point); };
   auto was = before.begin();
   for (Contact& c : now) {
@@ -133,7 +133,7 @@ void keep_grips(const std::vector<Contact>& before, std::vector<Contact>& now) {
   }
 }
 
-void rub(Contact& contact, double mass, double step, const Vec3& v) {
+void apply_friction(Contact& contact, double mass, double step, const Vec3& v) {
   const auto along_face = [&](const Vec3& u) {
     return Vec3(u - contact.normal.dot(u) * contact.normal);
   };
@@ -143,18 +143,19 @@ void rub(Contact& contact, double mass, double step, const Vec3& v) {
   };
   const Vec3 slip = along_face(v);
   const double most = contact.friction * contact.normal_force * step;  // [N s]
-  if (contact.grip == 0) {
+  if (contact.stick_stiffness == 0) {
     contact.slip_change = at_most(-slip, most / mass);
     return;
   }
-  const double held = contact.grip_energy();
-  const double late = step + contact.grip_damping;
+  const double held = contact.stick_energy();
+  const double late = step + contact.stick_damping;
   const Vec3 start = along_face(contact.stretch);
-  const Vec3 impulse = at_most(
-      contact.grip * step * (start + late * slip) / (1 + contact.grip * step * late / mass), most);
+  const Vec3 impulse = at_most(contact.stick_stiffness * step * (start + late * slip) /
+                                   (1 + contact.stick_stiffness * step * late / mass),
+                               most);
   contact.slip_change = -impulse / mass;
-  contact.stretch = (impulse / contact.grip + contact.grip_damping * start) / late;
-  contact.grip_gain = contact.grip_energy() - held;
+  contact.stretch = (impulse / contact.stick_stiffness + contact.stick_damping * start) / late;
+  contact.stick_gain = contact.stick_energy() - held;
 }
 
 double apply_friction(const ContactPoints& points, double step, std::vector<Contact>& contacts,
@@ -163,7 +164,7 @@ double apply_friction(const ContactPoints& points, double step, std::vector<Cont
   for (Contact& c : contacts) {
     const double mass = points.mass(c.point);
     const Vec3 before = points.carried(c.point, v);
-    rub(c, mass, step, before);
+    apply_friction(c, mass, step, before);
     points.kick(c.point, c.slip_change, v);
     taken -= mass * c.slip_change.dot(before + 0.5 * c.slip_change);
   }
@@ -173,7 +174,7 @@ double apply_friction(const ContactPoints& points, double step, std::vector<Cont
 double contact_energy(const std::vector<Contact>& contacts) {
   double energy = 0;
   for (const Contact& c : contacts)
-    energy += 0.5 * c.stiffness * c.depth * c.depth + c.grip_energy();
+    energy += 0.5 * c.stiffness * c.depth * c.depth + c.stick_energy();
   return energy;
 }
 

@@ -40,18 +40,18 @@ ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& sk
   for (std::uint32_t p = 0; p < of_nodes.point_count(); ++p) {
     for (std::uint32_t e = of_nodes.start[p]; e < of_nodes.start[p + 1]; ++e)
       shares_.push_back({.node = of_nodes.node[e], .weight = of_nodes.weight[e]});
-    end_point(model, skin.base_node[p], skin.area[p], skin.give[p]);
+    end_point(model, skin.base_node[p], skin.area[p], skin.compliance[p]);
   }
   const std::vector<double> damping = damping_times(model);
   for (std::uint32_t p = 0; p < count(); ++p) {
-    give_damping_[p] = 0;
+    compliance_damping_[p] = 0;
     for (const Share& share : shares(p))
-      give_damping_[p] += std::abs(share.weight) / reach_[p] * damping[share.node];
+      compliance_damping_[p] += std::abs(share.weight) / reach_[p] * damping[share.node];
   }
 }
 
 void ContactPoints::end_point(const MassSpringModel& model, std::uint32_t number, double area,
-                              double give) {
+                              double compliance) {
   const std::uint32_t first = start_.back();
   start_.push_back(static_cast<std::uint32_t>(shares_.size()));
   double mobility = 0;
@@ -65,8 +65,8 @@ void ContactPoints::end_point(const MassSpringModel& model, std::uint32_t number
   for (std::size_t e = first; e < shares_.size(); ++e)
     shares_[e].kick = is_node ? 1 : shares_[e].weight * mass / model.mass[shares_[e].node];
   area_.push_back(area);
-  give_.push_back(give);
-  give_damping_.push_back(0);
+  compliance_.push_back(compliance);
+  compliance_damping_.push_back(0);
   mass_.push_back(mass);
   reach_.push_back(reach);
   number_.push_back(number);

@@ -28,22 +28,22 @@ class ContactPoints {
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(area_.size()); }
   std::uint32_t node_count() const { return node_count_; }
-  double area(std::size_t point) const { return area_[point]; }  ///< [m2]
-  double give(std::size_t point) const { return give_[point]; }  ///< see ContactSkin [m/N]
-  /// Damping time of what gives: that of the springs of the nodes that carry the point [s].
-  double give_damping(std::size_t point) const { return give_damping_[point]; }
-  /// Of its contact with an obstacle of stiffness kappa [N/m3], what the point gives by itself in a
-  /// row with it: kappa A / (1 + kappa A give) [N/m].
+  double area(std::size_t point) const { return area_[point]; }              ///< [m2]
+  double compliance(std::size_t point) const { return compliance_[point]; }  ///< s_p [m/N]
+  /// Damping time of the compliance: mean of the springs of the nodes of the point [s].
+  double compliance_damping(std::size_t point) const { return compliance_damping_[point]; }
+  /// Stiffness of its contact with an obstacle of stiffness kappa [N/m3], in series with the
+  /// compliance: kappa A / (1 + kappa A s_p) [N/m], k_n in eq. 64 of docs/method.md.
   double stiffness(std::size_t point, double kappa) const {
     const double bare = kappa * area_[point];
-    return bare / (1 + bare * give_[point]);
+    return bare / (1 + bare * compliance_[point]);
   }
-  /// Damping time of that contact if the obstacle's is `damping` [s].
+  /// Damping time of that contact if the obstacle's is `damping` [s]: beta_n in eq. 64.
   double damping(std::size_t point, double kappa, double damping) const {
-    const double given = stiffness(point, kappa) * give_[point];  // part of the depth [1]
-    return (1 - given) * damping + given * give_damping_[point];
+    const double given = stiffness(point, kappa) * compliance_[point];  // fraction of the depth [1]
+    return (1 - given) * damping + given * compliance_damping_[point];
   }
-  /// What an impulse at the point meets, 1 / sum (w_i^2 / m_i) [kg].
+  /// Effective mass for an impulse at the point, 1 / sum (w_i^2 / m_i) [kg].
   double mass(std::size_t point) const { return mass_[point]; }
   /// sum |w_i| [1]: the point moves at most so much farther than any of its nodes.
   double reach(std::size_t point) const { return reach_[point]; }
@@ -71,13 +71,14 @@ class ContactPoints {
   }
 
  private:
-  void end_point(const MassSpringModel& model, std::uint32_t number, double area, double give);
+  void end_point(const MassSpringModel& model, std::uint32_t number, double area,
+                 double compliance);
 
   std::uint32_t node_count_ = 0;
   bool skin_ = false;
   std::vector<std::uint32_t> start_{0};
   std::vector<Share> shares_;
-  std::vector<double> area_, give_, give_damping_, mass_, reach_;
+  std::vector<double> area_, compliance_, compliance_damping_, mass_, reach_;
   std::vector<std::uint32_t> number_;
 };
 

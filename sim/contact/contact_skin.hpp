@@ -8,18 +8,17 @@
 
 namespace springlod::sim {
 
-/// The surface of the base, on the nodes of one of its levels: P points at which the level touches
-/// obstacles as the base does, though its own nodes lie deeper. Each point is one of the base's
-/// nodes with an area and keeps that area, so that all of them together are as stiff as the base's.
+/// The surface of the base, bound to the nodes of one of its levels: P points at which the level
+/// touches obstacles where the base does, although its own nodes lie deeper. Each point is a base
+/// node with a contact area and keeps that area, so the total contact stiffness is the base's.
 struct ContactSkin {
   Binding of_nodes;                      ///< P rows; see lod/transfer.hpp
   std::vector<double> area;              ///< [m2] > 0, P
   std::vector<std::uint32_t> base_node;  ///< which of the base's they are, rising, P
-  /// How far the base's node gives way to a force out of its surface while its neighbours stay
-  /// [m/N], P. Merging took that from all nodes that are not their own group; the contact gives it
-  /// back, as a spring between point and obstacle, and as soft a one along the surface, by which
-  /// friction holds the point.
-  std::vector<double> give;
+  /// Local surface compliance that merging removed, neighbours held [m/N] >= 0, P: eq. 65 of
+  /// docs/method.md. It is added in series with the contact penalty, and as a tangential contact
+  /// spring (stick spring) of the same compliance with friction.
+  std::vector<double> compliance;
 };
 
 /// Where the levels of a chain touch obstacles.

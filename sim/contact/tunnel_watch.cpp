@@ -24,7 +24,7 @@ std::int8_t nearest_face(const Vec3& half_size, const Vec3& at) {
 
 }  // namespace
 
-TunnelWatch::TunnelWatch(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
+TunnelCheck::TunnelCheck(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
                          const std::vector<Vec3>& x)
     : points_(&points) {
   for (const Obstacle& obstacle : obstacles) {
@@ -38,7 +38,7 @@ TunnelWatch::TunnelWatch(const ContactPoints& points, const std::vector<Obstacle
   for (std::uint32_t p = 0; p < points.count(); ++p) at_.push_back(points.carried(p, x));
 }
 
-void TunnelWatch::look(const std::vector<Vec3>& x, double time, double step) {
+void TunnelCheck::check(const std::vector<Vec3>& x, double time, double step) {
   for (std::size_t w = 0; w < walls_.size(); ++w)
     for (std::size_t p = 0; p < at_.size(); ++p)
       if (goes_through(w, p, at_[p], points_->carried(p, x)))
@@ -46,24 +46,24 @@ void TunnelWatch::look(const std::vector<Vec3>& x, double time, double step) {
   for (std::size_t p = 0; p < at_.size(); ++p) at_[p] = points_->carried(p, x);
 }
 
-bool TunnelWatch::goes_through(std::size_t wall, std::size_t point, const Vec3& from,
+bool TunnelCheck::goes_through(std::size_t wall, std::size_t point, const Vec3& from,
                                const Vec3& to) {
   const SolidBox& box = walls_[wall].box;
   Face& entry = walls_[wall].entry[point];
-  const Pass way = pass(box.half_size, box.local(from), box.local(to));
-  if (!way.hits) {
+  const Pass crossing = pass(box.half_size, box.local(from), box.local(to));
+  if (!crossing.hits) {
     entry = 0;
     return false;
   }
-  if (way.in != 0) entry = way.in;
-  if (way.out == 0) return false;
-  const bool through = way.out == -entry;
+  if (crossing.in != 0) entry = crossing.in;
+  if (crossing.out == 0) return false;
+  const bool through = crossing.out == -entry;
   if (!through) entry = 0;
   return through;
 }
 
-// The straight way from `from` to `to` cut by the three pairs of faces in turn.
-TunnelWatch::Pass TunnelWatch::pass(const Vec3& half_size, const Vec3& from, const Vec3& to) {
+// Clips the segment between `from` and `to` by the three pairs of faces in turn.
+TunnelCheck::Pass TunnelCheck::pass(const Vec3& half_size, const Vec3& from, const Vec3& to) {
   Pass pass;
   double begin = 0;
   double end = 1;
@@ -71,25 +71,25 @@ TunnelWatch::Pass TunnelWatch::pass(const Vec3& half_size, const Vec3& from, con
     const double half = half_size[axis];
     if ((from[axis] >= half && to[axis] >= half) || (from[axis] <= -half && to[axis] <= -half))
       return {};
-    const double way = to[axis] - from[axis];
-    if (way == 0) continue;  // within this pair of faces all the way
-    const double forward = way > 0 ? 1 : -1;
-    const double enters = (-forward * half - from[axis]) / way;
-    const double leaves = (forward * half - from[axis]) / way;
+    const double displacement = to[axis] - from[axis];
+    if (displacement == 0) continue;  // parallel to this pair of faces, between them
+    const double forward = displacement > 0 ? 1 : -1;
+    const double enters = (-forward * half - from[axis]) / displacement;
+    const double leaves = (forward * half - from[axis]) / displacement;
     if (enters > begin) {
       begin = enters;
-      pass.in = face(axis, way < 0);
+      pass.in = face(axis, displacement < 0);
     }
     if (leaves < end) {
       end = leaves;
-      pass.out = face(axis, way > 0);
+      pass.out = face(axis, displacement > 0);
     }
   }
   pass.hits = begin < end;
   return pass;
 }
 
-void TunnelWatch::throw_tunnelled(std::size_t wall, std::size_t point, const Vec3& from,
+void TunnelCheck::throw_tunnelled(std::size_t wall, std::size_t point, const Vec3& from,
                                   const Vec3& to, double time, double step) const {
   const SolidBox& box = walls_[wall].box;
   const Vec3 start = box.local(from);

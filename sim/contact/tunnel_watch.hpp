@@ -15,17 +15,17 @@ namespace springlod::sim {
 /// step or in many, has gone through. (Cutting a corner, in by one face and out by one beside it,
 /// happens at any step and is let pass.) A step costs one turn into the axes of each box a point;
 /// nothing without boxes.
-class TunnelWatch {
+class TunnelCheck {
  public:
   /// `x`: the start positions of the nodes. The points must outlive the watch.
-  TunnelWatch(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
+  TunnelCheck(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
               const std::vector<Vec3>& x);
   /// Positions of the nodes at the end of the next step. Throws TunnelError for the first point
   /// that went through.
-  void look(const std::vector<Vec3>& x, double time, double step);
+  void check(const std::vector<Vec3>& x, double time, double step);
 
   /// The same for one box and one point, from where it was to where it is: whether it went
-  /// through. A point that stays outside need not be looked at.
+  /// through. Points that stay outside may be skipped.
   bool goes_through(std::size_t wall, std::size_t point, const Vec3& from, const Vec3& to);
   [[noreturn]] void throw_tunnelled(std::size_t wall, std::size_t point, const Vec3& from,
                                     const Vec3& to, double time, double step) const;

@@ -18,14 +18,15 @@ void FastContacts::add_friction(const Step& step) {
   if (!first_step_ && !contacts_.empty()) first_step_ = step.number;
   for (Contact& c : contacts_) {
     const double mass = points().mass(c.point);
-    rub(c, mass, step.length, kicked_velocity(c, step));
+    apply_friction(c, mass, step.length, kicked_velocity(c, step));
     for (const ContactPoints::Share& share : points().shares(c.point))
       body().add_force(body().place(share.node), share.weight * mass / step.kick * c.slip_change);
   }
 }
 
-void FastContacts::check_wall(const Passage& way) {
-  if (walls().goes_through(way.wall, way.number, way.from, way.to) && !passage_) passage_ = way;
+void FastContacts::check_wall(const Passage& passage) {
+  if (walls().goes_through(passage.wall, passage.number, passage.from, passage.to) && !passage_)
+    passage_ = passage;
 }
 
 void FastContacts::book_before_kick(double length, LedgerEntry& losses) const {

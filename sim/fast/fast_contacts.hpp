@@ -34,7 +34,7 @@ class FastContacts {
     const std::vector<Obstacle>* obstacles;
     FastBody* body;
     ContactFinder* finder;
-    TunnelWatch* walls;
+    TunnelCheck* walls;
   };
 
   virtual ~FastContacts() = default;
@@ -70,16 +70,16 @@ class FastContacts {
   const std::vector<Obstacle>& obstacles() const { return *shared_.obstacles; }
   FastBody& body() const { return *shared_.body; }
   ContactFinder& finder() const { return *shared_.finder; }
-  TunnelWatch& walls() const { return *shared_.walls; }
+  TunnelCheck& walls() const { return *shared_.walls; }
 
   /// Adds the contact of a point with an obstacle and its normal force, if there is one. Returns
   /// whether there is.
   bool add_contact(std::size_t obstacle, std::uint32_t point, const Motion& motion);
   /// Adds the friction forces of all contacts, and notes the first step with a contact.
   void add_friction(const Step& step);
-  /// Checks whether one of `points` went through a wall on the way to step `number`, in a step of
-  /// `length` [s]. `swept`: bounds of their way in world axes [m]. `motion_of(point)`: position at
-  /// the end, velocity of the drift.
+  /// Checks whether one of `points` went through a wall in the drift to step `number`, in a step of
+  /// `length` [s]. `swept`: bounds of their paths in world axes [m]. `motion_of(point)`: position
+  /// at the end, velocity of the drift.
   template <class MotionOf>
   void check_walls(std::uint64_t number, double length, const Box3& swept,
                    const std::vector<std::uint32_t>& points, const MotionOf& motion_of) {
@@ -101,8 +101,8 @@ class FastContacts {
   /// ... and what it will be after the kick with the forces of now.
   virtual Vec3 kicked_velocity(const Contact& contact, const Step& step) const = 0;
 
-  /// Keeps `way` if it is the first through a wall.
-  void check_wall(const Passage& way);
+  /// Keeps `passage` if it goes through a wall and is the first.
+  void check_wall(const Passage& passage);
 
   Shared shared_;
   std::optional<std::uint64_t> first_step_;

@@ -58,8 +58,8 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
 }
 
 void FastLeapfrog::prepare() {
-  share_out([&](Share& share, const MovingFrame& frame) { return look(share, frame); });
-  finish_look();
+  share_out([&](Share& share, const MovingFrame& frame) { return observe(share, frame); });
+  finish_observation();
 }
 
 void FastLeapfrog::advance(std::uint64_t steps) {
@@ -71,10 +71,10 @@ void FastLeapfrog::advance(std::uint64_t steps) {
     n_ += together;
     steps -= together;
     share_out([&](Share& share, const MovingFrame& frame) {
-      return look(share, go(passes, share, frame));
+      return observe(share, go(passes, share, frame));
     });
     throw_if_tunnelled();
-    finish_look();
+    finish_observation();
   }
 }
 
@@ -91,7 +91,7 @@ void FastLeapfrog::share_out(const std::function<MovingFrame(Share&, const Movin
   frame_ = end;
 }
 
-MovingFrame FastLeapfrog::look(Share& share, MovingFrame frame) {
+MovingFrame FastLeapfrog::observe(Share& share, MovingFrame frame) {
   const bool first = n_ == start_n_;
   if (!first)
     for (std::uint32_t b = share.first; b < share.end; ++b) {
@@ -105,7 +105,7 @@ MovingFrame FastLeapfrog::look(Share& share, MovingFrame frame) {
   return frame;
 }
 
-void FastLeapfrog::finish_look() {
+void FastLeapfrog::finish_observation() {
   gather_contacts();
   if (n_ != start_n_) return;
   for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];

@@ -30,7 +30,7 @@ struct FastOptions {
 ///
 /// Places and velocities are kept in a frame that goes along with the body and falls as it would
 /// fall freely: what the numbers must resolve is only how nodes move against each other. Several
-/// steps at once are one way through memory: forces, kick and drift of a block right after each
+/// steps at once are one pass through memory: forces, kick and drift of a block right after each
 /// other.
 class FastLeapfrog final : public Stepper {
  public:
@@ -49,7 +49,7 @@ class FastLeapfrog final : public Stepper {
   LedgerEntry ledger_entry() const override;
 
  private:
-  /// One way through all blocks, from step `number`.
+  /// One pass through all blocks, from step `number`.
   struct Pass {
     std::uint64_t number = 0;
     double kick = 0;   ///< [s]; 0: the forces are not even found
@@ -78,7 +78,7 @@ class FastLeapfrog final : public Stepper {
   MovingFrame go(const std::vector<Pass>& passes, Share& share, MovingFrame frame);
   /// Reads the state at step n_, kicks the body off it and reads the velocities after. Returns the
   /// frame after.
-  MovingFrame look(Share& share, MovingFrame frame);
+  MovingFrame observe(Share& share, MovingFrame frame);
   MovingFrame take_new_frame(const Share& share);
   void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
   /// The same for a body whose skin joins nodes of several blocks: blocks wait for it.
@@ -94,7 +94,7 @@ class FastLeapfrog final : public Stepper {
   static void take_next(Losses& losses);
   MovingFrame after(const Pass& pass, const MovingFrame& frame) const;
   FastContacts::Step contact_step(const Pass& pass, const MovingFrame& frame) const;
-  void finish_look();
+  void finish_observation();
   double kinetic() const;
   /// Those of the blocks, or that of the skin.
   std::vector<const FastContacts*> contact_sets() const;

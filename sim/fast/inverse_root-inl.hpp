@@ -29,9 +29,9 @@ HWY_INLINE hn::Vec<D> inverse_root(D d, hn::Vec<D> square) {
   const hn::Vec<D> s = hn::Max(square, hn::Set(d, static_cast<Real>(kShortestSquare)));
   if constexpr (sizeof(Real) == sizeof(float)) {
     const hn::Vec<D> r = hn::ApproximateReciprocalSqrt(s);
-    const hn::Vec<D> miss = hn::NegMulAdd(hn::Mul(s, r), r, hn::Set(d, 1.0F));
-    const hn::Vec<D> part = hn::MulAdd(hn::Set(d, 0.375F), miss, hn::Set(d, 0.5F));
-    return hn::MulAdd(hn::Mul(r, miss), part, r);
+    const hn::Vec<D> residual = hn::NegMulAdd(hn::Mul(s, r), r, hn::Set(d, 1.0F));
+    const hn::Vec<D> part = hn::MulAdd(hn::Set(d, 0.375F), residual, hn::Set(d, 0.5F));
+    return hn::MulAdd(hn::Mul(r, residual), part, r);
   } else {
     return hn::Div(hn::Set(d, 1.0), hn::Sqrt(s));
   }

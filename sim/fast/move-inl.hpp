@@ -15,20 +15,20 @@ namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// x += way. Returns the new x.
+/// x += displacement. Returns the new x.
 template <class D>
-HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> way, hn::TFromD<D>* HWY_RESTRICT x) {
-  const hn::Vec<D> to = hn::Add(hn::LoadU(d, x), way);
+HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> displacement, hn::TFromD<D>* HWY_RESTRICT x) {
+  const hn::Vec<D> to = hn::Add(hn::LoadU(d, x), displacement);
   hn::StoreU(to, d, x);
   return to;
 }
 
 /// The same; `low` holds what x is too coarse for, and is carried along (Kahan).
 template <class D>
-HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> way, hn::TFromD<D>* HWY_RESTRICT x,
+HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> displacement, hn::TFromD<D>* HWY_RESTRICT x,
                             hn::TFromD<D>* HWY_RESTRICT low) {
   const hn::Vec<D> from = hn::LoadU(d, x);
-  const hn::Vec<D> whole = hn::Add(way, hn::LoadU(d, low));
+  const hn::Vec<D> whole = hn::Add(displacement, hn::LoadU(d, low));
   const hn::Vec<D> to = hn::Add(from, whole);
   hn::StoreU(hn::Sub(whole, hn::Sub(to, from)), d, low);
   hn::StoreU(to, d, x);

@@ -104,7 +104,7 @@ HWY_INLINE V dot(const Side<V>& p, const Side<V>& q) {
 }
 
 HWY_INLINE void measure(const QuadPair<float>& pair, const NodeRecord<float>* records,
-                        float* square, float* way) {
+                        float* square, float* x_dot_v) {
   const D8 d;
   const std::uint16_t* other = pair.other;
   const V8 own0 = hn::Load(d, record_at(records, pair.own[0]).x);
@@ -121,10 +121,10 @@ HWY_INLINE void measure(const QuadPair<float>& pair, const NodeRecord<float>* re
   const Side<V8> v{hn::ConcatUpperUpper(d, b.x, a.x), hn::ConcatUpperUpper(d, b.y, a.y),
                    hn::ConcatUpperUpper(d, b.z, a.z)};
   hn::Store(dot(x, x), d, square);
-  hn::Store(dot(x, v), d, way);
+  hn::Store(dot(x, v), d, x_dot_v);
 }
 HWY_INLINE void measure(const QuadPair<double>& pair, const NodeRecord<double>* records,
-                        double* square, double* way) {
+                        double* square, double* x_dot_v) {
   const D4<double> d;
   for (std::size_t first = 0; first < 2 * kQuad; first += kQuad) {
     const std::uint16_t* other = pair.other + first;
@@ -142,7 +142,7 @@ HWY_INLINE void measure(const QuadPair<double>& pair, const NodeRecord<double>* 
     const Side<V4<double>> v =
         transpose(v_apart(other[0]), v_apart(other[1]), v_apart(other[2]), v_apart(other[3]));
     hn::Store(dot(x, x), d, square + first);
-    hn::Store(dot(x, v), d, way + first);
+    hn::Store(dot(x, v), d, x_dot_v + first);
   }
 }
 
@@ -167,15 +167,16 @@ HWY_INLINE void scatter(const std::uint16_t* other, std::uint16_t own, const Rea
 #else
 
 template <class Real>
-void measure(const QuadPair<Real>& pair, const NodeRecord<Real>* records, Real* square, Real* way) {
+void measure(const QuadPair<Real>& pair, const NodeRecord<Real>* records, Real* square,
+             Real* x_dot_v) {
   for (std::size_t s = 0; s < 2 * kQuad; ++s) {
     const NodeRecord<Real>& p = record_at(records, pair.own[s / kQuad]);
     const NodeRecord<Real>& q = record_at(records, pair.other[s]);
     square[s] = 0;
-    way[s] = 0;
+    x_dot_v[s] = 0;
     for (int i = 0; i < 3; ++i) {
       square[s] += (q.x[i] - p.x[i]) * (q.x[i] - p.x[i]);
-      way[s] += (q.x[i] - p.x[i]) * (q.v[i] - p.v[i]);
+      x_dot_v[s] += (q.x[i] - p.x[i]) * (q.v[i] - p.v[i]);
     }
   }
 }
@@ -199,19 +200,19 @@ void scatter(const std::uint16_t* other, std::uint16_t own, const Real* over_len
 /// Squares of lengths [m2] and l dl/dt [m2/s].
 template <class Real>
 HWY_INLINE void measure(const Batch<Real>& batch, const NodeRecord<Real>* records,
-                        SpringNumbers<Real>& square, SpringNumbers<Real>& way) {
+                        SpringNumbers<Real>& square, SpringNumbers<Real>& x_dot_v) {
   for (std::size_t n = 0; n < batch.count; ++n) {
     const QuadPair<Real>* pair = batch.pairs + n;
     for (std::size_t byte = 0; byte < sizeof(*pair); byte += kCacheLine)
       hwy::Prefetch(reinterpret_cast<const char*>(pair + batch.ahead) + byte);
-    measure(*pair, records, square.of[n], way.of[n]);
+    measure(*pair, records, square.of[n], x_dot_v.of[n]);
   }
 }
 
 /// Forces over length [N/m], whole and, if asked for, of the damping alone.
 template <bool with_damping, class Real>
 HWY_INLINE void pull(const Batch<Real>& batch, const SpringNumbers<Real>& square,
-                     const SpringNumbers<Real>& way, SpringNumbers<Real>& both,
+                     const SpringNumbers<Real>& x_dot_v, SpringNumbers<Real>& both,
                      SpringNumbers<Real>& damping) {
   const hn::CappedTag<Real, 2 * kQuad> d;
   const auto beta = hn::Set(d, batch.damping_time);
@@ -221,7 +222,7 @@ HWY_INLINE void pull(const Batch<Real>& batch, const SpringNumbers<Real>& square
       const auto stiffness = hn::LoadU(d, batch.pairs[n].stiffness + lane);
       const auto rest_force = hn::LoadU(d, batch.pairs[n].rest_force + lane);
       const auto elastic = hn::NegMulAdd(rest_force, inverse, stiffness);
-      const auto rate = hn::Mul(hn::Load(d, way.of[n] + lane), hn::Mul(inverse, inverse));
+      const auto rate = hn::Mul(hn::Load(d, x_dot_v.of[n] + lane), hn::Mul(inverse, inverse));
       const auto c = batch.damping == nullptr ? hn::Mul(beta, stiffness)
                                               : hn::LoadU(d, batch.damping[n].data() + lane);
       const auto damped = hn::Mul(c, rate);
@@ -244,7 +245,7 @@ template <bool with_damping, class Real>
 void add_forces(const QuadBlock<Real>& block, Real damping_time, QuadBlockState<Real>& state) {
   const NodeRecord<Real>* records = state.records.data();
   SpringNumbers<Real> square;
-  SpringNumbers<Real> way;
+  SpringNumbers<Real> x_dot_v;
   SpringNumbers<Real> both;
   SpringNumbers<Real> damping;
   for (std::size_t first = 0; first < block.pairs.size(); first += kBatch) {
@@ -255,8 +256,8 @@ void add_forces(const QuadBlock<Real>& block, Real damping_time, QuadBlockState<
                             .ahead = std::min(kPairsAhead, left - count),
                             .damping = block.damping.empty() ? nullptr : &block.damping[first],
                             .damping_time = damping_time};
-    measure(batch, records, square, way);
-    pull<with_damping>(batch, square, way, both, damping);
+    measure(batch, records, square, x_dot_v);
+    pull<with_damping>(batch, square, x_dot_v, both, damping);
     scatter(batch, both, records, state.forces.data());
     if constexpr (with_damping) scatter(batch, damping, records, state.damping_forces.data());
   }

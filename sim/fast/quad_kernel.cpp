@@ -113,12 +113,12 @@ void move(const QuadBlock<Real>& block, Real kick_time, Real drift_time,
         hn::Store(v, d, record.v + lane);
       }
       if constexpr (drifts) {
-        const auto way = hn::Mul(hn::Set(d, drift_time), v);
+        const auto displacement = hn::Mul(hn::Set(d, drift_time), v);
         hn::Vec<Corner<Real>> to;
         if constexpr (kHasLow<Real>)
-          to = drift(d, way, record.x + lane, own.low[i].at + lane);
+          to = drift(d, displacement, record.x + lane, own.low[i].at + lane);
         else
-          to = drift(d, way, record.x + lane);
+          to = drift(d, displacement, record.x + lane);
         low_corner = hn::Min(low_corner, to);
         high_corner = hn::Max(high_corner, to);
       }

@@ -27,8 +27,8 @@ struct QuadBlockState {
   std::vector<NodeRecord<Real>> records;
   std::vector<NodeVector<Real>> forces;          ///< [N]
   std::vector<NodeVector<Real>> damping_forces;  ///< the part of them that is damping; may be empty
-  /// What x of own nodes is too coarse to hold [m]: a step's way is often less than the last bit of
-  /// a place. Empty in double precision.
+  /// What x of own nodes is too coarse to hold [m]: a step's displacement is often below the last
+  /// bit of a place. Empty in double precision.
   std::vector<NodeVector<Real>> low;
   Box3 bounds;  ///< of the own nodes [m]
 };

@@ -35,8 +35,8 @@ Box3 region_touching(const Obstacle& obstacle, const Box3& bounds) {
   return bounds_of(std::get<SolidBox>(obstacle.shape)).intersection(bounds);
 }
 
-Box3 moved(const Box3& box, const Vec3& way) {
-  return {box.min() + way, box.max() + way};
+Box3 moved(const Box3& box, const Vec3& displacement) {
+  return {box.min() + displacement, box.max() + displacement};
 }
 
 }  // namespace springlod::sim

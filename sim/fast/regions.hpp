@@ -13,6 +13,6 @@ Box3 bounds_of(const SolidBox& box);
 /// Bounds of where something within `bounds` touches the obstacle; may be empty.
 Box3 region_touching(const Obstacle& obstacle, const Box3& bounds);
 
-Box3 moved(const Box3& box, const Vec3& way);
+Box3 moved(const Box3& box, const Vec3& displacement);
 
 }  // namespace springlod::sim

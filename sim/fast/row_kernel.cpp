@@ -209,12 +209,12 @@ void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick_ti
       hn::StoreU(v, d, all_v + p);
     }
     if constexpr (drifts) {
-      const auto way = hn::Mul(hn::Set(d, drift_time), v);
+      const auto displacement = hn::Mul(hn::Set(d, drift_time), v);
       hn::Vec<Lanes<Real>> to;
       if constexpr (kHasLow<Real>)
-        to = drift(d, way, all_x + p, state.low[axis].get() + block.first + p);
+        to = drift(d, displacement, all_x + p, state.low[axis].get() + block.first + p);
       else
-        to = drift(d, way, all_x + p);
+        to = drift(d, displacement, all_x + p);
       least = hn::Min(least, to);
       most = hn::Max(most, to);
     }

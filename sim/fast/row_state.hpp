@@ -22,7 +22,7 @@ struct RowState {
 
   Coordinates x;  ///< [m]
   Coordinates v;  ///< [m/s]
-  /// What x is too coarse to hold [m]: a step's way is often less than the last bit of a place.
+  /// What x is too coarse to hold [m]: a step's displacement is often below the last bit of x.
   /// Unused in double precision.
   Coordinates low;
   /// Forces that a block works out on its own places and those of its reach [N]; by block.

@@ -45,7 +45,7 @@ void SkinContacts::apply(const Step& step) {
   contacts_.clear();
   if (near)
     for (std::size_t o = 0; o < obstacles().size(); ++o) find_contacts(step, o);
-  keep_grips(contacts_before_, contacts_);
+  keep_stick_springs(contacts_before_, contacts_);
   add_friction(step);
   after_kick_.clear();
   for (const Contact& c : contacts_) after_kick_.push_back(kicked_velocity(c, step));

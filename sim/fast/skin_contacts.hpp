@@ -16,7 +16,7 @@ class SkinContacts final : public FastContacts {
   /// The model must outlive this.
   SkinContacts(const Shared& shared, const MassSpringModel& model);
 
-  /// Checks also whether points went through walls on the way here.
+  /// Checks also whether points went through walls since the last step.
   void apply(const Step& step) override;
 
  private:

@@ -158,16 +158,16 @@ void BackwardEuler::add_contact(const Contact& contact) {
 }
 
 bool BackwardEuler::descend() {
-  constexpr double kSufficient = 1e-4;  // Armijo's part of the slope
-  constexpr int kHalvings = 20;         // of Newton's way: below that rounding decides
-  const Eigen::VectorXd way = solver_->solve(matrix_, -gradient_);
+  constexpr double kSufficient = 1e-4;  // Armijo's fraction of the slope
+  constexpr int kHalvings = 20;         // of Newton's step: below that rounding decides
+  const Eigen::VectorXd direction = solver_->solve(matrix_, -gradient_);
   spring_updates_ += solver_->passes() * model_->spring_count();
-  const double slope = gradient_.dot(way);
+  const double slope = gradient_.dot(direction);
   if (!(slope < 0)) return false;
   double part = 1;
   for (int halving = 0; halving < kHalvings; ++halving, part /= 2) {
     for (std::uint32_t i = 0; i < model_->node_count(); ++i)
-      trial_[i] = x_next_[i] + part * way.segment<3>(row_of(i));
+      trial_[i] = x_next_[i] + part * direction.segment<3>(row_of(i));
     const double reached = energy(trial_);
     if (reached <= energy_ + kSufficient * part * slope) {
       energy_ = reached;

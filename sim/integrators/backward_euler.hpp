@@ -17,7 +17,7 @@ namespace springlod::sim {
 /// found by Newton's method with a line search. Each spring gives k' u u^T + k' max(0, 1 - L'/l)
 /// (1 - u u^T) to the matrix: the part that compression makes negative is left out, so that the
 /// matrix stays positive definite (as in Teran et al. 2005, and exact for springs).
-/// Unconditionally stable; it takes energy from whatever swings faster than the step sees.
+/// Unconditionally stable; it damps vibrations that the step does not resolve.
 class BackwardEuler final : public WholeStep {
  public:
   BackwardEuler(const MassSpringModel& model, const Scenario& scenario, const State& start,

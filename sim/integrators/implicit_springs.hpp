@@ -21,7 +21,7 @@ class ImplicitSprings {
   double rest_length(std::uint32_t spring) const { return rest_length_[spring]; }  ///< [m]
   /// Sum of k' (l - L')^2 / 2 at x [J].
   double energy(const std::vector<Vec3>& x) const;
-  /// What damping takes on the way from the start of the step to x: sum of c (l - l_n)^2 / dt [J].
+  /// Energy that damping dissipates from the start of the step to x: sum of c (l - l_n)^2 / dt [J].
   double damping_loss(const std::vector<Vec3>& x) const;
 
  private:

@@ -34,7 +34,7 @@ void Leapfrog::find_forces(bool with_damping) {
   }
   std::swap(contacts_, contacts_before_);
   finder_.find(x_, w, contacts_);
-  keep_grips(contacts_before_, contacts_);
+  keep_stick_springs(contacts_before_, contacts_);
   add_normal_forces(points_, contacts_, force_);
 }
 

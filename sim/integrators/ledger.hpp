@@ -4,8 +4,9 @@
 
 namespace springlod::sim {
 
-/// Where the energy is and where it went, at one time [J]. kinetic + elastic + gravity + contact +
-/// the losses = the initial sum. Gravity counts from the initial height.
+/// Energies of a body and its losses until one time [J]: section 10 of docs/method.md. kinetic +
+/// elastic + gravity + contact + the losses = the initial sum. Gravity counts from the initial
+/// height.
 ///
 /// What is exact. With velocities v- and v+ half a step before and after x_n, the product
 /// K_n = sum m v- . v+ / 2 obeys K_{n+1} - K_n = (F_n + F_{n+1}) . (x_{n+1} - x_n) / 2: the
@@ -18,7 +19,7 @@ namespace springlod::sim {
 ///
 /// Contacts that begin or end within a step: from depth -g (a gap) to d the trapezoid rule takes
 /// kappa A d (d + g) / 2 out of the motion but the penalty spring stores kappa A d^2 / 2 only;
-/// kappa A d g / 2 is gone, and comes back likewise on the way out, on the average less of it. That
+/// kappa A d g / 2 is lost, and partly regained when the contact ends. That
 /// is a real loss of the stepped contact, which goes with dt^2: it is booked under lost_contact.
 ///
 /// K_n is not a sum of squares: it lies below the kinetic energy of the mean velocity by
@@ -28,9 +29,9 @@ struct LedgerEntry {
   double kinetic = 0;
   double elastic = 0;
   double gravity = 0;        ///< potential
-  double contact = 0;        ///< stored in the penalty springs and grips
+  double contact = 0;        ///< stored in the penalty and stick springs
   double lost_damping = 0;   ///< to spring damping
-  double lost_friction = 0;  ///< to rubbing, and to the dampers of grips
+  double lost_friction = 0;  ///< to sliding, and to the dampers of stick springs
   double lost_contact = 0;   ///< to contact damping and to contact beginning or ending in mid-step
   double lost_switch = 0;    ///< to a switch of the level, or of the step (K_n depends on it)
   /// What is still there and could move the body.

@@ -64,7 +64,7 @@ void ProjectiveDynamics::global_step() {
     right_.row(model_->a[s]) -= wanted.transpose();
     right_.row(model_->b[s]) += wanted.transpose();
   }
-  // A node that touches is held where it is but for the way out of the obstacle.
+  // A node that touches is held in place but may leave the obstacle.
   for (const Contact& c : trial_contacts_)
     for (const ContactPoints::Share& share : points_.shares(c.point))
       right_.row(share.node) +=

@@ -20,7 +20,7 @@ void StepByStep::advance(std::uint64_t steps) {
   for (std::uint64_t i = 0; i < steps; ++i) {
     if (!first_contact_ && !contacts_.empty()) first_contact_ = time();
     commit();
-    walls_.look(x_, time(), step_);
+    walls_.check(x_, time(), step_);
     prepare();
   }
   if (!first_contact_ && !contacts_.empty()) first_contact_ = time();

@@ -17,10 +17,10 @@ namespace springlod::sim {
 
 /// One scheme at work on one body, step by step, as `run` drives it:
 ///
-///   prepare(); { look at step n; advance(steps); } ...
+///   prepare(); { read step n; advance(steps); } ...
 ///
-/// prepare() works out the way to x_{n+1}; advance() goes it and works out the next, as often as it
-/// is told. In between everything below is valid and speaks of the time t_n = n dt. Model and
+/// prepare() computes the step to x_{n+1}. advance() takes it and computes the next, `steps` times.
+/// Between these calls everything below is valid and refers to the time t_n = n dt. Model and
 /// scenario must outlive the stepper.
 class Stepper {
  public:
@@ -47,7 +47,7 @@ class Stepper {
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// When nodes first touched an obstacle [s].
   std::optional<double> first_contact() const { return first_contact_; }
-  /// Positions on the way that the scheme draws from x_n to x_{n+1} (t_n <= time <= t_{n+1}).
+  /// Positions on the path of the scheme from x_n to x_{n+1} (t_n <= time <= t_{n+1}).
   virtual std::vector<Vec3> positions_at(double time) const = 0;
   virtual State state() const = 0;
   Vec3 center_of_mass() const;
@@ -82,7 +82,7 @@ class Stepper {
   ContactPoints points_;
   ContactFinder finder_;
   std::vector<Contact> contacts_;
-  TunnelWatch walls_;
+  TunnelCheck walls_;
   std::optional<double> first_contact_;  // [s]
 
  private:
@@ -97,7 +97,7 @@ class StepByStep : public Stepper {
 
  protected:
   using Stepper::Stepper;
-  /// Goes the way to x_{n+1}.
+  /// Takes the step to x_{n+1}.
   virtual void commit() = 0;
 };
 

@@ -20,7 +20,7 @@ WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, con
 void WholeStep::prepare() {
   solve();
   finder_.find(x_next_, v_next_, next_contacts_);
-  keep_grips(contacts_, next_contacts_);
+  keep_stick_springs(contacts_, next_contacts_);
   add_friction();
   next_losses_.lost_damping = lost_damping_;
   for (const Contact& c : next_contacts_)
@@ -36,7 +36,7 @@ void WholeStep::finish_implicit(const ImplicitSprings& springs) {
 void WholeStep::add_friction() {
   const auto held = [](const std::vector<Contact>& contacts) {
     double energy = 0;
-    for (const Contact& c : contacts) energy += c.grip_energy();
+    for (const Contact& c : contacts) energy += c.stick_energy();
     return energy;
   };
   next_losses_.lost_friction += apply_friction(points_, step_, next_contacts_, v_next_);

@@ -10,7 +10,7 @@ namespace springlod::sim {
 
 /// Schemes that keep positions and velocities at the same instants. What a scheme does is solve();
 /// friction comes after it, as a cap on slip. In the implicit schemes, whose steps are long, it
-/// also takes back the way slipped too far.
+/// also corrects the positions by the slip that it removed.
 ///
 /// Its ledger holds the true energies of (x_n, v_n) and the work of each dissipative force as the
 /// scheme sees it. What a scheme gains or loses by itself is in no entry: it shows as the drift of
@@ -32,8 +32,8 @@ class WholeStep : public StepByStep {
   /// From x_ and v_ to x_next_ and v_next_, without friction. Adds to spring_updates_ and, with a
   /// ledger, to lost_damping_.
   virtual void solve() = 0;
-  /// How every implicit scheme ends its solve(): v_next_ is that of the way to x_next_, on which
-  /// damping takes its part.
+  /// How every implicit scheme ends its solve(): v_next_ is the mean velocity to x_next_, and
+  /// damping losses are booked.
   void finish_implicit(const ImplicitSprings& springs);
 
   bool with_ledger_;
@@ -49,7 +49,7 @@ class WholeStep : public StepByStep {
 
   bool friction_moves_;
   std::vector<Contact> next_contacts_;
-  // Losses on the way to x_{n+1}, which count from there on.
+  // Losses of the step to x_{n+1}, which count from there on.
   LedgerEntry losses_, next_losses_;
 };
 

@@ -24,7 +24,7 @@ double rounding_strain(Precision precision) {
 
 }  // namespace
 
-EnergyWatch::EnergyWatch(const MassSpringModel& model, const Stepper& start, Precision precision,
+EnergyCheck::EnergyCheck(const MassSpringModel& model, const Stepper& start, Precision precision,
                          double step, const StepLimit& limit)
     : step_(step),
       limit_(limit),
@@ -34,7 +34,7 @@ EnergyWatch::EnergyWatch(const MassSpringModel& model, const Stepper& start, Pre
                contact_energy(start.contacts());
 }
 
-void EnergyWatch::look(const Stepper& body, double gravity_work) {
+void EnergyCheck::check(const Stepper& body, double gravity_work) {
   std::uint32_t node = 0;
   const double kinetic = body.kinetic_after(&node);
   if (!std::isfinite(kinetic)) throw_not_finite(body);
@@ -49,7 +49,7 @@ void EnergyWatch::look(const Stepper& body, double gravity_work) {
         node, body.time());
 }
 
-void EnergyWatch::throw_not_finite(const Stepper& body) const {
+void EnergyCheck::throw_not_finite(const Stepper& body) const {
   const State state = body.state();
   std::uint32_t node = 0;
   while (node + 1 < state.x.size() && state.x[node].allFinite() && state.v[node].allFinite())
@@ -60,7 +60,7 @@ void EnergyWatch::throw_not_finite(const Stepper& body) const {
       node, body.time());
 }
 
-std::string EnergyWatch::advice() const {
+std::string EnergyCheck::advice() const {
   if (step_ <= limit_.step) return "take a smaller step";
   const bool damping_alone = step_ <= limit_.without_damping;
   if (damping_alone || limit_.set_by_damping())

@@ -9,17 +9,17 @@
 
 namespace springlod::sim {
 
-/// Compares the kinetic energy with all that could have become kinetic energy so far.
-class EnergyWatch {
+/// Detects divergence: compares the kinetic energy with all energy that could have become kinetic.
+class EnergyCheck {
  public:
   /// `start`: after the first kick. Its v+ count, not the ledger's v- . v+, which is negative for a
   /// body released at rest. `precision`: that the body moves with. `step` and `limit` are for what
   /// the message advises.
-  EnergyWatch(const MassSpringModel& model, const Stepper& start, Precision precision, double step,
+  EnergyCheck(const MassSpringModel& model, const Stepper& start, Precision precision, double step,
               const StepLimit& limit);
 
   /// Throws UnstableError naming the worst node.
-  void look(const Stepper& body, double gravity_work);
+  void check(const Stepper& body, double gravity_work);
 
  private:
   [[noreturn]] void throw_not_finite(const Stepper& body) const;

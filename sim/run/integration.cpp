@@ -17,13 +17,13 @@
 namespace springlod::sim {
 namespace {
 
-// Steps between two looks at the whole body [steps], which cost as much as some three of them. A
+// Steps between two checks of the whole body [steps], which cost as much as some three of them. A
 // step at twice the limit multiplies speeds by 14 a step, which stays finite in double precision.
-constexpr std::uint64_t kLookEvery = 64;
+constexpr std::uint64_t kCheckEvery = 64;
 // The same while springs are strained hard: what is stable may change within few steps.
-constexpr std::uint64_t kLookOftenEvery = 16;
+constexpr std::uint64_t kCheckOftenEvery = 16;
 
-/// One run under way.
+/// One run in progress.
 class Integration {
  public:
   Integration(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -48,15 +48,15 @@ class Integration {
   void go() {
     bool asleep = false;
     while (steps_left() > 0) {
-      if (body_->step_number() >= next_look_) {
-        asleep = sleep_.look(*body_);
-        if (look() || asleep) break;
+      if (body_->step_number() >= next_check_) {
+        asleep = sleep_.check(*body_);
+        if (check() || asleep) break;
       }
       recorder_.record(*body_);
       body_->advance(std::min(
-          {next_look_ - body_->step_number(), steps_left(), recorder_.steps_to_next(*body_)}));
+          {next_check_ - body_->step_number(), steps_left(), recorder_.steps_to_next(*body_)}));
     }
-    look_at_energy();
+    check_energy();
     finish(asleep ? duration_ : body_->time());
   }
 
@@ -68,12 +68,12 @@ class Integration {
   }
 
   /// Whether the stop rule ends the run here.
-  bool look() {
-    look_at_energy();
-    springs_.look(body_->state());
-    if (stop_.look(*body_)) return true;
-    const bool strained = springs_.largest_strain() > StepWatch::kSmallStrain;
-    next_look_ = body_->step_number() + (strained ? kLookOftenEvery : kLookEvery);
+  bool check() {
+    check_energy();
+    springs_.check(body_->state());
+    if (stop_.check(*body_)) return true;
+    const bool strained = springs_.largest_strain() > StepController::kSmallStrain;
+    next_check_ = body_->step_number() + (strained ? kCheckOftenEvery : kCheckEvery);
     if (step_) take_step(step_->step_for(body_->positions(), springs_.largest_strain()));
     report();
     return false;
@@ -85,8 +85,8 @@ class Integration {
     trajectory_->shortest_step = std::min(trajectory_->shortest_step, step);
   }
 
-  void look_at_energy() {
-    energy_->look(*body_, weight_.dot(body_->center_of_mass() - first_center_));
+  void check_energy() {
+    energy_->check(*body_, weight_.dot(body_->center_of_mass() - first_center_));
   }
 
   void report() {
@@ -117,13 +117,13 @@ class Integration {
   Recorder recorder_;
   Vec3 weight_;  // [N]
   Vec3 first_center_;
-  SpringWatch springs_;
-  StopWatch stop_;
-  SleepWatch sleep_;
+  SpringCheck springs_;
+  StopCriterion stop_;
+  RestCriterion sleep_;
   Task task_;
-  std::optional<EnergyWatch> energy_;
-  std::optional<StepWatch> step_;
-  std::uint64_t next_look_ = 0;  // step number
+  std::optional<EnergyCheck> energy_;
+  std::optional<StepController> step_;
+  std::uint64_t next_check_ = 0;  // step number
   std::uint64_t reported_ = 0;
 };
 

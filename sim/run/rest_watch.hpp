@@ -7,23 +7,23 @@
 
 namespace springlod::sim {
 
-/// Whether the centre of mass has been slow for long enough.
-class StopWatch {
+/// Stop rule of a scenario: whether the centre of mass has been slow for long enough.
+class StopCriterion {
  public:
-  explicit StopWatch(const std::optional<StopRule>& rule) : rule_(rule) {}
-  bool look(const Stepper& body);
+  explicit StopCriterion(const std::optional<StopRule>& rule) : rule_(rule) {}
+  bool check(const Stepper& body);
 
  private:
   std::optional<StopRule> rule_;
   double last_fast_ = 0;  // [s]
 };
 
-/// Whether a body that lies on something has come to rest: nothing would wake it.
-class SleepWatch {
+/// Rest criterion: whether a body in contact has come to rest (eq. 63 of docs/method.md).
+class RestCriterion {
  public:
   /// `part`: of the speed of a fall through its own size, see RunOptions; 0: never.
-  SleepWatch(const MassSpringModel& model, const Scenario& scenario, double part);
-  bool look(const Stepper& body);
+  RestCriterion(const MassSpringModel& model, const Scenario& scenario, double part);
+  bool check(const Stepper& body);
 
  private:
   double most_energy_;     // kinetic [J]

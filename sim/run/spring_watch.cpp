@@ -8,7 +8,7 @@
 
 namespace springlod::sim {
 
-void SpringWatch::look(State state) {
+void SpringCheck::check(State state) {
   const Vec3 spin = angular_velocity(*model_, before_);
   const double angle = spin.norm() * (state.t - before_.t);
   const Mat3 turn = angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix()

@@ -8,18 +8,18 @@
 
 namespace springlod::sim {
 
-/// Looks now and then at all springs.
-class SpringWatch {
+/// Checks all springs, now and then, for inversion and strain.
+class SpringCheck {
  public:
-  SpringWatch(const MassSpringModel& model, const State& start) : model_(&model), before_(start) {}
-  void look(State state);
+  SpringCheck(const MassSpringModel& model, const State& start) : model_(&model), before_(start) {}
+  void check(State state);
 
-  /// The first spring, in the model's order, that was seen turned over: its direction differed by
-  /// more than a right angle from that at the look before, turned along with the body (by its
-  /// angular velocity). A spring only knows its length; that its ends went past each other no force
-  /// tells.
+  /// The first spring, in the model's order, found turned over: its direction differed by
+  /// more than a right angle from that at the check before, turned along with the body (by its
+  /// angular velocity). The force depends on the length alone, so it does
+  /// not show that the ends went past each other.
   const std::optional<Crossing>& first_crossing() const { return first_crossing_; }
-  /// Largest |l - L| / L of the last look [1].
+  /// Largest |l - L| / L of the last check [1].
   double largest_strain() const { return largest_strain_; }
 
  private:

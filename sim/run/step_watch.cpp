@@ -17,12 +17,12 @@ constexpr std::uint32_t kMostHalvings = 6;  // a body that needs more is past sa
 
 }  // namespace
 
-StepWatch::StepWatch(const MassSpringModel& model, const StepLimit& limit, double step)
+StepController::StepController(const MassSpringModel& model, const StepLimit& limit, double step)
     : model_(&model), limit_(limit), step_(step) {}
 
 // The bounds of the nodes lie above the highest frequency, of light ones far above. So none counts
 // for more than by how much it grew.
-double StepWatch::frequency(const std::vector<Vec3>& x) {
+double StepController::frequency(const std::vector<Vec3>& x) {
   if (at_rest_.empty())
     at_rest_ = elastic::node_frequency_bounds(*model_, model_->rest, limit_.ground_stiffness);
   const std::vector<double> now =
@@ -34,7 +34,7 @@ double StepWatch::frequency(const std::vector<Vec3>& x) {
   return std::sqrt(most);
 }
 
-double StepWatch::step_for(const std::vector<Vec3>& x, double strain) {
+double StepController::step_for(const std::vector<Vec3>& x, double strain) {
   const double omega = strain > kSmallStrain ? frequency(x) : limit_.omega;
   const double limit = elastic::stable_step(omega, limit_.damping_time);
   const auto step = [&] { return std::ldexp(step_, -static_cast<int>(halvings_)); };

@@ -110,7 +110,7 @@ class Comparing {
   Comparison run_all() {
     const std::uint64_t jobs = std::uint64_t{options_.starts} * chain_.levels.size();
     Task task(options_.progress, "compare", jobs * RunProgress::kUnits);
-    // Start by start, the base first: a level that waits for its base waits for a run under way.
+    // Start by start, the base first: a level that waits for its base waits for a run in progress.
     run_jobs(jobs, options_.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
       const auto start = static_cast<std::uint32_t>(job / chain_.levels.size());
       const auto level = static_cast<std::uint32_t>(job % chain_.levels.size());
@@ -166,7 +166,7 @@ class Comparing {
     base.ledger = {};
   }
 
-  /// Runs one level and keeps what only its own trajectory tells.
+  /// Runs one level and keeps the results of its own trajectory.
   Trajectory run_level(std::uint32_t level, std::uint32_t start,
                        const std::function<bool()>& stopped) {
     const MassSpringModel& model = chain_.levels[level].model;

@@ -8,10 +8,10 @@
 namespace springlod::sim {
 namespace {
 
-// How far the ends would swing in the slowest mode, as part of the longest side [1].
+// Amplitude of the ends in the slowest mode, as a fraction of the longest side [1].
 constexpr double kSwing = 0.01;
 
-// Angle by which the body turns in all [rad]: moves the ends about as far as they swing.
+// Angle by which the body turns in all [rad]: moves the ends by about that amplitude.
 constexpr double kTurn = 0.05;
 
 // Mean of the square of the place along the body in [-1, 1], so that bending moves no mean.

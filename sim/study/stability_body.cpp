@@ -98,7 +98,7 @@ double Specimen::error(const MassSpringModel& model, const std::vector<Frame>& f
   const double off = squared_distance(
       model, frames,
       [&](std::size_t f, std::size_t i) -> const Vec3& { return reference[f].x[i]; });
-  return std::sqrt(off) / reference_way;
+  return std::sqrt(off) / reference_displacement;
 }
 
 Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
@@ -128,7 +128,7 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
       std::min(kReferencePart * predicted_step(model, specimen.scene, Integrator::velocity_verlet),
                specimen.scene.duration / kSamples);
   specimen.reference = fine_run(model, specimen, step, progress[0]);
-  specimen.reference_way = std::sqrt(squared_distance(
+  specimen.reference_displacement = std::sqrt(squared_distance(
       model, specimen.reference,
       [&](std::size_t, std::size_t i) -> const Vec3& { return specimen.start.x[i]; }));
   body.reference_error =

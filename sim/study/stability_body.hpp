@@ -11,7 +11,7 @@
 
 namespace springlod::sim {
 
-/// The chain at one ratio, and how its base swings.
+/// The chain at one ratio, and the natural frequencies of its base.
 struct RescaledChain {
   LodChain chain;
   std::vector<double> frequencies;  ///< of the base, lowest first [rad/s]
@@ -27,7 +27,7 @@ struct Specimen {
   State start;
   Scenario scene;  ///< neither gravity nor obstacles
   std::vector<Frame> reference;
-  double reference_way = 0;  ///< RMS way of its nodes from the start [m]
+  double reference_displacement = 0;  ///< RMS displacement of its nodes from the start [m]
   /// Error of frames against the reference: see StabilityPoint::error.
   double error(const MassSpringModel& model, const std::vector<Frame>& frames) const;
 };

@@ -14,18 +14,19 @@ namespace springlod::sim {
 /// What is said of one point of a stability map: the first of these that holds, from the bottom up.
 enum class Verdict {
   stable,       ///< none of the others
-  inaccurate,   ///< its motion is off by more than kInaccurate
+  inaccurate,   ///< its error is above kInaccurate
   drifting,     ///< the scheme itself gained or lost more than kDrifting of the energy
-  off_design,   ///< the level is not the body any more: its frequencies are off by kOffDesign
+  off_design,   ///< the level is not the body any more: the error of its frequencies is above
+                ///< kOffDesign
   crossed,      ///< nodes went past each other: the body is inside out somewhere
   unconverged,  ///< the solver of backward Euler gave up short of its tolerance
   runaway,      ///< the energy rose by kRunaway: the numbers are finite and mean nothing
-  diverged,     ///< the run left the numbers
+  diverged,     ///< non-finite state or growing energy
   mechanism,    ///< springs leave nodes loose: not run
 };
 const char* to_string(Verdict verdict);
 
-/// Mean distance from the reference over its mean way [1]. A tenth shows to the eye.
+/// Mean distance from the reference over its mean displacement [1]. A tenth shows to the eye.
 inline constexpr double kInaccurate = 0.1;
 /// Energy gained or lost by the scheme over the energy at the start [1].
 inline constexpr double kDrifting = 0.1;
@@ -41,7 +42,7 @@ struct StabilityOptions {
   /// Young's modulus of the stiff part over that of the soft one: see with_stiffness_ratio.
   std::vector<double> ratios{1, 10, 100, 1e3, 1e4, 1e5};
   /// Levels change with the ratio as if they were merged again from the rescaled base; false: they
-  /// stay as they are, which tells how far a level may be used off the ratio it was made for.
+  /// stay as they are, which shows how far from its design ratio a level may be used.
   bool remake_levels = true;
   std::vector<Integrator> integrators{kIntegrators.begin(), kIntegrators.end()};
   /// Of XPBD and projective dynamics, each run with each; 0: the default of the scheme.
@@ -98,8 +99,8 @@ struct StabilityPoint {
   // Of finished runs:
   double energy_drift =
       0;  ///< worst change of the ledger's total, with its sign, over the first [1]
-  /// RMS distance of the nodes from those of the reference over the RMS of its way from the start,
-  /// both weighted by mass, over kSamples common times [1].
+  /// RMS distance of the nodes from those of the reference over the RMS of its displacement from
+  /// the start, both weighted by mass, over kSamples common times [1].
   double error = 0;
   double cost = 0;  ///< spring updates a simulated second
   std::uint64_t unconverged_steps = 0;

@@ -10,7 +10,8 @@
 #include "sim/scenario.hpp"
 #include "voxelize/lattice.hpp"
 
-/// The test bodies of the spec (section 4) and smaller ones, with the scenes of section 6.
+/// Test bodies: those of docs/paper.md (rods, ball), beam and cube, and smaller ones, with the
+/// paper's two scenes.
 namespace springlod::bodies {
 
 inline voxelize::MaterialGrid grid_of(

@@ -37,7 +37,7 @@ std::vector<Vec3> random_vectors(std::size_t count, double size, std::uint64_t s
   return vectors;
 }
 
-/// small_chain's level 1 pressed askew into a floor and a box.
+/// small_chain's level 1 pushed askew into a floor and a box.
 struct Pressed {
   const MassSpringModel& model = small_chain().levels[1].model;
   ContactPoints points{model, contact_skin(small_chain(), 1)};
@@ -99,7 +99,7 @@ TEST_CASE("A level's skin carries every affine motion to the base's surface, are
   CHECK(area == Approx(wanted));
 }
 
-TEST_CASE("What merging took from the base's nodes gives way in the contact of the skin") {
+TEST_CASE("The contact of the skin has the surface compliance that merging removed") {
   // Two nodes side by side on a third: a pair merged, one left alone.
   MassSpringModel base = test::table_model({{0, 0, 0}, {1, 0, 0}, {0, 0, -1}}, {1, 3, 2},
                                            {{0, 1, 100}, {0, 2, 300}, {1, 2, 200}});
@@ -117,15 +117,15 @@ TEST_CASE("What merging took from the base's nodes gives way in the contact of t
   const ContactSkin skin = contact_skin(chain, 1);
   // Node 0 pulls along (1, 0, -3) / sqrt(10), where it has (100 + 9 * 300) / 10 N/m; of its freedom
   // it lost 3/4, the rest is the pair's.
-  CHECK(skin.give[0] == Approx(0.75 / 280));
-  CHECK(skin.give[2] == 0);
+  CHECK(skin.compliance[0] == Approx(0.75 / 280));
+  CHECK(skin.compliance[2] == 0);
   const ContactPoints points(level, skin);
-  CHECK(points.stiffness(0, 1000) == Approx(1 / (1 / 100. + skin.give[0])));
+  CHECK(points.stiffness(0, 1000) == Approx(1 / (1 / 100. + skin.compliance[0])));
   CHECK(points.stiffness(2, 1000) == Approx(100));
-  const double given = points.stiffness(0, 1000) * skin.give[0];
+  const double given = points.stiffness(0, 1000) * skin.compliance[0];
   CHECK(points.damping(0, 1000, 0.002) == Approx((1 - given) * 0.002 + given * 0.01));
   CHECK(points.damping(2, 1000, 0.002) == 0.002);
-  for (const double give : contact_skin(chain, 0).give) CHECK(give == 0);
+  for (const double compliance : contact_skin(chain, 0).compliance) CHECK(compliance == 0);
 }
 
 TEST_CASE("A force on the skin is the same force and torque on the nodes") {
@@ -166,7 +166,7 @@ TEST_CASE("The force of a skin's contacts is the slope of their energy") {
     }
 }
 
-TEST_CASE("Friction on a skin takes what it says from the kinetic energy, grips hold part of it") {
+TEST_CASE("Friction on a skin removes the energy it reports; stick springs store a part of it") {
   const Pressed body;
   std::vector<Contact> contacts = body.contacts_at(body.x);
   std::vector<Vec3> v = random_vectors(body.x.size(), 2, 7);
@@ -175,12 +175,12 @@ TEST_CASE("Friction on a skin takes what it says from the kinetic energy, grips 
   CHECK(taken > 0);
   CHECK(kinetic(body.model, v) == Approx(before - taken));
   double held = 0;
-  for (const Contact& c : contacts) held += c.grip_energy();
+  for (const Contact& c : contacts) held += c.stick_energy();
   CHECK(held > 0);
   CHECK(held < taken);
   contacts.resize(1);
   contacts[0].friction = 1e6;
-  contacts[0].grip = 0;  // and without one no slip turns round
+  contacts[0].stick_stiffness = 0;  // and without one no slip turns round
   apply_friction(body.points, 1e-3, contacts, v);
   const Vec3 left = body.points.carried(contacts[0].point, v);
   CHECK((left - contacts[0].normal.dot(left) * contacts[0].normal).norm() < 1e-12);
@@ -259,7 +259,7 @@ TEST_CASE("A level with a skin may change its step, its energy account stays clo
   bool gripped = false;
   for (int i = 0; i < 40; ++i) {
     body.advance(60);
-    for (const Contact& c : body.contacts()) gripped = gripped || c.grip_energy() > 0;
+    for (const Contact& c : body.contacts()) gripped = gripped || c.stick_energy() > 0;
     REQUIRE(body.change_step(i % 2 == 0 ? step / 2 : step));
   }
   CHECK(gripped);
@@ -275,7 +275,7 @@ TEST_CASE("The predicted step of a level with a skin holds on a stiff floor") {
   scene.start.spin = {0.2, 0.3, 0};
   scene.duration = 0.3;
   ContactSkin hard = contact_skin(chain, 2);
-  std::fill(hard.give.begin(), hard.give.end(), 0.0);  // the contact's stiffness alone
+  std::fill(hard.compliance.begin(), hard.compliance.end(), 0.0);  // the contact's stiffness alone
   const auto skin = std::make_shared<ContactSkin>(hard);
   const MassSpringModel& model = chain.levels[2].model;
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::runge_kutta_4);
@@ -337,7 +337,7 @@ TEST_CASE("A skin of another model or of no level is refused") {
   skin.area[0] = 0;
   CHECK_THROWS_AS(validate(skin, chain.levels[1].model.node_count()), InputError);
   skin = contact_skin(chain, 1);
-  skin.give[0] = -1;
+  skin.compliance[0] = -1;
   CHECK_THROWS_AS(validate(skin, chain.levels[1].model.node_count()), InputError);
   skin = contact_skin(chain, 1);
   skin.base_node.pop_back();

@@ -74,17 +74,17 @@ TEST_CASE("Friction slows a slip by at most mu f dt / m and never turns it round
   CHECK((v[0] - Vec3(0, 0, -7)).norm() < 1e-12);
 }
 
-TEST_CASE("A grip swings the point that it holds and slides at mu f") {
+TEST_CASE("A stick spring holds the point elastically and slides at mu f") {
   const double mass = 2;
   Contact contact;
   contact.normal_force = 100;
   contact.friction = 10;
-  contact.grip = 800;  // omega = 20 rad/s: the point stops after pi/40 s, 3 / 20 m on
+  contact.stick_stiffness = 800;  // omega = 20 rad/s: the point stops after pi/40 s, 3 / 20 m on
   const double step = 1e-6;
   Vec3 v(3, 0, -1);
   double time = 0;
   for (; v[0] > 0; time += step) {
-    rub(contact, mass, step, v);
+    apply_friction(contact, mass, step, v);
     v += contact.slip_change;
   }
   CHECK(time == Approx(std::acos(-1.0) / 40).epsilon(1e-4));
@@ -92,25 +92,25 @@ TEST_CASE("A grip swings the point that it holds and slides at mu f") {
   CHECK(v[2] == -1);
   contact.friction = 0.1;
   v = Vec3(3, 0, -1);
-  rub(contact, mass, step, v);
+  apply_friction(contact, mass, step, v);
   CHECK(contact.slip_change[0] == Approx(-0.1 * 100 * step / mass));
   CHECK(contact.stretch[0] == Approx(0.1 * 100 / 800));
 }
 
-TEST_CASE("A grip without end to its stiffness holds as friction without a grip does") {
+TEST_CASE("An infinitely stiff stick spring holds as friction without one does") {
   Contact bare;
   bare.normal_force = 20;
   bare.friction = 0.5;
-  Contact gripping = bare;
-  gripping.grip = 1e15;
+  Contact sticking = bare;
+  sticking.stick_stiffness = 1e15;
   for (const double step : {1e-3, 0.1, 1.0}) {
-    rub(bare, 1, step, {3, 4, -7});
-    rub(gripping, 1, step, {3, 4, -7});
-    CHECK((gripping.slip_change - bare.slip_change).norm() < 1e-9);
+    apply_friction(bare, 1, step, {3, 4, -7});
+    apply_friction(sticking, 1, step, {3, 4, -7});
+    CHECK((sticking.slip_change - bare.slip_change).norm() < 1e-9);
   }
 }
 
-TEST_CASE("No grip gives back more than it took, whatever the step") {
+TEST_CASE("No stick spring returns more energy than it stored, whatever the step") {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto vector = [&] { return Vec3(unit(random), unit(random), unit(random)); };
@@ -123,19 +123,19 @@ TEST_CASE("No grip gives back more than it took, whatever the step") {
     contact.normal = vector().normalized();
     contact.normal_force = decades(-2, 4);
     contact.friction = decades(-2, 1);
-    contact.grip = decades(0, 6);
-    contact.grip_damping = i % 2 == 0 ? 0 : decades(-4, 0);
+    contact.stick_stiffness = decades(0, 6);
+    contact.stick_damping = i % 2 == 0 ? 0 : decades(-4, 0);
     contact.stretch = 0.01 * vector();
     const double mass = decades(-2, 2);
     const Vec3 v = vector();
-    rub(contact, mass, decades(-5, 0), v);
+    apply_friction(contact, mass, decades(-5, 0), v);
     const double taken = -mass * contact.slip_change.dot(v + 0.5 * contact.slip_change);
-    CHECK(taken - contact.grip_gain >= -1e-12 * (std::abs(taken) + contact.grip_energy()));
+    CHECK(taken - contact.stick_gain >= -1e-12 * (std::abs(taken) + contact.stick_energy()));
     CHECK(std::abs(contact.normal.dot(contact.slip_change)) < 1e-12);
   }
 }
 
-TEST_CASE("A grip is kept while its point touches the same obstacle, and no longer") {
+TEST_CASE("A stick spring is kept while its point touches the same obstacle, and no longer") {
   const auto at = [](std::uint32_t obstacle, std::uint32_t point, double stretch) {
     Contact contact;
     contact.obstacle = obstacle;
@@ -144,14 +144,14 @@ TEST_CASE("A grip is kept while its point touches the same obstacle, and no long
     return contact;
   };
   std::vector<Contact> now{at(0, 2, 0), at(0, 5, 0), at(1, 2, 0), at(1, 4, 0)};
-  keep_grips({at(0, 1, 1), at(0, 5, 2), at(0, 6, 3), at(1, 2, 4)}, now);
+  keep_stick_springs({at(0, 1, 1), at(0, 5, 2), at(0, 6, 3), at(1, 2, 4)}, now);
   CHECK(now[0].stretch[0] == 0);
   CHECK(now[1].stretch[0] == 2);
   CHECK(now[2].stretch[0] == 4);
   CHECK(now[3].stretch[0] == 0);
 }
 
-TEST_CASE("Contact stiffness adds up only where obstacles push the same way") {
+TEST_CASE("Contact stiffness adds up only where obstacles push in the same direction") {
   const ContactPoints points(one_node(0.5));
   Obstacle floor = bodies::floor(1e6, 0);
   Obstacle wall = bodies::floor(3e6, 0);

@@ -1,4 +1,5 @@
-// The oracle of the spec: a block sliding at 3 m/s, mu = 0.3, g = 10 stops after v^2 / (2 mu g).
+// Closed form for eq. 66 of docs/method.md: a block sliding at 3 m/s, mu = 0.3, g = 10 stops after
+// v^2 / (2 mu g).
 #include <catch2/catch.hpp>
 
 #include "sim/run.hpp"

@@ -136,7 +136,7 @@ TEST_CASE("A lattice laid out as any shape moves as it does in rows, to rounding
   constexpr std::uint64_t kFew = 50;
   const auto in = [&](Layout layout) {
     const FastOptions options{.layout =
-                                     make_fast_model(model, Precision::double_precision, layout)};
+                                  make_fast_model(model, Precision::double_precision, layout)};
     return after<FastLeapfrog>(model, scene, kFew, options, 1000);
   };
   const Outcome rows = in(Layout::fastest);
@@ -163,7 +163,7 @@ TEST_CASE("Bodies of one layout do not disturb each other") {
   CHECK(first.state().x == second.state().x);
 }
 
-TEST_CASE("A fast run may change its step: same way, ledger closed") {
+TEST_CASE("A fast run may change its step: same path, ledger closed") {
   const MassSpringModel model = two_material_block(5);
   const Scenario scene = rough_scene(model);
   const double step = 0.5 * predicted_step(model, scene);
@@ -182,7 +182,7 @@ TEST_CASE("A fast run may change its step: same way, ledger closed") {
   }
   CHECK(changing.step_number() == 3 * 140);
   CHECK(changing.time() == Approx(steady.time()));
-  // Shorter steps go another way by what they are more exact.
+  // Shorter steps are more accurate, so the path differs by that.
   CHECK(largest_difference(steady.state().x, changing.state().x) <
         1e-3 * bounds(model.rest).sizes().norm());
   CHECK(changing.ledger_entry().lost_switch != 0);
@@ -228,7 +228,7 @@ TEST_CASE("Bodies past the middle of a thin box stay on their side of it when th
   }
 }
 
-TEST_CASE("Rounding in single precision is not taken for a run that blows up, which is told") {
+TEST_CASE("Rounding in single precision is not taken for divergence, which is reported") {
   MassSpringModel model = two_material_block(6);
   for (double& damping : model.damping) damping = 0;
   Scenario scene;
@@ -242,7 +242,7 @@ TEST_CASE("Rounding in single precision is not taken for a run that blows up, wh
   CHECK_THROWS_AS(run(model, scene, options), UnstableError);
 }
 
-TEST_CASE("A fast step tells the node that went through a wall as the plain one does") {
+TEST_CASE("A fast step reports the node that went through a wall as the plain one does") {
   const MassSpringModel model = two_material_block(4);
   Scenario scene;
   Obstacle wall;

@@ -56,7 +56,7 @@ RunOptions with(Integrator integrator, double step, std::uint32_t iterations = 0
 
 }  // namespace
 
-TEST_CASE("Every scheme follows a damped swing at its order") {
+TEST_CASE("Every scheme follows a damped vibration at its order") {
   const double duration = 1.3 * kPeriod;
   const double beta = GENERATE(0.0, 0.01);
   const double exact = exact_stretch(beta, duration);
@@ -168,7 +168,7 @@ TEST_CASE("Runge-Kutta is stable below its predicted step and diverges above it"
   MassSpringModel model = test::random_model(1, 3);
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
     model.damping[s] = beta * model.stiffness[s];
-  model.rest[0].x() += 1e-4;  // something to swing
+  model.rest[0].x() += 1e-4;  // something to vibrate
   Scenario scene = bodies::weightless(1);
   const double limit = predicted_step(model, scene, Integrator::runge_kutta_4);
   scene.duration = 10000 * limit;

@@ -75,7 +75,7 @@ TEST_CASE("In free flight the centre of mass lies on the parabola to rounding") 
   CHECK((way - (scene.start.velocity * s + 0.5 * s * s * scene.gravity)).norm() < 1e-9);
   const Vec3 speed = momentum(model, t.final) / mass_properties(model).mass;
   CHECK((speed - (scene.start.velocity + s * scene.gravity)).norm() < 1e-9);
-  // Frames between steps lie on the chord: off by at most g dt^2 / 8.
+  // Frames between steps lie on the chord: error at most g dt^2 / 8.
   REQUIRE(t.frames.size() == 11);
   for (const Frame& frame : t.frames) {
     const Vec3 exact =
@@ -100,14 +100,14 @@ TEST_CASE("Momentum and angular momentum are kept to rounding without gravity an
   CHECK((angular_momentum(model, t.final) - l).norm() < 1e-10 * l.norm());
 }
 
-TEST_CASE("Two nodes on a spring swing at the frequency of theory") {
+TEST_CASE("Two nodes on a spring vibrate at the frequency of theory") {
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::velocity_verlet);
   const double period = 2 * std::numbers::pi / kOmega;
   const double step = period / 200;
   const auto model = stretched(pair_of_nodes(0), 0.01);
   const auto t = run(model, bodies::weightless(20 * period),
                      {.integrator = integrator, .step = step, .frame_rate = 1 / step});
-  // Leapfrog swings a little fast: omega' = (2/dt) asin(omega dt / 2), exactly.
+  // Leapfrog vibrates a little fast: omega' = (2/dt) asin(omega dt / 2), exactly.
   const double omega = 2 / step * std::asin(kOmega * step / 2);
   double worst = 0;
   double from_theory = 0;
@@ -120,7 +120,7 @@ TEST_CASE("Two nodes on a spring swing at the frequency of theory") {
   CHECK(from_theory < 0.01 * 0.01);  // 20 periods at (omega dt)^2 / 24: 0.5 % of a radian
 }
 
-TEST_CASE("A damped spring loses its swing at the rate of theory") {
+TEST_CASE("A damped vibration decays at the rate of theory") {
   // stretch'' = -omega^2 (stretch + beta stretch'): decay beta omega^2 / 2.
   const double damping_time = 0.004;
   const double period = 2 * std::numbers::pi / kOmega;
@@ -142,7 +142,7 @@ TEST_CASE("A damped spring loses its swing at the rate of theory") {
   const double step = period / 400;
   const double euler = deviation(Integrator::symplectic_euler, step);
   const double verlet = deviation(Integrator::velocity_verlet, step);
-  // Damping seen half a step late speeds the swing up by decay dt / 2; the phase error
+  // Damping seen half a step late speeds the vibration up by decay dt / 2; the phase error
   // omega t decay dt / 2 times exp(-decay t) is largest at t = 1 / decay.
   CHECK(euler == Approx(kOmega * step / (2 * std::numbers::e)).epsilon(0.1));
   CHECK(verlet < 0.0006);

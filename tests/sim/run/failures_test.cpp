@@ -1,4 +1,4 @@
-// Runs that cannot go well: each is noticed and told by its cause.
+// Runs that must fail: each is detected and reported with its cause.
 #include <algorithm>
 #include <cmath>
 
@@ -86,13 +86,13 @@ TEST_CASE("The step that the tunnelling message advises keeps the body out") {
       run(model, scene, {.step = std::min(0.9 * advised, 0.8 * predicted_step(model, scene))}));
 }
 
-TEST_CASE("A body pressed through a wall too soft to hold it is stopped, with other advice") {
+TEST_CASE("A body pushed through a wall too soft to hold it is stopped, with other advice") {
   const MassSpringModel model = cube();
   const TunnelError e = tunnelling(model, wall_scene(0.05, 20, 1e4), {});
   CHECK_THAT(e.what(), Catch::Contains("too soft to hold"));
 }
 
-TEST_CASE("A way over the edge, a corner cut and a rest on top of a box are no tunnels") {
+TEST_CASE("A path over the edge, a corner cut and a rest on top of a box are no tunnels") {
   MassSpringModel model = cube();
   model.contact_area.assign(model.node_count(), 0);
   model.contact_area[0] = 1;
@@ -103,10 +103,10 @@ TEST_CASE("A way over the edge, a corner cut and a rest on top of a box are no t
   const auto follow = [&](const std::vector<Vec3>& path) {
     x[0] = path.front();
     const ContactPoints points(model);
-    TunnelWatch watch(points, {box}, x);
+    TunnelCheck watch(points, {box}, x);
     for (const Vec3& place : path) {
       x[0] = place;
-      watch.look(x, 1, 0.1);
+      watch.check(x, 1, 0.1);
     }
   };
   CHECK_NOTHROW(follow({{0, 0, 0.11}, {0, 0, 0.05}, {0, 0, 0.02}, {0, 0, 0.12}}));
@@ -120,7 +120,7 @@ TEST_CASE("A way over the edge, a corner cut and a rest on top of a box are no t
   CHECK_THROWS_AS(follow({{-3, 0.1, 0}, {3, 0.1, 0}}), TunnelError);
 }
 
-TEST_CASE("A step beyond the limit of damping is told to be damping's doing") {
+TEST_CASE("A step beyond the limit of damping is reported as caused by damping") {
   const MassSpringModel model = cube(0.1);
   const Scenario scene = [] {
     Scenario stir = bodies::weightless(1);
@@ -162,7 +162,7 @@ TEST_CASE("A spring of no length is refused by its number, not run") {
   }
 }
 
-TEST_CASE("Nodes that go past each other in a run are told, under every scheme") {
+TEST_CASE("Nodes that go past each other in a run are reported, under every scheme") {
   const MassSpringModel model = cube();
   Scenario scene = bodies::weightless(0.05);
   State start = rest_state(model);
@@ -183,7 +183,7 @@ TEST_CASE("Nodes that go past each other in a run are told, under every scheme")
   CHECK_FALSE(run(cube(), scene, {.step = 1e-4}).first_crossing.has_value());
 }
 
-TEST_CASE("Conjugate gradients that run out of iterations are told, not taken for a solution") {
+TEST_CASE("Conjugate gradients that run out of iterations are reported, not taken for a solution") {
   const MassSpringModel model = bodies::rods();
   const LodChain chain =
       with_stiffness_ratio({.levels = {Level{model, identity_groups(model.node_count()), "base"}}},

@@ -38,7 +38,7 @@ std::size_t inner_node(const MassSpringModel& model) {
 
 }  // namespace
 
-TEST_CASE("A node's frequency bound grows as springs are stretched or pressed flat") {
+TEST_CASE("A node's frequency bound grows as springs are stretched or flattened") {
   MassSpringModel pair;
   pair.rest = {Vec3::Zero(), Vec3::UnitX()};
   pair.mass = {2, 2};
@@ -77,7 +77,7 @@ TEST_CASE("The step is halved where springs are strained hard, and doubled again
   Scenario scene = bodies::weightless(1);
   const StepLimit limit = step_limit(model, scene);
   const double step = 0.8 * limit.step;
-  StepWatch watch(model, limit, step);
+  StepController watch(model, limit, step);
   CHECK(watch.step_for(model.rest, 0) == step);
   CHECK(watch.step_for(scaled(model, {2, 2, 2}), 1) == step / 2);
   CHECK(watch.step_for(scaled(model, {1.3, 1.3, 1.3}), 0.3) == step / 2);  // not back and forth
@@ -89,7 +89,7 @@ TEST_CASE("A body let go stretched to twice its size only holds with the step ad
   Scenario scene = bodies::weightless(2);
   const State start{scaled(model, {2, 2, 2}), std::vector<Vec3>(model.node_count(), Vec3::Zero()),
                     0};
-  // As it snaps back it turns inside out: only the step is looked at here.
+  // As it snaps back it turns inside out: only the step is checked here.
   RunOptions options{.safety = 0.95};
   const Trajectory adapted = run(model, scene, start, options);
   CHECK(adapted.shortest_step < adapted.step);
@@ -98,7 +98,7 @@ TEST_CASE("A body let go stretched to twice its size only holds with the step ad
   CHECK_THROWS_AS(run(model, scene, start, options), UnstableError);
 }
 
-TEST_CASE("A body at rest sleeps at no cost; one that falls, floats or is told not to does not") {
+TEST_CASE("A body at rest sleeps at no cost; one that falls, floats or has sleep = 0 does not") {
   const MassSpringModel model = bodies::block(3, 3, 3, 0.1, bodies::material("m", 1e6, 1000, 0.01),
                                               voxelize::LatticeStyle::corners);
   Scenario scene;

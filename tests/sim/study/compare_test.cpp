@@ -76,7 +76,7 @@ TEST_CASE("Every level starts from the same jittered throw") {
   options.starts = 4;
   options.jitter = 0.1;
   Scenario scene = small_scene();
-  scene.obstacles.clear();  // in free flight the way depends on the throw alone
+  scene.obstacles.clear();  // in free flight the distance depends on the throw alone
   const auto result = compare(bodies::small_chain(), scene, options);
   for (std::size_t s = 0; s < 4; ++s)
     for (std::size_t l = 1; l < 3; ++l)
@@ -147,7 +147,8 @@ TEST_CASE("Before contact a level that flies like the base has no error") {
   CHECK(result.levels[1].starts[0].shape_error < 1e-9);
 }
 
-TEST_CASE("Deviation over time is told frame by frame, as far as two runs have the same instants") {
+TEST_CASE(
+    "Deviation over time is computed frame by frame, as far as two runs have the same instants") {
   const std::vector<double> mass{1, 3};
   const std::vector<Vec3> rest{Vec3(0, 0, 0), Vec3(1, 0, 0)};
   const std::vector<Vec3> moved{Vec3(0, 0, 2), Vec3(1, 0, 2)};
@@ -165,7 +166,7 @@ TEST_CASE("Deviation over time is told frame by frame, as far as two runs have t
   CHECK(list[2].shape == Approx(std::sqrt((0.09 + 3 * 0.01) / 4)));
 }
 
-TEST_CASE("The best rigid fit finds a rotation and tells a mirror image from it") {
+TEST_CASE("The best rigid fit finds a rotation and distinguishes a mirror image from it") {
   const auto model = bodies::rods();
   const Mat3 turn = Eigen::AngleAxisd(2.5, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
   std::vector<Vec3> moved;

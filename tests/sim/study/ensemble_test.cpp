@@ -1,4 +1,3 @@
-#include "sim/integrators/step_limit.hpp"
 #include "sim/study/ensemble.hpp"
 
 #include <string>
@@ -6,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/study/compare.hpp"
 #include "tests/sim/bodies.hpp"
 
@@ -75,7 +75,7 @@ TEST_CASE("An ensemble refuses what it cannot run, and names the start that dive
   }
 }
 
-TEST_CASE("Runs of many tell when springs turned over, or that none did") {
+TEST_CASE("Ensemble runs report when springs turned over, or that none did") {
   Scenario violent = scene();
   violent.start.velocity = {0, 0, -120};  // far above the speed of sound of the block, 32 m/s
   violent.obstacles = {bodies::floor(1e8, 0.5)};

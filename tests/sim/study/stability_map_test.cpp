@@ -132,7 +132,7 @@ TEST_CASE("From ratio 1 to 1e5 explicit schemes hold below their limit and are c
     CAPTURE(to_string(point.integrator), map.bodies[point.body].ratio, point.step / point.limit);
     if (point.step < point.limit) {
       CHECK(point.stable);
-      // Runge-Kutta damps what swings fast: here, where all is fast, more than it should.
+      // Runge-Kutta damps fast vibrations: here, where all is fast, more than it should.
       const bool damps = point.integrator == Integrator::runge_kutta_4 && point.energy_drift < 0;
       CHECK((point.verdict == Verdict::stable || (damps && point.verdict == Verdict::drifting)));
       CHECK(point.error < 0.08);
