@@ -112,6 +112,7 @@ std::vector<std::string> undocumented(const Api& api);
 
 // One a bind_*.cpp: adds what scripts can do with that folder.
 void describe_session(Api& api);
+void describe_files(Api& api);
 void describe_model(Api& api);
 void describe_elastic(Api& api);
 void describe_voxelize(Api& api);
