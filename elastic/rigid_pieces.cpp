@@ -9,7 +9,7 @@
 
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Three unit vectors whose determinant is smaller count as lying in a plane; so do directions
@@ -101,4 +101,4 @@ RigidPieces rigid_pieces(const MassSpringModel& model) {
   return Growth(model).run();
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

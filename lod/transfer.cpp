@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 // Enough for smooth weights; more neighbours only blur and cost time.
@@ -59,4 +59,4 @@ Binding base_from_level(const LodChain& chain, std::uint32_t level) {
   return binding;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -8,7 +8,7 @@
 #include "base/prefetch.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// The springs of each node, by rising neighbour. A node's springs to higher nodes already stand
 /// side by side in the model, which is sorted by (a, b): only those to lower nodes are listed,
@@ -70,4 +70,4 @@ class SpringRows {
   std::unique_ptr<Lower[]> lower_;  // S
 };
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -1,5 +1,3 @@
-#include "elastic/loads/static_loads.hpp"
-
 #include <array>
 #include <cmath>
 #include <utility>
@@ -7,9 +5,10 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/loads.hpp"
 #include "elastic/solver/conjugate_gradients.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// The shifted factors precondition conjugate gradients so well (eigenvalues lambda / (lambda +
@@ -174,4 +173,4 @@ std::vector<StaticSolution> solve_static(const ElasticBody& body,
   return solutions;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 BalancedSolver::BalancedSolver(const Matrix& stiffness, BalancedSolverOptions options)
     : options_(std::move(options)), solver_(stiffness) {
@@ -23,4 +23,4 @@ Eigen::VectorXd BalancedSolver::solve(const Eigen::VectorXd& force) const {
   return moved;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

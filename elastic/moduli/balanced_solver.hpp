@@ -5,7 +5,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 
-namespace springlod {
+namespace springlod::elastic {
 
 struct BalancedSolverOptions {
   std::string name;         ///< of the test, for messages
@@ -29,4 +29,4 @@ class BalancedSolver {
   Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::elastic

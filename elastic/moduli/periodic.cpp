@@ -1,11 +1,10 @@
-#include "elastic/moduli/periodic.hpp"
-
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 #include "elastic/moduli/balanced_solver.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 using Strain = Eigen::Matrix<double, 6, 1>;  // xx, yy, zz, yz, zx, xy (engineering shears)
@@ -73,4 +72,4 @@ PeriodicModuli periodic_stretch(const PeriodicNetwork& network) {
           work / (6 * volume)};
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -11,7 +11,7 @@
 #include "elastic/moduli/balanced_solver.hpp"
 #include "elastic/stiffness.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Relative residual of the solution; the moduli come out to about as many digits.
@@ -159,4 +159,4 @@ StretchResult stretch_test(const MassSpringModel& model, const StretchOptions& o
   return result;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -1,5 +1,3 @@
-#include "elastic/moduli/surface_stretch.hpp"
-
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -7,10 +5,11 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 #include "elastic/moduli/balanced_solver.hpp"
 #include "elastic/stiffness.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Takes from the forces of each connected part the push and the turn they leave on it: areas
@@ -96,4 +95,4 @@ SurfaceStretchResult surface_stretch(const MassSpringModel& model,
   return {3 / stretch, contraction / 2 / stretch};
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace springlod {
+namespace springlod::elastic {
 
 struct ConjugateGradientSolution {
   Eigen::MatrixXd x;
@@ -53,4 +53,4 @@ ConjugateGradientSolution conjugate_gradients(const Eigen::MatrixXd& right,
   return solution;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -6,10 +6,11 @@
 
 #include "base/progress.hpp"
 #include "elastic/elastic_body.hpp"
-#include "elastic/loads/static_loads.hpp"
+#include "elastic/loads.hpp"
+#include "lod/options.hpp"
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// What a load asks about. Each kind has a weight and a tolerance of its own.
 enum class LoadKind {
@@ -22,9 +23,9 @@ enum class LoadKind {
 /// A load and how far the base gives way to it.
 struct LoadTarget {
   LoadKind kind = LoadKind::smooth;
-  StaticLoad load;        ///< on the base's nodes
-  double compliance = 0;  ///< of the base [J] > 0
-  double weight = 1;      ///< [1]
+  elastic::StaticLoad load;  ///< on the base's nodes
+  double compliance = 0;     ///< of the base [J] > 0
+  double weight = 1;         ///< [1]
 };
 
 /// What a level shall have in common with its base (spec 4.1), measured on the base once.
@@ -35,32 +36,6 @@ struct ElasticTargets {
   double highest_frequency = 0;         ///< omega_max of the base [rad/s]
   std::uint32_t nodes = 0;              ///< of the base
   std::vector<std::uint32_t> anchored;  ///< nodes of the base
-};
-
-/// Part of a body that a level shall give way in as the base does, such as where it will touch the
-/// ground or next to where it is held.
-struct TargetRegion {
-  std::vector<std::uint32_t> nodes;  ///< of the base; those on the border count
-  double weight = 1;                 ///< of each load, where a smooth one has 1
-  std::uint32_t patches = 40;        ///< loads on patches within it
-};
-
-struct TargetOptions {
-  std::uint32_t modes = 20;
-  bool smooth_loads = true;   ///< the nine of smooth_loads, and piece_loads
-  double piece_weight = 0.3;  ///< of each of the latter, where one of the nine has 1
-  /// Pairs of opposed loads on patches of the surface, see patch_pairs: without them what is not
-  /// fitted gets worse than it was.
-  /// None named: see patch_count.
-  std::optional<std::uint32_t> patches = {};
-  double patch_weight = 0.2;
-  std::vector<TargetRegion> regions = {};
-  /// How much modes and static loads of every kind count, over what they usually do.
-  double mode_weight = 1, load_weight = 1;
-  std::uint64_t seed = 1;                    ///< of the patches
-  std::vector<std::uint32_t> anchored = {};  ///< nodes of the base that are held
-  std::uint32_t threads = 1;                 ///< up to two are used; the same bits for any number
-  Progress* progress = nullptr;              ///< may be null
 };
 
 /// Pairs of patches for a base of so many nodes: 150, and fewer for more than 2000 nodes, which a
@@ -94,14 +69,15 @@ ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& opti
 
 /// The body held at the anchored nodes; what they leave free is balanced by its inertia, as if
 /// there were none, and not refused.
-ElasticBody held_body(const MassSpringModel& model, const std::vector<std::uint32_t>& anchored,
-                      Progress* progress = nullptr);
+elastic::ElasticBody held_body(const MassSpringModel& model,
+                               const std::vector<std::uint32_t>& anchored,
+                               Progress* progress = nullptr);
 
 /// The region's nodes that loads can move: on the border and not anchored.
 std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const TargetRegion& region,
                                          const std::vector<std::uint32_t>& anchored);
 
 /// Forces on the nodes of a level, from those on the base's nodes.
-StaticLoad carried(const Groups& of_base, const StaticLoad& load);
+elastic::StaticLoad carried(const Groups& of_base, const elastic::StaticLoad& load);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -5,15 +5,10 @@
 
 #include <Eigen/Core>
 
+#include "lod/options.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
-
-/// Whose moments are kept while masses shift between nodes.
-enum class KeptMoments {
-  body,   ///< those of the whole
-  pieces  ///< also those of each piece: connected nodes of one material, 20 or more
-};
+namespace springlod::lod {
 
 /// Total mass, centre of mass and second moments of a model, ten numbers, or of each of its pieces
 /// and of what is left, to be kept while masses shift between its nodes.
@@ -42,4 +37,4 @@ class MassMoments {
   std::vector<Piece> pieces_;       // every node is in one
 };
 
-}  // namespace springlod
+}  // namespace springlod::lod

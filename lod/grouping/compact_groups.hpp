@@ -6,7 +6,7 @@
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 struct CompactOptions {
   std::uint32_t count = 0;  ///< groups wanted
@@ -29,4 +29,4 @@ struct CompactOptions {
 /// that must stay apart, or more than the nodes.
 Groups compact_groups(const MassSpringModel& model, const CompactOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -13,7 +13,7 @@
 #include "lod/grouping/grouping_keys.hpp"
 #include "lod/grouping/radix_sort.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 constexpr std::uint32_t kUngrouped = std::numeric_limits<std::uint32_t>::max();
@@ -234,4 +234,4 @@ std::string to_string(BorderRule border) {
   return "?";
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

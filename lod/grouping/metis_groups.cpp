@@ -14,7 +14,7 @@
 #include "lod/grouping/exact_count.hpp"
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 #ifdef SPRINGLOD_HAS_METIS
 
@@ -88,4 +88,4 @@ Groups metis_groups(const MassSpringModel& /*model*/, std::uint32_t /*count*/,
 
 #endif
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -6,7 +6,7 @@
 #include "base/progress.hpp"
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 struct CertifyOptions {
   std::uint32_t modes = 20;
@@ -28,4 +28,4 @@ struct CertifyOptions {
 /// no node of `within` lies on the surface.
 void certify(LodChain& chain, const CertifyOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::lod

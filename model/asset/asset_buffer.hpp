@@ -9,7 +9,7 @@
 
 #include "model/asset/asset_format.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// The one buffer of a .glb file in the making: arrays go in, numbers of buffer views come out.
 class AssetBuffer {
@@ -41,4 +41,4 @@ class AssetBuffer {
   nlohmann::json views_ = nlohmann::json::array();
 };
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 using nlohmann::json;
@@ -141,4 +141,4 @@ Certificate read_certificate(const json& object, const std::string& owner) {
   return certificate;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -11,7 +11,7 @@
 
 #include "model/creases.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 using nlohmann::json;
@@ -216,4 +216,4 @@ void add_display(const LodAsset& asset, const SpringEnds& spring_ends, json& doc
   Display(document, buffer).add(asset, spring_ends);
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -9,7 +9,7 @@
 #include "model/asset/asset_buffer.hpp"
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Adds what any glTF viewer shows: the surface and, side by side along x, the nodes and springs of
 /// each level, in single precision under a root node that turns z up into glTF's y up.
@@ -18,4 +18,4 @@ namespace springlod {
 void add_display(const LodAsset& asset, const std::vector<std::optional<std::size_t>>& spring_ends,
                  nlohmann::json& document, AssetBuffer& buffer);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-namespace springlod::asset_format {
+namespace springlod::inline model::asset_format {
 
 static_assert(std::endian::native == std::endian::little,
               "arrays are written as they lie in memory, and glTF is little-endian");
@@ -37,13 +37,13 @@ class Checksum {
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
-}  // namespace springlod::asset_format
+}  // namespace springlod::inline model::asset_format
 
-namespace springlod::gltf {
+namespace springlod::inline model::gltf {
 
 // Numbers of the glTF 2.0 specification.
 enum class Target { none = 0, vertices = 34962, indices = 34963 };
 enum class Component { unsigned_byte = 5121, unsigned_int = 5125, single = 5126 };
 enum class Mode { points = 0, lines = 1, triangles = 4 };
 
-}  // namespace springlod::gltf
+}  // namespace springlod::inline model::gltf

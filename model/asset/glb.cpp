@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 constexpr std::string_view kMagic = "glTF";
@@ -83,4 +83,4 @@ void write_glb(std::ostream& out, const nlohmann::json& document,
   write_chunk(out, kBinary, {reinterpret_cast<const char*>(binary.data()), binary.size()}, '\0');
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

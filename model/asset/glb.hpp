@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace springlod {
+namespace springlod::inline model {
 
 // The container of binary glTF 2.0: a header of 12 bytes, a chunk of JSON text and a chunk of
 // binary data.
@@ -38,4 +38,4 @@ std::string json_text(const nlohmann::json& value);
 void write_glb(std::ostream& out, const nlohmann::json& document,
                const std::vector<unsigned char>& binary);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

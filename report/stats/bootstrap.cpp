@@ -1,5 +1,3 @@
-#include "report/stats/bootstrap.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,9 +8,9 @@
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
-#include "report/stats/statistics.hpp"
+#include "report/stats.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 namespace {
 
@@ -259,4 +257,4 @@ double confidence_below(const Bootstrap& result, double value) {
   return cdf(Normal(), shifted / stretch - result.bias);
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

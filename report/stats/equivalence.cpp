@@ -1,5 +1,3 @@
-#include "report/stats/equivalence.hpp"
-
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -8,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "report/stats/statistics.hpp"
+#include "report/stats.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 namespace {
 
@@ -149,4 +147,4 @@ Equivalence bootstrap_equivalence(const StartSample& base, const StartSample& ot
   return result;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -36,7 +36,9 @@ void describe_files(Api& api) {
       .name = "save_text",
       .group = kGroup,
       .summary = "Writes text as a file; an older file stays whole until the new one is.",
-      .arguments = {{.name = "path", .type = "string", .help = "file to write; missing folders are made"},
+      .arguments = {{.name = "path",
+                     .type = "string",
+                     .help = "file to write; missing folders are made"},
                     {.name = "text", .type = "string", .help = "all of the content"}},
       .returns = "nothing",
       .errors = "The file cannot be written.",
@@ -47,7 +49,10 @@ void describe_files(Api& api) {
       .group = kGroup,
       .summary = "Hashes the content of a file, or text, with xxh3 (64 bits): the same content "
                  "gives the same hash.",
-      .options = {{.name = "file", .type = "string", .fallback = "none", .help = "path of the file to hash"},
+      .options = {{.name = "file",
+                   .type = "string",
+                   .fallback = "none",
+                   .help = "path of the file to hash"},
                   {.name = "text", .type = "string", .fallback = "none", .help = "text to hash"}},
       .returns = "string: 16 hexadecimal digits",
       .errors = "The file cannot be read; both options or none are given.",
@@ -55,4 +60,4 @@ void describe_files(Api& api) {
       .call = hash});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

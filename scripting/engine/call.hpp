@@ -18,7 +18,7 @@
 
 struct lua_State;
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// A word of a script and what it stands for.
 template <class E>
@@ -159,4 +159,4 @@ double quantity_at(lua_State* L, int index, Dimension dimension, std::string_vie
 /// {x, y, z} of quantities at `index`.
 Vec3 vector_at(lua_State* L, int index, Dimension dimension, std::string_view what);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

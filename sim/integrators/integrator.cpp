@@ -1,6 +1,6 @@
 #include "sim/integrators/integrator.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 constexpr std::uint32_t kNewtonIterations = 20;  // Newton rarely wants more than 5
@@ -52,4 +52,4 @@ std::uint32_t iterations_of(Integrator integrator, const SolverOptions& options)
   return kNewtonIterations;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

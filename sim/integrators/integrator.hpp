@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace springlod {
+namespace springlod::sim {
 
 /// How a run goes from one step to the next.
 enum class Integrator {
@@ -43,4 +43,4 @@ struct SolverOptions {
 /// schemes.
 std::uint32_t iterations_of(Integrator integrator, const SolverOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -7,7 +7,7 @@
 #include "sim/contact/contact.hpp"
 #include "sim/integrators/runge_kutta.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Damping that leaves less than this part of the step is what bounds it [1]. Symplectic Euler comes
@@ -16,8 +16,8 @@ constexpr double kDampingPart = 0.5;
 
 double limit(double omega, double damping_time, Integrator integrator) {
   if (integrator == Integrator::runge_kutta_4) return runge_kutta_stable_step(omega, damping_time);
-  return stable_step(omega,
-                     integrator == Integrator::velocity_verlet ? 2 * damping_time : damping_time);
+  return elastic::stable_step(
+      omega, integrator == Integrator::velocity_verlet ? 2 * damping_time : damping_time);
 }
 
 }  // namespace
@@ -29,12 +29,12 @@ bool StepLimit::set_by_damping() const {
 StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario, Integrator integrator,
                      const ContactSkin* skin) {
   if (is_implicit(integrator)) return {};
-  FrequencyOptions contact;
+  elastic::FrequencyOptions contact;
   contact.ground_stiffness = contact_stiffness(
       skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model), scenario.obstacles);
-  const double omega = largest_frequency(model, contact);
+  const double omega = elastic::largest_frequency(model, contact);
   if (!(omega > 0)) return {};
-  double damping_time = largest_damping_time(model);
+  double damping_time = elastic::largest_damping_time(model);
   for (const Obstacle& obstacle : scenario.obstacles)
     damping_time = std::max(damping_time, obstacle.damping);
   return {.step = limit(omega, damping_time, integrator),
@@ -49,4 +49,4 @@ double predicted_step(const MassSpringModel& model, const Scenario& scenario, In
   return step_limit(model, scenario, integrator, skin).step;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -9,7 +9,7 @@
 #include "sim/integrators/runge_kutta.hpp"
 #include "sim/integrators/xpbd.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start,
                  double step, const ContactSkin* skin)
@@ -81,4 +81,4 @@ std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenar
   return nullptr;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

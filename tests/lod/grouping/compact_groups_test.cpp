@@ -15,6 +15,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using springlod::test::ball;
 using springlod::test::block;
 using springlod::test::random_model;
@@ -102,8 +103,8 @@ TEST_CASE("METIS groups are as many as asked for and hold together") {
 #else
 TEST_CASE("A build without METIS says so when its groups are asked for") {
   CHECK_THROWS_AS(metis_groups(ball(), 50, 1), InputError);
-  CHECK_THROWS_WITH(metis_groups(ball(), 50, 1), Catch::Contains("without METIS") &&
-                                                     Catch::Contains("libmetis-dev"));
+  CHECK_THROWS_WITH(metis_groups(ball(), 50, 1),
+                    Catch::Contains("without METIS") && Catch::Contains("libmetis-dev"));
 }
 #endif
 
