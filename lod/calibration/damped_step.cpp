@@ -69,7 +69,7 @@ class ActiveStep {
         (product_.diagonal().array() + damping - along.rowwise().squaredNorm().array()).inverse();
     const Eigen::VectorXd first = scale.cwiseProduct(right);
     const double small = kAccuracy * kAccuracy * right.dot(first);
-    return conjugate_gradients(
+    return elastic::conjugate_gradients(
                right, first, kMostIterations,
                [&](const Eigen::VectorXd& direction) {
                  Eigen::VectorXd image = product_ * direction + damping * direction;
@@ -77,7 +77,7 @@ class ActiveStep {
                  return image;
                },
                [&](const Eigen::MatrixXd& residual) { return scale.cwiseProduct(residual); },
-               [&](Eigen::Index, const ConjugateGradientSolution&,
+               [&](Eigen::Index, const elastic::ConjugateGradientSolution&,
                    const Eigen::MatrixXd& residual) {
                  return residual.col(0).dot(scale.cwiseProduct(residual.col(0))) <= small;
                })
