@@ -157,16 +157,15 @@ class Grouper {
   std::vector<std::uint32_t> leader_;  // first node of the group
 };
 
-void require_joined(const Adjacency& adj, const std::vector<std::uint32_t>& set,
+void require_joined(const SpringRows& springs, const std::vector<std::uint32_t>& set,
                     const std::vector<std::uint32_t>& leader) {
   std::vector<std::uint32_t> reached{set[0]};
   for (std::size_t next = 0; next < reached.size(); ++next) {
     const std::uint32_t i = reached[next];
-    for (std::uint32_t e = adj.start[i]; e < adj.start[i + 1]; ++e) {
-      const std::uint32_t j = adj.neighbour[e];
+    springs.for_each(i, [&](std::uint32_t j, std::uint32_t) {
       if (leader[j] == leader[i] && std::find(reached.begin(), reached.end(), j) == reached.end())
         reached.push_back(j);
-    }
+    });
   }
   if (reached.size() < set.size())
     throw InputError(fmt::format(
@@ -201,9 +200,9 @@ Groups groups_from_sets(const MassSpringModel& model,
   }
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     if (leader[i] == kUngrouped) leader[i] = i;
-  const Adjacency adj = adjacency(model);
+  const SpringRows springs(model);
   for (const std::vector<std::uint32_t>& set : sets)
-    if (!set.empty()) require_joined(adj, set, leader);
+    if (!set.empty()) require_joined(springs, set, leader);
   return numbered(leader);
 }
 

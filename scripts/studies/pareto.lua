@@ -1,9 +1,7 @@
 -- Draws cost against error for every way of making levels and of stepping them.
 
 local s = require "springlod"
-local body_size = require "lib.body_size"
 local command = require "lib.command"
-local file_checksum = require "lib.file_checksum"
 local pareto_chains = require "studies.pareto.chains"
 local pareto_charts = require "studies.pareto.charts"
 local pareto_ensembles = require "studies.pareto.ensembles"
@@ -87,7 +85,7 @@ end
 -- All that what is kept depends on; axes and seeds may grow from run to run.
 local function store_settings(settings, scene)
   return {
-    springlod = s.version, asset = file_checksum(args.asset), scene = scene, keep = settings.keep,
+    springlod = s.version, asset = s.hash{file = args.asset}, scene = scene, keep = settings.keep,
     starts = settings.starts, jitter = settings.jitter, seed = settings.seed,
     repeats = settings.repeats, implicit_step = settings.implicit_step,
     surface_time = settings.surface_time or "first contact",
@@ -205,7 +203,7 @@ local function pareto()
   local scene, asset = command.load_table(args.scenario), s.load(args.asset)
   local settings, scenario = settings_of(asset), s.scenario(scene) -- wrong ones get into no store
   local study = {
-    base = asset[0], size = body_size(asset[0]), scene = scene, scenario = scenario,
+    base = asset[0], size = asset[0].bounds.diagonal, scene = scene, scenario = scenario,
     settings = settings, folder = args.out,
     store = run_store.open(args.out .. "/runs", store_settings(settings, scene)),
   }
