@@ -9,17 +9,19 @@
 #include <unistd.h>
 
 #include "app/cli.hpp"
-#include "model/error.hpp"
-#include "scripting/interrupt.hpp"
-#include "scripting/paths.hpp"
-#include "scripting/repl.hpp"
-#include "scripting/state.hpp"
+#include "base/error.hpp"
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/interrupt.hpp"
+#include "scripting/engine/paths.hpp"
+#include "scripting/engine/repl.hpp"
+#include "scripting/engine/state.hpp"
 
 namespace {
 
-using springlod::CommandLine;
-using springlod::Outcome;
-using springlod::ScriptState;
+namespace scripting = springlod::scripting;
+using scripting::Outcome;
+using scripting::ScriptState;
+using springlod::app::CommandLine;
 
 constexpr int kFailed = 1;
 constexpr int kInterrupted = 130;  // as shells have it: 128 + SIGINT
@@ -40,22 +42,22 @@ Outcome run_action(ScriptState& state, const CommandLine& line) {
 }
 
 int run(const std::vector<std::string>& arguments) {
-  const springlod::Parsed parsed = springlod::parse_command_line(
-      arguments, springlod::stock_commands(), isatty(STDIN_FILENO) != 0);
+  const springlod::app::Parsed parsed = springlod::app::parse_command_line(
+      arguments, scripting::stock_commands(), isatty(STDIN_FILENO) != 0);
   if (parsed.leave) {
     std::fputs(parsed.leave->text.c_str(), parsed.leave->exit_code == 0 ? stdout : stderr);
     return parsed.leave->exit_code;
   }
   const CommandLine& line = parsed.line;
-  const springlod::InterruptHandler interrupts;
-  ScriptState state(line.settings);
+  const scripting::InterruptHandler interrupts;
+  ScriptState state(line.settings, scripting::make_api());
   const Outcome outcome = run_action(state, line);
   if (outcome.interrupted)
     fmt::print(stderr, "springlod: interrupted\n");
   else if (!outcome.done)
     fmt::print(stderr, "springlod: {}\n{}{}", outcome.message, outcome.traceback,
                outcome.traceback.empty() ? "" : "\n");
-  if (line.action == CommandLine::Action::prompt || line.prompt_after) springlod::run_prompt(state);
+  if (line.action == CommandLine::Action::prompt || line.prompt_after) scripting::run_prompt(state);
   if (outcome.interrupted) return kInterrupted;
   return outcome.done ? 0 : kFailed;
 }

@@ -6,13 +6,17 @@
 
 #include <fmt/format.h>
 
-#include "lod/compact_groups.hpp"
-#include "lod/exact_count.hpp"
-#include "lod/metis_groups.hpp"
-#include "lod/rescale_moduli.hpp"
-#include "model/error.hpp"
+#include "base/error.hpp"
+#include "lod/calibration/calibrate.hpp"
+#include "lod/calibration/rescale_moduli.hpp"
+#include "lod/grouping/compact_groups.hpp"
+#include "lod/grouping/exact_count.hpp"
+#include "lod/grouping/grouping.hpp"
+#include "lod/grouping/metis_groups.hpp"
+#include "lod/merging/guard.hpp"
+#include "lod/merging/merge.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 std::string told_from(const SimplifyOptions& options) {
@@ -194,4 +198,4 @@ LodChain simplify(MassSpringModel base, const SimplifyOptions& options) {
   return chain;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

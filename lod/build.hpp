@@ -5,41 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "lod/calibrate.hpp"
-#include "lod/grouping.hpp"
-#include "lod/guard.hpp"
-#include "lod/merge.hpp"
+#include "base/progress.hpp"
+#include "lod/options.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 
-namespace springlod {
-
-/// Makes the groups of one level from the model of the level before; replaces GroupingOptions.
-using GroupMaker =
-    std::function<Groups(const MassSpringModel& fine, const Groups& of_base, std::uint32_t level)>;
-
-struct SimplifyOptions {
-  std::uint32_t levels = 2;
-  /// Nodes of each level over those of the base, falling; met exactly. Empty: as many as the
-  /// grouping makes; straight from the base, 0.45, 0.2, 0.09, ...
-  std::vector<double> keep{};
-  GroupingOptions grouping{};
-  /// Every level merged straight from the base, as those of compact and metis always are: no level
-  /// has to do with what the one before merged.
-  bool straight = false;
-  MassRule mass = MassRule::proportional;
-  bool guards = true;
-  GuardOptions guard{};  ///< its border rule is taken from `grouping`
-  GroupMaker groups{};   ///< optional
-  Calibration calibration = Calibration::none;
-  CalibrateOptions calibrate{};  ///< for Calibration::modes
-  std::string made_by{};         ///< left empty: told from the options
-  Progress* progress = nullptr;
-};
+namespace springlod::lod {
 
 /// Level 0 = `base`, level n merged from level n-1 (or straight from the base), then all
 /// of them calibrated against the base if asked for. Throws InputError if a level cannot get any
 /// coarser (says which and why), or not have as many nodes as it should keep.
 LodChain simplify(MassSpringModel base, const SimplifyOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -5,7 +5,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Anchored nodes are held where they are. Everything that takes them takes a list of their
 /// numbers, in any order; a number that comes twice counts once.
@@ -14,4 +14,4 @@ namespace springlod {
 std::vector<std::uint8_t> anchor_flags(const MassSpringModel& model,
                                        const std::vector<std::uint32_t>& anchored);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -6,9 +6,9 @@
 #include <span>
 #include <tuple>
 
-#include "model/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 // A corner is vertex `corner % 3` of triangle `corner / 3`.
@@ -159,4 +159,4 @@ std::vector<Eigen::Vector3f> vertex_normals(const SplitSurface& surface,
   return normals;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -1,8 +1,8 @@
 #include "model/material_pieces.hpp"
 
-#include "model/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 std::vector<std::vector<std::uint32_t>> material_pieces(const MassSpringModel& model) {
   DisjointSets sets(model.node_count());
@@ -15,4 +15,4 @@ std::vector<std::vector<std::uint32_t>> material_pieces(const MassSpringModel& m
   return pieces;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -12,7 +12,7 @@
 #include "model/vec.hpp"
 #include "render/context.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 enum class SpringColour { material, strain };
 /// Besides their material, balls can tell what eq. 2 of the paper says of their node (Young's
@@ -147,4 +147,4 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::render

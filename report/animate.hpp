@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 #include "render/scene.hpp"
-#include "sim/compare.hpp"
+#include "sim/study/compare.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 enum class CameraMode { fixed, follow };
 
@@ -26,7 +26,7 @@ struct AnimateOptions {
   double elevation = 15;
   /// Mirror the azimuth where a wall would else stand between the camera and the action.
   bool avoid_walls = true;
-  DrawStyle style = {};
+  render::DrawStyle style = {};
   Progress* progress = nullptr;
 };
 
@@ -41,7 +41,7 @@ struct Animation {
 /// there (a surface where the asset has none) draws nodes and springs. frame_*.png of an earlier,
 /// longer animation are removed. Throws InputError (no runs, asset and runs that do not belong
 /// together), IoError.
-Animation animate(const LodAsset& asset, const Comparison& comparison,
+Animation animate(const LodAsset& asset, const sim::Comparison& comparison,
                   const std::filesystem::path& folder, const AnimateOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::report

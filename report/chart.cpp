@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "report/chart_layout.hpp"
 #include "report/csv.hpp"
 #include "report/gnuplot.hpp"
 
-namespace springlod {
+namespace springlod::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -304,4 +304,4 @@ ChartFiles draw_chart(const std::vector<ChartSeries>& series, const ChartOptions
   return files;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

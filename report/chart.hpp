@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace springlod {
+namespace springlod::report {
 
 struct ChartPoint {
   double x = 0;
@@ -59,4 +59,4 @@ struct ChartFiles {
 ChartFiles draw_chart(const std::vector<ChartSeries>& series, const ChartOptions& options,
                       const std::filesystem::path& path);
 
-}  // namespace springlod
+}  // namespace springlod::report

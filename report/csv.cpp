@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 
-namespace springlod {
+namespace springlod::report {
 namespace {
 
 void require_even(const Table& table) {
@@ -119,4 +119,4 @@ std::string format_table(const Table& table) {
   return text;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

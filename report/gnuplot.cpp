@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
-#include "report/subprocess.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/subprocess.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 namespace fs = std::filesystem;
 
@@ -73,4 +73,4 @@ Drawing draw_with_gnuplot(const std::string& script, const fs::path& picture) {
   return drawing;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

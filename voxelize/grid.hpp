@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/material.hpp"
 #include "model/mesh.hpp"
-#include "model/progress.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 using CellIndex = std::array<std::int32_t, 3>;
 
@@ -85,4 +85,4 @@ struct VoxelizedMesh {
 /// materials that clash.
 VoxelizedMesh voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

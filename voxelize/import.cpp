@@ -17,10 +17,10 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 namespace fs = std::filesystem;
@@ -358,4 +358,4 @@ std::string describe(const ImportReport& report) {
   return text;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

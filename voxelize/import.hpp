@@ -6,7 +6,7 @@
 
 #include "model/mesh.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 enum class UpAxis { x, y, z };
 
@@ -38,4 +38,4 @@ ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions&
 /// "assumed 1 unit = 1 m (OBJ does not say; the option unit changes it)", ... one line each.
 std::string describe(const ImportReport& report);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

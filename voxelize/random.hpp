@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/progress.hpp"
 #include "model/mass_spring.hpp"
-#include "model/progress.hpp"
 #include "voxelize/grid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// Ends of springs that every node of a random model has at least (spec 2.5).
 inline constexpr std::uint32_t kLeastRandomEnds = 14;
@@ -55,4 +55,4 @@ struct RandomModel {
 /// grid, fewer than 15 nodes or more than the cells have room for, fewer than 14 ends.
 RandomModel build_random(const MaterialGrid& grid, const RandomOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

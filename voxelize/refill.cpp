@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/corner_nodes.hpp"
 #include "voxelize/index_lookup.hpp"
 #include "voxelize/random.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Cells tried, as parts of the edge of the cube that a node would stand for: `corners` has more
@@ -195,4 +195,4 @@ LodChain refill(const MassSpringModel& base, const MaterialGrid& grid,
   return chain;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

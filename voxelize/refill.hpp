@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/lattice.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// What the volume is refilled with.
 enum class RefillStyle { lattice, random };
@@ -40,4 +40,4 @@ LodChain refill(const MassSpringModel& base, const MaterialGrid& grid,
 /// The lattice whose number of nodes comes nearest to `nodes`.
 MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes, LatticeStyle style);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -8,12 +8,12 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/TopologyToLevelSet.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "voxelize/distance_field.hpp"
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 namespace fs = std::filesystem;
@@ -233,4 +233,4 @@ MaterialGrid load_vdb(const fs::path& path) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

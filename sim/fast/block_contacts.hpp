@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "sim/contact.hpp"
+#include "sim/contact/contact.hpp"
+#include "sim/contact/tunnel_watch.hpp"
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/passage.hpp"
-#include "sim/tunnel_watch.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// What the nodes of one block touch. An obstacle costs nothing while the block's bounds are clear
 /// of it.
@@ -63,4 +63,4 @@ class BlockContacts {
   Box3 bounds_before_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace springlod {
+namespace springlod::sim {
 
 /// How the springs of a model are laid out for speed.
 enum class Layout {
@@ -8,4 +8,7 @@ enum class Layout {
   any_shape  ///< in quads whatever it is: so that bodies are timed by one kernel
 };
 
-}  // namespace springlod
+/// Of the numbers that a run is made with: float or double.
+enum class Precision { single_precision, double_precision };
+
+}  // namespace springlod::sim

@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "sim/contact.hpp"
-#include "sim/contact_points.hpp"
+#include "sim/contact/contact.hpp"
+#include "sim/contact/contact_points.hpp"
+#include "sim/contact/tunnel_watch.hpp"
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/passage.hpp"
-#include "sim/tunnel_watch.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// What a body touches with points that several of its nodes carry, maybe of several blocks: one
 /// for the whole body, worked by one thread while the others wait. An obstacle costs nothing while
@@ -79,4 +79,4 @@ class SkinContacts {
   std::optional<Passage> passage_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -1,18 +1,18 @@
 #include <catch2/catch.hpp>
 
-#include "scripting/help.hpp"
-#include "scripting/state.hpp"
+#include "scripting/engine/help.hpp"
+#include "scripting/engine/state.hpp"
 #include "tests/cli/program.hpp"
 
 using Catch::Matchers::Contains;
-using springlod::make_api;
+using namespace springlod;
 using springlod::test::Ran;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
 
 TEST_CASE("everything a script can reach is described") {
-  const auto api = make_api();
-  const std::vector<std::string> missing = undocumented(*api);
+  const auto api = scripting::make_api();
+  const std::vector<std::string> missing = scripting::undocumented(*api);
   CAPTURE(missing);
   CHECK(missing.empty());
   CHECK(api->functions().size() > 25);
@@ -36,7 +36,7 @@ TEST_CASE("every function of the module has help, and help knows no other") {
     end
     io.stderr:write(#names))"});
   CHECK(ran.exit_code == 0);
-  const auto api = make_api();
+  const auto api = scripting::make_api();
   CHECK(ran.err == std::to_string(api->functions().size()));
   for (const auto& entry : api->functions()) CHECK_THAT(ran.out, Contains("s." + entry.name + "("));
 }

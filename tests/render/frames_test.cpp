@@ -4,10 +4,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "tests/render/golden.hpp"
 
 using namespace springlod;
+using namespace springlod::render;
 using namespace springlod::test;
 
 namespace {

@@ -7,11 +7,12 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "tests/render/golden.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 using namespace springlod::test;
 
 TEST_CASE("numbers are written as short as they read back the same") {

@@ -1,6 +1,6 @@
 // Arguments and tables of options, checked against what is described.
 
-#include "scripting/call.hpp"
+#include "scripting/engine/call.hpp"
 
 #include <memory>
 #include <optional>
@@ -11,10 +11,12 @@
 #include <catch2/catch.hpp>
 #include <lua.hpp>
 
-#include "model/error.hpp"
-#include "scripting/state.hpp"
+#include "base/error.hpp"
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/state.hpp"
 
 using namespace springlod;
+using namespace springlod::scripting;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -32,7 +34,7 @@ class Options {
   TableReader* operator->() { return &*reader_; }
 
  private:
-  ScriptState state_{{}};
+  ScriptState state_{{}, make_api()};
   std::vector<Parameter> listed_;
   std::optional<TableReader> reader_;
 };
@@ -127,7 +129,7 @@ TEST_CASE("A binding that reads what is not listed, or not all that is, fails ha
 }
 
 TEST_CASE("Arguments are checked by number and type, and errors name them") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   lua_State* L = state.lua();
   FunctionEntry entry{.name = "grow",
                       .arguments = {{.name = "size"}, {.name = "name"}},
@@ -159,7 +161,7 @@ TEST_CASE("Arguments are checked by number and type, and errors name them") {
 }
 
 TEST_CASE("Errors of every cause reach a script with their kind") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   FunctionEntry entry{.name = "fail",
                       .arguments = {{.name = "cause"}},
                       .call = [](Call& call) -> int {

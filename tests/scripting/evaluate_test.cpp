@@ -6,10 +6,12 @@
 #include <catch2/catch.hpp>
 #include <lua.hpp>
 
-#include "scripting/interrupt.hpp"
-#include "scripting/repl.hpp"
+#include "scripting/engine/interrupt.hpp"
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/repl.hpp"
 
 using namespace springlod;
+using namespace springlod::scripting;
 using Catch::Matchers::Contains;
 
 namespace {
@@ -26,14 +28,14 @@ std::string found(ScriptState& state) {
 }  // namespace
 
 TEST_CASE("A chunk runs with the globals of the chunks before it") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   CHECK(evaluate(state, "x = 20").error.empty());
   CHECK(evaluate(state, "found = x + 1").error.empty());
   CHECK(found(state) == "21");
 }
 
 TEST_CASE("An expression is evaluated once, and its values are taken from the stack") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   const int height = lua_gettop(state.lua());
   const Reply reply = evaluate(
       state, "(function() found = (found or 0) + 1 return setmetatable({}, {__tostring = "
@@ -44,7 +46,7 @@ TEST_CASE("An expression is evaluated once, and its values are taken from the st
 }
 
 TEST_CASE("A chunk that is not whole asks for more lines, a wrong one does not") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   for (const char* begun : {"for i = 1, 2 do", "f = function()", "t = {", "s = [[text"})
     CHECK(evaluate(state, begun).incomplete);
   const Reply wrong = evaluate(state, "for for");
@@ -55,7 +57,7 @@ TEST_CASE("A chunk that is not whole asks for more lines, a wrong one does not")
 }
 
 TEST_CASE("A chunk that fails says where, and the next one runs") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   const int height = lua_gettop(state.lua());
   const Reply reply = evaluate(state, "found = 1 error('broken')");
   CHECK_FALSE(reply.incomplete);
@@ -70,7 +72,7 @@ TEST_CASE("A chunk that fails says where, and the next one runs") {
 
 TEST_CASE("Ctrl-C stops a chunk, inside pcall too, and is forgotten afterwards") {
   const InterruptHandler handler;
-  ScriptState state({});
+  ScriptState state({}, make_api());
   // The signal comes while the loop runs: it is the chunk that sends it.
   lua_register(state.lua(), "press_ctrl_c", [](lua_State*) { return std::raise(SIGINT); });
   const Reply reply =
@@ -82,7 +84,7 @@ TEST_CASE("Ctrl-C stops a chunk, inside pcall too, and is forgotten afterwards")
 }
 
 TEST_CASE("Scripts get arguments, and a failed one its line and a traceback") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   CHECK(state.run_text("local a, b = ... found = a .. b .. arg[2] .. #arg", "test", {"1", "2"}).done);
   CHECK(found(state) == "1222");
   const Outcome failed = state.run_text("local x = 1\nerror('broken')", "test", {});

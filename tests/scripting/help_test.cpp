@@ -1,6 +1,6 @@
 // Help texts made from descriptions.
 
-#include "scripting/help.hpp"
+#include "scripting/engine/help.hpp"
 
 #include <algorithm>
 #include <sstream>
@@ -9,10 +9,12 @@
 #include <catch2/catch.hpp>
 #include <lua.hpp>
 
-#include "model/error.hpp"
-#include "scripting/state.hpp"
+#include "base/error.hpp"
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/state.hpp"
 
 using namespace springlod;
+using namespace springlod::scripting;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 
@@ -96,7 +98,7 @@ TEST_CASE("Overview and Markdown list everything") {
 }
 
 TEST_CASE("Help on a Lua value is that of the function, of the type or of the name it is") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   lua_State* L = state.lua();
   const auto help_on = [&](const std::string& expression) {
     REQUIRE(luaL_dostring(L, ("s = require 'springlod' return " + expression).c_str()) == LUA_OK);

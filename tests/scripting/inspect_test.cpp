@@ -1,20 +1,22 @@
 // How the prompt shows a value.
 
-#include "scripting/inspect.hpp"
+#include "scripting/engine/inspect.hpp"
 
 #include <string>
 
 #include <catch2/catch.hpp>
 #include <lua.hpp>
 
-#include "scripting/state.hpp"
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/state.hpp"
 
 using namespace springlod;
+using namespace springlod::scripting;
 
 namespace {
 
 std::string shown(const std::string& expression, const InspectOptions& options = {}) {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   lua_State* L = state.lua();
   REQUIRE(luaL_dostring(L, ("return " + expression).c_str()) == LUA_OK);
   const int height = lua_gettop(L);
@@ -59,7 +61,7 @@ TEST_CASE("Long tables are cut off and say by how much; wide ones stand on lines
 
 TEST_CASE("A __tostring of the user's is used, and may fail") {
   CHECK(shown("setmetatable({}, {__tostring = function() return 'mine' end})") == "mine");
-  ScriptState state({});
+  ScriptState state({}, make_api());
   const Outcome outcome = state.run_text(
       "local s = require 'springlod'\n"
       "s.inspect(setmetatable({}, {__tostring = function() error('broken') end}))",

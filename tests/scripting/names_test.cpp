@@ -7,10 +7,12 @@
 #include <catch2/catch.hpp>
 #include <lua.hpp>
 
-#include "scripting/repl.hpp"
-#include "scripting/suggest.hpp"
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/repl.hpp"
+#include "scripting/engine/suggest.hpp"
 
 using namespace springlod;
+using namespace springlod::scripting;
 using Names = std::vector<std::string>;
 
 namespace {
@@ -48,7 +50,7 @@ TEST_CASE("Hints ask for the near name and list all there are") {
 }
 
 TEST_CASE("A word is completed from globals and keywords, a path from what it leads to") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   REQUIRE(state.run_text("s = require 'springlod'\n"
                          "mine = {inner = {leaf = 1, leave = 2, [3] = 4}}\n"
                          "m = s.model{nodes = {{0, 0, 0, mass = 1}}}",
@@ -66,7 +68,7 @@ TEST_CASE("A word is completed from globals and keywords, a path from what it le
 }
 
 TEST_CASE("What leads nowhere is completed to nothing, and no metamethod runs") {
-  ScriptState state({});
+  ScriptState state({}, make_api());
   REQUIRE(state.run_text("trap = setmetatable({}, {__index = function() touched = true end})\n"
                          "number = 3",
                          "test", {})

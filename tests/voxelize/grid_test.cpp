@@ -4,10 +4,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "tests/voxelize/grids.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 

@@ -9,11 +9,12 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "voxelize/solid.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 

@@ -2,9 +2,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
-#include "model/stiffness.hpp"
-#include "model/zero_modes.hpp"
+#include "base/error.hpp"
+#include "elastic/stiffness.hpp"
+#include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
 
 namespace springlod {
@@ -38,7 +38,8 @@ void check_chain(const LodChain& chain) {
     const MassProperties p = mass_properties(level.model);
     CHECK(p.mass == Approx(whole.mass).epsilon(1e-12));
     CHECK(p.volume == Approx(whole.volume).epsilon(1e-12));
-    for (const PartModes& part : zero_modes(level.model)) CHECK(part.zero_modes == part.expected);
+    for (const elastic::PartModes& part : elastic::zero_modes(level.model))
+      CHECK(part.zero_modes == part.expected);
   }
 }
 
@@ -57,7 +58,7 @@ TEST_CASE("The paper's figure 1: a cube refilled with lattices of 125, 64 and 27
   for (const Level& level : chain.levels)
     CHECK(mass_properties(level.model).center.isApprox(mass_properties(base).center));
   if (style == LatticeStyle::corners)
-    CHECK(stretch_test(chain.levels[2].model).young == Approx(1e6).epsilon(1e-6));
+    CHECK(elastic::stretch_test(chain.levels[2].model).young == Approx(1e6).epsilon(1e-6));
 }
 
 TEST_CASE("A ball of two materials is refilled with about as many nodes as asked for") {

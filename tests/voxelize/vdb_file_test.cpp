@@ -3,12 +3,13 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "tests/voxelize/grids.hpp"
 #include "tests/voxelize/shapes.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;

@@ -4,12 +4,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "tests/voxelize/shapes.hpp"
 #include "voxelize/depth.hpp"
 #include "voxelize/grid.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 

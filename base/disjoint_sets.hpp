@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace springlod::inline base {
+
+/// Elements 0 .. count - 1 joined into sets (union-find; Tarjan and van Leeuwen 1984, path halving,
+/// linked by the lower number). A set is known by its lowest element.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::uint32_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+
+  /// Lowest element of the set of `i`.
+  std::uint32_t lowest(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  /// False if they were in one set already.
+  bool unite(std::uint32_t x, std::uint32_t y) {
+    x = lowest(x);
+    y = lowest(y);
+    if (x == y) return false;
+    if (y < x) std::swap(x, y);
+    parent_[y] = x;
+    return true;
+  }
+
+  /// Makes `i` a set by itself again. To be called for all elements of its set, or others still
+  /// lead to it.
+  void separate(std::uint32_t i) { parent_[i] = i; }
+
+  /// The number of the set of each element, sets numbered by their lowest element.
+  struct Numbers {
+    std::vector<std::uint32_t> of;
+    std::uint32_t count = 0;
+  };
+  Numbers numbers() {
+    Numbers numbers{std::vector<std::uint32_t>(parent_.size()), 0};
+    for (std::uint32_t i = 0; i < parent_.size(); ++i) {
+      const std::uint32_t first = lowest(i);
+      numbers.of[i] = first == i ? numbers.count++ : numbers.of[first];
+    }
+    return numbers;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace springlod::inline base

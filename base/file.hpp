@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace springlod::inline base {
+
+/// Calls `write` with a temporary path beside `path`, then renames it over `path`: readers see the
+/// old file or the new one, never half of one. Makes missing folders. On an exception the
+/// temporary file is removed and `path` is untouched. Throws IoError.
+void write_aside(const std::filesystem::path& path,
+                 const std::function<void(const std::filesystem::path&)>& write);
+void write_text_file(const std::filesystem::path& path, std::string_view text);
+std::string read_file(const std::filesystem::path& path);
+
+/// 64-bit xxh3 hash as 16 hexadecimal digits.
+std::string content_hash(std::string_view bytes);
+
+}  // namespace springlod::inline base

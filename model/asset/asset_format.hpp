@@ -1,0 +1,40 @@
+#pragma once
+
+// What writer and reader of the asset file agree on; documented in docs/asset-format.md.
+
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+namespace springlod::inline model::asset_format {
+
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as they lie in memory, and glTF is little-endian");
+
+inline constexpr const char* kExtension = "SPRINGLOD_lod_chain";
+inline constexpr int kVersion = 1;
+
+/// xxh3-64 over the exact arrays, each preceded by its length in bytes, in the order of writing,
+/// and over the extension's JSON (keys sorted, no white space, without the checksum itself).
+class Checksum {
+ public:
+  Checksum() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
+  void add(std::string_view bytes) {
+    const std::uint64_t length = bytes.size();
+    XXH3_64bits_update(state_.get(), &length, sizeof length);
+    XXH3_64bits_update(state_.get(), bytes.data(), bytes.size());
+  }
+  std::string text() const {
+    return fmt::format("xxh3-64:{:016x}", XXH3_64bits_digest(state_.get()));
+  }
+
+ private:
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+};
+
+}  // namespace springlod::inline model::asset_format

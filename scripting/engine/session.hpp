@@ -1,0 +1,60 @@
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <typeindex>
+#include <vector>
+
+#include "scripting/engine/console.hpp"
+
+struct lua_State;
+
+namespace springlod::scripting {
+
+class Api;
+
+/// What the command line settles for a whole run.
+struct Settings {
+  std::uint64_t seed = 1;
+  std::uint32_t threads = 0;  ///< 0: all cores
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// What bindings need besides their arguments.
+class Session {
+ public:
+  Session(Settings settings, const Api& api);
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  const Settings& settings() const { return settings_; }
+  const Api& api() const { return api_; }
+  Console& console() { return console_; }
+  Progress* progress() { return &console_; }
+  /// What bindings keep from one call to the next: one T, made when it is first asked for.
+  template <class T>
+  T& kept() {
+    std::any& slot = kept_[typeid(T)];
+    if (!slot.has_value()) slot = std::make_shared<T>();
+    return **std::any_cast<std::shared_ptr<T>>(&slot);
+  }
+
+ private:
+  Settings settings_;
+  Console console_;
+  const Api& api_;
+  std::map<std::type_index, std::any> kept_;
+};
+
+/// The session of a Lua state (every coroutine of it included).
+Session& session_of(lua_State* L);
+void set_session(lua_State* L, Session* session);
+
+/// Version of springlod, "0.1.0".
+std::string version();
+
+}  // namespace springlod::scripting

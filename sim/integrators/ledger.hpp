@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+namespace springlod::sim {
+
+/// Where the energy is and where it went, at one time [J]. kinetic + elastic + gravity + contact +
+/// the losses = the initial sum. Gravity counts from the initial height.
+///
+/// What is exact. With velocities v- and v+ half a step before and after x_n, the product
+/// K_n = sum m v- . v+ / 2 obeys K_{n+1} - K_n = (F_n + F_{n+1}) . (x_{n+1} - x_n) / 2: the
+/// trapezoid rule of the work. So K_n + U(x_n) is kept to rounding where forces are linear in x, at
+/// any step. Sorting that sum by forces instead of steps, a dissipative force F_d loses
+/// -dt F_d . (v- + v+) / 2 a step (at the first and last step only the inner half). Every mechanism
+/// is booked from its own force that way, none is the remainder of the others, so that the sum of
+/// all entries is a real check. What it then shows is the trapezoid error of turning springs, and
+/// nodes that change the face of a box.
+///
+/// Contacts that begin or end within a step: from depth -g (a gap) to d the trapezoid rule takes
+/// kappa A d (d + g) / 2 out of the motion but the penalty spring stores kappa A d^2 / 2 only;
+/// kappa A d g / 2 is gone, and comes back likewise on the way out, on the average less of it. That
+/// is a real loss of the stepped contact, which goes with dt^2: it is booked under lost_contact.
+///
+/// K_n is not a sum of squares: it lies below the kinetic energy of the mean velocity by
+/// m |dt F/m|^2 / 8.
+struct LedgerEntry {
+  double time = 0;  ///< [s]
+  double kinetic = 0;
+  double elastic = 0;
+  double gravity = 0;        ///< potential
+  double contact = 0;        ///< stored in the penalty springs and grips
+  double lost_damping = 0;   ///< to spring damping
+  double lost_friction = 0;  ///< to rubbing, and to the dampers of grips
+  double lost_contact = 0;   ///< to contact damping and to contact beginning or ending in mid-step
+  double lost_switch = 0;    ///< to a switch of the level, or of the step (K_n depends on it)
+  /// What is still there and could move the body.
+  double mechanical() const { return kinetic + elastic + gravity + contact; }
+  double total() const {
+    return mechanical() + lost_damping + lost_friction + lost_contact + lost_switch;
+  }
+};
+
+/// Largest |total - initial total| over the largest kinetic energy; 0 for an empty ledger or one
+/// without motion.
+double closure_error(const std::vector<LedgerEntry>& ledger);
+
+}  // namespace springlod::sim

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "model/mass_spring.hpp"
+
+namespace springlod::sim {
+
+/// Angular velocity of the rigid motion that has the angular momentum of `state` about its centre
+/// of mass [rad/s]; of a straight line of nodes, without the part about the line.
+Vec3 angular_velocity(const MassSpringModel& model, const State& state);
+
+}  // namespace springlod::sim
