@@ -61,8 +61,8 @@ TEST_CASE("scripts name regions that matter, and weights") {
         "regions[1]: nodes[1] must be a node number", "regions must be a list of Region tables",
         "left out beside targets = \"modes\"",
         "nodes of region 1 is a border node that is free to move", "load_weight = -2 must be 0 or",
-        "keep_every = -1 must be 0 or more",
-        "nothing is left to be fitted", "many\t2", "certify: within[1] must be a node number"})
+        "keep_every = -1 must be 0 or more", "nothing is left to be fitted", "many\t2",
+        "certify: within[1] must be a node number"})
     CHECK_THAT(ran.out, Contains(reason));
 }
 

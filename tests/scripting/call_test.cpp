@@ -26,8 +26,7 @@ enum class Way { slow, fast };
 /// A reader of the Lua table `text` for a function "test".
 class Options {
  public:
-  Options(std::vector<Parameter> listed, const std::string& text)
-      : listed_(std::move(listed)) {
+  Options(std::vector<Parameter> listed, const std::string& text) : listed_(std::move(listed)) {
     REQUIRE(luaL_dostring(state_.lua(), ("return " + text).c_str()) == LUA_OK);
     reader_.emplace(state_.lua(), lua_gettop(state_.lua()), listed_, "test");
   }
@@ -131,13 +130,12 @@ TEST_CASE("A binding that reads what is not listed, or not all that is, fails ha
 TEST_CASE("Arguments are checked by number and type, and errors name them") {
   ScriptState state({}, make_api());
   lua_State* L = state.lua();
-  FunctionEntry entry{.name = "grow",
-                      .arguments = {{.name = "size"}, {.name = "name"}},
-                      .call = [](Call& call) {
-                        const double size = call.number(1);
-                        const std::string name = call.text(2);
-                        return call.give(size + 1, name + "!", call.integer(1, 0, 9), call.has(2));
-                      }};
+  FunctionEntry entry{
+      .name = "grow", .arguments = {{.name = "size"}, {.name = "name"}}, .call = [](Call& call) {
+        const double size = call.number(1);
+        const std::string name = call.text(2);
+        return call.give(size + 1, name + "!", call.integer(1, 0, 9), call.has(2));
+      }};
   push_function(L, entry);
   CHECK(entry_of_function(L, -1) == &entry);
   lua_setglobal(L, "grow");
@@ -145,9 +143,11 @@ TEST_CASE("Arguments are checked by number and type, and errors name them") {
   CHECK(entry_of_function(L, -1) == nullptr);
   lua_pop(L, 1);
 
-  CHECK(state.run_text("local a, b, c, d = grow(2, 'x') assert(a == 3 and b == 'x!' and c == 2 and d)",
-                       "test", {})
-            .done);
+  CHECK(
+      state
+          .run_text("local a, b, c, d = grow(2, 'x') assert(a == 3 and b == 'x!' and c == 2 and d)",
+                    "test", {})
+          .done);
   const auto refused = [&](const std::string& call) {
     const Outcome outcome = state.run_text(call, "test", {});
     CHECK_FALSE(outcome.done);
@@ -162,18 +162,17 @@ TEST_CASE("Arguments are checked by number and type, and errors name them") {
 
 TEST_CASE("Errors of every cause reach a script with their kind") {
   ScriptState state({}, make_api());
-  FunctionEntry entry{.name = "fail",
-                      .arguments = {{.name = "cause"}},
-                      .call = [](Call& call) -> int {
-                        const std::string cause = call.text(1);
-                        if (cause == "input") throw InputError("said");
-                        if (cause == "io") throw IoError("said");
-                        if (cause == "unstable") throw UnstableError("said", 4, 0.5);
-                        if (cause == "tunnelled") throw TunnelError("said", 4, "wall", 0.5);
-                        if (cause == "interrupted") throw InterruptedError();
-                        if (cause == "memory") throw std::bad_alloc();
-                        throw std::logic_error("said");
-                      }};
+  FunctionEntry entry{
+      .name = "fail", .arguments = {{.name = "cause"}}, .call = [](Call& call) -> int {
+        const std::string cause = call.text(1);
+        if (cause == "input") throw InputError("said");
+        if (cause == "io") throw IoError("said");
+        if (cause == "unstable") throw UnstableError("said", 4, 0.5);
+        if (cause == "tunnelled") throw TunnelError("said", 4, "wall", 0.5);
+        if (cause == "interrupted") throw InterruptedError();
+        if (cause == "memory") throw std::bad_alloc();
+        throw std::logic_error("said");
+      }};
   push_function(state.lua(), entry);
   lua_setglobal(state.lua(), "fail");
   const Outcome outcome = state.run_text(

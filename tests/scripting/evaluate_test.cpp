@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <lua.hpp>
 
-#include "scripting/engine/interrupt.hpp"
 #include "scripting/bind/topics.hpp"
+#include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/repl.hpp"
 
 using namespace springlod;
@@ -37,9 +37,10 @@ TEST_CASE("A chunk runs with the globals of the chunks before it") {
 TEST_CASE("An expression is evaluated once, and its values are taken from the stack") {
   ScriptState state({}, make_api());
   const int height = lua_gettop(state.lua());
-  const Reply reply = evaluate(
-      state, "(function() found = (found or 0) + 1 return setmetatable({}, {__tostring = "
-             "function() return '' end}) end)()");
+  const Reply reply =
+      evaluate(state,
+               "(function() found = (found or 0) + 1 return setmetatable({}, {__tostring = "
+               "function() return '' end}) end)()");
   CHECK(reply.error.empty());
   CHECK(found(state) == "1");
   CHECK(lua_gettop(state.lua()) == height);
@@ -85,7 +86,8 @@ TEST_CASE("Ctrl-C stops a chunk, inside pcall too, and is forgotten afterwards")
 
 TEST_CASE("Scripts get arguments, and a failed one its line and a traceback") {
   ScriptState state({}, make_api());
-  CHECK(state.run_text("local a, b = ... found = a .. b .. arg[2] .. #arg", "test", {"1", "2"}).done);
+  CHECK(
+      state.run_text("local a, b = ... found = a .. b .. arg[2] .. #arg", "test", {"1", "2"}).done);
   CHECK(found(state) == "1222");
   const Outcome failed = state.run_text("local x = 1\nerror('broken')", "test", {});
   CHECK_FALSE(failed.done);

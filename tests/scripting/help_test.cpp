@@ -53,7 +53,8 @@ Api sample_api() {
 }  // namespace
 
 TEST_CASE("A signature shows arguments, options and what comes back") {
-  CHECK_THAT(signature(sample()), Contains("soften(material, {young, way") && Contains("-> Material"));
+  CHECK_THAT(signature(sample()),
+             Contains("soften(material, {young, way") && Contains("-> Material"));
   FunctionEntry method = sample();
   method.owner = "Rock";
   method.options.clear();

@@ -51,10 +51,11 @@ TEST_CASE("Hints ask for the near name and list all there are") {
 
 TEST_CASE("A word is completed from globals and keywords, a path from what it leads to") {
   ScriptState state({}, make_api());
-  REQUIRE(state.run_text("s = require 'springlod'\n"
-                         "mine = {inner = {leaf = 1, leave = 2, [3] = 4}}\n"
-                         "m = s.model{nodes = {{0, 0, 0, mass = 1}}}",
-                         "test", {})
+  REQUIRE(state
+              .run_text("s = require 'springlod'\n"
+                        "mine = {inner = {leaf = 1, leave = 2, [3] = 4}}\n"
+                        "m = s.model{nodes = {{0, 0, 0, mass = 1}}}",
+                        "test", {})
               .done);
   CHECK(completions(state, "mi") == Names{"mine"});
   CHECK(completions(state, "print(mine.inner.lea") == Names{"leaf", "leave"});
@@ -69,9 +70,10 @@ TEST_CASE("A word is completed from globals and keywords, a path from what it le
 
 TEST_CASE("What leads nowhere is completed to nothing, and no metamethod runs") {
   ScriptState state({}, make_api());
-  REQUIRE(state.run_text("trap = setmetatable({}, {__index = function() touched = true end})\n"
-                         "number = 3",
-                         "test", {})
+  REQUIRE(state
+              .run_text("trap = setmetatable({}, {__index = function() touched = true end})\n"
+                        "number = 3",
+                        "test", {})
               .done);
   const int height = lua_gettop(state.lua());
   for (const char* text : {"trap.x.", "nothing.here.", "number.", "trap.inner.le", "1.5."})

@@ -8,7 +8,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/model/sample_models.hpp"
+#include "elastic/solver/sparse_cholesky.hpp"
+#include "elastic/stiffness.hpp"
+#include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;
@@ -16,25 +18,12 @@ using namespace springlod::elastic;
 using springlod::test::box_lattice;
 using springlod::test::chain_of_nodes;
 using springlod::test::random_model;
+using springlod::test::side_by_side;
 
 namespace {
 
-NodeGraph graph_of(const MassSpringModel& model) {
-  std::vector<std::vector<std::uint32_t>> near(model.node_count());
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    near[model.a[s]].push_back(model.b[s]);
-    near[model.b[s]].push_back(model.a[s]);
-  }
-  NodeGraph graph{{0}, {}};
-  for (const std::vector<std::uint32_t>& of_node : near) {
-    graph.neighbour.insert(graph.neighbour.end(), of_node.begin(), of_node.end());
-    graph.start.push_back(static_cast<std::uint32_t>(graph.neighbour.size()));
-  }
-  return graph;
-}
-
 Dissection dissected(const MassSpringModel& model) {
-  return dissect(model.rest, graph_of(model));
+  return dissect(model.rest, node_graph(stiffness_matrix(model)));
 }
 
 void check_order(const Dissection& found, std::uint32_t nodes) {
@@ -85,8 +74,8 @@ std::uint32_t size_of(const Dissection::Piece& piece) {
 }  // namespace
 
 TEST_CASE("A dissection orders every node once, children first, and its separators separate") {
-  const MassSpringModel model = GENERATE(box_lattice(9, 7, 5), box_lattice(40, 2, 2),
-                                         random_model(3, 6), random_model(4, 8));
+  const MassSpringModel model =
+      GENERATE(box_lattice(9, 7, 5), box_lattice(40, 2, 2), random_model(3, 6), random_model(1, 8));
   const Dissection found = dissected(model);
   check_order(found, model.node_count());
   check_pieces(found);
@@ -101,8 +90,7 @@ TEST_CASE("Of a lattice one layer of nodes is taken out, across its longest side
   const Dissection::Piece& top = found.pieces.back();
   CHECK(size_of(top) == 5 * 5);
   const double x = model.rest[found.order[top.begin]].x();
-  for (std::uint32_t k = top.begin; k < top.end; ++k)
-    CHECK(model.rest[found.order[k]].x() == x);
+  for (std::uint32_t k = top.begin; k < top.end; ++k) CHECK(model.rest[found.order[k]].x() == x);
   CHECK(x >= 8);
   CHECK(x <= 12);
 }
@@ -128,18 +116,22 @@ TEST_CASE("Small bodies stay in one piece, no nodes make none") {
   CHECK(none.pieces.empty());
 }
 
-TEST_CASE("Nodes without couplings, and nodes in one place, are ordered too") {
-  MassSpringModel loose = box_lattice(6, 6, 6);
-  loose.a.clear();
-  loose.b.clear();
-  const Dissection apart = dissected(loose);
-  check_order(apart, 216);
+TEST_CASE("Bodies side by side, loose nodes and nodes in one place are ordered too") {
+  const MassSpringModel box = box_lattice(9, 7, 8);
+  const MassSpringModel two = side_by_side(box, box, {20, 0, 0});
+  const Dissection beside = dissected(two);
+  check_order(beside, two.node_count());
+  check_pieces(beside);
+  CHECK(wrong_couplings(beside, two) == 0);
+
+  const Dissection apart = dissect(box.rest, {std::vector<std::uint32_t>(505, 0), {}});
+  check_order(apart, 504);
   check_pieces(apart);
   for (const Dissection::Piece& piece : apart.pieces)  // nothing has to be separated
     CHECK(piece.parent == Dissection::kNoParent);
 
-  const std::vector<Vec3> heap(100, Vec3(1, 2, 3));
-  const Dissection together = dissect(heap, {std::vector<std::uint32_t>(101, 0), {}});
-  check_order(together, 100);
+  const std::vector<Vec3> heap(504, Vec3(1, 2, 3));
+  const Dissection together = dissect(heap, node_graph(stiffness_matrix(box)));
+  check_order(together, 504);
   CHECK(together.pieces.size() == 1);
 }
