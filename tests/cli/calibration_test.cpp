@@ -9,11 +9,11 @@
 using Catch::Matchers::Contains;
 using springlod::test::obj_of_boxes;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::springlod_interrupted;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -67,7 +67,7 @@ TEST_CASE("scripts name regions that matter, and weights") {
 }
 
 TEST_CASE("a script's calibration keeps its state in a store, and says where it cannot") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "file", "no folder");
   const std::string code = std::string(kBar) +
                            "local options = {store = arg[1], iterations = 4, patches = 5}\n"
@@ -85,7 +85,7 @@ TEST_CASE("a script's calibration keeps its state in a store, and says where it 
 }
 
 TEST_CASE("convert that is stopped while it calibrates goes on to the same levels") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
   const auto arguments = [&](const std::string& name, const std::vector<std::string>& more) {
     std::vector<std::string> all{"convert",     (scratch / "bar.obj").string(),
@@ -119,7 +119,7 @@ TEST_CASE("convert that is stopped while it calibrates goes on to the same level
 
 TEST_CASE(
     "convert keeps a calibration in a folder of the user's own, and uses none of another base") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto convert = [&](double length) {
     spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, length}}));
     return springlod_run({"convert", (scratch / "bar.obj").string(), "-o",

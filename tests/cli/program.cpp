@@ -1,7 +1,6 @@
 #include "tests/cli/program.hpp"
 
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -218,17 +217,6 @@ int Terminal::exit_code() {
   const bool ended = handle >= 0 && poll(&end, 1, kPatience) > 0;
   close(handle);
   return ended ? exit_code_of(std::exchange(process_, -1)) : -1;
-}
-
-Scratch::Scratch() {
-  static std::atomic<int> count{0};
-  folder_ = fs::temp_directory_path() / fmt::format("springlod-cli-{}-{}", getpid(), count++);
-  fs::create_directories(folder_);
-}
-
-Scratch::~Scratch() {
-  std::error_code error;
-  fs::remove_all(folder_, error);
 }
 
 std::string slurp(const fs::path& path) {

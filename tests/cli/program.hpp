@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace springlod::test {
 
 /// How one run of the real program ended.
@@ -47,20 +49,6 @@ class Terminal {
   int process_ = -1;
   std::size_t seen_ = 0;
   std::string screen_;
-};
-
-/// A fresh folder that is removed with everything in it.
-class Scratch {
- public:
-  Scratch();
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-  const std::filesystem::path& folder() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
 };
 
 std::string slurp(const std::filesystem::path& path);

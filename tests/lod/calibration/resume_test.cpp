@@ -17,6 +17,7 @@
 #include "lod/calibration/calibration_store.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/model/sample_assets.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
 using namespace springlod::lod;
