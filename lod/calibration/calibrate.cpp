@@ -108,12 +108,17 @@ void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpring
   }
 }
 
-/// Keeps the state of one fit, now and then.
+/// Keeps the state of one fit, each time that an interval [s] is over.
 class FitKeeper {
  public:
   FitKeeper(const CalibrationStore& store, std::size_t level, std::size_t part,
-            std::string fingerprint)
-      : store_(store), level_(level), part_(part), fingerprint_(std::move(fingerprint)) {}
+            std::string fingerprint, double interval)
+      : store_(store),
+        level_(level),
+        part_(part),
+        fingerprint_(std::move(fingerprint)),
+        interval_(interval),
+        due_(Clock::now() + interval_) {}
 
   std::optional<FitState> kept() const { return store_.fit(level_, part_, fingerprint_); }
 
@@ -126,18 +131,18 @@ class FitKeeper {
 
   void keep(const FitState& state) {
     store_.keep(level_, part_, fingerprint_, state);
-    due_ = Clock::now() + kEvery;
+    due_ = Clock::now() + interval_;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// As much as a user minds losing to a power cut; a state is some megabytes.
-  static constexpr std::chrono::seconds kEvery{2};
+  using Seconds = std::chrono::duration<double>;
 
   const CalibrationStore& store_;
   std::size_t level_, part_;
   std::string fingerprint_;
-  Clock::time_point due_ = Clock::now() + kEvery;
+  Seconds interval_;
+  std::chrono::time_point<Clock, Seconds> due_;
 };
 
 std::string detail_of(std::size_t level, const FitState& state, double base_frequency) {
@@ -152,6 +157,9 @@ std::string detail_of(std::size_t level, const FitState& state, double base_freq
 class Calibrator {
  public:
   Calibrator(LodChain& chain, const CalibrateOptions& options) : chain_(chain), options_(options) {
+    if (!(options.keep_every >= 0))
+      throw InputError(
+          fmt::format("calibration: keep_every = {} must be 0 or more", options.keep_every));
     if (!options.store.empty()) store_.emplace(options.store, options.progress);
     base_ = measure_parts(chain.levels.front().model, options, store_ ? &*store_ : nullptr);
   }
@@ -201,7 +209,8 @@ class Calibrator {
     FitProgress progress;
     std::optional<FitKeeper> keeper;
     if (store_) {
-      keeper.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options));
+      keeper.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options),
+                     options_.keep_every);
       progress.from = keeper->kept();
     }
     std::uint32_t told = 0;  // steps that the task knows of

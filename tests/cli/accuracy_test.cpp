@@ -6,9 +6,9 @@
 
 using Catch::Contains;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace {
 
@@ -61,7 +61,7 @@ TEST_CASE("calibration refuses what it cannot do, and says why") {
 }
 
 TEST_CASE("springlod accuracy measures methods side by side") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string folder = (scratch / "accuracy").string();
 #ifdef SPRINGLOD_HAS_METIS
   const std::string last = "METIS plain";
@@ -81,7 +81,7 @@ TEST_CASE("springlod accuracy measures methods side by side") {
 }
 
 TEST_CASE("springlod accuracy charts errors of smaller and smaller levels against their cost") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string folder = (scratch / "accuracy").string();
   const Ran ran = springlod_run({"accuracy", folder, "--trade-off", "--quick", "-q"});
   CAPTURE(ran.err);

@@ -11,6 +11,7 @@
 #include "base/file.hpp"
 #include "tests/model/asset/glb_text.hpp"
 #include "tests/model/sample_assets.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace springlod {
 namespace {
