@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/script_number.hpp"
 #include "lod/calibration/calibration_store.hpp"
 #include "lod/calibration/long_springs.hpp"
 #include "lod/calibration/second_moments.hpp"
@@ -38,14 +39,13 @@ void require_surface(const MassSpringModel& base, const TargetOptions& options) 
   for (std::size_t r = 0; r < options.regions.size(); ++r) {
     for (const std::uint32_t node : options.regions[r].nodes)
       if (node >= base.node_count())
-        throw InputError(
-            fmt::format("calibration: region {} names node {}; there are {}, counted from 0", r + 1,
-                        node, base.node_count()));
+        throw InputError(fmt::format("calibration: region {} names node {}; the base has {}",
+                                     script_number(r), script_number(node), base.node_count()));
     if (movable_nodes(base, options.regions[r], options.anchored).empty())
       throw InputError(
           fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
                       "free to move; name nodes of the surface, beside the anchored ones",
-                      options.regions[r].nodes.size(), r + 1));
+                      options.regions[r].nodes.size(), script_number(r)));
   }
 }
 

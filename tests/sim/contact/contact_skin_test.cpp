@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/stable_step.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
@@ -320,8 +321,9 @@ TEST_CASE("A skin that goes through a wall is stopped, by the base's node, under
           {.integrator = integrator, .step = 2e-4, .skin = skin_of(chain, 1)});
       FAIL("no point went through");
     } catch (const TunnelError& e) {
-      CHECK_THAT(e.what(), Catch::Contains("the surface at node " + std::to_string(e.node()) +
-                                           " of the base went through obstacle \"thin wall\""));
+      CHECK_THAT(e.what(),
+                 Catch::Contains("the surface at node " + std::to_string(script_number(e.node())) +
+                                 " of the base went through obstacle \"thin wall\""));
       CHECK(e.node() < chain.levels[0].model.node_count());
     }
   }

@@ -1,3 +1,4 @@
+#include "sim/integrators/step_limit.hpp"
 #include "sim/study/ensemble.hpp"
 
 #include <string>
