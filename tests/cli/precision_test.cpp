@@ -15,7 +15,8 @@ using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
 
-TEST_CASE("precision, quickly: single precision swings and drops as double does, within bounds") {
+TEST_CASE("precision, quickly: single precision swings and drops as double does, within bounds",
+          "[long]") {
   const Scratch out;
   const Ran ran = springlod_run({"-q", "precision", out.folder().string(), "--quick"});
   CAPTURE(ran.err);

@@ -108,7 +108,7 @@ TEST_CASE("A calibration that is stopped again and again ends with the bits of o
   }
 }
 
-TEST_CASE("Threads do not matter to a calibration that goes on") {
+TEST_CASE("Threads do not matter to a calibration that goes on", "[threaded]") {
   const LodChain whole = calibrated(options_with(kNoStore, nullptr));
   const TemporaryFolder folder;
   Watcher watcher(6);
