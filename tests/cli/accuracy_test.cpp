@@ -60,7 +60,7 @@ TEST_CASE("calibration refuses what it cannot do, and says why") {
   CHECK_THAT(refusal("calibrate = 'modes', calibration = {target = 'modes'}"), Contains("targets"));
 }
 
-TEST_CASE("springlod accuracy measures methods side by side") {
+TEST_CASE("springlod accuracy measures methods side by side", "[long]") {
   const TemporaryFolder scratch;
   const std::string folder = (scratch / "accuracy").string();
 #ifdef SPRINGLOD_HAS_METIS
@@ -80,7 +80,8 @@ TEST_CASE("springlod accuracy measures methods side by side") {
   CHECK_THAT(nothing.err, Contains("must be one of sphere, rods"));
 }
 
-TEST_CASE("springlod accuracy charts errors of smaller and smaller levels against their cost") {
+TEST_CASE("springlod accuracy charts errors of smaller and smaller levels against their cost",
+          "[long]") {
   const TemporaryFolder scratch;
   const std::string folder = (scratch / "accuracy").string();
   const Ran ran = springlod_run({"accuracy", folder, "--trade-off", "--quick", "-q"});

@@ -25,7 +25,8 @@ std::vector<std::string> paper(const std::filesystem::path& folder, const std::s
 
 }  // namespace
 
-TEST_CASE("paper goes on where it was stopped, and comes to the same tables on any cores") {
+TEST_CASE("paper goes on where it was stopped, and comes to the same tables on any cores",
+          "[long]") {
   const TemporaryFolder scratch;
   const Ran whole = springlod_run(paper(scratch / "whole", "5", "2"));
   REQUIRE(whole.exit_code == 0);

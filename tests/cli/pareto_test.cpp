@@ -47,7 +47,7 @@ std::string printed(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("pareto, quickly: charts, fronts and tables; what is there is not run again") {
+TEST_CASE("pareto, quickly: charts, fronts and tables; what is there is not run again", "[long]") {
   const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(scratch));

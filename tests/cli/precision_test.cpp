@@ -15,7 +15,8 @@ using springlod::test::slurp;
 using springlod::test::springlod_run;
 using springlod::test::TemporaryFolder;
 
-TEST_CASE("precision, quickly: single precision swings and drops as double does, within bounds") {
+TEST_CASE("precision, quickly: single precision swings and drops as double does, within bounds",
+          "[long]") {
   const TemporaryFolder out;
   const Ran ran = springlod_run({"-q", "precision", out.path().string(), "--quick"});
   CAPTURE(ran.err);

@@ -87,7 +87,8 @@ TEST_CASE("refinement, quickly: errors fall with the cells, corners by order 2")
   CHECK(slurp(out / "orders.csv").find("nan") == std::string::npos);
 }
 
-TEST_CASE("refinement: with eight cells across, all is within two percent of Timoshenko") {
+TEST_CASE("refinement: with eight cells across, all is within two percent of Timoshenko",
+          "[long]") {
   const TemporaryFolder out;
   const Ran ran = springlod_run({"-q", "refinement", out.path().string(), "--finest", "8"});
   REQUIRE(ran.exit_code == 0);

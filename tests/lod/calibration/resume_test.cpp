@@ -155,7 +155,7 @@ TEST_CASE("A calibration that is killed goes on from the last state that was due
   CHECK_THROWS_WITH(calibrated({.keep_every = -1}), Contains("keep_every = -1 must be 0 or more"));
 }
 
-TEST_CASE("Threads do not matter to a calibration that goes on") {
+TEST_CASE("Threads do not matter to a calibration that goes on", "[threaded]") {
   const LodChain whole = calibrated(options_with(kNoStore, nullptr));
   const TemporaryFolder folder;
   Watcher watcher(6);

@@ -187,7 +187,7 @@ TEST_CASE("Friction on a skin takes what it says from the kinetic energy, grips 
   CHECK((left - contacts[0].normal.dot(left) * contacts[0].normal).norm() < 1e-12);
 }
 
-TEST_CASE("A base with the skin of its own is the base without, to the bit") {
+TEST_CASE("A base with the skin of its own is the base without, to the bit", "[long]") {
   const LodChain& chain = small_chain();
   const MassSpringModel& base = chain.levels[0].model;
   Scenario scene = small_scene(0.8);
@@ -370,7 +370,8 @@ TEST_CASE("Fast steps with a skin are those of the plain kernel, whatever the la
           Approx(plain.ledger.*part).margin(1e-8 * std::abs(plain.ledger.total())));
 }
 
-TEST_CASE("Fast steps with a skin give the same bits at any stride, on any number of threads") {
+TEST_CASE("Fast steps with a skin give the same bits at any stride, on any number of threads",
+          "[threaded]") {
   const LodChain chain = lod::simplify(two_material_block(33), {.levels = 1});
   const MassSpringModel& model = chain.levels[1].model;
   REQUIRE(model.node_count() > 16'000);  // worth two threads

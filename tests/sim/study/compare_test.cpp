@@ -48,7 +48,7 @@ class CountingProgress : public Progress {
 
 }  // namespace
 
-TEST_CASE("One and two threads give the same bits") {
+TEST_CASE("One and two threads give the same bits", "[threaded]") {
   CompareOptions options;
   options.starts = 3;
   options.variant = "hb";
