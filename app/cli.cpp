@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "scripting/suggest.hpp"
+#include "scripting/engine/suggest.hpp"
 
 namespace springlod {
 
@@ -51,8 +51,12 @@ std::string usage_text(const std::vector<StockCommand>& commands) {
   std::size_t width = 3;
   for (const StockCommand& command : commands) width = std::max(width, command.name.size());
   text += fmt::format("  {:<{}}  {}\n", "run", width, "Runs a script of yours.");
-  for (const StockCommand& command : commands)
-    text += fmt::format("  {:<{}}  {}\n", command.name, width, command.summary);
+  for (const bool study : {false, true}) {
+    if (study) text += "\nstudies, which measure the methods themselves:\n";
+    for (const StockCommand& command : commands)
+      if (command.study == study)
+        text += fmt::format("  {:<{}}  {}\n", command.name, width, command.summary);
+  }
   return text +
          "\nflags (--seed, --threads, -q and -v may stand after the command too):\n"
          "  -e CODE        run CODE\n"

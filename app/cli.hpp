@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "scripting/paths.hpp"
-#include "scripting/session.hpp"
+#include "scripting/engine/paths.hpp"
+#include "scripting/engine/session.hpp"
 
 namespace springlod {
 

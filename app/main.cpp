@@ -9,11 +9,11 @@
 #include <unistd.h>
 
 #include "app/cli.hpp"
-#include "model/error.hpp"
-#include "scripting/interrupt.hpp"
-#include "scripting/paths.hpp"
-#include "scripting/repl.hpp"
-#include "scripting/state.hpp"
+#include "base/error.hpp"
+#include "scripting/engine/interrupt.hpp"
+#include "scripting/engine/paths.hpp"
+#include "scripting/engine/repl.hpp"
+#include "scripting/engine/state.hpp"
 
 namespace {
 

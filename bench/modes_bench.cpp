@@ -2,9 +2,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "model/elastic_body.hpp"
-#include "model/modes.hpp"
-#include "model/static_loads.hpp"
+#include "elastic/elastic_body.hpp"
+#include "elastic/loads/static_loads.hpp"
+#include "elastic/modes.hpp"
 #include "voxelize/lattice.hpp"
 
 namespace {

@@ -9,12 +9,12 @@
 
 #include "lod/build.hpp"
 #include "lod/transfer.hpp"
-#include "model/asset.hpp"
+#include "model/asset/asset.hpp"
 #include "render/frames.hpp"
 #include "render/scene.hpp"
 #include "report/animate.hpp"
 #include "report/video.hpp"
-#include "sim/compare.hpp"
+#include "sim/study/compare.hpp"
 #include "voxelize/lattice.hpp"
 
 namespace {

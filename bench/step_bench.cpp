@@ -15,8 +15,8 @@
 #include "bench/naive_step.hpp"
 #include "bench/subjects.hpp"
 #include "bench/vector_limit.hpp"
-#include "sim/ensemble.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
+#include "sim/study/ensemble.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "bench/bodies.hpp"
 #include "bench/naive_step.hpp"
-#include "model/stable_step.hpp"
+#include "elastic/stable_step.hpp"
 
 namespace springlod::bench {
 namespace {

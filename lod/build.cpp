@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "lod/compact_groups.hpp"
-#include "lod/exact_count.hpp"
-#include "lod/metis_groups.hpp"
-#include "lod/rescale_moduli.hpp"
-#include "model/error.hpp"
+#include "base/error.hpp"
+#include "lod/calibration/rescale_moduli.hpp"
+#include "lod/grouping/compact_groups.hpp"
+#include "lod/grouping/exact_count.hpp"
+#include "lod/grouping/metis_groups.hpp"
 
 namespace springlod {
 namespace {

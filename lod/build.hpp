@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "lod/calibrate.hpp"
-#include "lod/grouping.hpp"
-#include "lod/guard.hpp"
-#include "lod/merge.hpp"
+#include "base/progress.hpp"
+#include "lod/calibration/calibrate.hpp"
+#include "lod/grouping/grouping.hpp"
+#include "lod/merging/guard.hpp"
+#include "lod/merging/merge.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 
 namespace springlod {
 

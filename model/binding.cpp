@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nanoflann.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 
 namespace springlod {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include "model/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
 namespace springlod {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "model/disjoint_sets.hpp"
-#include "model/error.hpp"
+#include "base/disjoint_sets.hpp"
+#include "base/error.hpp"
 
 namespace springlod {
 namespace {

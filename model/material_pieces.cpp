@@ -1,6 +1,6 @@
 #include "model/material_pieces.hpp"
 
-#include "model/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
 namespace springlod {
 

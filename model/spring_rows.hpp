@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/prefetch.hpp"
 #include "model/mass_spring.hpp"
-#include "model/prefetch.hpp"
 
 namespace springlod {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 
 namespace springlod {
 namespace {

@@ -6,7 +6,7 @@
 #include <GL/osmesa.h>
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "render/gl.hpp"
 
 namespace springlod {

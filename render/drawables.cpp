@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "render/node_values.hpp"
 #include "render/strain_colour.hpp"
 

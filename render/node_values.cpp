@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/estimate.hpp"
+#include "base/error.hpp"
+#include "elastic/moduli/estimate.hpp"
 #include "render/value_colour.hpp"
 
 namespace springlod {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "model/file.hpp"
+#include "base/file.hpp"
 #include "render/camera.hpp"
 #include "render/drawables.hpp"
 #include "render/gl.hpp"

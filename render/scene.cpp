@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "render/camera.hpp"
 #include "render/drawables.hpp"
 #include "render/node_values.hpp"

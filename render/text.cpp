@@ -11,7 +11,7 @@
 #define STBTT_STATIC
 #include <stb/stb_truetype.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "render/font_data.hpp"
 
 namespace springlod {

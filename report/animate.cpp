@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/units.hpp"
+#include "base/error.hpp"
+#include "base/units.hpp"
 #include "render/frame_writer.hpp"
 #include "render/frames.hpp"
 #include "report/playback.hpp"

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 #include "render/scene.hpp"
-#include "sim/compare.hpp"
+#include "sim/study/compare.hpp"
 
 namespace springlod {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "report/chart_layout.hpp"
 #include "report/csv.hpp"
 #include "report/gnuplot.hpp"

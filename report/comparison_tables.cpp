@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "report/statistics.hpp"
+#include "report/stats/statistics.hpp"
 
 namespace springlod {
 

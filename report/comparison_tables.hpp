@@ -4,7 +4,7 @@
 
 #include "model/chain.hpp"
 #include "report/csv.hpp"
-#include "sim/compare.hpp"
+#include "sim/study/compare.hpp"
 
 namespace springlod {
 

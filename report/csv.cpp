@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 
 namespace springlod {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
-#include "report/subprocess.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/subprocess.hpp"
 
 namespace springlod {
 

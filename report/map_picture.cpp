@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "report/chart_layout.hpp"
 
 namespace springlod {

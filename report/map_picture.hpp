@@ -4,7 +4,7 @@
 #include <string>
 
 #include "report/gnuplot.hpp"
-#include "sim/stability_map.hpp"
+#include "sim/study/stability_map.hpp"
 
 namespace springlod {
 

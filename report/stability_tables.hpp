@@ -3,7 +3,7 @@
 #include <string>
 
 #include "report/csv.hpp"
-#include "sim/stability_map.hpp"
+#include "sim/study/stability_map.hpp"
 
 namespace springlod {
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/subprocess.hpp"
 #include "render/frames.hpp"
 #include "report/csv.hpp"
-#include "report/subprocess.hpp"
 
 namespace springlod {
 namespace {

@@ -5,8 +5,8 @@
 -- mesh -> cells -> model -> levels -> a throw at a wall -> table, chart, film. ./dev demo runs it.
 
 local s = require "springlod"
-local paper_numbers = require "lib.paper_numbers"
-local paper_variants = require "lib.paper_variants"
+local paper_numbers = require "studies.paper.numbers"
+local paper_variants = require "studies.paper.variants"
 
 local folder = arg[1] or "out/demo"
 local samples = s.samples

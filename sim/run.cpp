@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "sim/integration.hpp"
+#include "base/error.hpp"
+#include "sim/run/integration.hpp"
 
 namespace springlod {
 namespace {
@@ -98,7 +98,7 @@ double measured_distance(const Scenario& scenario, const Vec3& first_center,
   if (obstacle == scenario.obstacles.end())
     throw InputError(fmt::format("scenario: measure_from = \"{}\" is the name of no obstacle",
                                  scenario.measure_from));
-  return surface_point(*obstacle, final_center).distance;
+  return surface_distance(*obstacle, final_center).distance;
 }
 
 Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x) {

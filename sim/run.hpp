@@ -6,14 +6,14 @@
 #include <optional>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/mass_spring.hpp"
-#include "model/progress.hpp"
-#include "sim/contact_skin.hpp"
+#include "sim/contact/contact_skin.hpp"
 #include "sim/fast/fast_model.hpp"
-#include "sim/integrator.hpp"
-#include "sim/ledger.hpp"
+#include "sim/integrators/integrator.hpp"
+#include "sim/integrators/ledger.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/scenario.hpp"
-#include "sim/step_limit.hpp"
 
 namespace springlod {
 

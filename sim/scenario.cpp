@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 
 namespace springlod {
 namespace {
@@ -55,11 +55,11 @@ void validate(const Throw& start) {
   require(start.spin.allFinite(), "start.spin", "finite");
 }
 
-SurfacePoint surface_point(const Plane& plane, const Vec3& point) {
+SurfaceDistance surface_distance(const Plane& plane, const Vec3& point) {
   return {plane.normal.dot(point) - plane.offset, plane.normal};
 }
 
-SurfacePoint surface_point(const SolidBox& box, const Vec3& point) {
+SurfaceDistance surface_distance(const SolidBox& box, const Vec3& point) {
   const Vec3 local = box.local(point);
   const Vec3 beyond = local.cwiseAbs() - box.half_size;
   Vec3 normal = Vec3::Zero();
@@ -116,8 +116,9 @@ State initial_state(const MassSpringModel& model, const Throw& start) {
   return state;
 }
 
-SurfacePoint surface_point(const Obstacle& obstacle, const Vec3& point) {
-  return std::visit([&](const auto& shape) { return surface_point(shape, point); }, obstacle.shape);
+SurfaceDistance surface_distance(const Obstacle& obstacle, const Vec3& point) {
+  return std::visit([&](const auto& shape) { return surface_distance(shape, point); },
+                    obstacle.shape);
 }
 
 }  // namespace springlod

@@ -70,10 +70,10 @@ void validate(const Scenario& scenario);
 State initial_state(const MassSpringModel& model, const Throw& start);
 
 /// Signed distance of a point from the obstacle's surface (negative inside) and the outward normal.
-struct SurfacePoint {
+struct SurfaceDistance {
   double distance = 0;
   Vec3 normal = Vec3::UnitZ();
 };
-SurfacePoint surface_point(const Obstacle& obstacle, const Vec3& point);
+SurfaceDistance surface_distance(const Obstacle& obstacle, const Vec3& point);
 
 }  // namespace springlod

@@ -19,7 +19,7 @@ CellFrame frame_of(const MaterialGrid& grid) {
 
 std::vector<float> measure_depth(const MaterialGrid& grid, const TriangleMesh& mesh) {
   const std::vector<std::uint32_t> labels(mesh.triangles.size(), 0);
-  const std::vector<SurfacePoint> nearest =
+  const std::vector<NearestPoint> nearest =
       nearest_surface(frame_of(grid), grid.cells, mesh.positions, mesh.triangles, labels);
   std::vector<float> depth;
   depth.reserve(grid.cells.size());

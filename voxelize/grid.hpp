@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/material.hpp"
 #include "model/mesh.hpp"
-#include "model/progress.hpp"
 
 namespace springlod {
 

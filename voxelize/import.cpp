@@ -17,8 +17,8 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 
 namespace springlod {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "voxelize/cell_material.hpp"
 #include "voxelize/corner_nodes.hpp"
 #include "voxelize/hinges.hpp"

@@ -136,7 +136,7 @@ class Search {
     }
   }
 
-  std::vector<SurfacePoint> take() { return std::move(found_); }
+  std::vector<NearestPoint> take() { return std::move(found_); }
 
  private:
   Eigen::Vector3f center(std::uint32_t n) const {
@@ -196,14 +196,14 @@ class Search {
   const CellFrame& frame_;
   const std::vector<CellIndex>& cells_;
   CellTable table_;
-  std::vector<SurfacePoint> found_;
+  std::vector<NearestPoint> found_;
   std::vector<float> squared_;
   std::vector<std::uint8_t> outer_;
 };
 
 }  // namespace
 
-std::vector<SurfacePoint> nearest_surface(const CellFrame& frame,
+std::vector<NearestPoint> nearest_surface(const CellFrame& frame,
                                           const std::vector<CellIndex>& cells,
                                           const std::vector<Vec3>& positions,
                                           const std::vector<Triangle>& triangles,

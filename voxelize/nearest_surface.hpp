@@ -9,7 +9,7 @@
 namespace springlod {
 
 /// What is known of the surface nearest to a cell's centre.
-struct SurfacePoint {
+struct NearestPoint {
   Eigen::Vector3f point;    ///< on the surface, in cells from the centre of cell (0, 0, 0)
   std::uint32_t label = 0;  ///< of its triangle
 };
@@ -20,7 +20,7 @@ struct SurfacePoint {
 /// their 26 neighbours' points (after Danielsson 1980), which on a sphere of 256 cells is at most
 /// 0.21 of a cell too far. `labels` has one entry a triangle (there is at least one); of two
 /// triangles equally near the one listed first counts.
-std::vector<SurfacePoint> nearest_surface(const CellFrame& frame,
+std::vector<NearestPoint> nearest_surface(const CellFrame& frame,
                                           const std::vector<CellIndex>& cells,
                                           const std::vector<Vec3>& positions,
                                           const std::vector<Triangle>& triangles,

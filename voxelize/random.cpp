@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
+#include "elastic/moduli/surface_stretch.hpp"
+#include "elastic/stiffness.hpp"
 #include "model/point_bins.hpp"
-#include "model/stiffness.hpp"
-#include "model/surface_stretch.hpp"
 #include "voxelize/random_nodes.hpp"
 #include "voxelize/random_springs.hpp"
 #include "voxelize/random_stiffness.hpp"

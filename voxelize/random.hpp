@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/progress.hpp"
 #include "model/mass_spring.hpp"
-#include "model/progress.hpp"
 #include "voxelize/grid.hpp"
 
 namespace springlod {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "model/chance.hpp"
-#include "model/error.hpp"
+#include "base/chance.hpp"
+#include "base/error.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/index_lookup.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/progress.hpp"
+#include "base/progress.hpp"
 #include "voxelize/grid.hpp"
 
 namespace springlod {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "model/chance.hpp"
-#include "model/error.hpp"
+#include "base/chance.hpp"
+#include "base/error.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/random_springs.hpp"
 #include "voxelize/random_stiffness.hpp"

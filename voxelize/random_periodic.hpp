@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "model/periodic.hpp"
+#include "elastic/moduli/periodic.hpp"
 
 namespace springlod {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/corner_nodes.hpp"
 #include "voxelize/index_lookup.hpp"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "model/chain.hpp"
-#include "model/progress.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/lattice.hpp"
 

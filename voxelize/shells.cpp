@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "model/disjoint_sets.hpp"
+#include "base/disjoint_sets.hpp"
 
 namespace springlod {
 namespace {

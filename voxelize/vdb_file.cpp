@@ -8,8 +8,8 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/TopologyToLevelSet.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "voxelize/distance_field.hpp"
 #include "voxelize/index_lookup.hpp"
 

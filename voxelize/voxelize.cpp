@@ -6,7 +6,7 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "voxelize/depth.hpp"
 #include "voxelize/frame.hpp"
 #include "voxelize/grid.hpp"
@@ -252,7 +252,7 @@ class Voxelizer {
     std::vector<CellIndex> cells;
     cells.reserve(places.size());
     for (const std::uint32_t c : places) cells.push_back(grid().cells[c]);
-    const std::vector<SurfacePoint> nearest =
+    const std::vector<NearestPoint> nearest =
         nearest_surface(frame_, cells, mesh_.positions, triangles, labels);
     for (std::size_t i = 0; i < places.size(); ++i)
       grid().material[places[i]] = of_part[nearest[i].label];

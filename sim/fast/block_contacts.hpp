@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "sim/contact.hpp"
+#include "sim/contact/contact.hpp"
+#include "sim/contact/tunnel_watch.hpp"
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/passage.hpp"
-#include "sim/tunnel_watch.hpp"
 
 namespace springlod {
 

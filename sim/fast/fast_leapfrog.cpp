@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "sim/contact_losses.hpp"
-#include "sim/kernel.hpp"
+#include "sim/contact/contact_losses.hpp"
+#include "sim/integrators/kernel.hpp"
 
 namespace springlod {
 namespace {

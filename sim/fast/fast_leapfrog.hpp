@@ -10,7 +10,7 @@
 #include "sim/fast/fast_model.hpp"
 #include "sim/fast/skin_contacts.hpp"
 #include "sim/fast/step_team.hpp"
-#include "sim/stepper.hpp"
+#include "sim/integrators/stepper.hpp"
 
 namespace springlod {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "sim/fast/block_order.hpp"
 
 namespace springlod {

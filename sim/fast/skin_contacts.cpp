@@ -110,7 +110,7 @@ void SkinContacts::press(const Step& step, std::size_t obstacle) {
     const std::optional<Contact> contact = finder_->find_one(obstacle, p, x, v);
     view.due[p] = travel_;
     if (!contact) {
-      view.due[p] += std::max(0.0, surface_point(thing, x).distance) / points_->reach(p);
+      view.due[p] += std::max(0.0, surface_distance(thing, x).distance) / points_->reach(p);
       continue;
     }
     contacts_.push_back(*contact);

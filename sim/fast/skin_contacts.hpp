@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "sim/contact.hpp"
-#include "sim/contact_points.hpp"
+#include "sim/contact/contact.hpp"
+#include "sim/contact/contact_points.hpp"
+#include "sim/contact/tunnel_watch.hpp"
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/passage.hpp"
-#include "sim/tunnel_watch.hpp"
 
 namespace springlod {
 

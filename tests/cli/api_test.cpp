@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "scripting/call.hpp"
-#include "scripting/help.hpp"
-#include "scripting/state.hpp"
+#include "scripting/engine/call.hpp"
+#include "scripting/engine/help.hpp"
+#include "scripting/engine/state.hpp"
 #include "tests/cli/program.hpp"
 
 using Catch::Matchers::Contains;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "model/asset.hpp"
+#include "model/asset/asset.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/model/sample_assets.hpp"
 

@@ -53,7 +53,7 @@ TEST_CASE("all figures of the paper are drawn, and none is blank") {
 TEST_CASE("the masses of figure 2 are those of the paper") {
   const Ran ran = springlod_run({"-q", "-e", R"(
     local s = require "springlod"
-    local figures = require "lib.paper_figures"
+    local figures = require "studies.paper.figures"
     for _, rule in ipairs {"proportional", "proximity"} do
       local chain = figures.row_of_nodes(rule)
       for level = 1, 2 do

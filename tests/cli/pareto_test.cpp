@@ -194,7 +194,7 @@ TEST_CASE("a start of many can be looked at alone, and a level's way held agains
 }
 
 TEST_CASE("a front holds what nothing beats, and intervals of few numbers are their own") {
-  CHECK(printed(R"(local front = require("lib.pareto_front")({{x = 2, y = 1}, {x = 1, y = 3},
+  CHECK(printed(R"(local front = require("studies.pareto.front")({{x = 2, y = 1}, {x = 1, y = 3},
     {x = 1, y = 2}, {x = 3, y = 0.995}, {x = 4, y = 0.5}, {x = 1.5, y = 2.5},
     {x = 5, y = 0.02}, {x = 6, y = 0}}, 0.1)
     for _, p in ipairs(front) do print(p.x, p.y) end)") == "1\t2\n2\t1\n4\t0.5\n5\t0.02\n");

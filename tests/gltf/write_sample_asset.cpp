@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "model/asset.hpp"
+#include "model/asset/asset.hpp"
 #include "tests/model/sample_assets.hpp"
 
 int main(int argc, char** argv) try {

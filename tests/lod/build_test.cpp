@@ -2,9 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.hpp"
+#include "elastic/zero_modes.hpp"
 #include "lod/transfer.hpp"
-#include "model/error.hpp"
-#include "model/zero_modes.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/support/models.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "tests/model/sample_models.hpp"
 
 namespace springlod {

@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
-#include "model/estimate.hpp"
+#include "base/error.hpp"
+#include "elastic/moduli/estimate.hpp"
 #include "render/camera.hpp"
 #include "render/drawables.hpp"
 #include "render/value_colour.hpp"

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "tests/render/bodies.hpp"
 #include "tests/render/golden.hpp"
 

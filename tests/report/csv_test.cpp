@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "tests/render/golden.hpp"
 
 using namespace springlod;

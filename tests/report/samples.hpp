@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "model/chance.hpp"
-#include "report/probability.hpp"
+#include "base/chance.hpp"
+#include "report/stats/probability.hpp"
 
 namespace springlod::test {
 

@@ -4,10 +4,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/subprocess.hpp"
 #include "render/frames.hpp"
-#include "report/subprocess.hpp"
 #include "tests/render/golden.hpp"
 #include "tests/report/programs.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "sim/scenario.hpp"
 #include "tests/sim/bodies.hpp"
 

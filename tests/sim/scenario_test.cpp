@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
+#include "base/error.hpp"
 #include "tests/sim/bodies.hpp"
 
 using namespace springlod;
@@ -95,7 +95,7 @@ TEST_CASE("The distance from a turned box is signed and its normal points away")
   box.rotation = Eigen::AngleAxisd(0.3, Vec3::UnitX()).toRotationMatrix();
   obstacle.shape = box;
   const auto at = [&](const Vec3& local) {
-    return surface_point(obstacle, box.center + box.rotation * local);
+    return surface_distance(obstacle, box.center + box.rotation * local);
   };
   CHECK(at({0, 0, 0.5}).distance == Approx(0.4));
   CHECK((at({0, 0, 0.5}).normal - box.rotation.col(2)).norm() < 1e-12);

@@ -6,8 +6,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "sim/step_limit.hpp"
-#include "sim/stepper.hpp"
+#include "sim/integrators/step_limit.hpp"
+#include "sim/integrators/stepper.hpp"
 #include "tests/sim/bodies.hpp"
 #include "voxelize/lattice.hpp"
 

@@ -9,8 +9,8 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "voxelize/solid.hpp"
 
 using namespace springlod;

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/stiffness.hpp"
-#include "model/zero_modes.hpp"
+#include "elastic/stiffness.hpp"
+#include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
 #include "voxelize/lattice.hpp"
 

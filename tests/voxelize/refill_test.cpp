@@ -2,9 +2,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "model/error.hpp"
-#include "model/stiffness.hpp"
-#include "model/zero_modes.hpp"
+#include "base/error.hpp"
+#include "elastic/stiffness.hpp"
+#include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
 
 namespace springlod {

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
-#include "model/error.hpp"
-#include "model/file.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "tests/voxelize/grids.hpp"
 #include "tests/voxelize/shapes.hpp"
 

@@ -1,0 +1,196 @@
+#include "elastic/loads/static_loads.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
+namespace springlod {
+namespace {
+
+/// The shifted factors precondition conjugate gradients so well (eigenvalues lambda / (lambda +
+/// sigma)) that the second step only corrects rounding; bars a thousand times as long as thick,
+/// whose bends are as soft as the shift, take some more.
+constexpr int kMostSteps = 30;
+/// Step over solution at which a load is solved.
+constexpr double kSolved = 1e-12;
+
+void check(const ElasticBody& body, const StaticLoad& load) {
+  if (load.force.size() != body.node_count)
+    throw InputError(fmt::format("static load {}: {} forces for {} nodes; give one a node",
+                                 load.name, load.force.size(), body.node_count));
+  for (std::size_t i = 0; i < load.force.size(); ++i)
+    if (!load.force[i].allFinite())
+      throw InputError(
+          fmt::format("static load {}: the force on node {} is not finite", load.name, i));
+}
+
+/// A load does not count as pushing at a zero mode if its part along it, over its size, is less
+/// than this: far above rounding in either.
+constexpr double kPushes = 1e-9;
+
+/// What the anchors of a body do not hold has no rest to go to.
+void check_held(const ElasticPart& part, const StaticLoad& load, const Eigen::VectorXd& force) {
+  const Eigen::VectorXd free = part.zero_modes.transpose() * force;
+  if (free.norm() <= kPushes * force.norm()) return;
+  const Eigen::VectorXd motion = (part.zero_modes * free).cwiseQuotient(part.root_mass);
+  Eigen::Index farthest = 0;
+  motion.reshaped(3, motion.size() / 3).colwise().norm().maxCoeff(&farthest);
+  throw InputError(fmt::format(
+      "static load {}: no spring resists it, and the anchors leave the part free to move with it, "
+      "most of all node {} (counted from 0); anchor more nodes: three that do not lie in a line "
+      "hold a solid part, and zero_modes tells what is loose",
+      load.name, part.nodes[static_cast<std::size_t>(farthest)]));
+}
+
+struct Solved {
+  Eigen::MatrixXd y;
+  Eigen::VectorXd last_step;  // squared norm, of each column
+};
+
+/// D y = force by conjugate gradients, each column by itself but preconditioned together, the first
+/// time as given.
+Solved iterate(const ElasticPart& part, const Eigen::MatrixXd& force, Eigen::MatrixXd direction,
+               double balance) {
+  Solved solved{Eigen::MatrixXd::Zero(force.rows(), force.cols()),
+                Eigen::VectorXd::Zero(force.cols())};
+  Eigen::MatrixXd rest = force;
+  Eigen::VectorXd work = rest.cwiseProduct(direction).colwise().sum();
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::MatrixXd product = part.stiffness * direction;
+    bool done = true;
+    for (Eigen::Index c = 0; c < force.cols(); ++c) {
+      const double energy = direction.col(c).dot(product.col(c));
+      const double length = energy > 0 ? work[c] / energy : 0;
+      solved.last_step[c] = length * length * direction.col(c).squaredNorm();
+      solved.y.col(c) += length * direction.col(c);
+      rest.col(c) -= length * product.col(c);
+      done = done && (solved.last_step[c] <= kSolved * kSolved * solved.y.col(c).squaredNorm() ||
+                      rest.col(c).norm() <= balance * force.col(c).norm());
+    }
+    if (done) break;
+    const Eigen::MatrixXd preconditioned = part.solve_shifted(rest);
+    const Eigen::VectorXd next = rest.cwiseProduct(preconditioned).colwise().sum();
+    for (Eigen::Index c = 0; c < force.cols(); ++c)
+      direction.col(c) =
+          preconditioned.col(c) + (work[c] > 0 ? next[c] / work[c] : 0) * direction.col(c);
+    work = next;
+  }
+  return solved;
+}
+
+Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force, double balance) {
+  Eigen::MatrixXd y = part.solve_shifted(force);
+  // What is out of balance, force - D y = shift y, is known without another product. Most bodies
+  // are so much stiffer than the shift that nothing is left to do.
+  const Eigen::VectorXd left = part.shift * y.colwise().norm();
+  const Eigen::VectorXd allowed = balance * force.colwise().norm();
+  if ((left.array() > allowed.array()).any()) return iterate(part, force, std::move(y), balance);
+  return {std::move(y), Eigen::VectorXd::Zero(force.cols())};
+}
+
+/// Sums of squares over the parts, for each load.
+struct Sizes {
+  Eigen::VectorXd solution, last_step;
+};
+
+void solve_part(const ElasticPart& part, bool anchored, const std::vector<StaticLoad>& loads,
+                double balance, std::vector<StaticSolution>& solutions, Sizes& sizes) {
+  const auto count = static_cast<Eigen::Index>(loads.size());
+  Eigen::MatrixXd force(part.unknowns(), count);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const StaticLoad& load = loads[static_cast<std::size_t>(c)];
+    force.col(c) = part.gather(load.force).cwiseQuotient(part.root_mass);
+    if (anchored) check_held(part, load, force.col(c));
+  }
+  part.remove_zero_modes(force);
+  const auto [y, last_step] = solve_balanced(part, force, balance);
+  sizes.solution += y.colwise().squaredNorm().transpose();
+  sizes.last_step += last_step;
+  for (Eigen::Index c = 0; c < count; ++c) {
+    StaticSolution& solution = solutions[static_cast<std::size_t>(c)];
+    part.scatter(y.col(c).cwiseQuotient(part.root_mass), solution.displacement);
+    solution.compliance += force.col(c).dot(y.col(c));
+  }
+}
+
+/// Forces f_i = V_i field(r_i), scaled so that their amounts add up to 1 N.
+template <class Field>
+StaticLoad load_of(const MassSpringModel& model, const Vec3& center, std::string name,
+                   const Field& field) {
+  StaticLoad load{std::move(name), {}};
+  double sum = 0;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    load.force.emplace_back(model.volume[i] * field((model.rest[i] - center).eval()));
+    sum += load.force.back().norm();
+  }
+  if (sum > 0)
+    for (Vec3& force : load.force) force /= sum;
+  return load;
+}
+
+}  // namespace
+
+std::vector<StaticLoad> smooth_loads(const MassSpringModel& model) {
+  Vec3 center = Vec3::Zero();
+  double volume = 0;
+  Box3 box;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    center += model.volume[i] * model.rest[i];
+    volume += model.volume[i];
+    if (model.volume[i] > 0) box.extend(model.rest[i]);
+  }
+  center /= volume;
+  Eigen::Index longest = 0;
+  box.sizes().maxCoeff(&longest);
+
+  constexpr std::array kName{'x', 'y', 'z'};
+  const auto name = [&](Eigen::Index d) { return kName[static_cast<std::size_t>(d)]; };
+  std::vector<StaticLoad> loads;
+  for (Eigen::Index d = 0; d < 3; ++d)
+    loads.push_back(load_of(model, center, fmt::format("stretch {}", name(d)),
+                            [d](const Vec3& r) -> Vec3 { return r[d] * Vec3::Unit(d); }));
+  for (Eigen::Index d = 0; d < 3; ++d) {
+    const Eigen::Index e = d == 0 ? 1 : 0, f = d == 2 ? 1 : 2;
+    loads.push_back(load_of(
+        model, center, fmt::format("shear {}{}", name(e), name(f)),
+        [e, f](const Vec3& r) -> Vec3 { return r[e] * Vec3::Unit(f) + r[f] * Vec3::Unit(e); }));
+  }
+  for (Eigen::Index across = 0; across < 3; ++across) {
+    if (across == longest) continue;
+    // Pulls along one side and pushes along the other: a bending moment largest in the middle.
+    loads.push_back(load_of(model, center,
+                            fmt::format("bend {} to {}", name(longest), name(across)),
+                            [longest, across](const Vec3& r) -> Vec3 {
+                              return r[longest] * r[across] * Vec3::Unit(longest);
+                            }));
+  }
+  loads.push_back(load_of(
+      model, center, fmt::format("twist {}", name(longest)),
+      [longest](const Vec3& r) -> Vec3 { return r[longest] * Vec3::Unit(longest).cross(r); }));
+  return loads;
+}
+
+std::vector<StaticSolution> solve_static(const ElasticBody& body,
+                                         const std::vector<StaticLoad>& loads,
+                                         const StaticOptions& options) {
+  for (const StaticLoad& load : loads) check(body, load);
+  std::vector<StaticSolution> solutions(loads.size());
+  if (loads.empty()) return solutions;
+  for (StaticSolution& solution : solutions)
+    solution.displacement.assign(body.node_count, Vec3::Zero());
+  const auto count = static_cast<Eigen::Index>(loads.size());
+  Sizes sizes{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
+  for (const ElasticPart& part : body.parts)
+    solve_part(part, !body.anchored.empty(), loads, options.balance, solutions, sizes);
+  for (Eigen::Index c = 0; c < count; ++c)
+    if (sizes.solution[c] > 0)
+      solutions[static_cast<std::size_t>(c)].residual =
+          std::sqrt(sizes.last_step[c] / sizes.solution[c]);
+  return solutions;
+}
+
+}  // namespace springlod

@@ -1,0 +1,92 @@
+#include "elastic/moduli/periodic.hpp"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
+namespace springlod {
+namespace {
+
+/// Relative residual of the solution; the moduli come out to twice as many digits.
+constexpr double kTolerance = 1e-7;
+constexpr Eigen::Index kMaxSteps = 20000;
+
+using Strain = Eigen::Matrix<double, 6, 1>;  // xx, yy, zz, yz, zx, xy (engineering shears)
+
+/// Lengthening of a spring for each strain: u . strain . u L.
+Strain lengthening(const Vec3& u, double length) {
+  Strain e;
+  e << u.x() * u.x(), u.y() * u.y(), u.z() * u.z(), u.y() * u.z(), u.z() * u.x(), u.x() * u.y();
+  return length * e;
+}
+
+void require_sizes(const PeriodicNetwork& n) {
+  const std::size_t springs = n.a.size();
+  if (n.b.size() != springs || n.span.size() != springs || n.stiffness.size() != springs)
+    throw InputError(
+        fmt::format("periodic network: every spring array must have {} entries", springs));
+  for (std::size_t s = 0; s < springs; ++s)
+    if (n.a[s] >= n.rest.size() || n.b[s] >= n.rest.size())
+      throw InputError(
+          fmt::format("periodic network: spring {} names a node that is not there", s));
+}
+
+}  // namespace
+
+PeriodicModuli periodic_stretch(const PeriodicNetwork& network) {
+  require_sizes(network);
+  const auto rows = 3 * static_cast<Eigen::Index>(network.rest.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(36 * network.a.size());
+  const auto add_block = [&](std::uint32_t i, std::uint32_t j, const Mat3& block) {
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        entries.emplace_back(static_cast<int>(3 * i) + r, static_cast<int>(3 * j) + c, block(r, c));
+  };
+  Eigen::Matrix<double, 6, 6> energy = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, Eigen::Dynamic, 6> force =
+      Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(rows, 6);
+  double work = 0;
+  for (std::size_t s = 0; s < network.a.size(); ++s) {
+    const double length = network.span[s].norm();
+    const Vec3 u = network.span[s] / length;
+    const double k = network.stiffness[s];
+    const Mat3 block = k * u * u.transpose();
+    add_block(network.a[s], network.a[s], block);
+    add_block(network.b[s], network.b[s], block);
+    add_block(network.a[s], network.b[s], -block);
+    add_block(network.b[s], network.a[s], -block);
+    const Strain e = lengthening(u, length);
+    energy += k * e * e.transpose();
+    force.middleRows<3>(3 * static_cast<Eigen::Index>(network.a[s])) += k * u * e.transpose();
+    force.middleRows<3>(3 * static_cast<Eigen::Index>(network.b[s])) -= k * u * e.transpose();
+    work += k * length * length;
+  }
+  Eigen::SparseMatrix<double, Eigen::RowMajor> stiffness(rows, rows);
+  stiffness.setFromTriplets(entries.begin(), entries.end());
+  // Singular (the whole may be shifted), but the forces balance.
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>,
+                           Eigen::Lower | Eigen::Upper>
+      solver(stiffness);
+  solver.setTolerance(kTolerance);
+  solver.setMaxIterations(kMaxSteps);
+  for (int e = 0; e < 6; ++e) {
+    const Eigen::VectorXd moved = solver.solve(force.col(e));
+    if (solver.info() != Eigen::Success)
+      throw InputError(fmt::format("periodic stretch: not solved after {} steps (residual {:.1e})",
+                                   solver.iterations(), solver.error()));
+    energy.col(e) -= force.transpose() * moved;
+  }
+  const double volume = network.box.prod();
+  const Eigen::Matrix<double, 6, 6> c = energy / volume;
+  const double straight = c(0, 0) + c(1, 1) + c(2, 2);
+  const double crossed = c(0, 1) + c(0, 2) + c(1, 2);
+  const double bulk = (straight + 2 * crossed) / 9;
+  const double shear = (straight - crossed + 3 * (c(3, 3) + c(4, 4) + c(5, 5))) / 15;
+  return {9 * bulk * shear / (3 * bulk + shear), (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear),
+          work / (6 * volume)};
+}
+
+}  // namespace springlod

@@ -1,0 +1,113 @@
+#include "elastic/moduli/surface_stretch.hpp"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "elastic/stiffness.hpp"
+
+namespace springlod {
+namespace {
+
+/// Relative residual of the solution; the moduli come out to more digits than that.
+constexpr double kTolerance = 1e-7;
+constexpr Eigen::Index kMaxSteps = 20000;
+
+/// Takes from the forces of each connected part the push and the turn they leave on it: areas
+/// shared out among nodes balance only nearly.
+void balance(const MassSpringModel& model, const Components& parts, Eigen::VectorXd& force) {
+  struct Part {
+    double nodes = 0;
+    Vec3 centre = Vec3::Zero(), push = Vec3::Zero(), torque = Vec3::Zero();
+    Mat3 inertia = Mat3::Zero();
+    Vec3 turn = Vec3::Zero();
+  };
+  std::vector<Part> all(parts.count);
+  const auto at = [](std::uint32_t i) { return 3 * static_cast<Eigen::Index>(i); };
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    Part& part = all[parts.of_node[i]];
+    part.nodes += 1;
+    part.centre += model.rest[i];
+    part.push += force.segment<3>(at(i));
+  }
+  for (Part& part : all) {
+    part.centre /= part.nodes;
+    part.push /= part.nodes;
+  }
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    Part& part = all[parts.of_node[i]];
+    const Vec3 r = model.rest[i] - part.centre;
+    part.torque += r.cross(force.segment<3>(at(i)));
+    part.inertia += r.squaredNorm() * Mat3::Identity() - r * r.transpose();
+  }
+  for (Part& part : all)
+    part.turn = part.inertia.completeOrthogonalDecomposition().solve(part.torque);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    const Part& part = all[parts.of_node[i]];
+    force.segment<3>(at(i)) -= part.push + part.turn.cross(model.rest[i] - part.centre);
+  }
+}
+
+/// Mean gradient of a displacement field: the affine field nearest to it, nodes weighted by volume.
+/// Unlike the work of the tractions it does not mind how unevenly these are shared among nodes.
+Mat3 mean_gradient(const MassSpringModel& model, const Eigen::VectorXd& moved) {
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
+  const MassProperties whole = mass_properties(model);
+  const double size = std::cbrt(whole.volume);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    Eigen::Vector4d row;
+    row << 1, (model.rest[i] - whole.center) / size;
+    normal += model.volume[i] * row * row.transpose();
+    right += model.volume[i] * row * moved.segment<3>(3 * static_cast<Eigen::Index>(i)).transpose();
+  }
+  return normal.ldlt().solve(right).bottomRows<3>().transpose() / size;
+}
+
+}  // namespace
+
+SurfaceStretchResult surface_stretch(const MassSpringModel& model,
+                                     const std::vector<Vec3>& surface) {
+  if (surface.size() != model.rest.size())
+    throw InputError(
+        fmt::format("surface stretch: {} areas for {} nodes", surface.size(), model.rest.size()));
+  const Components parts = connected_components(model);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> stiffness = stiffness_matrix(model);
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>,
+                           Eigen::Lower | Eigen::Upper>
+      solver(stiffness);
+  solver.setTolerance(kTolerance);
+  solver.setMaxIterations(kMaxSteps);
+
+  const double volume = mass_properties(model).volume;
+  double stretch = 0;      // sum of strain along the pull over stress: 3 / E
+  double contraction = 0;  // 6 nu / E
+  for (int d = 0; d < 3; ++d) {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(stiffness.rows());
+    for (std::size_t i = 0; i < surface.size(); ++i)
+      force[3 * static_cast<Eigen::Index>(i) + d] = surface[i][d];
+    balance(model, parts, force);
+    double virial = 0;
+    for (std::size_t i = 0; i < surface.size(); ++i)
+      virial += force[3 * static_cast<Eigen::Index>(i) + d] * model.rest[i][d];
+    if (!(virial > 0))
+      throw InputError("surface stretch: the areas do not close a surface around the nodes");
+    // Singular, but the forces balance: conjugate gradients keep out of the rigid motions.
+    const Eigen::VectorXd moved = solver.solve(force);
+    if (solver.info() != Eigen::Success)
+      throw InputError(
+          fmt::format("surface stretch: not solved after {} steps (residual {:.1e}); zero_modes "
+                      "tells whether the model is solid",
+                      solver.iterations(), solver.error()));
+    const Vec3 strain = mean_gradient(model, moved).diagonal() * volume / virial;
+    stretch += strain[d];
+    contraction -= strain.sum() - strain[d];
+  }
+  return {3 / stretch, contraction / 2 / stretch};
+}
+
+}  // namespace springlod

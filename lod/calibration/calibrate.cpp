@@ -1,0 +1,258 @@
+#include "lod/calibration/calibrate.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "lod/calibration/calibration_store.hpp"
+#include "lod/calibration/long_springs.hpp"
+#include "lod/calibration/second_moments.hpp"
+#include "model/anchors.hpp"
+#include "model/parts.hpp"
+
+namespace springlod {
+namespace {
+
+/// A part of the base with its targets.
+struct PartTargets {
+  ModelPart part;
+  ElasticTargets targets;
+};
+
+/// The nodes of a part among some of the model's, as the part numbers them.
+std::vector<std::uint32_t> nodes_of_part(const ModelPart& part,
+                                         const std::vector<std::uint8_t>& chosen) {
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t i = 0; i < part.nodes.size(); ++i)
+    if (chosen[part.nodes[i]] != 0) nodes.push_back(i);
+  return nodes;
+}
+
+void require_surface(const MassSpringModel& base, const TargetOptions& options) {
+  for (std::size_t r = 0; r < options.regions.size(); ++r) {
+    for (const std::uint32_t node : options.regions[r].nodes)
+      if (node >= base.node_count())
+        throw InputError(
+            fmt::format("calibration: region {} names node {}; there are {}, counted from 0", r + 1,
+                        node, base.node_count()));
+    if (movable_nodes(base, options.regions[r], options.anchored).empty())
+      throw InputError(
+          fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
+                      "free to move; name nodes of the surface, beside the anchored ones",
+                      options.regions[r].nodes.size(), r + 1));
+  }
+}
+
+/// The options for a part of the base: its own anchored nodes and regions.
+TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint8_t>& anchored,
+                              const std::vector<std::vector<std::uint8_t>>& regions,
+                              const CalibrateOptions& options) {
+  TargetOptions of_part = options.targets;
+  of_part.threads = options.threads;
+  of_part.progress = options.progress;
+  of_part.anchored = nodes_of_part(part, anchored);
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    of_part.regions[r].nodes = nodes_of_part(part, regions[r]);
+  return of_part;
+}
+
+BaseAnswers answers_of(const MassSpringModel& part, std::size_t number,
+                       const TargetOptions& options, const std::vector<LoadTarget>& asked,
+                       const CalibrationStore* store) {
+  if (store == nullptr) return measure_base(part, options, asked);
+  const std::string fingerprint = fingerprint_of(part, options);
+  if (std::optional<BaseAnswers> kept = store->answers(number, fingerprint)) return *kept;
+  BaseAnswers answers = measure_base(part, options, asked);
+  store->keep(number, fingerprint, answers);
+  return answers;
+}
+
+std::vector<PartTargets> measure_parts(const MassSpringModel& base, const CalibrateOptions& options,
+                                       const CalibrationStore* store) {
+  require_surface(base, options.targets);
+  const std::vector<std::uint8_t> anchored = anchor_flags(base, options.targets.anchored);
+  std::vector<std::vector<std::uint8_t>> regions;
+  for (const TargetRegion& region : options.targets.regions)
+    regions.push_back(anchor_flags(base, region.nodes));
+  std::vector<PartTargets> all;
+  for (ModelPart& part : split_parts(base, connected_components(base))) {
+    const TargetOptions of_part = options_of_part(part, anchored, regions, options);
+    std::vector<LoadTarget> asked = asked_loads(part.model, of_part);
+    const BaseAnswers answers = answers_of(part.model, all.size(), of_part, asked, store);
+    ElasticTargets targets = targets_of(part.model, of_part, std::move(asked), answers);
+    all.push_back({std::move(part), std::move(targets)});
+  }
+  return all;
+}
+
+/// Nodes of a part of the base -> nodes of the part of the level that they went into.
+Groups groups_of_part(const ModelPart& base, const ModelPart& level, const Groups& of_base) {
+  Groups groups{{}, level.model.node_count()};
+  std::vector<std::uint32_t> place(of_base.count);
+  for (std::uint32_t i = 0; i < level.nodes.size(); ++i) place[level.nodes[i]] = i;
+  for (const std::uint32_t node : base.nodes) groups.of.push_back(place[of_base.of[node]]);
+  return groups;
+}
+
+void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpringModel& level) {
+  for (std::size_t i = 0; i < part.nodes.size(); ++i) level.mass[part.nodes[i]] = fitted.mass[i];
+  for (std::size_t s = 0; s < part.springs.size(); ++s) {
+    level.stiffness[part.springs[s]] = fitted.stiffness[s];
+    level.damping[part.springs[s]] = fitted.damping[s];
+  }
+}
+
+/// Keeps the state of one fit, now and then.
+class FitKeeper {
+ public:
+  FitKeeper(const CalibrationStore& store, std::size_t level, std::size_t part,
+            std::string fingerprint)
+      : store_(store), level_(level), part_(part), fingerprint_(std::move(fingerprint)) {}
+
+  std::optional<FitState> kept() const { return store_.fit(level_, part_, fingerprint_); }
+
+  /// True if it was due.
+  bool offer(const FitState& state) {
+    if (!state.finished && Clock::now() < due_) return false;
+    keep(state);
+    return true;
+  }
+
+  void keep(const FitState& state) {
+    store_.keep(level_, part_, fingerprint_, state);
+    due_ = Clock::now() + kEvery;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  /// As much as a user minds losing to a power cut; a state is some megabytes.
+  static constexpr std::chrono::seconds kEvery{2};
+
+  const CalibrationStore& store_;
+  std::size_t level_, part_;
+  std::string fingerprint_;
+  Clock::time_point due_ = Clock::now() + kEvery;
+};
+
+std::string detail_of(std::size_t level, const FitState& state, double base_frequency) {
+  constexpr double kPercent = 100;
+  std::string text = fmt::format("level {}, step {}: f1..10 off by {:.2g} %", level,
+                                 state.iteration, kPercent * state.frequency_error);
+  if (state.best_frequency > 0)
+    text += fmt::format(", omega_max {:.2f} of the base's", state.best_frequency / base_frequency);
+  return text;
+}
+
+class Calibrator {
+ public:
+  Calibrator(LodChain& chain, const CalibrateOptions& options) : chain_(chain), options_(options) {
+    if (!options.store.empty()) store_.emplace(options.store, options.progress);
+    base_ = measure_parts(chain.levels.front().model, options, store_ ? &*store_ : nullptr);
+  }
+
+  void run() {
+    const std::size_t levels = chain_.levels.size() - 1;
+    std::uint64_t steps = 0;
+    for (std::size_t level = 1; level <= levels; ++level) steps += steps_of(level) * base_.size();
+    Task task(options_.progress, "calibrating", steps);
+    try {
+      run_jobs(levels, options_.threads,
+               [&](std::uint64_t job, const std::function<bool()>& stopped) {
+                 fit_level(job + 1, stopped, task);
+               });
+    } catch (const InterruptedError&) {
+      if (store_ && !said_) say_where();
+      throw;
+    }
+  }
+
+ private:
+  void fit_level(std::size_t number, const std::function<bool()>& stopped, Task& task) {
+    Level& level = chain_.levels[number];
+    restore_second_moments(chain_.levels.front().model, level.of_base, level.model);
+    favour_long_springs(level.model);
+    const Components components = connected_components(level.model);
+    const std::vector<ModelPart> parts = split_parts(level.model, components);
+    for (std::size_t p = 0; p < base_.size(); ++p) {
+      const PartTargets& of_base = base_[p];
+      const std::uint32_t first = level.of_base.of[of_base.part.nodes.front()];
+      const ModelPart& part = parts[components.of_node[first]];
+      if (part.springs.empty()) {
+        task.advance(steps_of(number));
+        continue;
+      }
+      const Groups groups = groups_of_part(of_base.part, part, level.of_base);
+      write_back(part, fit(number, p, part.model, groups, stopped, task), level.model);
+    }
+  }
+
+  MassSpringModel fit(std::size_t level, std::size_t part, const MassSpringModel& start,
+                      const Groups& groups, const std::function<bool()>& stopped, Task& task) {
+    const ElasticTargets& targets = base_[part].targets;
+    FitOptions options = options_.fit;
+    options.iterations = steps_of(level);
+    options.threads = options_.threads;
+    std::optional<FitKeeper> keeper;
+    if (store_) {
+      keeper.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options));
+      options.from = keeper->kept();
+    }
+    std::uint32_t told = 0;  // steps that the task knows of
+    const auto tell = [&](const FitState& state) {
+      if (stopped()) throw InterruptedError();
+      task.detail(detail_of(level, state, targets.highest_frequency));
+      const std::uint32_t done = state.finished ? options.iterations : state.iteration;
+      task.advance(done - std::exchange(told, done));
+    };
+    if (options.from) {
+      if (!resumed_.exchange(true))
+        say(fmt::format("calibration: goes on from what is kept in {}", store_->folder().string()));
+      tell(*options.from);
+    }
+    options.on_iteration = [&](const FitState& state) {
+      try {
+        tell(state);
+      } catch (const InterruptedError&) {
+        if (keeper) keeper->keep(state);
+        throw;
+      }
+      if (keeper && keeper->offer(state) && !state.finished && !said_.exchange(true)) say_where();
+    };
+    return fit_part(start, groups, targets, options);
+  }
+
+  /// At most, of each part.
+  std::uint32_t steps_of(std::size_t level) const {
+    return fit_steps(options_.fit, chain_.levels[level].model.node_count());
+  }
+
+  void say_where() const {
+    say(
+        fmt::format("calibration: its state is kept in {}; if it is stopped, the same call goes on "
+                    "from there",
+                    store_->folder().string()));
+  }
+  void say(const std::string& text) const {
+    if (options_.progress != nullptr) options_.progress->say(text);
+  }
+
+  LodChain& chain_;
+  const CalibrateOptions& options_;
+  std::optional<CalibrationStore> store_;
+  std::vector<PartTargets> base_;
+  std::atomic<bool> said_{false}, resumed_{false};
+};
+
+}  // namespace
+
+void calibrate(LodChain& chain, const CalibrateOptions& options) {
+  Calibrator(chain, options).run();
+}
+
+}  // namespace springlod

@@ -1,0 +1,227 @@
+#include "lod/calibration/calibration_store.hpp"
+
+#include <span>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "lod/calibration/packed.hpp"
+
+namespace springlod {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// To be raised whenever a fit would go another way from the same state, or a file look otherwise:
+/// what an older program kept is then not used.
+constexpr std::uint32_t kFormat = 2;
+constexpr std::size_t kChecksumSize = 16;  // of content_hash [bytes]
+
+const char* const kAbout =
+    "What a calibration of springlod has found so far. The call that was stopped goes on from here "
+    "when it is made again; without this folder it begins anew.\n";
+
+void pack(Packer& to, const MassSpringModel& model) {
+  to.add(model.rest);
+  to.add(model.mass);
+  to.add(model.volume);
+  to.add(model.border);
+  to.add(model.material);
+  to.add(model.a);
+  to.add(model.b);
+  to.add(model.rest_length);
+  to.add(model.stiffness);
+  to.add(model.damping);
+}
+
+template <class Number>
+requires std::is_arithmetic_v<Number>
+void pack(Packer& to, Number number) {
+  to.add(number);
+}
+
+template <class Number>
+requires std::is_arithmetic_v<Number>
+void take(Unpacker& from, Number& number) {
+  number = from.take<Number>();
+}
+
+void pack(Packer& to, const FitPoint& point) {
+  to.add(std::span<const double>(point.theta.data(), static_cast<std::size_t>(point.theta.size())));
+  to.add(point.mass);
+}
+
+void take(Unpacker& from, FitPoint& point) {
+  const std::vector<double> theta = from.take_list<double>();
+  point.theta =
+      Eigen::Map<const Eigen::VectorXd>(theta.data(), static_cast<Eigen::Index>(theta.size()));
+  point.mass = from.take_list<double>();
+}
+
+void pack(Packer& to, const std::optional<FitPoint>& point) {
+  to.add(point.has_value());
+  if (point) pack(to, *point);
+}
+
+void take(Unpacker& from, std::optional<FitPoint>& point) {
+  if (from.take<bool>()) take(from, point.emplace());
+}
+
+/// Visits all that a state is, in the order in which it stands in a file.
+template <class State, class Visit>
+void visit_members(State& state, const Visit& visit) {
+  visit(state.iteration);
+  visit(state.tries);
+  visit(state.finished);
+  visit(state.limit);
+  visit(state.damping);
+  visit(state.tighten);
+  visit(state.now);
+  visit(state.best);
+  visit(state.best_frequency);
+  visit(state.frequency_error);
+}
+
+std::string name_of_answers(std::size_t part) {
+  return fmt::format("base-part-{}", part + 1);
+}
+
+std::string name_of_fit(std::size_t level, std::size_t part) {
+  return fmt::format("level-{}-part-{}", level, part + 1);
+}
+
+}  // namespace
+
+std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options) {
+  Packer all;
+  pack(all, base_part);
+  all.add(options.modes);
+  all.add(options.smooth_loads);
+  all.add(patch_count(options, base_part.node_count()));
+  all.add(options.seed);
+  all.add(options.anchored);
+  for (const TargetRegion& region : options.regions) {
+    all.add(region.nodes);
+    all.add(region.patches);
+  }
+  return content_hash(all.bytes());
+}
+
+std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel& level_part,
+                           const Groups& of_base, const FitOptions& options) {
+  Packer all;
+  all.add(targets.squared_frequency);
+  all.add(targets.mode_weight);
+  for (const LoadTarget& target : targets.loads) {
+    all.add(static_cast<int>(target.kind));
+    all.add(target.load.force);
+    all.add(target.compliance);
+    all.add(target.weight);
+  }
+  all.add(targets.highest_frequency);
+  all.add(targets.nodes);
+  all.add(targets.anchored);
+  pack(all, level_part);
+  all.add(of_base.of);
+  all.add(of_base.count);
+  all.add(options.iterations);
+  all.add(options.tolerance);
+  all.add(options.least_frequency);
+  all.add(static_cast<int>(options.moments));
+  return content_hash(all.bytes());
+}
+
+CalibrationStore::CalibrationStore(fs::path folder, Progress* progress)
+    : folder_(std::move(folder)), progress_(progress) {
+  try {
+    write_text_file(folder_ / "about.txt", kAbout);
+  } catch (const IoError& error) {
+    throw IoError(
+        fmt::format("calibration: its state cannot be kept in {}: {}; name a folder that can be "
+                    "written to, or none",
+                    folder_.string(), error.what()));
+  }
+}
+
+std::optional<BaseAnswers> CalibrationStore::answers(std::size_t part,
+                                                     const std::string& fingerprint) const {
+  const std::optional<std::string> payload = read(name_of_answers(part), fingerprint);
+  if (!payload) return std::nullopt;
+  Unpacker from(*payload);
+  BaseAnswers answers;
+  answers.squared_frequency = from.take_list<double>();
+  answers.compliance = from.take_list<double>();
+  answers.highest_frequency = from.take<double>();
+  return answers;
+}
+
+void CalibrationStore::keep(std::size_t part, const std::string& fingerprint,
+                            const BaseAnswers& answers) const {
+  Packer to;
+  to.add(answers.squared_frequency);
+  to.add(answers.compliance);
+  to.add(answers.highest_frequency);
+  write(name_of_answers(part), fingerprint, to.bytes());
+}
+
+std::optional<FitState> CalibrationStore::fit(std::size_t level, std::size_t part,
+                                              const std::string& fingerprint) const {
+  const std::optional<std::string> payload = read(name_of_fit(level, part), fingerprint);
+  if (!payload) return std::nullopt;
+  Unpacker from(*payload);
+  FitState state;
+  visit_members(state, [&](auto& member) { take(from, member); });
+  return state;
+}
+
+void CalibrationStore::keep(std::size_t level, std::size_t part, const std::string& fingerprint,
+                            const FitState& state) const {
+  Packer to;
+  visit_members(state, [&](const auto& member) { pack(to, member); });
+  write(name_of_fit(level, part), fingerprint, to.bytes());
+}
+
+fs::path CalibrationStore::place(const std::string& name) const {
+  return folder_ / (name + ".bin");
+}
+
+std::optional<std::string> CalibrationStore::read(const std::string& name,
+                                                  const std::string& fingerprint) const {
+  std::error_code error;
+  if (!fs::exists(place(name), error)) return std::nullopt;
+  const auto refuse = [&](const char* why) {
+    if (progress_ != nullptr)
+      progress_->say(
+          fmt::format("calibration: {} {}; that part begins anew", place(name).string(), why));
+    return std::nullopt;
+  };
+  const std::string bytes = read_file(place(name));
+  const std::size_t size = bytes.size() < kChecksumSize ? 0 : bytes.size() - kChecksumSize;
+  const std::string_view body = std::string_view(bytes).substr(0, size);
+  if (size == 0 || bytes.substr(size) != content_hash(body)) return refuse("is damaged");
+  try {
+    Unpacker from(body);
+    if (from.take<std::uint32_t>() != kFormat) return refuse("is by another version of springlod");
+    if (from.take_text() != fingerprint)
+      return refuse("is of another base, another level or other options");
+    return from.take_text();
+  } catch (const IoError&) {
+    return refuse("is damaged");
+  }
+}
+
+void CalibrationStore::write(const std::string& name, const std::string& fingerprint,
+                             const std::string& payload) const {
+  Packer file;
+  file.add(kFormat);
+  file.add(std::string_view(fingerprint));
+  file.add(std::string_view(payload));
+  write_text_file(place(name), file.bytes() + content_hash(file.bytes()));
+}
+
+}  // namespace springlod

@@ -1,0 +1,160 @@
+#include "lod/calibration/elastic_targets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "elastic/loads/local_loads.hpp"
+#include "elastic/loads/piece_loads.hpp"
+#include "elastic/modes.hpp"
+#include "elastic/stable_step.hpp"
+#include "model/anchors.hpp"
+
+namespace springlod {
+namespace {
+
+/// Loads solved for together: enough for the factors to be read seldom, few enough for a large
+/// base, of which each takes as much memory as six copies of the positions.
+constexpr std::size_t kTogether = 32;
+
+void check_weight(const char* name, double weight) {
+  if (!(weight >= 0 && std::isfinite(weight)))
+    throw InputError(fmt::format("calibration: {} = {} must be 0 or more", name, weight));
+}
+
+void check(const TargetOptions& options) {
+  check_weight("piece_weight", options.piece_weight);
+  check_weight("patch_weight", options.patch_weight);
+  check_weight("mode_weight", options.mode_weight);
+  check_weight("load_weight", options.load_weight);
+  for (const TargetRegion& region : options.regions)
+    check_weight("weight of a region", region.weight);
+  const bool any_load = options.smooth_loads || options.patches != 0U || !options.regions.empty();
+  if ((options.modes == 0 || options.mode_weight == 0) && (!any_load || options.load_weight == 0))
+    throw InputError(
+        "calibration: nothing is left to be fitted; ask for modes or loads, with a weight above 0");
+}
+
+std::vector<StaticLoad> region_loads(const MassSpringModel& base, const TargetRegion& region,
+                                     const TargetOptions& options, std::size_t number) {
+  LocalLoadOptions local{.count = region.patches / 2,
+                         .seed = options.seed + number,
+                         .within = movable_nodes(base, region, options.anchored)};
+  if (local.within.empty()) return {};
+  std::vector<StaticLoad> loads = patch_pairs(base, local);
+  local.count = region.patches - static_cast<std::uint32_t>(loads.size());
+  std::vector<StaticLoad> single = pushes(base, local);
+  std::move(single.begin(), single.end(), std::back_inserter(loads));
+  for (StaticLoad& load : loads) load.name += fmt::format(" of region {}", number);
+  return loads;
+}
+
+std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadTarget>& asked,
+                                const std::function<bool()>& stopped) {
+  std::vector<double> all;
+  for (std::size_t first = 0; first < asked.size(); first += kTogether) {
+    if (stopped()) throw InterruptedError();
+    const std::size_t last = std::min(asked.size(), first + kTogether);
+    std::vector<StaticLoad> loads;
+    for (std::size_t l = first; l < last; ++l) loads.push_back(asked[l].load);
+    for (const StaticSolution& solution : solve_static(body, loads, {.balance = kLoadBalance}))
+      all.push_back(solution.compliance);
+  }
+  return all;
+}
+
+}  // namespace
+
+ElasticBody held_body(const MassSpringModel& model, const std::vector<std::uint32_t>& anchored,
+                      Progress* progress) {
+  ElasticBody body = elastic_body(model, {.anchored = anchored, .progress = progress});
+  body.anchored.clear();  // solve_static refuses to push at free motions only if there are any
+  return body;
+}
+
+StaticLoad carried(const Groups& of_base, const StaticLoad& load) {
+  StaticLoad coarse{load.name, std::vector<Vec3>(of_base.count, Vec3::Zero())};
+  for (std::size_t i = 0; i < load.force.size(); ++i) coarse.force[of_base.of[i]] += load.force[i];
+  return coarse;
+}
+
+std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const TargetRegion& region,
+                                         const std::vector<std::uint32_t>& anchored) {
+  const std::vector<std::uint8_t> held = anchor_flags(base, anchored);
+  std::vector<std::uint32_t> nodes;
+  for (const std::uint32_t node : region.nodes)
+    if (base.border.at(node) != 0 && held[node] == 0) nodes.push_back(node);
+  return nodes;
+}
+
+std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes) {
+  if (options.patches) return *options.patches;
+  constexpr double kMost = 150, kLeast = 60, kFew = 2000;
+  return static_cast<std::uint32_t>(std::clamp(kMost * std::sqrt(kFew / nodes), kLeast, kMost));
+}
+
+std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOptions& options) {
+  check(options);
+  std::vector<LoadTarget> asked;
+  const auto ask = [&](LoadKind kind, double weight, std::vector<StaticLoad> loads) {
+    for (StaticLoad& load : loads)
+      asked.push_back({kind, std::move(load), 0, weight * options.load_weight});
+  };
+  if (options.smooth_loads) {
+    ask(LoadKind::smooth, 1, smooth_loads(base));
+    ask(LoadKind::piece, options.piece_weight, piece_loads(base));
+  }
+  const std::uint32_t patches = patch_count(options, base.node_count());
+  if (patches > 0 && border_count(base) > 0)
+    ask(LoadKind::patch, options.patch_weight,
+        patch_pairs(base, {.count = patches, .seed = options.seed}));
+  for (std::size_t r = 0; r < options.regions.size(); ++r)
+    ask(LoadKind::region, options.regions[r].weight,
+        region_loads(base, options.regions[r], options, r + 1));
+  return asked;
+}
+
+BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options,
+                         const std::vector<LoadTarget>& asked) {
+  const ElasticBody body = held_body(base, options.anchored, options.progress);
+  BaseAnswers answers;
+  run_jobs(2, options.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
+    if (job == 0 && options.modes > 0)
+      for (const Mode& mode :
+           lowest_modes(body, {.count = options.modes, .progress = options.progress}).modes)
+        answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
+    if (job == 1) answers.compliance = compliances(body, asked, stopped);
+  });
+  answers.highest_frequency = largest_frequency(base);
+  return answers;
+}
+
+ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& options,
+                          std::vector<LoadTarget> asked, const BaseAnswers& answers) {
+  ElasticTargets targets;
+  targets.squared_frequency = answers.squared_frequency;
+  targets.mode_weight = options.mode_weight;
+  targets.loads = std::move(asked);
+  for (std::size_t l = 0; l < targets.loads.size(); ++l)
+    targets.loads[l].compliance = answers.compliance.at(l);
+  // Those that find nothing to pull at go.
+  std::erase_if(targets.loads, [](const LoadTarget& target) { return !(target.compliance > 0); });
+  targets.highest_frequency = answers.highest_frequency;
+  targets.nodes = base.node_count();
+  targets.anchored = options.anchored;
+  return targets;
+}
+
+ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options) {
+  std::vector<LoadTarget> asked = asked_loads(base, options);
+  const BaseAnswers answers = measure_base(base, options, asked);
+  return targets_of(base, options, std::move(asked), answers);
+}
+
+}  // namespace springlod

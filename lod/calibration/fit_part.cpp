@@ -1,0 +1,277 @@
+#include "lod/calibration/fit_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+
+#include "base/error.hpp"
+#include "elastic/solver/dense_kernels.hpp"
+#include "elastic/stable_step.hpp"
+#include "lod/calibration/damped_step.hpp"
+#include "lod/calibration/elastic_fit.hpp"
+#include "lod/calibration/frequency_cap.hpp"
+#include "lod/calibration/tolerance.hpp"
+
+namespace springlod {
+namespace {
+
+/// Bounds of the unknowns: of one step, its root mean square, and of all steps together.
+constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
+/// Damping over the mean of the slopes' squared norms: at the start, and bounds of it.
+constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
+/// What the damping is divided by after a step that helped, multiplied by after one that did not.
+constexpr double kTrust = 3, kDistrust = 4;
+/// Weight of a node above the limit, where a miss of a load that is fitted has 1. More nodes than
+/// so many share the weight of these, or the misses would not count beside them.
+constexpr double kLimitWeight = 0.5, kLimitNodes = 1000;
+/// How often a step follows the limits through their bends: they are cheap to tell anew, where
+/// misses take most of the time.
+constexpr int kBends = 4;
+/// What the limit of squared frequencies falls to while the level is good, at first; its root when
+/// a level did not become good again in so many steps, down to hardly any fall.
+constexpr double kTighten = 0.8, kLeastTighten = 0.98;
+constexpr std::uint32_t kPatience = 10;
+/// The limit over the largest bound there is, at least: one farther below pulls at all nodes, and
+/// no longer at the ones that matter.
+constexpr double kLeastLimit = 0.68;
+/// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
+constexpr double kMargin = 1;
+
+/// What patch loads, and those of pieces, may be missed by, over the tolerance of the lowest
+/// frequencies; and those of regions, which are asked for because they matter.
+constexpr double kPatchLoadsTolerance = 20, kRegionLoadsTolerance = 8;
+
+double mean(const std::vector<double>& values, std::size_t begin, std::size_t end) {
+  end = std::min(end, values.size());
+  double sum = 0;
+  for (std::size_t i = begin; i < end; ++i) sum += values[i];
+  return end > begin ? sum / static_cast<double>(end - begin) : 0;
+}
+
+class PartFit {
+ public:
+  PartFit(const MassSpringModel& level, const Groups& of_base, const ElasticTargets& targets,
+          const FitOptions& options)
+      : start_(level),
+        targets_(targets),
+        options_(options),
+        steps_(fit_steps(options, level.node_count())),
+        tolerance_(frequency_tolerance(options.tolerance, targets.nodes, level.node_count())),
+        least_frequency_(options.least_frequency * targets.highest_frequency *
+                         std::cbrt(static_cast<double>(level.node_count()) / targets.nodes)),
+        limit_weight_(kLimitWeight * std::sqrt(std::min(1.0, kLimitNodes / level.node_count()))),
+        variables_(level, options.moments),
+        fit_(level, of_base, targets, options.threads) {}
+
+  MassSpringModel run() {
+    if (options_.from)
+      restore(*options_.from);
+    else
+      begin();
+    for (; !finished_ && iteration_ < steps_; tell()) {
+      if (good(now_)) {
+        keep_if_better();
+        if (best_->highest_frequency <= least_frequency_) break;
+        const double bound = largest_node_bound(now_.model);
+        limit_ = std::max(tighten_ * std::min(limit_, bound), kLeastLimit * bound);
+        tries_ = 0;
+      } else if (best_ && (tries_ >= kPatience || damping_ > kMostDamping)) {
+        if (!back_off()) break;
+        tries_ = 0;
+      }
+      ++tries_;
+      ++iteration_;
+      if (!advance() && !best_) break;
+    }
+    if (!finished_) {
+      if (good(now_)) keep_if_better();
+      finished_ = true;
+      tell();
+    }
+    return best_ ? std::move(best_->model) : std::move(now_.model);
+  }
+
+ private:
+  struct Point {
+    Eigen::VectorXd theta;
+    MassSpringModel model;
+    ElasticMisses misses;    // slopes by theta, along changes that keep the moments
+    Eigen::MatrixXd normal;  // slopes^T slopes
+  };
+  struct Best {
+    Eigen::VectorXd theta;
+    MassSpringModel model;
+    double highest_frequency = 0;
+  };
+
+  void begin() {
+    now_ = at(Eigen::VectorXd::Zero(variables_.count()));
+    limit_ = largest_node_bound(start_);
+  }
+
+  void restore(const FitState& state) {
+    iteration_ = state.iteration;
+    tries_ = state.tries;
+    finished_ = state.finished;
+    limit_ = state.limit;
+    damping_ = state.damping;
+    tighten_ = state.tighten;
+    now_ = {state.now.theta, variables_.model(state.now), {}, {}};
+    if (!finished_) measure(now_);
+    if (state.best)
+      best_ = Best{state.best->theta, variables_.model(*state.best), state.best_frequency};
+  }
+
+  FitState state() const {
+    FitState state{.iteration = iteration_,
+                   .tries = tries_,
+                   .finished = finished_,
+                   .limit = limit_,
+                   .damping = damping_,
+                   .tighten = tighten_,
+                   .now = {now_.theta, now_.model.mass},
+                   .best = {},
+                   .best_frequency = best_ ? best_->highest_frequency : 0,
+                   .frequency_error = mean(now_.misses.frequency, 0, kLowestModes)};
+    if (best_) state.best = FitPoint{best_->theta, best_->model.mass};
+    return state;
+  }
+
+  void tell() const {
+    if (options_.on_iteration) options_.on_iteration(state());
+  }
+
+  void measure(Point& point) const {
+    point.misses = fit_.misses(point.model);
+    variables_.turn_slopes(point.model.mass, point.misses.slopes);
+    point.normal = gram(point.misses.slopes);
+  }
+
+  Point at(Eigen::VectorXd theta) const {
+    Point point{std::move(theta), {}, {}, {}};
+    point.model = variables_.model(point.theta);
+    variables_.take_masses(point.model.mass, point.theta);
+    measure(point);
+    return point;
+  }
+
+  /// The level a step further; none where it cannot be measured, or not in finite numbers.
+  std::optional<Point> after(const Eigen::VectorXd& step) const {
+    if (!step.allFinite()) return std::nullopt;
+    try {
+      Point point = at((now_.theta + step).cwiseMax(-kMostChange).cwiseMin(kMostChange));
+      if (point.theta.allFinite() && point.normal.allFinite()) return point;
+    } catch (const InputError&) {
+      // Stiffnesses too far apart to be factorised, or for modes to be found.
+    }
+    return std::nullopt;
+  }
+
+  double merit(const Point& point) const {
+    return point.misses.miss.squaredNorm() +
+           limit_weight_ * limit_weight_ * squared_excess(point.model, limit_);
+  }
+
+  /// The step that suits the misses as they go on straight, and the limits as they bend.
+  Eigen::VectorXd next_step() {
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(variables_.count());
+    for (int bend = 0; bend < kBends && step.allFinite(); ++bend) {
+      const CapRows cap = cap_rows(variables_.model(now_.theta + step), limit_, kMargin);
+      const Eigen::SparseMatrix<double, Eigen::RowMajor> limits = variables_.turned(cap.slopes);
+      const Eigen::VectorXd excess = cap.excess - limits * step;
+      step = damped_step({.slopes = now_.misses.slopes,
+                          .normal = now_.normal,
+                          .miss = now_.misses.miss,
+                          .limits = limits,
+                          .excess = excess,
+                          .near = step,
+                          .limit_weight = limit_weight_,
+                          .most_rms = kMostRms},
+                         damping_)
+                 .cwiseMax(-kMostStep)
+                 .cwiseMin(kMostStep);
+    }
+    return step;
+  }
+
+  /// One step; it is taken back if it did not help. False if none will any more.
+  bool advance() {
+    std::optional<Point> next = after(next_step());
+    if (next && merit(*next) < merit(now_)) {
+      now_ = *std::move(next);
+      damping_ = std::max(kLeastDamping, damping_ / kTrust);
+    } else {
+      damping_ *= kDistrust;
+    }
+    return damping_ <= kMostDamping;
+  }
+
+  /// Returns to the best level, to go on from there in smaller steps. False if they would be too
+  /// small.
+  bool back_off() {
+    tighten_ = std::sqrt(tighten_);
+    if (tighten_ > kLeastTighten) return false;
+    now_ = at(best_->theta);
+    limit_ = tighten_ * largest_node_bound(now_.model);
+    damping_ = kFirstDamping;
+    return true;
+  }
+
+  /// Whether all kinds of misses are within what is wanted.
+  bool good(const Point& point) const {
+    const std::vector<double>& frequency = point.misses.frequency;
+    return mean(frequency, 0, kLowestModes) <= tolerance_ &&
+           mean(frequency, kLowestModes, frequency.size()) <= kHigherModesTolerance * tolerance_ &&
+           mean_of_loads(point, {LoadKind::smooth}) <= kSmoothLoadsTolerance * tolerance_ &&
+           mean_of_loads(point, {LoadKind::piece, LoadKind::patch}) <=
+               kPatchLoadsTolerance * tolerance_ &&
+           mean_of_loads(point, {LoadKind::region}) <= kRegionLoadsTolerance * tolerance_;
+  }
+
+  /// Mean miss of the loads of some kinds; 0 if there are none.
+  double mean_of_loads(const Point& point, std::initializer_list<LoadKind> kinds) const {
+    std::vector<double> of_kinds;
+    for (std::size_t l = 0; l < targets_.loads.size(); ++l)
+      if (std::find(kinds.begin(), kinds.end(), targets_.loads[l].kind) != kinds.end())
+        of_kinds.push_back(point.misses.compliance[l]);
+    return mean(of_kinds, 0, of_kinds.size());
+  }
+
+  void keep_if_better() {
+    const double highest = largest_frequency(now_.model);
+    if (!best_ || highest < best_->highest_frequency) best_ = Best{now_.theta, now_.model, highest};
+  }
+
+  const MassSpringModel& start_;
+  const ElasticTargets& targets_;
+  const FitOptions& options_;
+  std::uint32_t steps_;
+  double tolerance_, least_frequency_, limit_weight_;
+  LevelVariables variables_;
+  ElasticFit fit_;
+  Point now_;
+  std::optional<Best> best_;
+  double limit_ = 0;  // of the nodes' own squared frequencies [rad2/s2]
+  double damping_ = kFirstDamping;
+  double tighten_ = kTighten;
+  std::uint32_t iteration_ = 0;
+  std::uint32_t tries_ = 0;  // steps since the level was good
+  bool finished_ = false;
+};
+
+}  // namespace
+
+std::uint32_t fit_steps(const FitOptions& options, std::uint32_t nodes) {
+  if (options.iterations > 0) return options.iterations;
+  constexpr double kMost = 90, kLeast = 10, kFew = 500;
+  return static_cast<std::uint32_t>(std::clamp(kMost * kFew / nodes, kLeast, kMost));
+}
+
+MassSpringModel fit_part(const MassSpringModel& level, const Groups& of_base,
+                         const ElasticTargets& targets, const FitOptions& options) {
+  return PartFit(level, of_base, targets, options).run();
+}
+
+}  // namespace springlod

@@ -1,0 +1,88 @@
+#include "lod/calibration/frequency_cap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+
+#include "elastic/stable_step.hpp"
+#include "model/spring_rows.hpp"
+
+namespace springlod {
+namespace {
+
+constexpr double kPower = 32;
+
+/// |A| and what it grows by with each part of A along the axes: d|A| = sum_d slope_d
+/// (axis_d.dA.axis_d).
+struct Norm {
+  double value = 0;
+  Vec3 slope = Vec3::Zero();
+  Mat3 axes = Mat3::Identity();
+};
+
+Norm norm_of(const Mat3& a) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(a);
+  const double most = solver.eigenvalues()[2];
+  if (!(most > 0)) return {};
+  const Eigen::Array3d relative = (solver.eigenvalues() / most).cwiseMax(0).array();
+  const double sum = relative.pow(kPower).sum();
+  const double value = most * std::pow(sum, 1 / kPower);
+  return {value, relative.pow(kPower - 1) * (value / (most * sum)), solver.eigenvectors()};
+}
+
+double bound_of(const Norm& norm, double mass) {
+  return 2 * norm.value / mass;
+}
+
+std::vector<double> node_bounds(const MassSpringModel& model) {
+  const std::vector<Mat3> held = node_stiffness(model);
+  std::vector<double> bounds;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    bounds.push_back(bound_of(norm_of(held[i]), model.mass[i]));
+  return bounds;
+}
+
+}  // namespace
+
+CapRows cap_rows(const MassSpringModel& model, double tau, double margin) {
+  const SpringRows springs(model);
+  const std::vector<Mat3> held = node_stiffness(model);
+  std::vector<double> excess;
+  std::vector<Eigen::Triplet<double>> slopes;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    const Norm norm = norm_of(held[i]);
+    const double over = std::log(bound_of(norm, model.mass[i]) / tau);
+    if (!(over > -margin)) continue;
+    const auto row = static_cast<int>(excess.size());
+    excess.push_back(over);
+    springs.for_each(i, [&](std::uint32_t, std::uint32_t s) {
+      const Vec3 along = norm.axes.transpose() * spring_direction(model, s);
+      const double part = norm.slope.dot(along.cwiseAbs2()) / norm.value;
+      slopes.emplace_back(row, static_cast<int>(s), model.stiffness[s] * part);
+    });
+    slopes.emplace_back(row, static_cast<int>(model.spring_count() + i), -1.0);
+  }
+  CapRows rows;
+  rows.excess =
+      Eigen::Map<const Eigen::VectorXd>(excess.data(), static_cast<Eigen::Index>(excess.size()));
+  rows.slopes.resize(rows.excess.size(),
+                     static_cast<Eigen::Index>(model.spring_count()) + model.node_count());
+  rows.slopes.setFromTriplets(slopes.begin(), slopes.end());
+  return rows;
+}
+
+double largest_node_bound(const MassSpringModel& model) {
+  const std::vector<double> bounds = node_bounds(model);
+  return *std::max_element(bounds.begin(), bounds.end());
+}
+
+double squared_excess(const MassSpringModel& model, double tau) {
+  double sum = 0;
+  for (const double bound : node_bounds(model))
+    if (bound > tau) sum += std::pow(std::log(bound / tau), 2);
+  return sum;
+}
+
+}  // namespace springlod

@@ -1,0 +1,55 @@
+#include "lod/calibration/level_variables.hpp"
+
+#include <cmath>
+
+namespace springlod {
+namespace {
+
+/// What ln m changes for each unit of an unknown, where ln k changes by 1 (spec 4.1).
+constexpr double kMassScale = 0.5;
+
+}  // namespace
+
+MassSpringModel LevelVariables::with_springs(const Eigen::VectorXd& theta) const {
+  MassSpringModel model = start_;
+  for (std::uint32_t s = 0; s < start_.spring_count(); ++s) {
+    const double factor = std::exp(theta[s]);
+    model.stiffness[s] *= factor;
+    model.damping[s] *= factor;
+  }
+  return model;
+}
+
+MassSpringModel LevelVariables::model(const Eigen::VectorXd& theta) const {
+  MassSpringModel model = with_springs(theta);
+  for (std::uint32_t i = 0; i < start_.node_count(); ++i)
+    model.mass[i] *= std::exp(kMassScale * theta[springs() + i]);
+  moments_.restore(model.mass);
+  return model;
+}
+
+MassSpringModel LevelVariables::model(const FitPoint& point) const {
+  MassSpringModel model = with_springs(point.theta);
+  model.mass = point.mass;
+  return model;
+}
+
+void LevelVariables::take_masses(const std::vector<double>& mass, Eigen::VectorXd& theta) const {
+  for (std::uint32_t i = 0; i < start_.node_count(); ++i)
+    theta[springs() + i] = std::log(mass[i] / start_.mass[i]) / kMassScale;
+}
+
+void LevelVariables::turn_slopes(const std::vector<double>& mass, Eigen::MatrixXd& slopes) const {
+  auto by_mass = slopes.bottomRows(nodes());
+  by_mass *= kMassScale;
+  moments_.project(mass, by_mass);
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> LevelVariables::turned(
+    const Eigen::SparseMatrix<double, Eigen::RowMajor>& slopes) const {
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(count());
+  scale.tail(nodes()).setConstant(kMassScale);
+  return slopes * scale.asDiagonal();
+}
+
+}  // namespace springlod

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/error.hpp"
+#include "model/vec.hpp"
+
+namespace springlod {
+
+/// Numbers one after the other as bytes, as this machine has them: for hashing, and for files that
+/// only this machine reads again.
+class Packer {
+ public:
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void add(T value) { append(&value, sizeof value); }
+  void add(std::string_view text) { add(std::span<const char>(text.data(), text.size())); }
+  /// How many, then all of them.
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void add(std::span<const T> values) {
+    add(static_cast<std::uint64_t>(values.size()));
+    append(values.data(), values.size_bytes());
+  }
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void add(const std::vector<T>& values) { add(std::span<const T>(values)); }
+  void add(const std::vector<Vec3>& vectors) {
+    add(static_cast<std::uint64_t>(vectors.size()));
+    for (const Vec3& v : vectors) append(v.data(), 3 * sizeof(double));
+  }
+
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  void append(const void* data, std::size_t size) {
+    if (size > 0) bytes_.append(static_cast<const char*>(data), size);
+  }
+
+  std::string bytes_;
+};
+
+/// Takes out in the same order what a Packer put in. All throw IoError where the bytes end too
+/// soon.
+class Unpacker {
+ public:
+  explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
+
+  template <class T>
+  requires std::is_arithmetic_v<T> T take() {
+    T value{};
+    std::memcpy(&value, next(1, sizeof value), sizeof value);
+    return value;
+  }
+  template <class T>
+  requires std::is_arithmetic_v<T> std::vector<T> take_list() {
+    const auto count = take<std::uint64_t>();
+    const char* from = next(count, sizeof(T));
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(values.data(), from, count * sizeof(T));
+    return values;
+  }
+  std::string take_text() {
+    const std::vector<char> text = take_list<char>();
+    return {text.begin(), text.end()};
+  }
+
+ private:
+  const char* next(std::uint64_t count, std::size_t size) {
+    if (count > bytes_.size() / size) throw IoError("packed numbers: the bytes end too soon");
+    const char* here = bytes_.data();
+    bytes_.remove_prefix(count * size);
+    return here;
+  }
+
+  std::string_view bytes_;
+};
+
+}  // namespace springlod

@@ -1,0 +1,12 @@
+#include "lod/calibration/tolerance.hpp"
+
+#include <cmath>
+
+namespace springlod {
+
+double frequency_tolerance(double asked, std::uint32_t base_nodes, std::uint32_t level_nodes) {
+  constexpr double kOfBase = 0.002;
+  return asked > 0 ? asked : kOfBase * std::sqrt(static_cast<double>(base_nodes) / level_nodes);
+}
+
+}  // namespace springlod

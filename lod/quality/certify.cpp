@@ -1,0 +1,178 @@
+#include "lod/quality/certify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "elastic/loads/static_loads.hpp"
+#include "elastic/modes.hpp"
+#include "elastic/moduli/measured_moduli.hpp"
+#include "elastic/stable_step.hpp"
+#include "elastic/zero_modes.hpp"
+#include "lod/calibration/elastic_targets.hpp"
+#include "lod/calibration/second_moments.hpp"
+#include "lod/calibration/tolerance.hpp"
+#include "lod/quality/compared_loads.hpp"
+#include "lod/quality/group_means.hpp"
+
+namespace springlod {
+namespace {
+
+/// Frequencies of the base nearer than this belong to one mode of several shapes, as a sphere has
+/// them: which of the shapes a level takes is left to chance.
+constexpr double kSameFrequency = 0.05;
+/// What local loads may be off, over the tolerance of the lowest frequencies.
+constexpr double kLocalLoadsTolerance = 12;
+/// Masses and their moments are kept to rounding.
+constexpr double kExact = 1e-9;
+
+/// What is measured of the base and of each level in the same way.
+struct Measured {
+  std::vector<Mode> modes;
+  std::vector<StaticSolution> solutions;
+  std::vector<MaterialModuli> moduli;
+  double highest_frequency = 0, stable_step = 0, cost = 0;
+};
+
+Measured measure(const MassSpringModel& model, const std::vector<StaticLoad>& loads,
+                 std::size_t smooth, const std::vector<std::uint32_t>& anchored,
+                 std::uint32_t modes) {
+  const ElasticBody body = held_body(model, anchored);
+  Measured measured;
+  measured.modes = lowest_modes(body, {.count = modes}).modes;
+  measured.solutions = solve_static(body, loads);
+  measured.moduli =
+      measured_moduli(model, {measured.solutions.begin(),
+                              measured.solutions.begin() + static_cast<std::ptrdiff_t>(smooth)});
+  measured.highest_frequency = largest_frequency(model);
+  measured.stable_step = stable_step(measured.highest_frequency, largest_damping_time(model));
+  measured.cost = model.spring_count() / measured.stable_step;
+  return measured;
+}
+
+double dot(const MassSpringModel& model, const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
+  double sum = 0;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) sum += model.mass[i] * x[i].dot(y[i]);
+  return sum;
+}
+
+void compare_modes(const LodChain& chain, const Level& level, const std::vector<Mode>& base,
+                   const std::vector<Mode>& found, Certificate& certificate) {
+  std::vector<std::vector<Vec3>> shapes;
+  for (const Mode& mode : base)
+    shapes.push_back(group_means(mode.shape, chain.levels.front().model.mass, level.of_base));
+  for (std::size_t i = 0; i < std::min(base.size(), found.size()); ++i) {
+    Certificate::Frequency& frequency = certificate.frequencies.emplace_back();
+    frequency.level = found[i].frequency();
+    frequency.base = base[i].frequency();
+    for (std::size_t j = 0; j < base.size(); ++j) {
+      const double ratio = base[j].angular_frequency / base[i].angular_frequency;
+      if (std::abs(ratio - 1) > kSameFrequency) continue;
+      const double along = dot(level.model, shapes[j], found[i].shape);
+      frequency.mac += along * along / dot(level.model, shapes[j], shapes[j]);
+    }
+    frequency.mac = std::min(1.0, frequency.mac);
+  }
+}
+
+void compare_loads(const ComparedLoads& loads, const Measured& base, const Measured& found,
+                   Certificate& certificate) {
+  for (std::size_t l = 0; l < loads.all.size(); ++l) {
+    const double compliance = base.solutions[l].compliance;
+    if (!(compliance > 0)) continue;  // nothing to pull at
+    certificate.loads.push_back({loads.all[l].name, loads.held_out(l), compliance,
+                                 found.solutions[l].compliance / compliance - 1});
+  }
+}
+
+void compare_moduli(const MassSpringModel& model, const Measured& base, const Measured& found,
+                    Certificate& certificate) {
+  for (const MaterialModuli& of_base : base.moduli)
+    for (const MaterialModuli& of_level : found.moduli)
+      if (of_level.material == of_base.material)
+        certificate.moduli.push_back({model.materials[of_base.material].name, of_level.young,
+                                      of_base.young, of_level.poisson, of_base.poisson});
+}
+
+void compare_masses(const MassSpringModel& base, const MassSpringModel& level,
+                    Certificate& certificate) {
+  const MassProperties wanted = mass_properties(base);
+  const MassProperties found = mass_properties(level);
+  const Mat3 moments = second_moments(base);
+  certificate.mass_error = found.mass / wanted.mass - 1;
+  const double radius = std::sqrt(moments.trace() / wanted.mass);
+  certificate.center_shift = radius > 0 ? (found.center - wanted.center).norm() / radius : 0;
+  const double largest = moments.cwiseAbs().maxCoeff();
+  certificate.second_moment_error =
+      largest > 0 ? (second_moments(level) - moments).cwiseAbs().maxCoeff() / largest : 0;
+}
+
+void judge(const CertifyOptions& options, const LodChain& chain, const Level& level,
+           Certificate& c) {
+  c.tolerance = frequency_tolerance(options.tolerance, chain.levels.front().model.node_count(),
+                                    level.model.node_count());
+  constexpr double kPercent = 100;
+  const auto check = [&](const char* what, double error, double most) {
+    if (error > most)
+      c.misses.push_back(fmt::format("{} off by {:.3g} %, asked for {:.3g} %", what,
+                                     kPercent * error, kPercent * most));
+  };
+  check("lowest ten frequencies", mean_frequency_error(c, 0, kLowestModes), c.tolerance);
+  check("higher frequencies", mean_frequency_error(c, kLowestModes, options.modes),
+        kHigherModesTolerance * c.tolerance);
+  check("smooth loads", mean_load_error(c, false), kSmoothLoadsTolerance * c.tolerance);
+  check("local loads", mean_load_error(c, true), kLocalLoadsTolerance * c.tolerance);
+  check("mass", std::abs(c.mass_error), kExact);
+  check("centre of mass", c.center_shift, kExact);
+  check("second moments of mass", c.second_moment_error, kExact);
+  if (c.zero_modes > c.expected_zero_modes)
+    c.misses.push_back(fmt::format("{} motions that no spring resists, {} are sound", c.zero_modes,
+                                   c.expected_zero_modes));
+}
+
+}  // namespace
+
+void certify(LodChain& chain, const CertifyOptions& options) {
+  const MassSpringModel& base = chain.levels.front().model;
+  const ComparedLoads loads = compared_loads(
+      base, {.count = options.held_out_loads, .seed = options.seed, .within = options.within});
+  Task task(options.progress, "certifying", chain.levels.size());
+  const Measured of_base = measure(base, loads.all, loads.smooth, options.anchored, options.modes);
+  task.advance();
+  run_jobs(chain.levels.size() - 1, options.threads,
+           [&](std::uint64_t job, const std::function<bool()>& stopped) {
+             Level& level = chain.levels[job + 1];
+             if (stopped()) throw InterruptedError();
+             if (level.model.spring_count() == 0) return;  // a point: nothing to measure
+             std::vector<StaticLoad> summed;
+             for (const StaticLoad& load : loads.all)
+               summed.push_back(carried(level.of_base, load));
+             const Measured found =
+                 measure(level.model, summed, loads.smooth,
+                         carried(level.of_base, options.anchored), options.modes);
+             Certificate c;
+             compare_modes(chain, level, of_base.modes, found.modes, c);
+             compare_loads(loads, of_base, found, c);
+             compare_moduli(base, of_base, found, c);
+             compare_masses(base, level.model, c);
+             c.highest_frequency = found.highest_frequency;
+             c.base_highest_frequency = of_base.highest_frequency;
+             c.stable_step = found.stable_step;
+             c.base_stable_step = of_base.stable_step;
+             c.cost = found.cost;
+             c.base_cost = of_base.cost;
+             for (const PartModes& part : zero_modes(level.model)) {
+               c.zero_modes += part.zero_modes;
+               c.expected_zero_modes += part.expected;
+             }
+             judge(options, chain, level, c);
+             level.certificate = std::move(c);
+             task.advance();
+           });
+}
+
+}  // namespace springlod

@@ -1,0 +1,24 @@
+#include "lod/quality/compared_loads.hpp"
+
+#include <iterator>
+
+#include "elastic/loads/local_loads.hpp"
+
+namespace springlod {
+
+ComparedLoads compared_loads(const MassSpringModel& base, const ComparedLoadOptions& options) {
+  ComparedLoads loads{smooth_loads(base), 0};
+  loads.smooth = loads.all.size();
+  if (options.count == 0 || (options.within.empty() && border_count(base) == 0)) return loads;
+  // The other bits of the seed: patches that are fitted have the seed itself.
+  const LocalLoadOptions local{
+      .count = options.count, .seed = ~options.seed, .within = options.within};
+  for (auto kind : {pinches(base, local), pushes(base, local)}) {
+    if (!options.within.empty())
+      for (StaticLoad& load : kind) load.name += " within the chosen nodes";
+    std::move(kind.begin(), kind.end(), std::back_inserter(loads.all));
+  }
+  return loads;
+}
+
+}  // namespace springlod

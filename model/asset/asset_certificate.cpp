@@ -1,0 +1,145 @@
+#include "model/asset/asset_certificate.hpp"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "model/asset/asset_json.hpp"
+
+namespace springlod {
+namespace {
+
+using nlohmann::json;
+
+/// The numbers that stand alone, for writer and reader.
+constexpr std::array<std::pair<const char*, double Certificate::*>, 10> kNumbers{
+    {{"massError", &Certificate::mass_error},
+     {"centerShift", &Certificate::center_shift},
+     {"secondMomentError", &Certificate::second_moment_error},
+     {"highestFrequency", &Certificate::highest_frequency},
+     {"baseHighestFrequency", &Certificate::base_highest_frequency},
+     {"stableStep", &Certificate::stable_step},
+     {"baseStableStep", &Certificate::base_stable_step},
+     {"cost", &Certificate::cost},
+     {"baseCost", &Certificate::base_cost},
+     {"tolerance", &Certificate::tolerance}}};
+
+/// One JSON object that is read with strict types: the JSON library alone would take true for 1 and
+/// 2.5 for 2.
+class FieldReader {
+ public:
+  FieldReader(const json& object, std::string owner) : object_(object), owner_(std::move(owner)) {
+    if (!object.is_object())
+      throw InputError(fmt::format("{} must be an object, not {}", owner_, object.type_name()));
+  }
+
+  double number(const char* key) const {
+    return field(key, &json::is_number, "a number").get<double>();
+  }
+  bool flag(const char* key) const {
+    return field(key, &json::is_boolean, "true or false").get<bool>();
+  }
+  std::string text(const char* key) const {
+    return field(key, &json::is_string, "text").get<std::string>();
+  }
+  std::uint32_t count(const char* key) const {
+    const auto number = field(key, &json::is_number_unsigned, "a count").get<std::uint64_t>();
+    if (number > std::numeric_limits<std::uint32_t>::max())
+      throw InputError(fmt::format("{}: '{}' cannot be {}", owner_, key, number));
+    return static_cast<std::uint32_t>(number);
+  }
+  /// read(entry, its name) for each entry; none if there is no such list.
+  template <class Read>
+  void each(const char* key, const Read& read) const {
+    if (!object_.contains(key)) return;
+    std::size_t place = 0;
+    for (const json& entry : field(key, &json::is_array, "a list"))
+      read(entry, fmt::format("{}, {} {}", owner_, key, ++place));
+  }
+
+ private:
+  const json& field(const char* key, bool (json::*is_right)() const noexcept,
+                    const char* right) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) throw InputError(fmt::format("{}: '{}' is missing", owner_, key));
+    if (!((*found).*is_right)())
+      throw InputError(
+          fmt::format("{}: '{}' must be {}, not {}", owner_, key, right, found->type_name()));
+    return *found;
+  }
+
+  const json& object_;
+  std::string owner_;
+};
+
+Certificate::Moduli read_moduli(const FieldReader& from) {
+  return {.material = from.text("material"),
+          .young = from.number("young"),
+          .base_young = from.number("baseYoung"),
+          .poisson = from.number("poisson"),
+          .base_poisson = from.number("basePoisson")};
+}
+
+Certificate::Frequency read_frequency(const FieldReader& from) {
+  return {.level = from.number("level"), .base = from.number("base"), .mac = from.number("mac")};
+}
+
+Certificate::Load read_load(const FieldReader& from) {
+  return {.name = from.text("name"),
+          .held_out = from.flag("heldOut"),
+          .compliance = from.number("compliance"),
+          .error = from.number("error")};
+}
+
+}  // namespace
+
+json certificate_json(const Certificate& certificate) {
+  json object{{"zeroModes", whole_number(certificate.zero_modes)},
+              {"expectedZeroModes", whole_number(certificate.expected_zero_modes)}};
+  for (const auto& [key, member] : kNumbers) object[key] = certificate.*member;
+  for (const Certificate::Moduli& m : certificate.moduli)
+    object["moduli"].push_back({{"material", utf8(m.material)},
+                                {"young", m.young},
+                                {"baseYoung", m.base_young},
+                                {"poisson", m.poisson},
+                                {"basePoisson", m.base_poisson}});
+  for (const Certificate::Frequency& f : certificate.frequencies)
+    object["frequencies"].push_back({{"level", f.level}, {"base", f.base}, {"mac", f.mac}});
+  for (const Certificate::Load& load : certificate.loads)
+    object["loads"].push_back({{"name", utf8(load.name)},
+                               {"heldOut", load.held_out},
+                               {"compliance", load.compliance},
+                               {"error", load.error}});
+  for (const std::string& miss : certificate.misses) object["misses"].push_back(utf8(miss));
+  return object;
+}
+
+Certificate read_certificate(const json& object, const std::string& owner) {
+  const FieldReader from(object, owner);
+  Certificate certificate;
+  from.each("moduli", [&](const json& entry, const std::string& name) {
+    certificate.moduli.push_back(read_moduli(FieldReader(entry, name)));
+  });
+  from.each("frequencies", [&](const json& entry, const std::string& name) {
+    certificate.frequencies.push_back(read_frequency(FieldReader(entry, name)));
+  });
+  from.each("loads", [&](const json& entry, const std::string& name) {
+    certificate.loads.push_back(read_load(FieldReader(entry, name)));
+  });
+  from.each("misses", [&](const json& entry, const std::string& name) {
+    if (!entry.is_string())
+      throw InputError(fmt::format("{} must be text, not {}", name, entry.type_name()));
+    certificate.misses.push_back(entry.get<std::string>());
+  });
+  for (const auto& [key, member] : kNumbers) certificate.*member = from.number(key);
+  certificate.zero_modes = from.count("zeroModes");
+  certificate.expected_zero_modes = from.count("expectedZeroModes");
+  return certificate;
+}
+
+}  // namespace springlod

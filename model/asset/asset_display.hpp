@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include <tiny_gltf.h>
+
+#include "model/asset/asset_buffer.hpp"
+#include "model/chain.hpp"
+
+namespace springlod {
+
+/// Adds what any glTF viewer shows: the surface and, side by side along x, the nodes and springs of
+/// each level, in single precision under a root node that turns z up into glTF's y up.
+/// `spring_ends`: of each level the buffer view of its springs' ends, pairs of uint32, which the
+/// lines share; -1 for no springs.
+void add_display(const LodAsset& asset, const std::vector<int>& spring_ends, tinygltf::Model& gltf,
+                 AssetBuffer& buffer);
+
+}  // namespace springlod

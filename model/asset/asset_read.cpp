@@ -1,0 +1,213 @@
+#include <array>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "model/asset/asset.hpp"
+#include "model/asset/asset_certificate.hpp"
+#include "model/asset/asset_format.hpp"
+
+// The extension is read with a JSON parser and range checks alone: a general glTF reader would
+// look at everything that a damaged file says.
+
+namespace springlod {
+namespace {
+
+using nlohmann::json;
+
+/// What is wrong with the file, without its name.
+class Damage : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct GlbChunks {
+  std::string_view json;
+  std::string_view binary;
+};
+
+std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + offset, sizeof word);
+  return word;
+}
+
+/// Takes one chunk (length, type, data) off the front.
+std::string_view take_chunk(std::string_view& rest, std::uint32_t type, const char* name) {
+  constexpr std::size_t kHeader = 8;
+  if (rest.size() < kHeader || word_at(rest, 4) != type)
+    throw Damage(fmt::format("its {} chunk is missing", name));
+  const std::size_t length = word_at(rest, 0);
+  if (length > rest.size() - kHeader) throw Damage(fmt::format("its {} chunk is cut short", name));
+  const std::string_view chunk = rest.substr(kHeader, length);
+  rest.remove_prefix(kHeader + length);
+  return chunk;
+}
+
+GlbChunks split_glb(std::string_view file) {
+  constexpr std::size_t kHeader = 12;
+  constexpr std::uint32_t kJson = 0x4E4F534A;
+  constexpr std::uint32_t kBinary = 0x004E4942;
+  if (word_at(file, 4) != 2)
+    throw Damage(fmt::format("it says glTF version {}, not 2", word_at(file, 4)));
+  if (word_at(file, 8) != file.size())
+    throw Damage(fmt::format("it has {} bytes and should have {}", file.size(), word_at(file, 8)));
+  std::string_view rest = file.substr(kHeader);
+  GlbChunks chunks;
+  chunks.json = take_chunk(rest, kJson, "JSON");
+  chunks.binary = take_chunk(rest, kBinary, "binary");
+  return chunks;
+}
+
+/// Builds the asset from the extension and checks it against its checksum.
+class ExactReader {
+ public:
+  ExactReader(const json& gltf, std::string_view binary)
+      : views_(gltf.at("bufferViews")), binary_(binary) {}
+
+  LodAsset read(const json& extension) {
+    LodAsset asset;
+    if (extension.contains("provenance"))
+      for (const json& entry : extension.at("provenance"))
+        asset.provenance.entries.emplace_back(entry.at(0).get<std::string>(),
+                                              entry.at(1).get<std::string>());
+    for (const json& level : extension.at("levels"))
+      asset.chain.levels.push_back(read_level(level, asset.chain.levels.size()));
+    if (extension.contains("surface")) read_surface(extension.at("surface"), asset);
+
+    json rest = extension;
+    rest.erase("checksum");
+    checksum_.add(rest.dump());
+    if (checksum_.text() != extension.at("checksum").get<std::string>())
+      throw Damage("its contents do not match its checksum");
+    return asset;
+  }
+
+ private:
+  std::string_view view(const json& number) const {
+    const json& v = views_.at(number.get<std::size_t>());
+    const auto offset = v.value("byteOffset", std::uint64_t{0});
+    const auto length = v.at("byteLength").get<std::uint64_t>();
+    if (v.at("buffer").get<std::uint64_t>() != 0 || offset > binary_.size() ||
+        length > binary_.size() - offset)
+      throw Damage("an array lies outside the file");
+    return binary_.substr(offset, length);
+  }
+
+  template <class T>
+  std::vector<T> take(const json& object, const char* key) {
+    const std::string_view bytes = object.contains(key) ? view(object.at(key)) : std::string_view{};
+    if (bytes.size() % sizeof(T) != 0) throw Damage(fmt::format("its array {} is cut short", key));
+    checksum_.add(bytes);
+    std::vector<T> array(bytes.size() / sizeof(T));
+    if (!bytes.empty()) std::memcpy(static_cast<void*>(array.data()), bytes.data(), bytes.size());
+    return array;
+  }
+
+  static Material read_material(const json& object) {
+    const json& colour = object.at("colour");
+    return {object.at("name").get<std::string>(),
+            object.at("young").get<double>(),
+            object.at("density").get<double>(),
+            object.at("damping").get<double>(),
+            {colour.at(0).get<float>(), colour.at(1).get<float>(), colour.at(2).get<float>()}};
+  }
+
+  Level read_level(const json& object, std::size_t number) {
+    Level level;
+    MassSpringModel& model = level.model;
+    level.made_by = object.at("madeBy").get<std::string>();
+    for (const json& material : object.at("materials"))
+      model.materials.push_back(read_material(material));
+    model.rest = take<Vec3>(object, "rest");
+    model.mass = take<double>(object, "mass");
+    model.volume = take<double>(object, "volume");
+    model.contact_area = take<double>(object, "contactArea");
+    model.border = take<std::uint8_t>(object, "border");
+    model.material = take<std::uint32_t>(object, "material");
+    for (const auto& [a, b] : take<std::array<std::uint32_t, 2>>(object, "ends")) {
+      model.a.push_back(a);
+      model.b.push_back(b);
+    }
+    model.rest_length = take<double>(object, "restLength");
+    model.stiffness = take<double>(object, "stiffness");
+    model.damping = take<double>(object, "damping");
+    level.of_base.of = take<std::uint32_t>(object, "nodeOfBase");
+    level.of_base.count = model.node_count();
+    if (object.contains("certificate"))
+      level.certificate = read_certificate(object.at("certificate"),
+                                           fmt::format("the certificate of level {}", number));
+    return level;
+  }
+
+  void read_surface(const json& object, LodAsset& asset) {
+    if (object.contains("parts"))
+      for (const json& part : object.at("parts"))
+        asset.surface.parts.push_back({part.at("name").get<std::string>(),
+                                       part.at("material").get<std::string>(),
+                                       part.at("firstTriangle").get<std::uint32_t>(),
+                                       part.at("triangleCount").get<std::uint32_t>()});
+    asset.surface.positions = take<Vec3>(object, "positions");
+    asset.surface.triangles = take<Triangle>(object, "indices");
+    asset.surface_of_base.start = take<std::uint32_t>(object, "bindingStart");
+    asset.surface_of_base.node = take<std::uint32_t>(object, "bindingNode");
+    asset.surface_of_base.weight = take<double>(object, "bindingWeight");
+  }
+
+  const json& views_;
+  std::string_view binary_;
+  asset_format::Checksum checksum_;
+};
+
+const json* find_extension(const json& gltf) {
+  const auto extensions = gltf.find("extensions");
+  if (extensions == gltf.end() || !extensions->is_object()) return nullptr;
+  const auto ours = extensions->find(asset_format::kExtension);
+  return ours == extensions->end() ? nullptr : &*ours;
+}
+
+}  // namespace
+
+LodAsset load_asset(const std::filesystem::path& path) {
+  const std::string file = read_file(path);
+  const std::string name = path.string();
+  constexpr std::string_view kMagic = "glTF";
+  constexpr std::size_t kSmallestGlb = 20;
+  if (file.size() < kSmallestGlb || !std::string_view(file).starts_with(kMagic))
+    throw IoError(
+        fmt::format("{} is no .glb file (binary glTF); springlod convert makes one from "
+                    "a mesh",
+                    name));
+  try {
+    const GlbChunks chunks = split_glb(file);
+    const json gltf = json::parse(chunks.json);
+    const json* extension = find_extension(gltf);
+    if (extension == nullptr)
+      throw IoError(
+          fmt::format("{} holds a scene but no level-of-detail chain ({}); springlod "
+                      "convert makes one from a mesh",
+                      name, asset_format::kExtension));
+    const auto version = extension->at("version").get<std::int64_t>();
+    if (version > asset_format::kVersion)
+      throw IoError(
+          fmt::format("{} was written in version {} of the format, of which this program "
+                      "knows up to {}; update springlod",
+                      name, version, asset_format::kVersion));
+    LodAsset asset = ExactReader(gltf, chunks.binary).read(*extension);
+    validate(asset);
+    return asset;
+  } catch (const Damage& e) {
+    throw IoError(fmt::format("{} is damaged: {}; make it again", name, e.what()));
+  } catch (const json::exception& e) {
+    throw IoError(fmt::format("{} is damaged: {}; make it again", name, e.what()));
+  } catch (const InputError& e) {
+    throw IoError(fmt::format("{} is damaged: {}; make it again", name, e.what()));
+  }
+}
+
+}  // namespace springlod

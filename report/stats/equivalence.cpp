@@ -1,0 +1,146 @@
+#include "report/stats/equivalence.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "report/stats/probability.hpp"
+#include "report/stats/statistics.hpp"
+
+namespace springlod {
+
+namespace {
+
+void validate(const EquivalenceOptions& options) {
+  if (!(options.margin > 0 && std::isfinite(options.margin)))
+    throw InputError(
+        fmt::format("equivalence: a margin of {}; say how many standard deviations of "
+                    "the base the means may be apart, such as 0.5",
+                    options.margin));
+  if (!(options.alpha > 0 && options.alpha < 0.5))
+    throw InputError(
+        fmt::format("equivalence: alpha is {}; give a number between 0 and 0.5, such "
+                    "as 0.05",
+                    options.alpha));
+  if (options.spread && !(*options.spread > 0 && std::isfinite(*options.spread)))
+    throw InputError(fmt::format("equivalence: a spread of {}; give one above 0", *options.spread));
+}
+
+double spread_of(const std::vector<double>& base, const EquivalenceOptions& options) {
+  const double spread = options.spread ? *options.spread : standard_deviation(base);
+  if (spread > 0) return spread;
+  throw InputError(
+      "equivalence: all values of the base are the same, so that a margin in its spreads means "
+      "nothing; give the spread, or jitter the starts");
+}
+
+/// What single starts or seeds add to an estimate, each by its distance from the mean.
+using Influence = std::vector<double>;
+
+/// Means of the table values[start * seeds + seed] over its seeds and over its starts.
+Influence by_start(const Influence& values, std::uint32_t seeds) {
+  Influence means(values.size() / seeds, 0);
+  for (std::size_t i = 0; i < values.size(); ++i) means[i / seeds] += values[i] / seeds;
+  return means;
+}
+Influence by_seed(const Influence& values, std::uint32_t seeds) {
+  const std::size_t starts = values.size() / seeds;
+  Influence means(seeds, 0);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    means[i % seeds] += values[i] / static_cast<double>(starts);
+  return means;
+}
+
+/// A number with sources of chance that do not depend on each other.
+struct Estimate {
+  double value = 0;
+  double variance = 0;  // of `value`
+  double parts = 0;     // sum of variance^2 / degrees over the sources
+
+  void add(const Influence& source) {
+    const double deviation = standard_deviation(source);
+    const double share = deviation * deviation / static_cast<double>(source.size());
+    variance += share;
+    parts += share * share / static_cast<double>(source.size() - 1);
+  }
+  /// P-value against "the truth is 0 or less" (Welch and Satterthwaite).
+  double p_positive() const {
+    if (variance == 0) return value > 0 ? 0 : 1;
+    return student_above(value / std::sqrt(variance), variance * variance / parts);
+  }
+};
+
+/// Room between the difference and one end of the margin, spread * margin + sign * difference,
+/// and its variance from what each value adds to it (delta method; the influence of a value x on a
+/// standard deviation s is ((x - mean)^2 - s^2) / (2 s)).
+Estimate room(const StartSample& base, const StartSample& other, const EquivalenceOptions& options,
+              double sign) {
+  const double spread = spread_of(base.values, options);
+  const double base_mean = mean(base.values);
+  const double other_mean = mean(other.values);
+  Influence of_base;
+  for (const double value : base.values) {
+    const double away = value - base_mean;
+    const double on_spread = options.spread ? 0 : (away * away - spread * spread) / (2 * spread);
+    of_base.push_back(options.margin * on_spread - sign * away);
+  }
+  Influence of_other;
+  for (const double value : other.values) of_other.push_back(sign * (value - other_mean));
+
+  Estimate result;
+  result.value = options.margin * spread + sign * (other_mean - base_mean);
+  Influence base_starts = by_start(of_base, base.seeds);
+  const Influence other_starts = by_start(of_other, other.seeds);
+  if (options.paired) {
+    for (std::size_t i = 0; i < base_starts.size(); ++i) base_starts[i] += other_starts[i];
+  } else {
+    result.add(other_starts);
+  }
+  result.add(base_starts);
+  if (options.design == SeedDesign::crossed) {
+    if (base.seeds > 1) result.add(by_seed(of_base, base.seeds));
+    if (other.seeds > 1) result.add(by_seed(of_other, other.seeds));
+  }
+  return result;
+}
+
+}  // namespace
+
+Equivalence test_equivalence(const StartSample& base, const StartSample& other,
+                             const EquivalenceOptions& options) {
+  validate(options);
+  require_starts(base, "base");
+  require_starts(other, "other");
+  if (options.paired) require_pairs(base, other);
+  Equivalence result;
+  result.difference = mean(other.values) - mean(base.values);
+  result.spread = spread_of(base.values, options);
+  result.p_lower = room(base, other, options, 1).p_positive();
+  result.p_higher = room(base, other, options, -1).p_positive();
+  result.equivalent = result.p() <= options.alpha;
+  return result;
+}
+
+Equivalence bootstrap_equivalence(const StartSample& base, const StartSample& other,
+                                  const EquivalenceOptions& options,
+                                  const BootstrapOptions& resampling) {
+  validate(options);
+  require_starts(base, "base");
+  require_starts(other, "other");
+  Equivalence result;
+  result.difference = mean(other.values) - mean(base.values);
+  result.spread = spread_of(base.values, options);
+  const auto in_spreads = [&](const std::vector<double>& b, const std::vector<double>& o) {
+    return options.spread ? (mean(o) - mean(b)) / *options.spread : difference_over_spread(b, o);
+  };
+  const Bootstrap distribution = bootstrap(base, other, in_spreads, resampling);
+  result.p_lower = confidence_below(distribution, -options.margin);
+  result.p_higher = 1 - confidence_below(distribution, options.margin);
+  result.equivalent = result.p() <= options.alpha;
+  return result;
+}
+
+}  // namespace springlod

@@ -1,0 +1,27 @@
+#include "report/stats/start_sample.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "report/stats/statistics.hpp"
+
+namespace springlod {
+
+void require_starts(const StartSample& sample, std::string_view what) {
+  if (sample.seeds == 0 || sample.values.size() % sample.seeds != 0)
+    throw InputError(
+        fmt::format("statistics: the {} values of the sample '{}' are no table of {} "
+                    "seeds; give every start as many values",
+                    sample.values.size(), what, sample.seeds));
+  require_sample(sample.values, kLeastStarts * sample.seeds, what);
+}
+
+void require_pairs(const StartSample& base, const StartSample& other) {
+  if (base.starts() != other.starts())
+    throw InputError(
+        fmt::format("statistics: {} starts of the base cannot be paired with {} of "
+                    "the other; run both from the same starts, or do not pair",
+                    base.starts(), other.starts()));
+}
+
+}  // namespace springlod

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "lod/build.hpp"
+#include "scripting/engine/call.hpp"
+
+namespace springlod {
+
+/// The options `calibrate` and `calibration` of simplify, of levels of `base`.
+void read_calibration(Call& call, TableReader& reader, const MassSpringModel& base,
+                      SimplifyOptions& options);
+
+}  // namespace springlod

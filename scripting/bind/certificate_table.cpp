@@ -1,0 +1,111 @@
+#include "scripting/bind/certificate_table.hpp"
+
+#include <algorithm>
+
+#include <lua.hpp>
+
+#include "scripting/engine/result_table.hpp"
+
+namespace springlod {
+namespace {
+
+template <class Entry, class Fill>
+void set_list(lua_State* L, const char* name, const std::vector<Entry>& entries, const Fill& fill) {
+  push_tables(L, entries, fill);
+  end_field(L, name);
+}
+
+void set_lists(lua_State* L, const Certificate& certificate) {
+  set_list(L, "moduli", certificate.moduli, [L](const Certificate::Moduli& m) {
+    set_field(L, "material", m.material);
+    set_field(L, "young", m.young);
+    set_field(L, "base_young", m.base_young);
+    set_field(L, "poisson", m.poisson);
+    set_field(L, "base_poisson", m.base_poisson);
+  });
+  set_list(L, "frequencies", certificate.frequencies, [L](const Certificate::Frequency& f) {
+    set_field(L, "level", f.level);
+    set_field(L, "base", f.base);
+    set_field(L, "error", f.level / f.base - 1);
+    set_field(L, "mac", f.mac);
+  });
+  set_list(L, "loads", certificate.loads, [L](const Certificate::Load& load) {
+    set_field(L, "name", load.name);
+    set_field(L, "held_out", load.held_out);
+    set_field(L, "error", load.error);
+  });
+  set_field(L, "misses", certificate.misses);
+}
+
+void set_means(lua_State* L, const Certificate& certificate) {
+  const std::size_t count = certificate.frequencies.size();
+  if (count > 0) set_field(L, "f1_10_error", mean_frequency_error(certificate, 0, 10));
+  if (count > 10) set_field(L, "f11_20_error", mean_frequency_error(certificate, 10, 20));
+  for (const bool held_out : {false, true})
+    if (std::any_of(certificate.loads.begin(), certificate.loads.end(),
+                    [&](const Certificate::Load& load) { return load.held_out == held_out; }))
+      set_field(L, held_out ? "held_out_load_error" : "fitted_load_error",
+                mean_load_error(certificate, held_out));
+}
+
+}  // namespace
+
+void push_certificate(lua_State* L, const Certificate& certificate) {
+  begin_table(L);
+  set_lists(L, certificate);
+  set_means(L, certificate);
+  set_field(L, "mass_error", certificate.mass_error);
+  set_field(L, "center_shift", certificate.center_shift);
+  set_field(L, "second_moment_error", certificate.second_moment_error);
+  set_field(L, "highest_frequency", certificate.highest_frequency);
+  set_field(L, "base_highest_frequency", certificate.base_highest_frequency);
+  set_field(L, "stable_step", certificate.stable_step);
+  set_field(L, "base_stable_step", certificate.base_stable_step);
+  set_field(L, "cost", certificate.cost);
+  set_field(L, "base_cost", certificate.base_cost);
+  if (certificate.base_cost > 0)
+    set_field(L, "cost_ratio", certificate.cost / certificate.base_cost);
+  set_field(L, "zero_modes", certificate.zero_modes);
+  set_field(L, "expected_zero_modes", certificate.expected_zero_modes);
+  set_field(L, "tolerance", certificate.tolerance);
+}
+
+void describe_certificate(Api& api) {
+  api.add(RecordEntry{
+      .name = "Certificate",
+      .summary = "What a level was measured to be beside its base: s.info(chain).levels[i]"
+                 ".certificate. Errors are level over base minus 1.",
+      .fields =
+          {result_field("moduli", "list of tables",
+                        "material, young and base_young [Pa], poisson and base_poisson"),
+           result_field("frequencies", "list of tables",
+                        "the lowest: level and base [Hz], error, mac (0..1: the same mode)"),
+           result_field(
+               "loads", "list of tables",
+               "static loads: name, held_out (no calibration is fitted to it), error of the "
+               "compliance"),
+           result_field("f1_10_error", "number", "mean |error| of the ten lowest frequencies"),
+           result_field("f11_20_error", "number",
+                        "mean |error| of the next ten; nil if there are none"),
+           result_field("fitted_load_error", "number",
+                        "mean |error|; nil if there are no such loads"),
+           result_field("held_out_load_error", "number",
+                        "mean |error|; nil if there are no such loads"),
+           result_field("mass_error", "number", "error of the mass"),
+           result_field("center_shift", "number",
+                        "of the centre of mass, over the radius of gyration"),
+           result_field("second_moment_error", "number",
+                        "largest of the tensor's entries, over its largest entry"),
+           result_field("highest_frequency", "number",
+                        "omega_max [rad/s]; base_highest_frequency too"),
+           result_field("stable_step", "number", "of explicit steps [s]; base_stable_step too"),
+           result_field("cost", "number", "springs over the stable step [1/s]; base_cost too"),
+           result_field("cost_ratio", "number", "cost / base_cost"),
+           result_field("zero_modes", "integer", "motions that no spring resists"),
+           result_field("expected_zero_modes", "integer", "how many there should be"),
+           result_field("tolerance", "number", "f1_10_error that was asked for"),
+           result_field("misses", "list of strings", "what of it was not reached; empty: nothing")},
+      .example = "s.info(chain).levels[2].certificate.f1_10_error"});
+}
+
+}  // namespace springlod

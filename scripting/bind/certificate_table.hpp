@@ -1,0 +1,13 @@
+#pragma once
+
+#include "model/certificate.hpp"
+#include "scripting/engine/api.hpp"
+#include "scripting/engine/value.hpp"
+
+namespace springlod {
+
+/// A certificate as the plain table that `info` shows. Means of nothing are left out.
+void push_certificate(lua_State* L, const Certificate& certificate);
+void describe_certificate(Api& api);
+
+}  // namespace springlod

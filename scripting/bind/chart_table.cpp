@@ -1,0 +1,306 @@
+#include "scripting/bind/chart_table.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "report/comparison_tables.hpp"
+
+namespace springlod {
+
+namespace {
+
+enum class ErrorKind { surface, shape };
+
+// Sides of a chart [px]: room for its letters; what programs that show pictures take.
+constexpr double kLeastChart = 300;
+constexpr double kLargestChart = 8000;
+
+// {x, y, label = ..., low = ..., high = ..., x_low = ..., x_high = ...}
+ChartPoint read_point(Call& call, int table, const std::string& owner) {
+  lua_State* L = call.lua();
+  if (!lua_istable(L, table) || lua_rawlen(L, table) != 2)
+    throw InputError(fmt::format("{} must be {{x, y}}", owner));
+  ChartPoint point;
+  lua_rawgeti(L, table, 1);
+  point.x = quantity_at(L, -1, Dimension::number, owner + "[1]");
+  lua_rawgeti(L, table, 2);
+  point.y = quantity_at(L, -1, Dimension::number, owner + "[2]");
+  lua_pop(L, 2);
+  lua_newtable(L);
+  for (const char* key : {"label", "low", "high", "x_low", "x_high"}) {
+    lua_getfield(L, table, key);
+    lua_setfield(L, -2, key);
+  }
+  TableReader reader = call.record(lua_gettop(L), "Point", owner);
+  reader.read("label", point.label);
+  reader.read("low", point.y_low);
+  reader.read("high", point.y_high);
+  reader.read("x_low", point.x_low);
+  reader.read("x_high", point.x_high);
+  reader.finish();
+  lua_pop(L, 1);
+  return point;
+}
+
+ChartSeries read_series(Call& call, int table, const std::string& owner) {
+  lua_State* L = call.lua();
+  TableReader reader = call.record(table, "Series", owner);
+  ChartSeries series;
+  reader.read("name", series.name);
+  reader.read("joined", series.joined);
+  reader.read("dashed", series.dashed);
+  if (reader.has("colour"))
+    reader.choose("colour", series.colour.emplace(),
+                  {{"blue", ChartColour::blue},
+                   {"orange", ChartColour::orange},
+                   {"green", ChartColour::green},
+                   {"pink", ChartColour::pink},
+                   {"amber", ChartColour::amber},
+                   {"sky", ChartColour::sky},
+                   {"grey", ChartColour::grey},
+                   {"black", ChartColour::black}});
+  if (reader.has("symbol"))
+    reader.choose("symbol", series.symbol.emplace(),
+                  {{"disc", ChartSymbol::disc},
+                   {"square", ChartSymbol::square},
+                   {"triangle", ChartSymbol::triangle},
+                   {"diamond", ChartSymbol::diamond},
+                   {"triangle_down", ChartSymbol::triangle_down},
+                   {"pentagon", ChartSymbol::pentagon},
+                   {"ring", ChartSymbol::ring},
+                   {"none", ChartSymbol::none}});
+  const int points = reader.raw("points");
+  if (points == 0 || !lua_istable(L, points)) reader.refuse("points", "a list of {x, y}");
+  for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, points)); ++i) {
+    lua_rawgeti(L, points, i);
+    series.points.push_back(
+        read_point(call, lua_gettop(L), fmt::format("{}.points[{}]", owner, i)));
+    lua_pop(L, 1);
+  }
+  reader.finish();
+  lua_pop(L, 1);
+  return series;
+}
+
+std::string cell_text(lua_State* L, int index, NumberStyle numbers) {
+  switch (lua_type(L, index)) {
+    case LUA_TNUMBER:
+      if (lua_isinteger(L, index) != 0) return fmt::format("{}", lua_tointeger(L, index));
+      return numbers == NumberStyle::exact ? number_text(lua_tonumber(L, index))
+                                           : fmt::format("{:.4g}", lua_tonumber(L, index));
+    case LUA_TNIL:
+      return "";
+    default: {
+      std::string text = luaL_tolstring(L, index, nullptr);
+      lua_pop(L, 1);
+      return text;
+    }
+  }
+}
+
+std::vector<std::string> sorted_keys(lua_State* L, int table) {
+  std::vector<std::string> keys;
+  lua_pushnil(L);
+  while (lua_next(L, table) != 0) {
+    if (lua_type(L, -2) == LUA_TSTRING) keys.emplace_back(lua_tostring(L, -2));
+    lua_pop(L, 1);
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+}  // namespace
+
+ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader) {
+  ErrorKind kind = ErrorKind::surface;
+  reader.choose("error", kind, {{"surface", ErrorKind::surface}, {"shape", ErrorKind::shape}});
+  const Table table = comparison_table(comparison.comparison, comparison.chain->chain);
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
+                                    table.columns.begin());
+  };
+  const std::size_t ratio = column("cost_ratio");
+  const std::size_t error =
+      column(kind == ErrorKind::surface ? "surface_error_percent" : "shape_error_percent");
+  ChartSeries series;
+  // The title names the scenario; the legend tells which way of merging this is.
+  series.name = comparison.chain->chain.levels.back().made_by;
+  for (const auto& row : table.rows)
+    series.points.push_back({.x = 1 / std::stod(row[ratio]),
+                             .y = std::stod(row[error]),
+                             .label = row[column("label")]});
+  return series;
+}
+
+ChartOptions cost_error_chart(const ComparisonValue& comparison) {
+  return {.title = comparison.comparison.scenario.name,
+          .x_label = "cost per simulated second (spring updates, base = 1)",
+          .y_label = "error (% of the bounding diagonal)",
+          .log_x = true};
+}
+
+std::vector<ChartSeries> series_from_table(Call& call, int index) {
+  lua_State* L = call.lua();
+  if (!lua_istable(L, index)) call.refuse(2, "a Comparison or a list of Series");
+  if (lua_getfield(L, index, "series") == LUA_TTABLE) {
+    index = lua_gettop(L);
+  } else {
+    lua_pop(L, 1);
+  }
+  std::vector<ChartSeries> series;
+  for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, index)); ++i) {
+    lua_rawgeti(L, index, i);
+    series.push_back(read_series(call, lua_gettop(L), fmt::format("chart: series[{}]", i)));
+    lua_pop(L, 1);
+  }
+  return series;
+}
+
+void read_chart_options(TableReader& reader, ChartOptions& options) {
+  reader.read("title", options.title);
+  reader.read("x_label", options.x_label);
+  reader.read("y_label", options.y_label);
+  reader.read("log_x", options.log_x);
+  reader.read("log_y", options.log_y);
+  reader.read("y_from", options.y_from);
+  reader.read("width", options.width);
+  reader.read("height", options.height);
+  for (const char* side : {"width", "height"})
+    if (const double pixels = std::string_view(side) == "width" ? options.width : options.height;
+        !(pixels >= kLeastChart && pixels <= kLargestChart))
+      reader.refuse(side, fmt::format("{} to {} pixels", kLeastChart, kLargestChart));
+  reader.has("error");  // read for comparisons only
+}
+
+std::vector<Parameter> chart_parameters() {
+  return {
+      {.name = "title",
+       .type = "string",
+       .fallback = "the scenario's name, else none",
+       .help = "title"},
+      {.name = "x_label",
+       .type = "string",
+       .fallback = "told from a comparison, else none",
+       .help = "what lies to the right"},
+      {.name = "y_label",
+       .type = "string",
+       .fallback = "told from a comparison, else none",
+       .help = "what lies upwards"},
+      {.name = "log_x",
+       .type = "boolean",
+       .fallback = "true for a comparison, else false",
+       .help = "logarithmic to the right"},
+      {.name = "log_y", .type = "boolean", .fallback = "false", .help = "logarithmic upwards"},
+      {.name = "y_from",
+       .type = "number",
+       .fallback = "0",
+       .help = "points of a logarithmic axis that are not above it sit on its lower end, hollow"},
+      {.name = "width",
+       .type = "number",
+       .fallback = fmt::format("{:g}", ChartOptions{}.width),
+       .help = "in pixels"},
+      {.name = "height",
+       .type = "number",
+       .fallback = fmt::format("{:g}", ChartOptions{}.height),
+       .help = "in pixels"},
+      {.name = "error",
+       .type = "one of",
+       .fallback = "\"surface\"",
+       .help = "which error of a comparison is shown",
+       .choices = {"surface", "shape"}}};
+}
+
+void describe_series(Api& api) {
+  api.add(RecordEntry{
+      .name = "Point",
+      .summary = "A point of a chart: {x, y} with these keys besides.",
+      .fields = {{.name = "label",
+                  .type = "string",
+                  .fallback = "none",
+                  .help = "written beside the point"},
+                 {.name = "low",
+                  .type = "number",
+                  .fallback = "none",
+                  .help = "lower end of an interval drawn about y"},
+                 {.name = "high", .type = "number", .fallback = "none", .help = "its upper end"},
+                 {.name = "x_low",
+                  .type = "number",
+                  .fallback = "none",
+                  .help = "lower end of an interval drawn about x"},
+                 {.name = "x_high", .type = "number", .fallback = "none", .help = "its upper end"}},
+      .example = "{0.4, 1.2, label = \"LOD-1\"}"});
+  api.add(RecordEntry{
+      .name = "Series",
+      .summary = "A line of points of a chart.",
+      .fields = {{.name = "name", .type = "string", .fallback = "none", .help = "in the legend"},
+                 {.name = "points",
+                  .type = "list of Point",
+                  .help = "{x, y} each; none: the series is in the legend alone"},
+                 {.name = "joined",
+                  .type = "boolean",
+                  .fallback = "true",
+                  .help = "whether a line joins the points"},
+                 {.name = "dashed",
+                  .type = "boolean",
+                  .fallback = "false",
+                  .help = "whether that line is dashed"},
+                 {.name = "colour",
+                  .type = "one of",
+                  .fallback = "another for each series",
+                  .help = "of points and line",
+                  .choices = {"blue", "orange", "green", "pink", "amber", "sky", "grey", "black"}},
+                 {.name = "symbol",
+                  .type = "one of",
+                  .fallback = "another for each series",
+                  .help = "of its points; a ring goes around other points",
+                  .choices = {"disc", "square", "triangle", "diamond", "triangle_down", "pentagon",
+                              "ring", "none"}}},
+      .example = "{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}"});
+}
+
+Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers) {
+  lua_State* L = call.lua();
+  if (!lua_istable(L, index)) throw InputError(reader.owner() + ": rows must be a list of tables");
+  Table table;
+  reader.read("columns", table.columns);
+  const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    if (lua_rawgeti(L, index, i) != LUA_TTABLE)
+      throw InputError(fmt::format("{}: row {} is no table", reader.owner(), i));
+    const int row = lua_gettop(L);
+    if (table.columns.empty()) table.columns = sorted_keys(L, row);
+    const bool list = lua_rawlen(L, row) > 0;
+    const std::size_t cells = list ? lua_rawlen(L, row) : table.columns.size();
+    std::vector<std::string>& texts = table.rows.emplace_back();
+    for (std::size_t c = 0; c < cells; ++c) {
+      if (list) {
+        lua_rawgeti(L, row, static_cast<lua_Integer>(c) + 1);
+      } else {
+        lua_getfield(L, row, table.columns[c].c_str());
+      }
+      texts.push_back(cell_text(L, -1, numbers));
+      lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+  }
+  return table;
+}
+
+void push_rows(lua_State* L, const Table& table) {
+  begin_list(L, table.rows.size());
+  std::size_t number = 0;
+  for (const auto& row : table.rows) {
+    begin_table(L);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      // Cells are text; numbers become numbers again.
+      if (lua_stringtonumber(L, row[i].c_str()) == 0) push(L, row[i]);
+      end_field(L, table.columns[i].c_str());
+    }
+    end_list_entry(L, ++number);
+  }
+}
+
+}  // namespace springlod

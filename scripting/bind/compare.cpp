@@ -1,0 +1,256 @@
+// Comparing the levels of a chain, and many starts of one model.
+
+#include "sim/study/compare.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "report/comparison_tables.hpp"
+#include "scripting/bind/chart_table.hpp"
+#include "scripting/bind/run_options.hpp"
+#include "scripting/bind/scenario_table.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+#include "sim/study/ensemble.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr const char* kGroup = "Simulation";
+
+/// Says what runs went on with although it should be known.
+void warn(Console& console, const std::vector<RunSummary>& runs) {
+  std::size_t unconverged = 0;
+  std::size_t crossed = 0;
+  double first = std::numeric_limits<double>::infinity();
+  for (const RunSummary& run : runs) {
+    if (run.unconverged_steps > 0) ++unconverged;
+    if (!run.first_crossing) continue;
+    ++crossed;
+    first = std::min(first, *run.first_crossing);
+  }
+  if (unconverged > 0)
+    console.say(fmt::format(
+        "compare: in {} of {} runs the solver stopped short of its tolerance in some steps; "
+        "give it more iterations, a greater tolerance or a smaller step",
+        unconverged, runs.size()));
+  if (crossed > 0)
+    console.say(fmt::format(
+        "compare: in {} of {} runs nodes went past each other, the first by t = {:.4g} s: "
+        "the body is inside out there; take a stiffer material, a softer blow or a "
+        "finer model",
+        crossed, runs.size(), first));
+}
+
+/// What start_parameters lists; Options are those of compare or of an ensemble.
+template <class Options>
+void read_start_options(Call& call, TableReader& reader, Options& options) {
+  options.seed = call.session().settings().seed;
+  options.threads = call.session().settings().threads;
+  reader.read("starts", options.starts);
+  reader.read("jitter", options.jitter);
+  reader.read("seed", options.seed);
+  reader.read("threads", options.threads);
+  read_run_options(call, reader, options.run);
+  options.progress = call.progress();
+}
+
+int compare_binding(Call& call) {
+  auto value = std::make_shared<ComparisonValue>();
+  value->chain = call.value<LodAsset>(1);
+  const auto scenario = scenario_argument(call, 2);
+  CompareOptions options;
+  TableReader reader = call.options(3);
+  read_start_options(call, reader, options);
+  options.contact = read_contact(reader);
+  reader.read("error_window", options.error_window);
+  reader.read("variant", options.variant);
+  reader.finish();
+  value->comparison = compare(value->chain->chain, *scenario, options);
+  std::vector<RunSummary> all;
+  for (const LevelRuns& level : value->comparison.levels)
+    all.insert(all.end(), level.starts.begin(), level.starts.end());
+  warn(call.session().console(), all);
+  return call.give(std::shared_ptr<const ComparisonValue>(value));
+}
+
+int ensemble_binding(Call& call) {
+  const auto model = call.value<ModelValue>(1);
+  const auto scenario = scenario_argument(call, 2);
+  EnsembleOptions options;
+  TableReader reader = call.options(3);
+  std::uint32_t first = options.first_start + 1;
+  reader.read("first", first);
+  if (first == 0) reader.refuse("first", "1 or more");
+  options.first_start = first - 1;
+  read_start_options(call, reader, options);
+  options.run.skin = skin_of(*model, read_contact(reader));
+  reader.finish();
+  const std::vector<EnsembleRun> runs = run_ensemble(*model->model, *scenario, options);
+  lua_State* L = call.lua();
+  begin_list(L, runs.size());
+  std::size_t number = 0;
+  for (const EnsembleRun& run : runs) {
+    begin_table(L);
+    set_field(L, "start", run.start + 1);
+    set_field(L, "distance", run.distance);
+    set_field(L, "simulated", run.simulated);
+    set_field(L, "spring_updates", run.spring_updates);
+    set_field(L, "ledger_error", run.ledger_error);
+    set_field(L, "unconverged_steps", run.unconverged_steps);
+    if (run.first_crossing) set_field(L, "first_crossing", *run.first_crossing);
+    end_list_entry(L, ++number);
+  }
+  return 1;
+}
+
+int table_method(Call& call) {
+  const auto self = call.self<ComparisonValue>();
+  const Table table = comparison_table(self->comparison, self->chain->chain);
+  push_rows(call.lua(), table);
+  push(call.lua(), table.columns);
+  return 2;
+}
+
+int timings_method(Call& call) {
+  const auto self = call.self<ComparisonValue>();
+  const Table table = timings_table(self->comparison);
+  push_rows(call.lua(), table);
+  push(call.lua(), table.columns);
+  return 2;
+}
+
+int starts_method(Call& call) {
+  const auto self = call.self<ComparisonValue>();
+  const Table table = starts_table(self->comparison);
+  push_rows(call.lua(), table);
+  push(call.lua(), table.columns);
+  return 2;
+}
+
+std::string comparison_text(const ComparisonValue& value) {
+  std::vector<std::string> labels;
+  for (const LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
+  const std::size_t starts =
+      value.comparison.levels.empty() ? 0 : value.comparison.levels.front().starts.size();
+  return fmt::format("Comparison of {} in {}, {} start{}", fmt::join(labels, ", "),
+                     value.comparison.scenario.name, starts, starts == 1 ? "" : "s");
+}
+
+void describe_comparison(Api& api) {
+  TypeBuilder<ComparisonValue> type("Runs of every level of a chain from the same starts.",
+                                    comparison_text);
+  type.field("labels", "list of strings", "names of the levels", [](const ComparisonValue& value) {
+    std::vector<std::string> labels;
+    for (const LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
+    return labels;
+  });
+  type.method({.name = "table",
+               .summary = "Cost and error of every level, means over the starts.",
+               .returns = "list of tables, list of their keys: " + comparison_columns_help(),
+               .call = table_method});
+  type.method({.name = "starts",
+               .summary = "What every level did in every start.",
+               .returns = "list of tables, list of their keys: level, label, start, distance [m], "
+                          "surface_error [m], shape_error [m], energy_difference, simulated [s], "
+                          "spring_updates, ledger_error, unconverged_steps, first_crossing (when "
+                          "springs first turned over [s], or nothing)",
+               .call = starts_method});
+  type.method({.name = "timings",
+               .summary = "Measured times, which are never the same twice.",
+               .returns = "list of tables, list of their keys: level, label, start, wall_seconds, "
+                          "simulated [s], spring_updates, spring_updates_per_wall_second, "
+                          "real_time_factor",
+               .call = timings_method});
+  api.add(type.build());
+}
+
+std::vector<Parameter> start_parameters(std::uint32_t starts) {
+  const CompareOptions usual;
+  return {{.name = "starts",
+           .type = "integer",
+           .fallback = fmt::format("{}", starts),
+           .help = "starts, the same for every level"},
+          {.name = "jitter",
+           .type = "number",
+           .fallback = fmt::format("{}", usual.jitter),
+           .help = "relative change of speed and height from start to start; the first has none"},
+          {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "of the jitter"},
+          {.name = "threads",
+           .type = "integer",
+           .fallback = "s.threads",
+           .help = "0: all cores; never changes a result"}};
+}
+
+std::vector<Parameter> compare_parameters() {
+  const CompareOptions usual;
+  std::vector<Parameter> parameters = start_parameters(usual.starts);
+  parameters.push_back(
+      {.name = "error_window",
+       .type = "quantity",
+       .dimension = Dimension::time,
+       .fallback = fmt::format("{}", usual.error_window),
+       .help = "errors are averaged up to so long after the base's first contact"});
+  parameters.push_back({.name = "variant",
+                        .type = "string",
+                        .fallback = "none",
+                        .help = "goes into the labels: \"hb\" makes \"LOD-hb-1\""});
+  const std::vector<Parameter> run = run_parameters(RunOptions{});
+  parameters.insert(parameters.end(), run.begin(), run.end());
+  return parameters;
+}
+
+std::vector<Parameter> ensemble_parameters() {
+  const EnsembleOptions usual;
+  std::vector<Parameter> parameters = start_parameters(usual.starts);
+  parameters.push_back(
+      {.name = "first",
+       .type = "integer",
+       .fallback = fmt::format("{}", usual.first_start + 1),
+       .help = "number of the first start: others than those of another ensemble"});
+  const std::vector<Parameter> run = run_parameters(usual.run);
+  parameters.insert(parameters.end(), run.begin(), run.end());
+  return parameters;
+}
+
+}  // namespace
+
+void describe_compare(Api& api) {
+  describe_comparison(api);
+  api.add(FunctionEntry{
+      .name = "compare",
+      .group = kGroup,
+      .summary = "Runs every level of a chain from the same starts and measures cost and error.",
+      .arguments = {{.name = "chain", .type = "LodChain", .help = "levels to compare"},
+                    scenario_parameter()},
+      .options = compare_parameters(),
+      .returns = "Comparison",
+      .errors = "As for run.",
+      .example = "local runs = s.compare(chain, scene, {starts = 24, jitter = 0.02})\n"
+                 "print(s.inspect(runs:table()))",
+      .call = compare_binding});
+  api.add(FunctionEntry{
+      .name = "ensemble",
+      .group = kGroup,
+      .summary = "Runs one model from many starts and keeps what each came to.",
+      .arguments = {{.name = "model", .type = "Model", .help = "a model or a level of a chain"},
+                    scenario_parameter()},
+      .options = ensemble_parameters(),
+      .returns =
+          "list of tables, one a start: start (its number), distance [m], simulated [s], "
+          "spring_updates, ledger_error, unconverged_steps, first_crossing (when springs first "
+          "turned over [s], or nil). Starts of one seed and number are the same for "
+          "every level: pairs",
+      .errors = "As for run.",
+      .example = "local distances = {}\n"
+                 "for i, run in ipairs(s.ensemble(chain[1], scene, {starts = 24})) do\n"
+                 "  distances[i] = run.distance\nend",
+      .call = ensemble_binding});
+}
+
+}  // namespace springlod

@@ -1,0 +1,125 @@
+// One start of many, and how far a run from it is from the base's.
+
+#include "sim/study/deviation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "lod/transfer.hpp"
+#include "scripting/bind/scenario_table.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+#include "sim/study/compare.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr const char* kGroup = "Simulation";
+
+int jittered_binding(Call& call) {
+  auto scenario = std::make_shared<Scenario>(*scenario_argument(call, 1));
+  const MassSpringModel& model = *call.value<ModelValue>(2)->model;
+  CompareOptions options;
+  options.seed = call.session().settings().seed;
+  std::uint32_t number = 1;
+  TableReader reader = call.options(3);
+  reader.read("number", number);
+  if (number == 0) reader.refuse("number", "1 or more");
+  reader.read("jitter", options.jitter);
+  if (!(options.jitter >= 0 && options.jitter < 1)) reader.refuse("jitter", "in [0, 1)");
+  reader.read("seed", options.seed);
+  reader.finish();
+  scenario->start = jittered(scenario->start, center_of_mass(model, model.rest), options.jitter,
+                             options.seed, number - 1);
+  return call.give(std::shared_ptr<const Scenario>(scenario));
+}
+
+/// The run's frames as those of the base of its chain.
+std::vector<Frame> brought_back(const TrajectoryValue& run) {
+  if (run.model->level == 0) return run.trajectory.frames;
+  const Binding binding = base_from_level(run.model->chain->chain, run.model->level);
+  std::vector<Frame> frames;
+  frames.reserve(run.trajectory.frames.size());
+  for (const Frame& frame : run.trajectory.frames)
+    frames.push_back({frame.time, carry(binding, frame.x)});
+  return frames;
+}
+
+int deviation_binding(Call& call) {
+  const auto run = call.value<TrajectoryValue>(1);
+  const auto base = call.value<TrajectoryValue>(2);
+  const MassSpringModel& reference = *base->model->model;
+  const std::size_t nodes = run->model->level == 0
+                                ? run->model->model->node_count()
+                                : run->model->chain->chain.levels[0].model.node_count();
+  if (nodes != reference.node_count())
+    throw InputError(
+        fmt::format("deviation: the first run stands for {} nodes at level 0, the second has {}; "
+                    "give a run of a level and one of the base that it was made from",
+                    nodes, reference.node_count()));
+  const std::vector<Deviation> deviations =
+      deviation_over_time(brought_back(*run), base->trajectory.frames, reference.mass);
+  lua_State* L = call.lua();
+  begin_list(L, deviations.size());
+  std::size_t number = 0;
+  for (const Deviation& deviation : deviations) {
+    begin_table(L);
+    set_field(L, "time", deviation.time);
+    set_field(L, "surface", deviation.surface);
+    set_field(L, "shape", deviation.shape);
+    end_list_entry(L, ++number);
+  }
+  return 1;
+}
+
+}  // namespace
+
+void describe_deviation(Api& api) {
+  const CompareOptions usual;
+  api.add(FunctionEntry{
+      .name = "jittered",
+      .group = kGroup,
+      .summary =
+          "The scenario with one of the starts of compare and ensemble, to look at it alone.",
+      .arguments = {scenario_parameter(),
+                    {.name = "model",
+                     .type = "Model",
+                     .help = "whose centre of mass a start that is not placed keeps"}},
+      .options =
+          {{.name = "number",
+            .type = "integer",
+            .fallback = "1",
+            .help = "of the start; the first is the scenario's own"},
+           {.name = "jitter",
+            .type = "number",
+            .fallback = fmt::format("{}", usual.jitter),
+            .help = "relative change of speed and height, as in compare"},
+           {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "as in compare"}},
+      .returns = "Scenario",
+      .errors = "A jitter outside [0, 1).",
+      .example = "local seventh = s.run(chain[1], s.jittered(scene, chain[0], {number = 7}))",
+      .call = jittered_binding});
+  api.add(FunctionEntry{
+      .name = "deviation",
+      .group = kGroup,
+      .summary = "How far a run of a level is from one of its base, frame by frame.",
+      .arguments = {{.name = "run",
+                     .type = "Trajectory",
+                     .help = "of a level of a chain, brought back to level 0; or of the base with "
+                             "other options"},
+                    {.name = "base", .type = "Trajectory", .help = "of the base"}},
+      .returns = "list of tables: time [s], surface (mass-weighted rms distance of the level-0 "
+                 "nodes [m]), shape (the same after the best rigid fit [m]), as long as both runs "
+                 "have frames of the same instants",
+      .errors = "Runs of bodies with different numbers of nodes at level 0.",
+      .example = "local far = s.deviation(s.run(chain[1], scene), s.run(chain[0], scene))\n"
+                 "print(far[#far].time, far[#far].surface)",
+      .call = deviation_binding});
+}
+
+}  // namespace springlod

@@ -1,0 +1,246 @@
+// Elasticity of mass-spring models: measured moduli, zero modes, modes and static loads, of free
+// and of anchored bodies.
+
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "elastic/loads/static_loads.hpp"
+#include "elastic/modes.hpp"
+#include "elastic/stiffness.hpp"
+#include "elastic/zero_modes.hpp"
+#include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr const char* kGroup = "Models";
+
+int stretch_binding(Call& call) {
+  const auto value = call.value<ModelValue>(1);
+  StretchOptions options;
+  TableReader reader = call.options(2);
+  reader.choose("axis", options.axis, {{"x", 0}, {"y", 1}, {"z", 2}});
+  reader.read("cross_section", options.cross_section);
+  reader.finish();
+  const StretchResult result = stretch_test(*value->model, options);
+  begin_table(call.lua());
+  set_field(call.lua(), "young", result.young);
+  set_field(call.lua(), "poisson", result.poisson);
+  set_field(call.lua(), "reaction", result.reaction);
+  set_field(call.lua(), "strain_energy", result.strain_energy);
+  return 1;
+}
+
+int zero_modes_binding(Call& call) {
+  const MassSpringModel& model = *call.value<ModelValue>(1)->model;
+  TableReader reader = call.options(2);
+  const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
+  reader.finish();
+  const std::vector<PartModes> parts = zero_modes(model, anchored);
+  lua_State* L = call.lua();
+  begin_list(L, parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    begin_table(L);
+    set_field(L, "first_node", parts[i].first_node + 1);
+    set_field(L, "node_count", parts[i].node_count);
+    set_field(L, "anchored", parts[i].anchored);
+    set_field(L, "zero_modes", parts[i].zero_modes);
+    set_field(L, "expected", parts[i].expected);
+    std::vector<std::uint32_t> nodes = parts[i].mechanism_nodes;
+    for (std::uint32_t& node : nodes) ++node;
+    set_field(L, "mechanism_nodes", nodes);
+    end_list_entry(L, i + 1);
+  }
+  return 1;
+}
+
+int modes_binding(Call& call) {
+  const MassSpringModel& model = *call.value<ModelValue>(1)->model;
+  ModeOptions options;
+  options.progress = call.progress();
+  TableReader reader = call.options(2);
+  reader.read("count", options.count);
+  reader.read("accuracy", options.accuracy);
+  reader.read("seed", options.seed);
+  const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
+  reader.finish();
+  const Modes found = lowest_modes(
+      elastic_body(model, {.anchored = anchored, .progress = call.progress()}), options);
+  if (!anchored.empty() && found.zero_modes_skipped > 0)
+    call.session().console().say(
+        fmt::format("modes: the anchors leave {} motions that nothing resists, which are left out; "
+                    "s.zero_modes with the same anchors tells which nodes move",
+                    found.zero_modes_skipped));
+  lua_State* L = call.lua();
+  begin_list(L, found.modes.size());
+  for (std::size_t i = 0; i < found.modes.size(); ++i) {
+    begin_table(L);
+    set_field(L, "frequency", found.modes[i].frequency());
+    set_field(L, "residual", found.modes[i].residual);
+    set_field(L, "shape", found.modes[i].shape);
+    end_list_entry(L, i + 1);
+  }
+  return 1;
+}
+
+void push_solution(lua_State* L, const StaticSolution& solution) {
+  begin_table(L);
+  set_field(L, "compliance", solution.compliance);
+  set_field(L, "residual", solution.residual);
+  set_field(L, "displacement", solution.displacement);
+}
+
+int static_loads_binding(Call& call) {
+  const MassSpringModel& model = *call.value<ModelValue>(1)->model;
+  TableReader reader = call.options(2);
+  const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
+  reader.finish();
+  const std::vector<StaticLoad> loads = smooth_loads(model);
+  const std::vector<StaticSolution> solutions =
+      solve_static(elastic_body(model, {.anchored = anchored, .progress = call.progress()}), loads);
+  lua_State* L = call.lua();
+  begin_list(L, loads.size());
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    push_solution(L, solutions[i]);
+    set_field(L, "name", loads[i].name);
+    set_field(L, "force", loads[i].force);
+    end_list_entry(L, i + 1);
+  }
+  return 1;
+}
+
+int deflect_binding(Call& call) {
+  const MassSpringModel& model = *call.value<ModelValue>(1)->model;
+  TableReader reader = call.options(2);
+  if (!reader.has("force")) reader.refuse("force", "given: which forces pull at the nodes");
+  const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
+  const StaticLoad load{"of deflect", read_forces(reader, model)};
+  reader.finish();
+  push_solution(
+      call.lua(),
+      solve_static(elastic_body(model, {.anchored = anchored, .progress = call.progress()}), {load})
+          .front());
+  return 1;
+}
+
+void describe_measurements(Api& api, const Parameter& model) {
+  api.add(FunctionEntry{
+      .name = "stretch",
+      .group = kGroup,
+      .summary = "Stretch test: the Young's modulus and Poisson's ratio that a bar shows.",
+      .arguments = {model},
+      .options = {{.name = "axis",
+                   .type = "one of",
+                   .fallback = "\"z\"",
+                   .help = "along which the end planes are pulled apart",
+                   .choices = {"x", "y", "z"}},
+                  {.name = "cross_section",
+                   .type = "number",
+                   .fallback = "volume / length",
+                   .help = "area that the force is divided by [m2]"}},
+      .returns = "table: young [Pa], poisson, reaction [N] and strain_energy [J], both at strain 1",
+      .errors = "Fewer than two planes of nodes along the axis.",
+      .example = "print(s.stretch(base, {axis = \"z\"}).young)",
+      .call = stretch_binding});
+  api.add(FunctionEntry{
+      .name = "zero_modes",
+      .group = kGroup,
+      .summary = "Counts the motions that no spring resists, for each connected part.",
+      .arguments = {model},
+      .options = {anchored_parameter()},
+      .returns =
+          "list of tables: first_node, node_count, anchored (how many nodes are), zero_modes, "
+          "expected (6; 5 for a line, 3 for one node, 0 for an anchored part), "
+          "mechanism_nodes (those that move in more than is expected)",
+      .errors = "A node that the model does not have.",
+      .example = "for _, part in ipairs(s.zero_modes(chain[1])) do\n"
+                 "  if part.zero_modes > part.expected then print(s.inspect(part)) end\nend",
+      .call = zero_modes_binding});
+}
+
+void describe_modes(Api& api, const Parameter& model) {
+  const ModeOptions usual;
+  api.add(FunctionEntry{
+      .name = "modes",
+      .group = kGroup,
+      .summary = "The lowest frequencies at which the model swings, free or held at some nodes.",
+      .arguments = {model},
+      .options = {{.name = "count",
+                   .type = "integer",
+                   .fallback = fmt::format("{}", usual.count),
+                   .help = "modes wanted; motions that no spring resists are not among them"},
+                  anchored_parameter(),
+                  {.name = "accuracy",
+                   .type = "number",
+                   .fallback = fmt::format("{}", usual.accuracy),
+                   .help = "bound of the relative error of each squared frequency"},
+                  {.name = "seed",
+                   .type = "integer",
+                   .fallback = fmt::format("{}", usual.seed),
+                   .help = "of the start of the iteration"}},
+      .returns = "list of tables, lowest first: frequency [Hz], residual (bound of the relative "
+                 "error of its square), shape (for each node {x, y, z}; sum of mass times square "
+                 "= 1; zero where anchored)",
+      .errors = "count 0, an accuracy outside 1e-12..0.1, hundreds of loose nodes in a large part, "
+                "an anchored node that the model does not have. Motions that anchors leave free "
+                "are told about and left out.",
+      .example = "for _, mode in ipairs(s.modes(base, {count = 5})) do print(mode.frequency) end\n"
+                 "local clamped = s.modes(base, {anchored = function(node) return node.x < 0.001 "
+                 "end})",
+      .call = modes_binding});
+}
+
+void describe_statics(Api& api, const Parameter& model) {
+  const std::string solution =
+      "compliance [J] (forces times displacements), residual (what iterating on would change), "
+      "displacement (for each node {x, y, z} [m]; without rigid motion if nothing is anchored)";
+  api.add(FunctionEntry{
+      .name = "static_loads",
+      .group = kGroup,
+      .summary = "How the model gives way to nine smooth loads: three stretches, three shears, two "
+                 "bends and a twist of its longest axis, 1 N each.",
+      .arguments = {model},
+      .options = {anchored_parameter()},
+      .returns = "list of tables: name, force (for each node {x, y, z} [N]), " + solution,
+      .errors =
+          "Hundreds of loose nodes in a large part; anchors that leave free what a load moves.",
+      .example = "for _, load in ipairs(s.static_loads(base)) do print(load.name, "
+                 "load.compliance) end",
+      .call = static_loads_binding});
+  api.add(FunctionEntry{
+      .name = "deflect",
+      .group = kGroup,
+      .summary = "How the model gives way to forces on its nodes, free or held at some nodes.",
+      .arguments = {model},
+      .options = {{.name = "force",
+                   .type = "table or function",
+                   .help =
+                       "from node number to {x, y, z} [N] (those left out: none), or a function "
+                       "of a Node that returns it (nothing: none)"},
+                  anchored_parameter()},
+      .returns = "table: " + solution,
+      .errors = "No force given; anchors that leave free what the forces move. With nothing "
+                "anchored, what would only push or turn the body is taken out of the forces.",
+      .example = "local bent = s.deflect(base, {\n"
+                 "  anchored = function(node) return node.x < 0.001 end,\n"
+                 "  force = {[base.node_count] = {0, 0, -1}}})\n"
+                 "print(bent.displacement[base.node_count][3])",
+      .call = deflect_binding});
+}
+
+}  // namespace
+
+void describe_elastic(Api& api) {
+  const Parameter model{.name = "model", .type = "Model", .help = "a model or a level of a chain"};
+  describe_measurements(api, model);
+  describe_modes(api, model);
+  describe_statics(api, model);
+}
+
+}  // namespace springlod

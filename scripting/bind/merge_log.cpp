@@ -1,0 +1,182 @@
+// Which merges cost which error.
+
+#include "lod/quality/merge_log.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+#include "scripting/engine/result_table.hpp"
+
+namespace springlod {
+namespace {
+
+std::string kind_name(Answer::Kind kind) {
+  switch (kind) {
+    case Answer::Kind::mode:
+      return "mode";
+    case Answer::Kind::smooth:
+      return "smooth";
+    case Answer::Kind::local:
+      return "local";
+  }
+  return "";
+}
+
+void push_answers(lua_State* L, const MergeStep& step) {
+  begin_list(L, step.answers.size());
+  for (std::size_t i = 0; i < step.answers.size(); ++i) {
+    begin_table(L);
+    set_field(L, "name", step.answers[i].name);
+    set_field(L, "kind", kind_name(step.answers[i].kind));
+    set_field(L, "change", step.change[i]);
+    set_field(L, "error", step.error[i]);
+    end_list_entry(L, i + 1);
+  }
+}
+
+void set_merge(lua_State* L, const MassSpringModel& model, const Merge& merge,
+               std::uint32_t base_nodes) {
+  set_field(L, "node", merge.node + 1);
+  set_field(L, "pieces", merge.pieces);
+  set_field(L, "base_nodes", base_nodes);
+  set_field(L, "position", model.rest[merge.node]);
+  set_field(L, "material", model.materials[model.material[merge.node]].name);
+  set_field(L, "border", model.border[merge.node] != 0);
+  set_field(L, "frequencies", merge.frequencies);
+  set_field(L, "smooth_loads", merge.smooth_loads);
+  set_field(L, "local_loads", merge.local_loads);
+  set_field(L, "change", merge.change);
+}
+
+void push_merges(lua_State* L, const Level& level, const MergeStep& step) {
+  std::vector<std::uint32_t> base_nodes(level.of_base.count, 0);
+  for (const std::uint32_t node : level.of_base.of) ++base_nodes[node];
+  std::vector<std::uint32_t> order(step.merges.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return step.merges[a].frequencies > step.merges[b].frequencies;
+  });
+  push_tables(L, order, [&](std::uint32_t merge) {
+    set_merge(L, level.model, step.merges[merge], base_nodes[merge]);
+  });
+}
+
+int merge_log_binding(Call& call) {
+  const auto asset = call.value<LodAsset>(1);
+  MergeLogOptions options;
+  options.threads = call.session().settings().threads;
+  options.progress = call.progress();
+  TableReader reader = call.options(2);
+  reader.read("modes", options.modes);
+  reader.read("local_loads", options.local_loads);
+  reader.read("seed", options.seed);
+  reader.read("from_base", options.from_base);
+  options.anchored = read_anchored(reader, asset->chain.levels.front().model);
+  reader.finish();
+  const MergeLog log = log_merges(asset->chain, options);
+  lua_State* L = call.lua();
+  push_tables(L, log.steps, [&](const MergeStep& step) {
+    set_field(L, "from", step.from);
+    set_field(L, "level", step.level);
+    set_field(L, "frequency_error", mean_error(step, Answer::Kind::mode));
+    set_field(L, "smooth_load_error", mean_error(step, Answer::Kind::smooth));
+    set_field(L, "local_load_error", mean_error(step, Answer::Kind::local));
+    push_answers(L, step);
+    end_field(L, "answers");
+    push_merges(L, asset->chain.levels[step.level], step);
+    end_field(L, "merges");
+  });
+  return 1;
+}
+
+void describe_records(Api& api) {
+  api.add(RecordEntry{
+      .name = "MergeStep",
+      .summary = "What making one level changed: an entry of merge_log. Errors and changes are "
+                 "natural logarithms of level over base: 0.01 is 1 %.",
+      .fields =
+          {result_field("from", "integer", "the level that was merged; 0 if not the one before"),
+           result_field("level", "integer", "the level that came of it"),
+           result_field(
+               "frequency_error", "number",
+               "mean |error| of the level's lowest frequencies, each against what the base "
+               "makes of the same motion; above f1_10_error where the base has no such motion"),
+           result_field("smooth_load_error", "number", "mean |error| of the smooth loads"),
+           result_field("local_load_error", "number", "mean |error| of pinches and pushes"),
+           result_field(
+               "answers", "list of tables",
+               "what was asked: name, kind (mode, smooth, local), change (of this step; ln of "
+               "the frequency, for loads of the compliance), error (since the base)"),
+           result_field("merges", "list of MergeEntry",
+                        "the nodes of the level, the costliest first")},
+      .example = "s.merge_log(chain)[1].merges[1].position"});
+  api.add(RecordEntry{
+      .name = "MergeEntry",
+      .summary = "What one merge cost: its part in the errors of a MergeStep.",
+      .fields = {result_field("node", "integer", "of the level, that came of it"),
+                 result_field("pieces", "integer",
+                              "nodes that became it; 1: it was not merged in this step"),
+                 result_field("base_nodes", "integer", "nodes of the base in it"),
+                 result_field("position", "{x, y, z}", "[m]"),
+                 result_field("material", "string", "that of most of its volume"),
+                 result_field("border", "boolean", "whether it lies on the surface"),
+                 result_field(
+                     "frequencies", "number",
+                     "how much farther it brought the mean |error| of the frequencies; below 0: it "
+                     "mended what others did"),
+                 result_field("smooth_loads", "number", "likewise, of the smooth loads"),
+                 result_field("local_loads", "number", "likewise, of pinches and pushes"),
+                 result_field(
+                     "change", "list of numbers",
+                     "its part in the change of each of the step's answers; they add up to it")},
+      .example = "s.merge_log(chain)[1].merges[1].frequencies"});
+}
+
+}  // namespace
+
+void describe_merge_log(Api& api) {
+  describe_records(api);
+  const MergeLogOptions usual;
+  api.add(FunctionEntry{
+      .name = "merge_log",
+      .group = "Levels of detail",
+      .summary = "Which merge cost which error, level by level: how each level answers to its own "
+                 "lowest modes and to static loads beside its base, as a sum over its nodes.",
+      .arguments = {{.name = "chain", .type = "LodChain", .help = "levels and their base"}},
+      .options = {{.name = "modes",
+                   .type = "integer",
+                   .fallback = fmt::format("{}", usual.modes),
+                   .help = "lowest modes of each level; 0: none"},
+                  {.name = "local_loads",
+                   .type = "integer",
+                   .fallback = fmt::format("{}", usual.local_loads),
+                   .help = "pinches, and as many pushes, on patches of the surface; 0: none"},
+                  {.name = "seed",
+                   .type = "integer",
+                   .fallback = fmt::format("{}", usual.seed),
+                   .help = "of where they act, as in certify"},
+                  {.name = "from_base",
+                   .type = "boolean",
+                   .fallback = "false",
+                   .help = "each step counts from the base, also where a level was merged from the "
+                           "one before"},
+                  anchored_parameter()},
+      .returns = "list of MergeStep, one a level but the base",
+      .errors = "A chain that is a base alone; a level without springs; hundreds of loose nodes in "
+                "a large part.",
+      .example = "local step = s.merge_log(chain)[1]\n"
+                 "for i = 1, 5 do\n"
+                 "  local merge = step.merges[i]\n"
+                 "  print(merge.material, merge.frequencies, table.unpack(merge.position))\n"
+                 "end",
+      .call = merge_log_binding});
+}
+
+}  // namespace springlod

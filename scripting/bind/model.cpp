@@ -1,0 +1,343 @@
+// Mass-spring models: read, built from tables, estimated; chains saved, loaded and told about.
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "base/units.hpp"
+#include "elastic/moduli/estimate.hpp"
+#include "elastic/stable_step.hpp"
+#include "model/asset/asset.hpp"
+#include "scripting/bind/certificate_table.hpp"
+#include "scripting/bind/model_table.hpp"
+#include "scripting/bind/records.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr const char* kGroup = "Models";
+constexpr const char* kFiles = "Assets";
+
+int model_binding(Call& call) {
+  TableReader options = call.options(1);
+  auto value = std::make_shared<ModelValue>();
+  value->model = std::make_shared<const MassSpringModel>(model_from_tables(call, options));
+  options.finish();
+  value->made_by = "tables";
+  value->provenance.set("springlod", version());
+  value->provenance.set("model", "tables");
+  return call.give(std::shared_ptr<const ModelValue>(value));
+}
+
+std::uint32_t element(Call& call, std::uint32_t count) {
+  return static_cast<std::uint32_t>(call.integer(1, 1, count) - 1);
+}
+
+int node_method(Call& call) {
+  const auto self = call.self<ModelValue>();
+  push_node(call.lua(), *self->model, element(call, self->model->node_count()));
+  return 1;
+}
+
+int spring_method(Call& call) {
+  const auto self = call.self<ModelValue>();
+  push_spring(call.lua(), *self->model, element(call, self->model->spring_count()));
+  return 1;
+}
+
+int nodes_method(Call& call) {
+  const auto self = call.self<ModelValue>();
+  begin_list(call.lua(), self->model->node_count());
+  for (std::uint32_t i = 0; i < self->model->node_count(); ++i) {
+    push_node(call.lua(), *self->model, i);
+    end_list_entry(call.lua(), i + 1);
+  }
+  return 1;
+}
+
+int springs_method(Call& call) {
+  const auto self = call.self<ModelValue>();
+  begin_list(call.lua(), self->model->spring_count());
+  for (std::uint32_t i = 0; i < self->model->spring_count(); ++i) {
+    push_spring(call.lua(), *self->model, i);
+    end_list_entry(call.lua(), i + 1);
+  }
+  return 1;
+}
+
+void push_estimate(lua_State* L, const Eq2Estimate& e) {
+  begin_table(L);
+  set_field(L, "nodes", e.nodes);
+  set_field(L, "mass", e.mass);
+  set_field(L, "volume", e.volume);
+  set_field(L, "density", e.density);
+  set_field(L, "young", e.young);
+  set_field(L, "shear", e.shear);
+  set_field(L, "bulk", e.bulk);
+}
+
+int estimate_binding(Call& call) {
+  const auto value = call.value<ModelValue>(1);
+  const ModelEstimate result = estimate(*value->model);
+  lua_State* L = call.lua();
+  push_estimate(L, result.whole);
+  begin_list(L, result.materials.size());
+  for (std::size_t m = 0; m < result.materials.size(); ++m) {
+    push_estimate(L, result.materials[m]);
+    set_field(L, "name", value->model->materials[m].name);
+    end_list_entry(L, m + 1);
+  }
+  end_field(L, "materials");
+  set_field(L, "node_young", result.young);
+  set_field(L, "node_density", result.density);
+  return 1;
+}
+
+int stable_step_binding(Call& call) {
+  return call.give(stable_step(*call.value<ModelValue>(1)->model));
+}
+
+int save_binding(Call& call) {
+  const auto chain = call.value<LodAsset>(2);
+  save_asset(*chain, call.path(1));
+  return 0;
+}
+
+int load_binding(Call& call) {
+  return call.give(std::make_shared<const LodAsset>(load_asset(call.path(1))));
+}
+
+void push_provenance(lua_State* L, const Provenance& provenance) {
+  begin_table(L);
+  for (const auto& [key, entry] : provenance.entries) set_field(L, key.c_str(), entry);
+}
+
+void push_level_info(lua_State* L, const Level& level, std::size_t number) {
+  const MassSpringModel& model = level.model;
+  const MassProperties properties = mass_properties(model);
+  begin_table(L);
+  set_field(L, "level", number);
+  set_field(L, "nodes", model.node_count());
+  set_field(L, "springs", model.spring_count());
+  set_field(L, "ends", model.end_count());
+  set_field(L, "border_nodes", border_count(model));
+  set_field(L, "mass", properties.mass);
+  set_field(L, "center_of_mass", properties.center);
+  set_field(L, "inertia", properties.inertia);
+  set_field(L, "stable_dt", stable_step(model));
+  set_field(L, "made_by", level.made_by);
+  push_materials(L, model.materials);
+  end_field(L, "materials");
+  if (level.certificate) {
+    push_certificate(L, *level.certificate);
+    end_field(L, "certificate");
+  }
+}
+
+int info_binding(Call& call) {
+  const auto asset = call.value<LodAsset>(1);
+  lua_State* L = call.lua();
+  begin_table(L);
+  begin_list(L, asset->chain.levels.size());
+  for (std::size_t i = 0; i < asset->chain.levels.size(); ++i) {
+    push_level_info(L, asset->chain.levels[i], i);
+    end_list_entry(L, i + 1);
+  }
+  end_field(L, "levels");
+  push_provenance(L, asset->provenance);
+  end_field(L, "provenance");
+  set_field(L, "surface_triangles", asset->surface.triangles.size());
+  return 1;
+}
+
+std::string model_text(const ModelValue& value) {
+  const MassSpringModel& model = *value.model;
+  const MassProperties properties = mass_properties(model);
+  std::string text = "Model: ";
+  if (value.chain) text = fmt::format("Model, level {}: ", value.level);
+  return text + fmt::format("{} nodes ({} border), {}, {}", model.node_count(), border_count(model),
+                            spring_text(model.spring_count()),
+                            format_quantity(properties.mass, Dimension::mass));
+}
+
+FunctionEntry element_method(const char* name, const char* what, const char* record,
+                             int (*binding)(Call&)) {
+  return {.name = name,
+          .summary = fmt::format("One {}, as a table.", what),
+          .arguments = {{.name = "number", .type = "integer", .help = "counted from 1"}},
+          .returns = fmt::format("{}: with its number", record),
+          .call = binding};
+}
+
+FunctionEntry list_method(const char* name, const char* what, const char* record,
+                          int (*binding)(Call&)) {
+  return {.name = name,
+          .summary = fmt::format("All {}, as tables.", what),
+          .returns = fmt::format("list of {}", record),
+          .call = binding};
+}
+
+void describe_model_type(Api& api) {
+  TypeBuilder<ModelValue> type(
+      "A mass-spring model: nodes and springs at one resolution; a level of a chain is one too.",
+      model_text);
+  type.field("node_count", "integer", "number of nodes",
+             [](const ModelValue& value) { return value.model->node_count(); });
+  type.field("spring_count", "integer", "number of springs, each counted once",
+             [](const ModelValue& value) { return value.model->spring_count(); });
+  type.field("end_count", "integer", "ends of springs: the S of the paper",
+             [](const ModelValue& value) { return value.model->end_count(); });
+  type.field("border_count", "integer", "number of border nodes",
+             [](const ModelValue& value) { return border_count(*value.model); });
+  type.field("part_count", "integer", "number of connected parts",
+             [](const ModelValue& value) { return connected_components(*value.model).count; });
+  type.field("mass", "number", "total mass [kg]",
+             [](const ModelValue& value) { return mass_properties(*value.model).mass; });
+  type.field("volume", "number", "total volume [m3]",
+             [](const ModelValue& value) { return mass_properties(*value.model).volume; });
+  type.field("center", "{x, y, z}", "centre of mass [m]",
+             [](const ModelValue& value) { return mass_properties(*value.model).center; });
+  type.field("inertia", "3 x 3 table", "about the centre of mass [kg m2]",
+             [](const ModelValue& value) { return mass_properties(*value.model).inertia; });
+  type.field("young", "number", "Young's modulus by eq. 2 of the paper, an upper bound [Pa]",
+             [](const ModelValue& value) { return estimated_young(*value.model); });
+  type.table_field(
+      "materials", "list of Material", "materials of the nodes",
+      [](lua_State* L, const ModelValue& value) { push_materials(L, value.model->materials); });
+  type.field("level", "integer", "level in its chain; 0 for a model of its own",
+             [](const ModelValue& value) { return value.level; });
+  type.field("made_by", "string", "how it was made",
+             [](const ModelValue& value) { return value.made_by; });
+  type.table_field(
+      "provenance", "table of strings", "where it came from",
+      [](lua_State* L, const ModelValue& value) { push_provenance(L, value.provenance); });
+  type.method(element_method("node", "node", "Node", node_method));
+  type.method(element_method("spring", "spring", "Spring", spring_method));
+  type.method(list_method("nodes", "nodes", "Node", nodes_method));
+  type.method(list_method("springs", "springs", "Spring", springs_method));
+  api.add(type.build());
+}
+
+void describe_material(Api& api) {
+  const Material usual;
+  api.add(RecordEntry{
+      .name = "Material",
+      .summary = "An elastic material; springs alone give it Poisson's ratio 1/4.",
+      .fields = {{.name = "name",
+                  .type = "string",
+                  .fallback = "its key",
+                  .help = "what reports call it"},
+                 {.name = "young",
+                  .type = "quantity",
+                  .dimension = Dimension::pressure,
+                  .fallback = fmt::format("{}", usual.young),
+                  .help = "Young's modulus"},
+                 {.name = "density",
+                  .type = "quantity",
+                  .dimension = Dimension::density,
+                  .fallback = fmt::format("{}", usual.density),
+                  .help = "density"},
+                 {.name = "damping",
+                  .type = "quantity",
+                  .dimension = Dimension::time,
+                  .fallback = fmt::format("{}", usual.damping),
+                  .help = "damping time c/k of its springs"},
+                 {.name = "colour",
+                  .type = "\"#rrggbb\" or {r, g, b}",
+                  .fallback = "grey",
+                  .help = "in pictures; r, g, b of 0..1"}},
+      .example = "rubber = {young = \"0.2 MPa\", density = 1000, damping = 0.004, colour = "
+                 "\"#40a060\"}"});
+}
+
+void describe_estimates(Api& api) {
+  const Parameter model{.name = "model", .type = "Model", .help = "a model or a level of a chain"};
+  api.add(FunctionEntry{
+      .name = "estimate",
+      .group = kGroup,
+      .summary = "What eq. 2 of the paper says of a model, its materials and its nodes.",
+      .arguments = {model},
+      .returns = "table: nodes, mass [kg], volume [m3], density [kg/m3], young, shear, bulk [Pa]; "
+                 "materials, a list of the same with name; node_young and node_density, lists",
+      .errors = "None for a valid model. An upper bound: s.stretch measures.",
+      .example = "print(s.estimate(base).materials[1].young)",
+      .call = estimate_binding});
+  api.add(FunctionEntry{.name = "stable_step",
+                        .group = kGroup,
+                        .summary = "Largest stable time step of the model without contact.",
+                        .arguments = {model},
+                        .returns = "number: step [s]",
+                        .errors = "None for a valid model.",
+                        .example = "print(s.stable_step(chain[0]))",
+                        .call = stable_step_binding});
+}
+
+void describe_assets(Api& api) {
+  const Parameter chain{.name = "chain", .type = "LodChain", .help = "what simplify made"};
+  api.add(FunctionEntry{
+      .name = "save",
+      .group = kFiles,
+      .summary = "Writes a chain as one .glb asset that any glTF viewer shows.",
+      .arguments = {{.name = "path", .type = "string", .help = "file to write, NAME.glb"}, chain},
+      .returns = "nothing",
+      .errors = "The file cannot be written.",
+      .example = "s.save(\"out/dumbbell.glb\", chain)",
+      .call = save_binding});
+  api.add(FunctionEntry{.name = "load",
+                        .group = kFiles,
+                        .summary = "Reads an asset back, bit for bit.",
+                        .arguments = {{.name = "path", .type = "string", .help = "a .glb of save"}},
+                        .returns = "LodChain",
+                        .errors = "No such file, no springlod asset, a damaged or newer one.",
+                        .example = "local chain = s.load(\"out/dumbbell.glb\")",
+                        .call = load_binding});
+  api.add(FunctionEntry{
+      .name = "info",
+      .group = kFiles,
+      .summary = "What a chain holds, as plain tables.",
+      .arguments = {chain},
+      .returns =
+          "table: levels (a list of level, nodes, springs, ends, border_nodes, mass, "
+          "center_of_mass, inertia, stable_dt, made_by, materials, certificate), provenance, "
+          "surface_triangles; a level that was measured beside the base has a Certificate",
+      .errors = "None for a valid chain.",
+      .example = "print(s.json(s.info(chain)))",
+      .call = info_binding});
+}
+
+}  // namespace
+
+void describe_model(Api& api) {
+  describe_material(api);
+  describe_model_tables(api);
+  describe_model_type(api);
+  api.add(
+      FunctionEntry{.name = "model",
+                    .group = kGroup,
+                    .summary = "Builds a model from plain tables of nodes and springs.",
+                    .options = {{.name = "nodes", .type = "list of Node", .help = "mass points"},
+                                {.name = "springs",
+                                 .type = "list of Spring",
+                                 .fallback = "none",
+                                 .help = "springs between them, in any order"},
+                                {.name = "materials",
+                                 .type = "list of Material",
+                                 .fallback = "one, named default",
+                                 .help = "materials that the nodes name"}},
+                    .returns = "Model",
+                    .errors = "A node or spring that is not valid; the message names it.",
+                    .example = "local chain = s.model{\n"
+                               "  nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 1}},\n"
+                               "  springs = {{1, 2, k = 100}}}",
+                    .call = model_binding});
+  describe_estimates(api);
+  describe_certificate(api);
+  describe_assets(api);
+}
+
+}  // namespace springlod

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "model/mass_spring.hpp"
+#include "scripting/engine/call.hpp"
+
+namespace springlod {
+
+/// A model from plain tables: nodes, springs, materials (the options of `s.model`). Springs may
+/// come in any order and direction. Throws InputError naming the entry.
+MassSpringModel model_from_tables(Call& call, TableReader& options);
+
+/// {x=, y=, z=, mass=, ...} of a node, {a=, b=, k=, ...} of a spring; `number` counts from 0, what
+/// the table says from 1.
+void push_node(lua_State* L, const MassSpringModel& model, std::uint32_t number);
+void push_spring(lua_State* L, const MassSpringModel& model, std::uint32_t number);
+
+/// The records Node and Spring.
+void describe_model_tables(Api& api);
+
+}  // namespace springlod

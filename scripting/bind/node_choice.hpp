@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+#include "scripting/engine/call.hpp"
+
+namespace springlod {
+
+/// How scripts choose nodes: a list of node numbers (counted from 1), or a function of a Node that
+/// returns true for those it means. Reads what is at `index`; messages call it `what`.
+std::vector<std::uint32_t> nodes_at(lua_State* L, int index, const MassSpringModel& model,
+                                    const std::string& what);
+/// The option `name`; empty if it is not given.
+std::vector<std::uint32_t> read_nodes(TableReader& reader, const char* name,
+                                      const MassSpringModel& model);
+/// The option `anchored`; empty if it is not given.
+std::vector<std::uint32_t> read_anchored(TableReader& reader, const MassSpringModel& model);
+Parameter anchored_parameter();
+
+/// The option `force`: a table from node number to {x, y, z} [N] or a function of a Node that
+/// returns it; nothing means none. N forces, all zero if it is not given.
+std::vector<Vec3> read_forces(TableReader& reader, const MassSpringModel& model);
+
+}  // namespace springlod

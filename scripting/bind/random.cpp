@@ -1,0 +1,192 @@
+// Random-node models, and levels made by refilling a grid with fewer nodes.
+
+#include "voxelize/random.hpp"
+
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+#include "voxelize/refill.hpp"
+
+namespace springlod {
+
+namespace {
+
+int random_binding(Call& call) {
+  const auto grid = call.value<GridValue>(1);
+  RandomOptions options;
+  options.seed = call.session().settings().seed;
+  TableReader reader = call.options(2);
+  reader.read("nodes", options.nodes);
+  reader.read("spacing", options.spacing);
+  reader.read("ends", options.ends);
+  reader.read("seed", options.seed);
+  reader.read("rescale", options.rescale);
+  reader.finish();
+  options.progress = call.progress();
+
+  RandomModel random = build_random(grid->grid, options);
+  if (random.parts > 1)
+    call.session().console().say(fmt::format("{} parts that no spring joins", random.parts));
+  auto value = std::make_shared<ModelValue>();
+  value->made_by = fmt::format("random, {} nodes, {} ends, seed {}{}", random.model.node_count(),
+                               options.ends, options.seed, options.rescale ? "" : ", not rescaled");
+  value->model = std::make_shared<const MassSpringModel>(std::move(random.model));
+  value->provenance = grid->provenance;
+  value->provenance.set("random", value->made_by);
+  value->provenance.set("rescaled", fmt::format("{:.6g}", random.rescaled));
+  value->provenance.set("measured_young", fmt::format("{:.6g} of the materials'", random.young));
+  value->provenance.set("measured_poisson", fmt::format("{:.6g}", random.poisson));
+  if (grid->mesh) {
+    value->surface = std::shared_ptr<const TriangleMesh>(grid->mesh, &grid->mesh->mesh);
+    value->surface_of_base =
+        std::make_shared<const Binding>(bind_points(value->surface->positions, *value->model));
+  }
+  return call.give(std::shared_ptr<const ModelValue>(value));
+}
+
+// A count, or a list of them.
+std::vector<std::uint32_t> read_counts(TableReader& reader) {
+  const int given = reader.raw("nodes");
+  lua_State* L = reader.lua();
+  if (given == 0) reader.refuse("nodes", "given: how many each level shall have, as in {161, 78}");
+  std::vector<std::uint32_t> counts;
+  const auto take = [&](int index) {
+    int whole = 0;
+    const lua_Integer count = lua_tointegerx(L, index, &whole);
+    if (whole == 0 || lua_type(L, index) != LUA_TNUMBER || count < 1 ||
+        count > std::numeric_limits<std::uint32_t>::max())
+      reader.refuse("nodes", "a whole number of nodes, or a list of them");
+    counts.push_back(static_cast<std::uint32_t>(count));
+  };
+  if (!lua_istable(L, given)) {
+    take(given);
+    return counts;
+  }
+  for (lua_Unsigned i = 1; i <= lua_rawlen(L, given); ++i) {
+    lua_rawgeti(L, given, static_cast<lua_Integer>(i));
+    take(lua_gettop(L));
+    lua_pop(L, 1);
+  }
+  return counts;
+}
+
+int refill_binding(Call& call) {
+  const auto base = call.value<ModelValue>(1);
+  if (base->chain && base->level != 0)
+    call.refuse(1, "a base model (level 0); a coarser level cannot be the base of a chain");
+  const auto grid = call.value<GridValue>(2);
+  RefillOptions options;
+  options.seed = call.session().settings().seed;
+  TableReader reader = call.options(3);
+  options.nodes = read_counts(reader);
+  reader.choose("style", options.style,
+                {{"lattice", RefillStyle::lattice}, {"random", RefillStyle::random}});
+  reader.choose("lattice", options.lattice,
+                {{"corners", LatticeStyle::corners}, {"centers", LatticeStyle::centers}});
+  reader.read("ends", options.ends);
+  reader.read("seed", options.seed);
+  reader.finish();
+  options.progress = call.progress();
+
+  auto asset = std::make_shared<LodAsset>();
+  asset->chain = refill(*base->model, grid->grid, options);
+  for (std::size_t n = 0; n < options.nodes.size(); ++n) {
+    const std::uint32_t reached = asset->chain.levels[n + 1].model.node_count();
+    if (reached != options.nodes[n])
+      call.session().console().say(
+          fmt::format("level {}: {} nodes, the nearest to {} that a "
+                      "lattice has",
+                      n + 1, reached, options.nodes[n]));
+  }
+  if (base->surface) {
+    asset->surface = *base->surface;
+    asset->surface_of_base = *base->surface_of_base;
+  }
+  asset->provenance = base->provenance;
+  asset->provenance.set("refill", asset->chain.levels.back().made_by);
+  return call.give(std::shared_ptr<const LodAsset>(asset));
+}
+
+Parameter ends_option() {
+  return {.name = "ends",
+          .type = "number",
+          .fallback = fmt::format("{}", RandomOptions{}.ends),
+          .help =
+              "ends of springs a node on average, at least 14; every node of a random model has "
+              "14"};
+}
+
+Parameter seed_option() {
+  return {.name = "seed",
+          .type = "integer",
+          .fallback = "s.seed",
+          .help = "of the random places; the same seed gives the same bits"};
+}
+
+}  // namespace
+
+void describe_random(Api& api) {
+  const RandomOptions usual;
+  api.add(FunctionEntry{
+      .name = "random",
+      .group = "From mesh to model",
+      .summary = "Builds a model of randomly placed nodes in a grid, any number of them.",
+      .arguments = {{.name = "grid", .type = "Grid", .help = "filled cells"}},
+      .options = {{.name = "nodes",
+                   .type = "integer",
+                   .fallback = "as spacing tells",
+                   .help = "how many, at least 15"},
+                  {.name = "spacing",
+                   .type = "quantity",
+                   .dimension = Dimension::length,
+                   .fallback = "the grid's cell",
+                   .help = "edge of the cube that a node stands for"},
+                  ends_option(),
+                  seed_option(),
+                  {.name = "rescale",
+                   .type = "boolean",
+                   .fallback = usual.rescale ? "true" : "false",
+                   .help = "one factor for all springs from a solved stretch test, so that the "
+                           "model shows its E; false: k by eq. 2 of the paper alone"}},
+      .returns = "Model: with the mesh's surface bound to its nodes; what was measured of it is in "
+                 "its provenance",
+      .errors = "An empty grid, fewer than 15 nodes or 14 ends, more nodes than there is room for.",
+      .example = "local base = s.random(grid, {nodes = 1000, seed = 1})",
+      .call = random_binding});
+}
+
+void describe_refill(Api& api) {
+  api.add(FunctionEntry{
+      .name = "refill",
+      .group = "Levels of detail",
+      .summary = "Global rescaling: a chain whose coarser levels are made anew in the same volume.",
+      .arguments = {{.name = "model", .type = "Model", .help = "the base: level 0"},
+                    {.name = "grid", .type = "Grid", .help = "the volume it was made on"}},
+      .options = {{.name = "nodes",
+                   .type = "integer or list of integers",
+                   .help = "how many at level 1, 2, ...; a lattice comes as near as it can"},
+                  {.name = "style",
+                   .type = "one of",
+                   .fallback = "\"lattice\"",
+                   .help = "what the levels are made of",
+                   .choices = {"lattice", "random"}},
+                  {.name = "lattice",
+                   .type = "one of",
+                   .fallback = "\"corners\"",
+                   .help = "where the nodes of a lattice sit, as in s.lattice",
+                   .choices = {"corners", "centers"}},
+                  ends_option(),
+                  seed_option()},
+      .returns = "LodChain: each base node belongs to the nearest node of a level",
+      .errors = "A level that would be no coarser than the one before.",
+      .example = "local chain = s.refill(base, grid, {nodes = {161, 78}, style = \"random\"})",
+      .call = refill_binding});
+}
+
+}  // namespace springlod

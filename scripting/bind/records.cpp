@@ -1,0 +1,61 @@
+#include "scripting/bind/records.hpp"
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+
+namespace springlod {
+
+Material read_material(Call& call, int index, const std::string& owner, const std::string& name) {
+  Material material;
+  material.name = name;
+  TableReader reader = call.record(index, "Material", owner);
+  reader.read("name", material.name);
+  reader.read("young", material.young);
+  reader.read("density", material.density);
+  reader.read("damping", material.damping);
+  reader.read("colour", material.colour);
+  reader.finish();
+  validate(material);
+  return material;
+}
+
+std::map<std::string, Material> read_materials(Call& call, int table, const std::string& owner) {
+  std::map<std::string, Material> into;
+  lua_State* L = call.lua();
+  if (!lua_istable(L, table))
+    throw InputError(
+        fmt::format("{}: materials must be a table name = {{young = ..., density = ...}}, got {}",
+                    owner, describe_type_at(L, table)));
+  lua_pushnil(L);
+  while (lua_next(L, table) != 0) {
+    if (lua_type(L, -2) != LUA_TSTRING)
+      throw InputError(owner + ": materials are named, as in {rod = {young = ...}}");
+    const std::string name = lua_tostring(L, -2);
+    into[name] = read_material(call, lua_gettop(L), "materials." + name, name);
+    lua_pop(L, 1);
+  }
+  return into;
+}
+
+void push_material(lua_State* L, const Material& material) {
+  begin_table(L);
+  set_field(L, "name", material.name);
+  set_field(L, "young", material.young);
+  set_field(L, "density", material.density);
+  set_field(L, "damping", material.damping);
+  // Single precision shown as double would read 0.699999988.
+  const Vec3 colour(material.colour.r, material.colour.g, material.colour.b);
+  set_field(L, "colour", Vec3((colour.array() * 1e6).round() / 1e6));
+}
+
+void push_materials(lua_State* L, const std::vector<Material>& materials) {
+  begin_list(L, materials.size());
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    push_material(L, materials[i]);
+    end_list_entry(L, i + 1);
+  }
+}
+
+}  // namespace springlod

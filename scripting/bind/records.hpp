@@ -1,0 +1,20 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/material.hpp"
+#include "scripting/engine/call.hpp"
+
+namespace springlod {
+
+/// The Material table at `index`; `owner` is what messages call it, `name` its name if the table
+/// gives none.
+Material read_material(Call& call, int index, const std::string& owner, const std::string& name);
+/// {rod = {young = ...}, ...} at `table`: materials by name, any name.
+std::map<std::string, Material> read_materials(Call& call, int table, const std::string& owner);
+void push_material(lua_State* L, const Material& material);
+void push_materials(lua_State* L, const std::vector<Material>& materials);
+
+}  // namespace springlod

@@ -1,0 +1,237 @@
+// Animations, videos, charts and tables.
+
+#include <utility>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "report/animate.hpp"
+#include "report/chart.hpp"
+#include "report/csv.hpp"
+#include "report/gnuplot.hpp"
+#include "report/map_picture.hpp"
+#include "report/video.hpp"
+#include "scripting/bind/chart_table.hpp"
+#include "scripting/bind/draw_style.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+#include "sim/study/stability_map.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr const char* kGroup = "Pictures and reports";
+
+int animate_binding(Call& call) {
+  const auto comparison = call.value<ComparisonValue>(2);
+  AnimateOptions options;
+  TableReader reader = call.options(3);
+  reader.read("width", options.width);
+  reader.read("height", options.height);
+  reader.read("frame_rate", options.frame_rate);
+  reader.read("slow", options.slow);
+  reader.read("frames", options.frames);
+  reader.choose("camera", options.camera,
+                {{"fixed", CameraMode::fixed}, {"follow", CameraMode::follow}});
+  reader.read("azimuth", options.azimuth);
+  reader.read("elevation", options.elevation);
+  reader.read("avoid_walls", options.avoid_walls);
+  read_style(reader, options.style);
+  reader.finish();
+  options.progress = call.progress();
+  const Animation animation =
+      animate(*comparison->chain, comparison->comparison, call.path(1), options);
+  return call.give(animation.frames);
+}
+
+int video_binding(Call& call) {
+  double frame_rate = AnimateOptions{}.frame_rate;
+  TableReader reader = call.options(3);
+  reader.read("frame_rate", frame_rate);
+  reader.finish();
+  const VideoResult video = encode_video(call.path(2), frame_rate, call.path(1));
+  if (!video.made)
+    call.session().console().say("no video: ffmpeg is not installed; with it, run\n  " +
+                                 video.command);
+  return call.give(video.made, video.command);
+}
+
+int give_drawn(Call& call, const Drawing& drawing) {
+  if (!drawing.drawn)
+    call.session().console().say("no chart: gnuplot is not installed; with it, run\n  " +
+                                 drawing.command);
+  return call.give(drawing.drawn, drawing.command);
+}
+
+int chart_binding(Call& call) {
+  ChartOptions options;
+  TableReader reader = call.options(3);
+  if (const auto map = call.try_value<StabilityMap>(2)) {
+    MapPictureOptions picture;
+    read_chart_options(reader, options);
+    reader.finish();
+    picture.title = options.title;
+    return give_drawn(call, draw_map(*map, picture, call.path(1)));
+  }
+  const auto comparison = call.try_value<ComparisonValue>(2);
+  std::vector<ChartSeries> series;
+  if (comparison) {
+    series.push_back(cost_error_series(*comparison, reader));
+    options = cost_error_chart(*comparison);
+  } else {
+    series = series_from_table(call, call.index(2));
+  }
+  read_chart_options(reader, options);
+  reader.finish();
+  const ChartFiles files = draw_chart(series, options, call.path(1));
+  return give_drawn(call, {files.drawn, files.command});
+}
+
+int csv_binding(Call& call) {
+  TableReader reader = call.options(3);
+  const Table table = table_from_rows(call, call.index(2), reader, NumberStyle::exact);
+  reader.finish();
+  save_csv(table, call.path(1));
+  return 0;
+}
+
+int format_table_binding(Call& call) {
+  TableReader reader = call.options(2);
+  const Table table = table_from_rows(call, call.index(1), reader, NumberStyle::four_digits);
+  reader.finish();
+  std::string text = format_table(table);
+  if (text.ends_with('\n')) text.pop_back();  // print adds one
+  return call.give(text);
+}
+
+std::vector<Parameter> animate_parameters() {
+  const AnimateOptions usual;
+  std::vector<Parameter> parameters{
+      {.name = "width",
+       .type = "integer",
+       .fallback = fmt::format("{}", usual.width),
+       .help = "pixels of one panel"},
+      {.name = "height",
+       .type = "integer",
+       .fallback = fmt::format("{}", usual.height),
+       .help = "pixels of one panel"},
+      {.name = "frame_rate",
+       .type = "number",
+       .fallback = fmt::format("{}", usual.frame_rate),
+       .help = "pictures a second of the film"},
+      {.name = "slow",
+       .type = "number",
+       .fallback = fmt::format("{}", usual.slow),
+       .help = "4: four times slower than life"},
+      {.name = "frames", .type = "integer", .fallback = "all", .help = "pictures at most"},
+      {.name = "camera",
+       .type = "one of",
+       .fallback = "\"fixed\"",
+       .help = "whether the camera follows the body",
+       .choices = {"fixed", "follow"}},
+      {.name = "azimuth",
+       .type = "number",
+       .fallback = fmt::format("{}", usual.azimuth),
+       .help = "where the camera stands, in degrees about the vertical from x"},
+      {.name = "elevation",
+       .type = "number",
+       .fallback = fmt::format("{}", usual.elevation),
+       .help = "how high it stands, in degrees"},
+      {.name = "avoid_walls",
+       .type = "boolean",
+       .fallback = usual.avoid_walls ? "true" : "false",
+       .help = "mirror the azimuth where a wall would stand before the action"}};
+  const std::vector<Parameter> style = style_parameters(usual.style);
+  parameters.insert(parameters.end(), style.begin(), style.end());
+  return parameters;
+}
+
+void describe_film(Api& api) {
+  api.add(FunctionEntry{
+      .name = "animate",
+      .group = kGroup,
+      .summary = "Draws base and levels side by side on one clock as frame_0000.png ...",
+      .arguments = {{.name = "folder", .type = "string", .help = "where the frames go"},
+                    {.name = "comparison", .type = "Comparison", .help = "what compare gave"}},
+      .options = animate_parameters(),
+      .returns = "integer: number of frames",
+      .errors = "A size beyond the largest picture; a file cannot be written.",
+      .example = "s.animate(\"out/frames\", runs, {frames = 60})",
+      .call = animate_binding});
+  api.add(FunctionEntry{
+      .name = "video",
+      .group = kGroup,
+      .summary = "Encodes frames as .mp4 or .gif through ffmpeg; without it says the command.",
+      .arguments = {{.name = "path", .type = "string", .help = "NAME.mp4 or NAME.gif to write"},
+                    {.name = "folder", .type = "string", .help = "where animate put the frames"}},
+      .options = {{.name = "frame_rate",
+                   .type = "number",
+                   .fallback = fmt::format("{}", AnimateOptions{}.frame_rate),
+                   .help = "pictures a second"}},
+      .returns = "boolean, string: whether it was made, the command that makes it",
+      .errors = "ffmpeg fails; another ending than .mp4 or .gif.",
+      .example = "s.video(\"out/comparison.mp4\", \"out/frames\")",
+      .call = video_binding});
+}
+
+void describe_tables(Api& api) {
+  const Parameter rows{.name = "rows",
+                       .type = "list of tables",
+                       .help = "rows: lists of cells, or tables with the columns as keys"};
+  const std::vector<Parameter> options{
+      {.name = "columns",
+       .type = "list of strings",
+       .fallback = "the keys of the first row, sorted",
+       .help = "names of the columns, in order; needed if rows are lists"}};
+  api.add(FunctionEntry{
+      .name = "csv",
+      .group = kGroup,
+      .summary = "Writes rows as a CSV file.",
+      .arguments = {{.name = "path", .type = "string", .help = "file to write"}, rows},
+      .options = options,
+      .returns = "nothing",
+      .errors = "Rows of different lengths; the file cannot be written.",
+      .example = "local rows, columns = runs:table()\n"
+                 "s.csv(\"out/table.csv\", rows, {columns = columns})",
+      .call = csv_binding});
+  api.add(
+      FunctionEntry{.name = "format_table",
+                    .group = kGroup,
+                    .summary = "Lays rows out as text for a terminal, numbers with four digits.",
+                    .arguments = {rows},
+                    .options = options,
+                    .returns = "string",
+                    .errors = "Rows of different lengths.",
+                    .example = "print(s.format_table(rows, {columns = {\"label\", \"nodes\"}}))",
+                    .call = format_table_binding});
+}
+
+}  // namespace
+
+void describe_report(Api& api) {
+  describe_film(api);
+  describe_series(api);
+  api.add(FunctionEntry{
+      .name = "chart",
+      .group = kGroup,
+      .summary = "Draws a chart as .svg or .png: cost against error of a comparison, a stability "
+                 "map, or any "
+                 "series.",
+      .arguments = {{.name = "path", .type = "string", .help = "NAME.svg or NAME.png to write"},
+                    {.name = "data",
+                     .type = "Comparison, StabilityMap or list of Series",
+                     .help = "a comparison gives one point a level, a map a panel for each level "
+                             "and integrator (of the options it takes the title)"}},
+      .options = chart_parameters(),
+      .returns = "boolean, string: whether it was drawn (gnuplot may be missing), the command that "
+                 "draws it",
+      .errors = "No points; another ending than .svg or .png.",
+      .example = "s.chart(\"out/cost-error.svg\", runs)\n"
+                 "s.chart(\"out/line.svg\", {{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}})",
+      .call = chart_binding});
+  describe_tables(api);
+}
+
+}  // namespace springlod

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/api.hpp"
+#include "scripting/engine/call.hpp"
+#include "sim/run.hpp"
+
+namespace springlod {
+
+/// The options of every function that runs models; `usual` is what it does without them.
+std::vector<Parameter> run_parameters(const RunOptions& usual);
+/// All but `contact`, which takes a level to make sense of.
+void read_run_options(Call& call, TableReader& reader, RunOptions& options);
+
+ContactAt read_contact(TableReader& reader);
+/// For RunOptions: where the model touches obstacles. A model of its own is its own base.
+std::shared_ptr<const ContactSkin> skin_of(const ModelValue& model, ContactAt contact);
+
+}  // namespace springlod

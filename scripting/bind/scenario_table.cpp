@@ -1,0 +1,298 @@
+#include "scripting/bind/scenario_table.hpp"
+
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "scripting/bind/values.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr const char* kGroup = "Simulation";
+
+Mat3 read_turn(Call& call, int table, const std::string& owner) {
+  TableReader reader = call.record(table, "Turn", owner);
+  Vec3 axis = Vec3::UnitZ();
+  double angle = 0;
+  reader.read("axis", axis);
+  reader.read("angle", angle);
+  reader.finish();
+  if (!(axis.norm() > 0)) reader.refuse("axis", "longer than 0");
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+// {nx, ny, nz, offset}
+Plane read_plane(lua_State* L, int table, const std::string& owner) {
+  if (!lua_istable(L, table) || lua_rawlen(L, table) != 4)
+    throw InputError(owner + " must be {nx, ny, nz, offset}: solid where n . x < offset");
+  double value[4];
+  for (int i = 0; i < 4; ++i) {
+    lua_rawgeti(L, table, i + 1);
+    value[i] = quantity_at(L, -1, i == 3 ? Dimension::length : Dimension::number,
+                           fmt::format("{}[{}]", owner, i + 1));
+    lua_pop(L, 1);
+  }
+  const Vec3 normal(value[0], value[1], value[2]);
+  if (!(normal.norm() > 0)) throw InputError(owner + ": the normal must be longer than 0");
+  return {normal.normalized(), value[3]};
+}
+
+SolidBox read_box(Call& call, int table, const std::string& owner) {
+  TableReader reader = call.record(table, "Box", owner);
+  SolidBox box;
+  Vec3 size = Vec3::Ones();
+  reader.read("center", box.center);
+  if (!reader.has("size")) reader.refuse("size", "given: {x, y, z}");
+  reader.read("size", size);
+  box.half_size = 0.5 * size;
+  if (const int turn = reader.raw("turn")) box.rotation = read_turn(call, turn, owner + ".turn");
+  reader.finish();
+  return box;
+}
+
+Obstacle read_obstacle(Call& call, int table, const std::string& owner) {
+  TableReader reader = call.record(table, "Obstacle", owner);
+  Obstacle obstacle;
+  const int plane = reader.raw("plane");
+  const int box = reader.raw("box");
+  if ((plane != 0) == (box != 0)) reader.refuse("plane", "given, or else box, but not both");
+  if (plane != 0) obstacle.shape = read_plane(call.lua(), plane, owner + ".plane");
+  if (box != 0) obstacle.shape = read_box(call, box, owner + ".box");
+  reader.read("name", obstacle.name);
+  reader.read("stiffness", obstacle.stiffness);
+  reader.read("friction", obstacle.friction);
+  reader.read("damping", obstacle.damping);
+  reader.finish();
+  return obstacle;
+}
+
+void read_obstacles(Call& call, TableReader& reader, std::vector<Obstacle>& into) {
+  const int list = reader.raw("obstacles");
+  if (list == 0) return;
+  lua_State* L = call.lua();
+  if (!lua_istable(L, list)) reader.refuse("obstacles", "a list of Obstacle tables");
+  for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, list)); ++i) {
+    lua_rawgeti(L, list, i);
+    into.push_back(
+        read_obstacle(call, lua_gettop(L), fmt::format("{}: obstacles[{}]", reader.owner(), i)));
+    lua_pop(L, 1);
+  }
+}
+
+void read_throw(Call& call, TableReader& scenario, Throw& into) {
+  const int table = scenario.raw("throw");
+  if (table == 0) return;
+  TableReader reader = call.record(table, "Throw", scenario.owner() + ": throw");
+  into.placed = reader.has("position");
+  reader.read("position", into.position);
+  reader.read("velocity", into.velocity);
+  reader.read("spin", into.spin);
+  if (const int turn = reader.raw("turn"))
+    into.rotation = read_turn(call, turn, reader.owner() + ".turn");
+  reader.finish();
+}
+
+void read_stop(Call& call, TableReader& scenario, std::optional<StopRule>& into) {
+  const int table = scenario.raw("stop");
+  if (table == 0) return;
+  StopRule rule;
+  TableReader reader = call.record(table, "Stop", scenario.owner() + ": stop");
+  reader.read("speed", rule.speed);
+  reader.read("hold", rule.hold);
+  reader.finish();
+  into = rule;
+}
+
+int scenario_binding(Call& call) {
+  TableReader reader = call.options(1);
+  return call.give(std::make_shared<const Scenario>(scenario_from_table(call, reader)));
+}
+
+void describe_obstacles(Api& api) {
+  const Obstacle usual;
+  api.add(RecordEntry{.name = "Turn",
+                      .summary = "A rotation.",
+                      .fields = {{.name = "axis",
+                                  .type = "{x, y, z}",
+                                  .fallback = "{0, 0, 1}",
+                                  .help = "of the rotation, of any length"},
+                                 {.name = "angle",
+                                  .type = "quantity",
+                                  .dimension = Dimension::angle,
+                                  .fallback = "0",
+                                  .help = "right-handed about the axis"}},
+                      .example = "turn = {axis = {0, 1, 0}, angle = \"30 deg\"}"});
+  api.add(RecordEntry{
+      .name = "Box",
+      .summary = "A solid box.",
+      .fields = {{.name = "center",
+                  .type = "{x, y, z}",
+                  .dimension = Dimension::length,
+                  .fallback = "{0, 0, 0}",
+                  .help = "its middle"},
+                 {.name = "size",
+                  .type = "{x, y, z}",
+                  .dimension = Dimension::length,
+                  .help = "whole edges along its axes"},
+                 {.name = "turn", .type = "Turn", .fallback = "none", .help = "about its middle"}},
+      .example = "box = {center = {2.5, 0, 1}, size = {1, 4, 2}}"});
+  api.add(RecordEntry{
+      .name = "Obstacle",
+      .summary = "A fixed thing that nodes bump into: a penalty force with Coulomb friction.",
+      .fields = {{.name = "plane",
+                  .type = "{nx, ny, nz, offset}",
+                  .fallback = "none",
+                  .help = "solid where n . x < offset: {0, 0, 1, 0} is a floor at height 0; plane "
+                          "or box must be given"},
+                 {.name = "box", .type = "Box", .fallback = "none", .help = "a solid box"},
+                 {.name = "name",
+                  .type = "string",
+                  .fallback = "\"\"",
+                  .help = "for labels and measure_from, such as \"wall\""},
+                 {.name = "stiffness",
+                  .type = "number",
+                  .fallback = fmt::format("{}", usual.stiffness),
+                  .help = "force per contact area and depth [N/m3]"},
+                 {.name = "friction",
+                  .type = "number",
+                  .fallback = fmt::format("{}", usual.friction),
+                  .help = "Coulomb's coefficient"},
+                 {.name = "damping",
+                  .type = "quantity",
+                  .dimension = Dimension::time,
+                  .fallback = fmt::format("{}", usual.damping),
+                  .help = "contact damping time"}},
+      .example = "{plane = {0, 0, 1, 0}, name = \"floor\", friction = 0.5}"});
+}
+
+void describe_throw(Api& api) {
+  const StopRule stop;
+  api.add(RecordEntry{
+      .name = "Throw",
+      .summary = "How the body is placed and thrown: turned about its centre of mass, then moved.",
+      .fields = {{.name = "position",
+                  .type = "{x, y, z}",
+                  .dimension = Dimension::length,
+                  .fallback = "where the model has it",
+                  .help = "where the centre of mass goes"},
+                 {.name = "velocity",
+                  .type = "{x, y, z}",
+                  .dimension = Dimension::velocity,
+                  .fallback = "{0, 0, 0}",
+                  .help = "of every node"},
+                 {.name = "spin",
+                  .type = "{x, y, z}",
+                  .dimension = Dimension::angular_velocity,
+                  .fallback = "{0, 0, 0}",
+                  .help = "angular velocity about the centre of mass"},
+                 {.name = "turn", .type = "Turn", .fallback = "none", .help = "before moving"}},
+      .example =
+          "throw = {position = {0, 0, 2}, velocity = {\"10 m/s\", 0, 0}, spin = {0, 6, 0}}"});
+  api.add(RecordEntry{.name = "Stop",
+                      .summary = "Ends a run early, when the centre of mass has come to rest.",
+                      .fields = {{.name = "speed",
+                                  .type = "quantity",
+                                  .dimension = Dimension::velocity,
+                                  .fallback = fmt::format("{}", stop.speed),
+                                  .help = "slower than this is at rest"},
+                                 {.name = "hold",
+                                  .type = "quantity",
+                                  .dimension = Dimension::time,
+                                  .fallback = fmt::format("{}", stop.hold),
+                                  .help = "for so long"}},
+                      .example = "stop = {speed = \"10 cm/s\", hold = 0.25}"});
+}
+
+}  // namespace
+
+Scenario scenario_from_table(Call& call, TableReader& reader) {
+  Scenario scenario;
+  reader.read("name", scenario.name);
+  reader.read("gravity", scenario.gravity);
+  reader.read("duration", scenario.duration);
+  reader.read("measure_from", scenario.measure_from);
+  read_obstacles(call, reader, scenario.obstacles);
+  read_throw(call, reader, scenario.start);
+  read_stop(call, reader, scenario.stop);
+  reader.finish();
+  validate(scenario);
+  return scenario;
+}
+
+std::shared_ptr<const Scenario> scenario_argument(Call& call, int number) {
+  if (auto scenario = call.try_value<Scenario>(number)) return scenario;
+  if (!lua_istable(call.lua(), call.index(number)))
+    call.refuse(number, "a Scenario or a table for s.scenario");
+  const FunctionEntry* entry = call.session().api().find_function("scenario");
+  TableReader reader(call.lua(), call.index(number), entry->options, "scenario");
+  return std::make_shared<const Scenario>(scenario_from_table(call, reader));
+}
+
+Parameter scenario_parameter() {
+  return {.name = "scenario",
+          .type = "Scenario",
+          .help = "what it goes through; a table for s.scenario will do"};
+}
+
+void describe_scenario(Api& api) {
+  describe_obstacles(api);
+  describe_throw(api);
+  TypeBuilder<Scenario> type("What a body goes through: gravity, obstacles, a throw, a duration.",
+                             [](const Scenario& scenario) {
+                               return fmt::format("Scenario {}: {} s, {} obstacle{}", scenario.name,
+                                                  scenario.duration, scenario.obstacles.size(),
+                                                  scenario.obstacles.size() == 1 ? "" : "s");
+                             });
+  type.field("name", "string", "its name", [](const Scenario& value) { return value.name; });
+  type.field("duration", "number", "simulated time at most [s]",
+             [](const Scenario& value) { return value.duration; });
+  type.field("gravity", "{x, y, z}", "[m/s2]", [](const Scenario& value) { return value.gravity; });
+  type.field("obstacle_count", "integer", "number of obstacles",
+             [](const Scenario& value) { return value.obstacles.size(); });
+  type.field("measure_from", "string", "obstacle that the distance is measured from, or \"\"",
+             [](const Scenario& value) { return value.measure_from; });
+  api.add(type.build());
+  api.add(FunctionEntry{
+      .name = "scenario",
+      .group = kGroup,
+      .summary = "Describes what a body goes through: gravity, obstacles, throw, duration.",
+      .options =
+          {{.name = "name", .type = "string", .fallback = "\"scenario\"", .help = "for titles"},
+           {.name = "gravity",
+            .type = "{x, y, z}",
+            .dimension = Dimension::acceleration,
+            .fallback = "{0, 0, -9.81}",
+            .help = "gravity"},
+           {.name = "obstacles",
+            .type = "list of Obstacle",
+            .fallback = "none",
+            .help = "floor, walls, boxes"},
+           {.name = "throw",
+            .type = "Throw",
+            .fallback = "at rest where the model has it",
+            .help = "how it starts"},
+           {.name = "duration",
+            .type = "quantity",
+            .dimension = Dimension::time,
+            .fallback = fmt::format("{}", Scenario{}.duration),
+            .help = "simulated time at most"},
+           {.name = "stop", .type = "Stop", .fallback = "none", .help = "ends a run early"},
+           {.name = "measure_from",
+            .type = "string",
+            .fallback = "the horizontal way from the start",
+            .help = "name of the obstacle from whose surface the distance at the end is "
+                    "measured"}},
+      .returns = "Scenario",
+      .errors = "A value out of range; measure_from that names no obstacle.",
+      .example = "local scene = s.scenario{gravity = {0, 0, -9.81}, duration = 3,\n"
+                 "  throw = {velocity = {30, 0, 0}},\n"
+                 "  obstacles = {{plane = {0, 0, 1, 0}, friction = 0.5}}}",
+      .call = scenario_binding});
+}
+
+}  // namespace springlod

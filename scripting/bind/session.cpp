@@ -1,0 +1,276 @@
+// What scripts reach that belongs to no folder: help, talk, files, JSON.
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "scripting/engine/call.hpp"
+#include "scripting/engine/help.hpp"
+#include "scripting/engine/inspect.hpp"
+#include "scripting/engine/paths.hpp"
+#include "scripting/engine/suggest.hpp"
+
+namespace springlod {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr const char* kGroup = "Session";
+// A table that holds itself would never end; nothing sensible is nested deeper.
+constexpr int kJsonDepth = 64;
+
+int help(Call& call) {
+  const Api& api = call.session().api();
+  const std::string text = call.has(1) ? help_at(call.lua(), call.index(1), api) : overview(api);
+  std::fputs((text + "\n").c_str(), stdout);
+  std::fflush(stdout);
+  return 0;
+}
+
+int markdown(Call& call) {
+  return call.give(api_markdown(call.session().api()));
+}
+
+int say(Call& call) {
+  call.session().console().say(call.text(1));
+  return 0;
+}
+
+int inspect_value(Call& call) {
+  return call.give(inspect(call.lua(), call.index(1)));
+}
+
+const std::vector<std::pair<std::string, Dimension>>& dimensions() {
+  static const std::vector<std::pair<std::string, Dimension>> names{
+      {"number", Dimension::number},     {"length", Dimension::length},
+      {"time", Dimension::time},         {"mass", Dimension::mass},
+      {"pressure", Dimension::pressure}, {"density", Dimension::density},
+      {"velocity", Dimension::velocity}, {"acceleration", Dimension::acceleration},
+      {"angle", Dimension::angle},       {"angular_velocity", Dimension::angular_velocity}};
+  return names;
+}
+
+int quantity(Call& call) {
+  const std::string wanted = call.text(2);
+  std::vector<std::string> names;
+  for (const auto& [name, dimension] : dimensions()) {
+    if (name == wanted)
+      return call.give(quantity_at(call.lua(), call.index(1), dimension, "quantity"));
+    names.push_back(name);
+  }
+  throw InputError(fmt::format("quantity: unknown dimension '{}'{}", wanted,
+                               name_hint(wanted, names, "dimensions are")));
+}
+
+bool has_ending(const fs::path& path, const std::vector<std::string>& endings) {
+  if (endings.empty()) return true;
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+int files(Call& call) {
+  const fs::path folder = call.path(1);
+  std::vector<std::string> endings;
+  TableReader options = call.options(2);
+  options.read("endings", endings);
+  options.finish();
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    throw IoError(fmt::format("{} is not a folder", folder.string()));
+  std::vector<std::string> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file(error) && has_ending(entry.path(), endings))
+      found.push_back(entry.path().string());
+  std::sort(found.begin(), found.end());
+  return call.give(found);
+}
+
+int is_folder(Call& call) {
+  std::error_code error;
+  return call.give(fs::is_directory(call.path(1), error));
+}
+
+ordered_json to_json(lua_State* L, int index, int depth);
+
+ordered_json table_to_json(lua_State* L, int table, int depth) {
+  if (depth > kJsonDepth) throw InputError("json: the tables are nested too deeply");
+  luaL_checkstack(L, 8, "json");
+  const auto length = static_cast<lua_Integer>(lua_rawlen(L, table));
+  if (length > 0) {
+    ordered_json list = ordered_json::array();
+    for (lua_Integer i = 1; i <= length; ++i) {
+      lua_rawgeti(L, table, i);
+      list.push_back(to_json(L, lua_gettop(L), depth + 1));
+      lua_pop(L, 1);
+    }
+    return list;
+  }
+  std::vector<std::pair<std::string, ordered_json>> members;
+  lua_pushnil(L);
+  while (lua_next(L, table) != 0) {
+    if (lua_type(L, -2) != LUA_TSTRING)
+      throw InputError(fmt::format("json: a table has a key that is {}; keys are words, or 1..n",
+                                   describe_type_at(L, -2)));
+    members.emplace_back(lua_tostring(L, -2), to_json(L, lua_gettop(L), depth + 1));
+    lua_pop(L, 1);
+  }
+  std::sort(members.begin(), members.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  ordered_json object = members.empty() ? ordered_json::array() : ordered_json::object();
+  for (auto& [key, value] : members) object[key] = std::move(value);
+  return object;
+}
+
+ordered_json to_json(lua_State* L, int index, int depth) {
+  switch (lua_type(L, index)) {
+    case LUA_TNIL:
+      return nullptr;
+    case LUA_TBOOLEAN:
+      return lua_toboolean(L, index) != 0;
+    case LUA_TNUMBER:
+      if (lua_isinteger(L, index) != 0) return lua_tointeger(L, index);
+      if (!std::isfinite(lua_tonumber(L, index))) return nullptr;  // JSON has no infinity
+      return lua_tonumber(L, index);
+    case LUA_TSTRING:
+      return lua_tostring(L, index);
+    case LUA_TTABLE:
+      return table_to_json(L, index, depth);
+    default:
+      throw InputError(
+          fmt::format("json: cannot write {}; hand over plain tables", describe_type_at(L, index)));
+  }
+}
+
+int json(Call& call) {
+  int indent = 2;
+  TableReader options = call.options(2);
+  options.read("indent", indent);
+  options.finish();
+  lua_settop(call.lua(), call.index(1));
+  const ordered_json value = to_json(call.lua(), call.index(1), 0);
+  return call.give(value.dump(indent, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+void describe_constants(Api& api) {
+  api.add(ConstantEntry{{.name = "version", .type = "string", .help = "version of springlod"},
+                        [](lua_State* L) { push(L, version()); }});
+  api.add(ConstantEntry{
+      {.name = "seed", .type = "integer", .help = "--seed of the command line, else 1"},
+      [](lua_State* L) { push(L, session_of(L).settings().seed); }});
+  api.add(ConstantEntry{
+      {.name = "threads", .type = "integer", .help = "--threads of the command line; 0: all cores"},
+      [](lua_State* L) { push(L, session_of(L).settings().threads); }});
+  api.add(ConstantEntry{{.name = "samples",
+                         .type = "string",
+                         .help = "folder of the sample meshes, materials and scenes"},
+                        [](lua_State* L) { push(L, sample_folder().string()); }});
+  api.add(ConstantEntry{
+      {.name = "verbosity", .type = "integer", .help = "-1 under -q, 1 under -v, else 0"},
+      [](lua_State* L) { push(L, static_cast<int>(session_of(L).settings().verbosity) - 1); }});
+}
+
+}  // namespace
+
+void describe_session(Api& api) {
+  api.add(FunctionEntry{
+      .name = "help",
+      .group = kGroup,
+      .summary = "Explains a function, a type of value or a table on stdout; a global too.",
+      .arguments = {{.name = "topic",
+                     .type = "function, value or string",
+                     .fallback = "an overview",
+                     .help = "what to explain: s.simplify, a value, \"Mesh\", \"Model:node\""}},
+      .returns = "nothing",
+      .errors = "No help on such a name; the message names the nearest.",
+      .example = "help(s.simplify)",
+      .call = help});
+  api.add(FunctionEntry{
+      .name = "say",
+      .group = kGroup,
+      .summary = "Writes a line of talk to stderr; silent under -q. Results go to print.",
+      .arguments = {{.name = "text", .type = "string", .help = "the line"}},
+      .returns = "nothing",
+      .errors = "The argument is not text.",
+      .example = "s.say(\"half way\")",
+      .call = say});
+  api.add(FunctionEntry{.name = "inspect",
+                        .group = kGroup,
+                        .summary = "Shows any Lua value as text, tables with sorted keys.",
+                        .arguments = {{.name = "value", .type = "any", .help = "what to show"}},
+                        .returns = "string",
+                        .errors = "None.",
+                        .example = "print(s.inspect(s.info(chain)))",
+                        .call = inspect_value});
+  api.add(FunctionEntry{
+      .name = "json",
+      .group = kGroup,
+      .summary = "Writes tables, numbers, text and booleans as JSON, keys sorted.",
+      .arguments = {{.name = "value",
+                     .type = "any",
+                     .help = "plain Lua data; an empty table is []"}},
+      .options = {{.name = "indent",
+                   .type = "integer",
+                   .fallback = "2",
+                   .help = "blanks a level; -1: all on one line"}},
+      .returns = "string",
+      .errors = "Functions and values of springlod have no JSON form: read their fields first.",
+      .example = "print(s.json(s.info(chain)))",
+      .call = json});
+  api.add(FunctionEntry{
+      .name = "quantity",
+      .group = kGroup,
+      .summary = "Reads text with a unit, such as \"5 mm\", as a number in SI units.",
+      .arguments = {{.name = "text", .type = "string or number", .help = "a bare number is SI"},
+                    {.name = "dimension",
+                     .type = "string",
+                     .help = "number, length, time, mass, pressure, density, velocity, "
+                             "acceleration, angle or angular_velocity"}},
+      .returns = "number",
+      .errors = "A unit of another dimension; the message lists the right ones.",
+      .example = "local cell = s.quantity(\"5 mm\", \"length\")",
+      .call = quantity});
+  api.add(FunctionEntry{
+      .name = "files",
+      .group = kGroup,
+      .summary = "Lists the files of a folder, sorted.",
+      .arguments = {{.name = "folder", .type = "string", .help = "path of the folder"}},
+      .options = {{.name = "endings",
+                   .type = "list of strings",
+                   .fallback = "all files",
+                   .help = "small letters with the dot: {\".obj\", \".stl\"}"}},
+      .returns = "list of strings: paths",
+      .errors = "Not a folder.",
+      .example =
+          "for _, path in ipairs(s.files(\"meshes\", {endings = {\".obj\"}})) do print(path) end",
+      .call = files});
+  api.add(FunctionEntry{.name = "is_folder",
+                        .group = kGroup,
+                        .summary = "Tells whether a path is a folder.",
+                        .arguments = {{.name = "path", .type = "string", .help = "any path"}},
+                        .returns = "boolean",
+                        .errors = "The argument is not text.",
+                        .example = "if s.is_folder(path) then print(\"a folder\") end",
+                        .call = is_folder});
+  api.add(FunctionEntry{.name = "api_markdown",
+                        .group = kGroup,
+                        .summary = "This documentation as Markdown: what docs/api.md holds.",
+                        .returns = "string",
+                        .errors = "None.",
+                        .example = "print(require(\"springlod\").api_markdown())",
+                        .call = markdown});
+  describe_constants(api);
+}
+
+}  // namespace springlod

@@ -1,0 +1,223 @@
+// Running one model under a scenario.
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "scripting/bind/run_options.hpp"
+#include "scripting/bind/scenario_table.hpp"
+#include "scripting/bind/start_table.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+#include "sim/run.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr const char* kGroup = "Simulation";
+
+/// What a run went on with although it should be known.
+void warn(Console& console, const Trajectory& run) {
+  if (run.unconverged_steps > 0)
+    console.say(
+        fmt::format("run: in {} of {} steps the solver stopped short of its tolerance; give it "
+                    "more iterations, a greater tolerance or a smaller step",
+                    run.unconverged_steps, run.steps));
+  if (run.first_crossing)
+    console.say(fmt::format(
+        "run: nodes {} and {} went past each other by t = {:.4g} s: the body is inside out there; "
+        "take a stiffer material, a softer blow or a finer model",
+        run.first_crossing->a + 1, run.first_crossing->b + 1, run.first_crossing->time));
+}
+
+int run_binding(Call& call) {
+  auto value = std::make_shared<TrajectoryValue>();
+  value->model = call.value<ModelValue>(1);
+  value->scenario = scenario_argument(call, 2);
+  RunOptions options;
+  options.threads = call.session().settings().threads;
+  TableReader reader = call.options(3);
+  read_run_options(call, reader, options);
+  options.skin = skin_of(*value->model, read_contact(reader));
+  reader.read("threads", options.threads);
+  bool quiet = false;
+  reader.read("quiet", quiet);
+  const MassSpringModel& model = *value->model->model;
+  const std::optional<State> start = read_start(call, reader, model);
+  reader.finish();
+  value->trajectory =
+      start ? run(model, *value->scenario, *start, options) : run(model, *value->scenario, options);
+  if (!quiet) warn(call.session().console(), value->trajectory);
+  return call.give(std::shared_ptr<const TrajectoryValue>(value));
+}
+
+void push_frame(lua_State* L, const Frame& frame) {
+  begin_table(L);
+  set_field(L, "time", frame.time);
+  set_field(L, "x", frame.x);
+}
+
+int frame_method(Call& call) {
+  const auto self = call.self<TrajectoryValue>();
+  const auto& frames = self->trajectory.frames;
+  push_frame(call.lua(), frames[static_cast<std::size_t>(
+                             call.integer(1, 1, static_cast<long long>(frames.size())) - 1)]);
+  return 1;
+}
+
+void push_ledger(lua_State* L, const TrajectoryValue& value) {
+  begin_list(L, value.trajectory.ledger.size());
+  std::size_t number = 0;
+  for (const LedgerEntry& entry : value.trajectory.ledger) {
+    begin_table(L);
+    set_field(L, "time", entry.time);
+    set_field(L, "kinetic", entry.kinetic);
+    set_field(L, "elastic", entry.elastic);
+    set_field(L, "gravity", entry.gravity);
+    set_field(L, "contact", entry.contact);
+    set_field(L, "lost_damping", entry.lost_damping);
+    set_field(L, "lost_friction", entry.lost_friction);
+    set_field(L, "lost_contact", entry.lost_contact);
+    set_field(L, "lost_switch", entry.lost_switch);
+    set_field(L, "total", entry.total());
+    end_list_entry(L, ++number);
+  }
+}
+
+void push_final(lua_State* L, const TrajectoryValue& value) {
+  begin_table(L);
+  set_field(L, "time", value.trajectory.final.t);
+  set_field(L, "x", value.trajectory.final.x);
+  set_field(L, "v", value.trajectory.final.v);
+}
+
+void push_crossing(lua_State* L, const TrajectoryValue& value) {
+  const auto& crossing = value.trajectory.first_crossing;
+  if (!crossing) return lua_pushnil(L);
+  begin_table(L);
+  set_field(L, "a", crossing->a + 1);
+  set_field(L, "b", crossing->b + 1);
+  set_field(L, "time", crossing->time);
+}
+
+void push_optional(lua_State* L, const std::optional<double>& number) {
+  number ? push(L, *number) : lua_pushnil(L);
+}
+
+void describe_trajectory(Api& api) {
+  TypeBuilder<TrajectoryValue> type(
+      "One run of one model; trajectory[i] is frame i, #trajectory their number.",
+      [](const TrajectoryValue& value) {
+        const Trajectory& t = value.trajectory;
+        return fmt::format("Trajectory: {:.4g} s in {} steps of {:.4g} s, {} frames", t.simulated,
+                           t.steps, t.step, t.frames.size());
+      });
+  const auto number = [&](const char* name, const char* help, auto get) {
+    type.field(name, "number", help,
+               [get](const TrajectoryValue& value) { return get(value.trajectory); });
+  };
+  number("step", "time step, as at rest [s]", [](const Trajectory& t) { return t.step; });
+  number("shortest_step", "time step where springs were strained hardest [s]",
+         [](const Trajectory& t) { return t.shortest_step; });
+  number("predicted_step", "predicted stable step, contacts included [s]",
+         [](const Trajectory& t) { return t.predicted_step; });
+  number("simulated", "simulated time [s]", [](const Trajectory& t) { return t.simulated; });
+  number("wall_seconds", "measured time; never the same twice [s]",
+         [](const Trajectory& t) { return t.wall_seconds; });
+  number("planning_seconds",
+         "the part of them that went into finding the step and laying out the springs [s]",
+         [](const Trajectory& t) { return t.planning_seconds; });
+  type.field("steps", "integer", "number of steps",
+             [](const TrajectoryValue& value) { return value.trajectory.steps; });
+  type.field("unconverged_steps", "integer",
+             "steps that the solver of backward Euler ended short of its tolerance",
+             [](const TrajectoryValue& value) { return value.trajectory.unconverged_steps; });
+  type.field("spring_updates", "integer",
+             "steps times springs: the cost that does not depend on "
+             "the machine",
+             [](const TrajectoryValue& value) { return value.trajectory.spring_updates; });
+  type.field("frame_count", "integer", "number of frames",
+             [](const TrajectoryValue& value) { return value.trajectory.frames.size(); });
+  type.table_field("first_contact", "number", "time of the first contact [s], or nil",
+                   [](lua_State* L, const TrajectoryValue& value) {
+                     push_optional(L, value.trajectory.first_contact);
+                   });
+  type.table_field("asleep_since", "number",
+                   "time from which on the body lay still and was not moved [s], or nil",
+                   [](lua_State* L, const TrajectoryValue& value) {
+                     push_optional(L, value.trajectory.asleep_since);
+                   });
+  type.table_field("first_crossing", "table",
+                   "the first two nodes of a spring that went past each other: a, b (from 1), time "
+                   "[s]; or nil",
+                   push_crossing);
+  type.table_field("ledger", "list of tables",
+                   "energies of each frame [J]: time, kinetic, elastic, gravity, contact, "
+                   "lost_damping, lost_friction, lost_contact, lost_switch, total",
+                   push_ledger);
+  type.table_field("final", "State", "last state: time [s], x and v, lists of {x, y, z} by node",
+                   push_final);
+  type.method({.name = "frame",
+               .summary = "One frame; the same as trajectory[number].",
+               .arguments = {{.name = "number", .type = "integer", .help = "counted from 1"}},
+               .returns = "table: time [s], x (list of {x, y, z} by node) [m]",
+               .call = frame_method});
+  type.elements(
+      [](const TrajectoryValue& value) {
+        return static_cast<long long>(value.trajectory.frames.size());
+      },
+      [](lua_State* L, const std::shared_ptr<const TrajectoryValue>& value, long long frame) {
+        const auto& frames = value->trajectory.frames;
+        if (frame < 1 || frame > static_cast<long long>(frames.size())) return false;
+        push_frame(L, frames[static_cast<std::size_t>(frame - 1)]);
+        return true;
+      });
+  api.add(type.build());
+}
+
+std::vector<Parameter> single_run_parameters() {
+  std::vector<Parameter> parameters = run_parameters(RunOptions{});
+  parameters.push_back(start_parameter());
+  parameters.push_back({.name = "threads",
+                        .type = "integer",
+                        .fallback = "s.threads",
+                        .help = "of symplectic_euler; 0: as many as the model is worth; never "
+                                "changes a result"});
+  parameters.push_back({.name = "quiet",
+                        .type = "boolean",
+                        .fallback = "false",
+                        .help = "do not say that a solver stopped short or that nodes went past "
+                                "each other; the Trajectory tells"});
+  return parameters;
+}
+
+}  // namespace
+
+void describe_sim(Api& api) {
+  describe_scenario(api);
+  describe_start(api);
+  describe_trajectory(api);
+  describe_stability(api);
+  api.add(FunctionEntry{
+      .name = "run",
+      .group = kGroup,
+      .summary = "Runs a model under a scenario.",
+      .arguments = {{.name = "model", .type = "Model", .help = "a model or a level of a chain"},
+                    scenario_parameter()},
+      .options = single_run_parameters(),
+      .returns = "Trajectory",
+      .errors = "A run that leaves the numbers: error.kind is \"unstable\", error.node and "
+                "error.time say where and when. A node that goes through a box: \"tunnelled\", "
+                "error.obstacle says which. A start of another number of nodes.",
+      .example = "local trajectory = s.run(chain[1], scene, {frame_rate = 30})\n"
+                 "local more = s.run(chain[1], scene, {start = trajectory.final})",
+      .call = run_binding});
+  describe_compare(api);
+  describe_deviation(api);
+}
+
+}  // namespace springlod

@@ -1,0 +1,77 @@
+#include "scripting/bind/start_table.hpp"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+
+namespace springlod {
+
+namespace {
+
+// One {x, y, z} a node.
+void read_points(TableReader& state, const char* name, Dimension dimension,
+                 std::vector<Vec3>& points) {
+  const int list = state.raw(name);
+  if (list == 0) return;
+  lua_State* L = state.lua();
+  const std::size_t count = lua_istable(L, list) ? lua_rawlen(L, list) : 0;
+  if (count != points.size())
+    throw InputError(
+        fmt::format("{}.{} must be a list of {} points {{x, y, z}}, one a node, got {}",
+                    state.owner(), name, points.size(),
+                    lua_istable(L, list) ? fmt::format("{}", count) : describe_type_at(L, list)));
+  for (std::size_t i = 0; i < count; ++i) {
+    lua_rawgeti(L, list, static_cast<lua_Integer>(i) + 1);
+    points[i] = vector_at(L, -1, dimension, fmt::format("{}.{}[{}]", state.owner(), name, i + 1));
+    lua_pop(L, 1);
+  }
+}
+
+}  // namespace
+
+std::optional<State> read_start(Call& call, TableReader& options, const MassSpringModel& model) {
+  const int table = options.raw("start");
+  if (table == 0) return std::nullopt;
+  TableReader reader = call.record(table, "State", options.owner() + ": start");
+  State state{.x = model.rest, .v = std::vector<Vec3>(model.node_count(), Vec3::Zero()), .t = 0};
+  reader.has("time");
+  read_points(reader, "x", Dimension::length, state.x);
+  read_points(reader, "v", Dimension::velocity, state.v);
+  reader.finish();
+  return state;
+}
+
+Parameter start_parameter() {
+  return {.name = "start",
+          .type = "State",
+          .fallback = "the scenario's throw",
+          .help = "where every node starts and how fast; another run's final goes on from its end"};
+}
+
+void describe_start(Api& api) {
+  api.add(RecordEntry{
+      .name = "State",
+      .summary = "Where all nodes are and how fast they move: what trajectory.final is and run "
+                 "starts from.",
+      .fields = {{.name = "x",
+                  .type = "list of {x, y, z}",
+                  .dimension = Dimension::length,
+                  .fallback = "where the model has them",
+                  .help = "positions by node"},
+                 {.name = "v",
+                  .type = "list of {x, y, z}",
+                  .dimension = Dimension::velocity,
+                  .fallback = "at rest",
+                  .help = "velocities by node"},
+                 {.name = "time",
+                  .type = "number",
+                  .fallback = "0",
+                  .help = "of a final state [s]; a run begins at 0 whatever it is"}},
+      .example = "start = trajectory.final"});
+}
+
+}  // namespace springlod

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "model/mass_spring.hpp"
+#include "scripting/engine/call.hpp"
+
+namespace springlod {
+
+/// The option `start`: positions and velocities of every node, as `trajectory.final` has them; its
+/// time is not read. None if it is not given. Throws InputError naming the entry.
+std::optional<State> read_start(Call& call, TableReader& options, const MassSpringModel& model);
+Parameter start_parameter();
+
+/// The record State.
+void describe_start(Api& api);
+
+}  // namespace springlod

@@ -1,0 +1,353 @@
+// Samples of numbers: what they tell, how far apart they are, and whether that is noise.
+
+#include "report/stats/statistics.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "report/stats/noise_floor.hpp"
+#include "report/stats/sample_comparison.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr const char* kGroup = "Statistics";
+
+using Lists = std::vector<std::vector<double>>;
+
+/// The numbers of a list at `index`; `name` is what messages call it.
+std::vector<double> numbers_at(lua_State* L, int index, const std::string& name) {
+  std::vector<double> numbers;
+  const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    if (lua_rawgeti(L, index, i) != LUA_TNUMBER)
+      throw InputError(fmt::format("{}[{}] must be a number, not {}", name, i,
+                                   describe_type_at(L, lua_gettop(L))));
+    numbers.push_back(lua_tonumber(L, -1));
+    lua_pop(L, 1);
+  }
+  return numbers;
+}
+
+/// {1, 2, ...} as one list, {{1, 2}, {3, 4}, ...} as several.
+Lists lists_at(Call& call, int argument, const std::string& name, bool& several) {
+  lua_State* L = call.lua();
+  const int index = call.has(argument) ? call.index(argument) : 0;
+  if (index == 0 || !lua_istable(L, index)) call.refuse(argument, "a list of numbers, or of lists");
+  several = lua_rawgeti(L, index, 1) == LUA_TTABLE;
+  lua_pop(L, 1);
+  if (!several) return {numbers_at(L, index, name)};
+  Lists lists;
+  const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
+  for (lua_Integer i = 1; i <= count; ++i) {
+    const std::string item = fmt::format("{}[{}]", name, i);
+    if (lua_rawgeti(L, index, i) != LUA_TTABLE)
+      throw InputError(fmt::format("{} must be a list as {}[1] is", item, name));
+    lists.push_back(numbers_at(L, lua_gettop(L), item));
+    lua_pop(L, 1);
+  }
+  return lists;
+}
+
+/// A list of one number a start, or of one list a start with one number a seed.
+StartSample sample_argument(Call& call, int argument, const std::string& name) {
+  bool by_seeds = false;
+  Lists lists = lists_at(call, argument, name, by_seeds);
+  if (!by_seeds) return {std::move(lists[0])};
+  if (lists[0].empty()) throw InputError(name + "[1] is empty; give every start one value a seed");
+  StartSample sample{{}, static_cast<std::uint32_t>(lists[0].size())};
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    if (lists[i].size() != lists[0].size())
+      throw InputError(fmt::format(
+          "{0}[{1}] and {0}[1] differ in length, {2} and {3}; give every start one value a seed",
+          name, i + 1, lists[i].size(), lists[0].size()));
+    sample.values.insert(sample.values.end(), lists[i].begin(), lists[i].end());
+  }
+  return sample;
+}
+
+void read_resampling(Call& call, TableReader& reader, BootstrapOptions& options) {
+  options.seed = call.session().settings().seed;
+  reader.read("resamples", options.resamples);
+  reader.read("seed", options.seed);
+  reader.choose("seeds", options.design,
+                {{"crossed", SeedDesign::crossed}, {"nested", SeedDesign::nested}});
+  options.progress = call.progress();
+}
+
+int statistics_binding(Call& call) {
+  const StartSample sample = sample_argument(call, 1, "sample");
+  BootstrapOptions resampling;
+  double confidence = SampleComparisonOptions{}.confidence;
+  TableReader reader = call.options(2);
+  read_resampling(call, reader, resampling);
+  reader.read("confidence", confidence);
+  reader.finish();
+  const Interval of_mean = interval(bootstrap(sample, mean, resampling), confidence);
+  const Interval of_deviation =
+      interval(bootstrap(sample, standard_deviation, resampling), confidence);
+  lua_State* L = call.lua();
+  begin_table(L);
+  set_field(L, "count", sample.values.size());
+  set_field(L, "mean", mean(sample.values));
+  set_field(L, "mean_low", of_mean.low);
+  set_field(L, "mean_high", of_mean.high);
+  set_field(L, "deviation", standard_deviation(sample.values));
+  set_field(L, "deviation_low", of_deviation.low);
+  set_field(L, "deviation_high", of_deviation.high);
+  set_field(L, "minimum", quantile(sample.values, 0));
+  set_field(L, "lower_quartile", quantile(sample.values, 0.25));
+  set_field(L, "median", quantile(sample.values, 0.5));
+  set_field(L, "upper_quartile", quantile(sample.values, 0.75));
+  set_field(L, "maximum", quantile(sample.values, 1));
+  return 1;
+}
+
+void push_measured(lua_State* L, const char* name, const Measured& measured) {
+  begin_table(L);
+  set_field(L, "value", measured.value);
+  set_field(L, "low", measured.interval.low);
+  set_field(L, "high", measured.interval.high);
+  end_field(L, name);
+}
+
+int compare_samples_binding(Call& call) {
+  const StartSample base = sample_argument(call, 1, "base");
+  const StartSample other = sample_argument(call, 2, "other");
+  SampleComparisonOptions options;
+  TableReader reader = call.options(3);
+  read_resampling(call, reader, options.resampling);
+  reader.read("paired", options.resampling.paired);
+  reader.read("confidence", options.confidence);
+  reader.read("margin", options.margin);
+  reader.read("spread", options.spread);
+  reader.choose("test", options.bootstrap_test, {{"student", false}, {"bootstrap", true}});
+  reader.finish();
+  const SampleComparison result = compare_samples(base, other, options);
+  lua_State* L = call.lua();
+  begin_table(L);
+  push_measured(L, "difference", result.difference);
+  push_measured(L, "difference_over_spread", result.difference_over_spread);
+  push_measured(L, "wasserstein", result.wasserstein);
+  push_measured(L, "energy_distance", result.energy);
+  if (result.equivalence) {
+    set_field(L, "equivalent", result.equivalence->equivalent);
+    set_field(L, "p", result.equivalence->p());
+    set_field(L, "p_lower", result.equivalence->p_lower);
+    set_field(L, "p_higher", result.equivalence->p_higher);
+  }
+  return 1;
+}
+
+int noise_floor_binding(Call& call) {
+  bool several = false;
+  const Lists sources = lists_at(call, 1, "sources", several);
+  NoiseFloorOptions options;
+  options.seed = call.session().settings().seed;
+  TableReader reader = call.options(2);
+  reader.read("size", options.base_size);
+  reader.read("other_size", options.other_size);
+  reader.choose("distance", options.distance,
+                {{"wasserstein", SampleDistance::wasserstein}, {"energy", SampleDistance::energy}});
+  reader.read("quantile", options.part);
+  reader.read("resamples", options.resamples);
+  reader.read("seed", options.seed);
+  reader.finish();
+  options.progress = call.progress();
+  return call.give(std::shared_ptr<const NoiseFloor>(
+      std::make_shared<NoiseFloor>(noise_floor(sources, options))));
+}
+
+int judge_method(Call& call) {
+  const auto floor = call.self<NoiseFloor>();
+  const StartSample base = sample_argument(call, 1, "base");
+  const FloorVerdict verdict =
+      inside_noise_floor(*floor, base.values, sample_argument(call, 2, "other").values);
+  lua_State* L = call.lua();
+  begin_table(L);
+  set_field(L, "inside", verdict.inside);
+  set_field(L, "distance", verdict.distance);
+  set_field(L, "p", verdict.p);
+  return 1;
+}
+
+const char* name_of(SampleDistance distance) {
+  return distance == SampleDistance::wasserstein ? "wasserstein" : "energy";
+}
+
+Parameter sample_parameter(const char* name, const char* help) {
+  return {.name = name,
+          .type = "list of numbers",
+          .help = std::string(help) +
+                  "; with several simplification seeds a list a start, of one "
+                  "number a seed"};
+}
+
+std::vector<Parameter> resampling_parameters() {
+  const BootstrapOptions usual;
+  return {{.name = "confidence",
+           .type = "number",
+           .fallback = fmt::format("{}", SampleComparisonOptions{}.confidence),
+           .help = "of the intervals"},
+          {.name = "resamples",
+           .type = "integer",
+           .fallback = fmt::format("{}", usual.resamples),
+           .help = "100 to 1000000"},
+          {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "of the resampling"},
+          {.name = "seeds",
+           .type = "one of",
+           .fallback = "\"crossed\"",
+           .help = "whether the seeds are the same in every start (one chain a seed) or others in "
+                   "each",
+           .choices = {"crossed", "nested"}}};
+}
+
+std::vector<Parameter> comparison_parameters() {
+  std::vector<Parameter> parameters = resampling_parameters();
+  const std::vector<Parameter> more{
+      {.name = "paired",
+       .type = "boolean",
+       .fallback = "false",
+       .help = "whether start i of both is the same start, as in one comparison"},
+      {.name = "margin",
+       .type = "number",
+       .fallback = "no test",
+       .help = "how many standard deviations of the base the means may be apart and still count "
+               "as the same; tested at 1 - confidence"},
+      {.name = "spread",
+       .type = "number",
+       .fallback = "that of the base, as an estimate",
+       .help = "standard deviation of the base, if a larger sample tells it"},
+      {.name = "test",
+       .type = "one of",
+       .fallback = "\"student\"",
+       .help = "how the means are tested; bootstrap for values far from normal",
+       .choices = {"student", "bootstrap"}}};
+  parameters.insert(parameters.end(), more.begin(), more.end());
+  return parameters;
+}
+
+void describe_samples(Api& api) {
+  api.add(FunctionEntry{
+      .name = "statistics",
+      .group = kGroup,
+      .summary = "Mean, spread and quartiles of a sample, with intervals.",
+      .arguments = {sample_parameter("sample", "one value a start")},
+      .options = resampling_parameters(),
+      .returns = "table: count, mean, mean_low, mean_high, deviation, deviation_low, "
+                 "deviation_high, minimum, lower_quartile, median, upper_quartile, maximum",
+      .errors = "Fewer than 5 starts; a value that is not finite.",
+      .example = "local m = s.statistics({7.1, 8.4, 6.9, 9.2, 7.7, 8.0})\n"
+                 "print(m.mean, m.mean_low, m.mean_high)",
+      .call = statistics_binding});
+  api.add(FunctionEntry{
+      .name = "compare_samples",
+      .group = kGroup,
+      .summary = "How far the values of one sample are from those of another, and whether their "
+                 "means are the same within a margin.",
+      .arguments = {sample_parameter("base", "one value a start"),
+                    sample_parameter("other", "as base; may have another size unless paired")},
+      .options = comparison_parameters(),
+      .returns = "table: difference (of the means, other minus base), difference_over_spread (in "
+                 "standard deviations of the base), wasserstein and energy_distance (without a "
+                 "root), each a table {value, low, high}; with a margin equivalent (boolean), p, "
+                 "p_lower and p_higher (against \"lower by the margin or more\", \"higher ...\")",
+      .errors = "Fewer than 5 starts; pairs of different length; a base without spread; a value "
+                "that is not finite.",
+      .example = "local c = s.compare_samples(base, level, {paired = true, margin = 0.5})\n"
+                 "print(c.difference.value, c.difference.low, c.difference.high, c.equivalent)",
+      .call = compare_samples_binding});
+}
+
+void describe_noise_floor(Api& api) {
+  TypeBuilder<NoiseFloor> type(
+      "How far samples of the base are from each other.", [](const NoiseFloor& floor) {
+        return fmt::format(
+            "NoiseFloor: {} distance {:.4g} ({:.4g} % of {} distances, {} against "
+            "{} values{})",
+            name_of(floor.distance), floor.level, 100 * floor.part, floor.distances.size(),
+            floor.base_size, floor.other_size,
+            floor.with_replacement ? ", drawn with replacement" : "");
+      });
+  type.field("level", "number", "the base is nearer to itself than this in `quantile` of all cases",
+             [](const NoiseFloor& floor) { return floor.level; });
+  type.field("distance", "string", "\"wasserstein\" or \"energy\"",
+             [](const NoiseFloor& floor) { return name_of(floor.distance); });
+  type.field("quantile", "number", "part of the distances below the level",
+             [](const NoiseFloor& floor) { return floor.part; });
+  type.field("size", "integer", "values on the base's side",
+             [](const NoiseFloor& floor) { return floor.base_size; });
+  type.field("other_size", "integer", "values on the other side",
+             [](const NoiseFloor& floor) { return floor.other_size; });
+  type.field("distances", "list of numbers", "all of them, in rising order",
+             [](const NoiseFloor& floor) { return floor.distances; });
+  type.field("with_replacement", "boolean",
+             "whether the only source was too small to draw without replacement",
+             [](const NoiseFloor& floor) { return floor.with_replacement; });
+  type.method(
+      {.name = "judge",
+       .summary = "Whether two samples are no farther apart than the base is from itself.",
+       .arguments = {{.name = "base", .type = "list of numbers", .help = "of the floor's size"},
+                     {.name = "other",
+                      .type = "list of numbers",
+                      .help = "of the floor's other_size"}},
+       .returns = "table: inside (boolean), distance, p (how often the base is as far from itself)",
+       .errors = "Samples of other sizes than the floor's.",
+       .call = judge_method});
+  api.add(type.build());
+  const NoiseFloorOptions usual;
+  api.add(FunctionEntry{
+      .name = "noise_floor",
+      .group = kGroup,
+      .summary = "How far the base is from itself: what a level's distance is to be held against.",
+      .arguments = {{.name = "sources",
+                     .type = "list of numbers",
+                     .help = "a large sample of the base, or a list of samples: other starts, half "
+                             "the step, another integrator"}},
+      .options =
+          {{.name = "size",
+            .type = "integer",
+            .fallback = "half of the only sample, else the smallest sample",
+            .help = "values of the base that are going to be compared"},
+           {.name = "other_size",
+            .type = "integer",
+            .fallback = "size",
+            .help = "values that are going to be compared with them"},
+           {.name = "distance",
+            .type = "one of",
+            .fallback = "\"wasserstein\"",
+            .help = "which distance",
+            .choices = {"wasserstein", "energy"}},
+           {.name = "quantile",
+            .type = "number",
+            .fallback = fmt::format("{}", usual.part),
+            .help = "part of the distances that lie below the floor"},
+           {.name = "resamples",
+            .type = "integer",
+            .fallback = fmt::format("{}", usual.resamples),
+            .help = "distances drawn; samples of exactly `size` values are measured pair by "
+                    "pair instead"},
+           {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "of the drawing"}},
+      .returns = "NoiseFloor",
+      .errors = "Samples that are smaller than size; fewer than 7 samples of exactly that size.",
+      .example = "local floor = s.noise_floor(base_of_many_starts, {size = 24})\n"
+                 "print(floor, floor:judge(base, level).inside)",
+      .call = noise_floor_binding});
+}
+
+}  // namespace
+
+void describe_statistics(Api& api) {
+  describe_samples(api);
+  describe_noise_floor(api);
+}
+
+}  // namespace springlod

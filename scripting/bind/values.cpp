@@ -1,0 +1,42 @@
+#include "scripting/bind/values.hpp"
+
+#include <fmt/format.h>
+
+#include "lod/transfer.hpp"
+#include "voxelize/depth.hpp"
+
+namespace springlod {
+
+std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const LodAsset>& chain,
+                                              std::uint32_t level) {
+  auto value = std::make_shared<ModelValue>();
+  const Level& found = chain->chain.levels.at(level);
+  value->model = std::shared_ptr<const MassSpringModel>(chain, &found.model);
+  if (chain->surface_of_base.point_count() > 0) {
+    value->surface = std::shared_ptr<const TriangleMesh>(chain, &chain->surface);
+    value->surface_of_base = std::shared_ptr<const Binding>(chain, &chain->surface_of_base);
+  }
+  value->chain = chain;
+  value->level = level;
+  value->made_by = found.made_by;
+  value->provenance = chain->provenance;
+  return value;
+}
+
+MaterialGrid with_depth(const GridValue& value) {
+  MaterialGrid grid = value.grid;
+  if (value.voxelized && grid.depth.empty()) grid.depth = measure_depth(grid, value.mesh->mesh);
+  return grid;
+}
+
+Binding surface_binding(const ModelValue& model) {
+  if (!model.surface_of_base) return {};
+  if (!model.chain || model.level == 0) return *model.surface_of_base;
+  return compose(*model.surface_of_base, base_from_level(model.chain->chain, model.level));
+}
+
+std::string spring_text(std::uint32_t springs) {
+  return fmt::format("{} spring{}, {} ends", springs, springs == 1 ? "" : "s", 2ULL * springs);
+}
+
+}  // namespace springlod

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "model/binding.hpp"
+#include "model/chain.hpp"
+#include "model/mesh.hpp"
+#include "report/stats/noise_floor.hpp"
+#include "scripting/engine/value.hpp"
+#include "sim/run.hpp"
+#include "sim/scenario.hpp"
+#include "sim/study/compare.hpp"
+#include "voxelize/grid.hpp"
+#include "voxelize/import.hpp"
+
+namespace springlod {
+
+struct StabilityMap;
+
+// What a script holds is a noun of springlod together with where it came from. All are shared and
+// never changed.
+
+struct MeshValue {
+  TriangleMesh mesh;
+  ImportReport report;
+  Provenance provenance;
+};
+template <>
+inline constexpr const char* kValueName<MeshValue> = "Mesh";
+
+struct GridValue {
+  MaterialGrid grid;
+  std::shared_ptr<const MeshValue> mesh;  ///< shown in its place; null for a loaded grid
+  bool voxelized = false;                 ///< filled from `mesh`, so depths can be measured
+  Provenance provenance;
+};
+/// The grid with the depths of its cells, if they are known or can be measured.
+MaterialGrid with_depth(const GridValue& value);
+template <>
+inline constexpr const char* kValueName<GridValue> = "Grid";
+
+/// A model of its own, or a level of a chain (then `chain` keeps it alive).
+struct ModelValue {
+  std::shared_ptr<const MassSpringModel> model;
+  std::shared_ptr<const TriangleMesh> surface;     ///< null if there is none
+  std::shared_ptr<const Binding> surface_of_base;  ///< null if there is none
+  std::shared_ptr<const LodAsset> chain;           ///< null for a model of its own
+  std::uint32_t level = 0;
+  std::string made_by;
+  Provenance provenance;
+};
+template <>
+inline constexpr const char* kValueName<ModelValue> = "Model";
+
+template <>
+inline constexpr const char* kValueName<LodAsset> = "LodChain";
+template <>
+inline constexpr const char* kValueName<Scenario> = "Scenario";
+
+struct TrajectoryValue {
+  Trajectory trajectory;
+  std::shared_ptr<const ModelValue> model;
+  std::shared_ptr<const Scenario> scenario;
+};
+template <>
+inline constexpr const char* kValueName<TrajectoryValue> = "Trajectory";
+
+struct ComparisonValue {
+  Comparison comparison;
+  std::shared_ptr<const LodAsset> chain;
+};
+template <>
+inline constexpr const char* kValueName<ComparisonValue> = "Comparison";
+
+template <>
+inline constexpr const char* kValueName<StabilityMap> = "StabilityMap";
+
+template <>
+inline constexpr const char* kValueName<NoiseFloor> = "NoiseFloor";
+
+/// Level `level` of a chain as a model.
+std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const LodAsset>& chain,
+                                              std::uint32_t level);
+
+/// Surface vertices from the nodes of the model; empty if it has no surface.
+Binding surface_binding(const ModelValue& model);
+
+/// "2374 springs, 4748 ends": the paper counts each spring at both ends.
+std::string spring_text(std::uint32_t springs);
+
+}  // namespace springlod

@@ -1,0 +1,301 @@
+// Meshes, their voxelizing, and the lattices built on grids.
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "base/units.hpp"
+#include "scripting/bind/records.hpp"
+#include "scripting/bind/values.hpp"
+#include "scripting/engine/call.hpp"
+#include "voxelize/grid.hpp"
+#include "voxelize/import.hpp"
+#include "voxelize/lattice.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr const char* kGroup = "From mesh to model";
+
+std::string box_text(const Box3& box) {
+  const Vec3 size = box.sizes();
+  return fmt::format("{} x {} x {}", format_quantity(size.x(), Dimension::length),
+                     format_quantity(size.y(), Dimension::length),
+                     format_quantity(size.z(), Dimension::length));
+}
+
+int import_binding(Call& call) {
+  ImportOptions options;
+  TableReader reader = call.options(2);
+  std::string unit;
+  reader.read("unit", unit);
+  if (!unit.empty()) options.unit = length_unit(unit);
+  UpAxis up = UpAxis::z;
+  reader.choose("up", up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}});
+  if (reader.has("up")) options.up = up;
+  reader.finish();
+
+  const std::filesystem::path path = call.path(1);
+  auto value = std::make_shared<MeshValue>();
+  ImportedMesh imported = import_mesh(path, options);
+  value->mesh = std::move(imported.mesh);
+  value->report = imported.report;
+  value->provenance.set("springlod", version());
+  value->provenance.set("mesh", path.filename().string());
+  value->provenance.set("mesh_hash", imported.report.content_hash);
+  value->provenance.set("unit", fmt::format("{} m", imported.report.unit));
+  std::string remarks = describe(imported.report);
+  while (remarks.ends_with('\n')) remarks.pop_back();
+  if (!remarks.empty()) call.session().console().say(remarks);
+  return call.give(std::shared_ptr<const MeshValue>(value));
+}
+
+void read_core(Call& call, TableReader& reader, VoxelizeOptions& options) {
+  const int table = reader.raw("core");
+  if (table == 0) return;
+  TableReader core = call.record(table, "Core", "voxelize: core");
+  VoxelizeOptions::CoreShell core_shell;
+  core.read("depth", core_shell.core_depth);
+  if (!core.has("depth")) core.refuse("depth", "given: how deep under the surface the core begins");
+  const int material = core.raw("material");
+  if (material == 0) core.refuse("material", "given: a Material table");
+  core_shell.core = read_material(call, material, "voxelize: core.material", "core");
+  core.finish();
+  options.core_shell = core_shell;
+}
+
+PaintFunction paint_function(lua_State* L, int function) {
+  return [L, function](const Vec3& center, double depth, const std::string& material) {
+    lua_pushvalue(L, function);
+    for (int axis = 0; axis < 3; ++axis) push(L, center[axis]);
+    push(L, depth);
+    push(L, material);
+    lua_call(L, 5, 1);
+    if (!lua_isnil(L, -1) && lua_type(L, -1) != LUA_TSTRING)
+      throw InputError(
+          fmt::format("voxelize: paint must return the name of a material or nothing, got {}",
+                      describe_type_at(L, -1)));
+    std::string name = lua_isnil(L, -1) ? "" : lua_tostring(L, -1);
+    lua_pop(L, 1);
+    return name;
+  };
+}
+
+int voxelize_binding(Call& call) {
+  const auto mesh = call.value<MeshValue>(1);
+  VoxelizeOptions options;
+  TableReader reader = call.options(2);
+  reader.read("cell", options.cell);
+  if (const int table = reader.raw("materials"))
+    options.materials = read_materials(call, table, "voxelize");
+  if (const int table = reader.raw("fallback"))
+    options.fallback = read_material(call, table, "voxelize: fallback", options.fallback.name);
+  reader.read("priority", options.priority);
+  read_core(call, reader, options);
+  if (const int function = reader.raw("paint")) {
+    if (!lua_isfunction(call.lua(), function)) reader.refuse("paint", "a function");
+    options.paint = paint_function(call.lua(), function);
+  }
+  reader.finish();
+  options.threads = call.session().settings().threads;
+  options.progress = call.progress();
+
+  VoxelizedMesh result = voxelize(mesh->mesh, options);
+  for (const std::string& warning : result.report.warnings) call.session().console().say(warning);
+  if (result.report.cell_chosen)
+    call.session().console().say(
+        fmt::format("cells of {} (longest side / 32; the option cell changes it)",
+                    format_quantity(result.report.cell, Dimension::length)));
+  auto value = std::make_shared<GridValue>();
+  value->grid = std::move(result.grid);
+  value->mesh = mesh;
+  value->voxelized = true;
+  value->provenance = mesh->provenance;
+  value->provenance.set("cell", fmt::format("{} m", value->grid.cell));
+  return call.give(std::shared_ptr<const GridValue>(value));
+}
+
+void say_hinges(Call& call, const LatticeModel& lattice, HingePolicy policy) {
+  if (lattice.hinges.empty()) return;
+  const Vec3& at = lattice.hinges.front().position;
+  const std::string what = fmt::format(
+      "{} hinge{} where cells touch only along an edge or at a corner, the first at "
+      "({:.4g}, {:.4g}, {:.4g}) m",
+      lattice.hinges.size(), lattice.hinges.size() == 1 ? "" : "s", at.x(), at.y(), at.z());
+  if (policy == HingePolicy::report)
+    call.session().console().say(what + "; hinges = \"fill\" or \"separate\" mends them");
+  if (policy == HingePolicy::fill)
+    call.session().console().say(fmt::format("{}: mended by {} more cell{}", what,
+                                             lattice.filled_cells,
+                                             lattice.filled_cells == 1 ? "" : "s"));
+  if (policy == HingePolicy::separate)
+    call.session().console().say(
+        fmt::format("{}: the cells were taken apart, {} parts", what, lattice.parts));
+}
+
+int lattice_binding(Call& call) {
+  const auto grid = call.value<GridValue>(1);
+  LatticeOptions options;
+  TableReader reader = call.options(2);
+  reader.choose("style", options.style,
+                {{"corners", LatticeStyle::corners}, {"centers", LatticeStyle::centers}});
+  reader.choose("hinges", options.hinges,
+                {{"report", HingePolicy::report},
+                 {"fill", HingePolicy::fill},
+                 {"separate", HingePolicy::separate}});
+  reader.finish();
+
+  LatticeModel lattice = build_lattice(grid->grid, options);
+  say_hinges(call, lattice, options.hinges);
+  const std::string style = options.style == LatticeStyle::corners ? "corners" : "centers";
+  auto value = std::make_shared<ModelValue>();
+  value->model = std::make_shared<const MassSpringModel>(std::move(lattice.model));
+  value->made_by = "lattice " + style;
+  value->provenance = grid->provenance;
+  value->provenance.set("lattice", style);
+  if (grid->mesh) {
+    value->surface = std::shared_ptr<const TriangleMesh>(grid->mesh, &grid->mesh->mesh);
+    value->surface_of_base =
+        std::make_shared<const Binding>(bind_points(value->surface->positions, *value->model));
+  }
+  return call.give(std::shared_ptr<const ModelValue>(value));
+}
+
+void describe_mesh(Api& api) {
+  TypeBuilder<MeshValue> type(
+      "A surface of triangles in metres, z up, in named parts.", [](const MeshValue& value) {
+        return fmt::format("Mesh: {} vertices, {} triangles, {} part{}, {}",
+                           value.mesh.positions.size(), value.mesh.triangles.size(),
+                           value.mesh.parts.size(), value.mesh.parts.size() == 1 ? "" : "s",
+                           box_text(bounds(value.mesh)));
+      });
+  type.field("vertex_count", "integer", "number of vertices",
+             [](const MeshValue& value) { return value.mesh.positions.size(); });
+  type.field("triangle_count", "integer", "number of triangles",
+             [](const MeshValue& value) { return value.mesh.triangles.size(); });
+  type.table_field("parts", "list of {name, material, triangle_count, volume}",
+                   "named objects of the file, volume in m3",
+                   [](lua_State* L, const MeshValue& value) {
+                     begin_list(L, value.mesh.parts.size());
+                     std::size_t number = 0;
+                     for (const MeshPart& part : value.mesh.parts) {
+                       begin_table(L);
+                       set_field(L, "name", part.name);
+                       set_field(L, "material", part.material);
+                       set_field(L, "triangle_count", part.triangle_count);
+                       set_field(L, "volume", signed_volume(value.mesh, part));
+                       end_list_entry(L, ++number);
+                     }
+                   });
+  type.field("min", "{x, y, z}", "lowest corner of the bounding box [m]",
+             [](const MeshValue& value) { return Vec3(bounds(value.mesh).min()); });
+  type.field("max", "{x, y, z}", "highest corner of the bounding box [m]",
+             [](const MeshValue& value) { return Vec3(bounds(value.mesh).max()); });
+  type.field("positions", "list of {x, y, z}", "vertices [m]",
+             [](const MeshValue& value) { return value.mesh.positions; });
+  type.field("unit", "number", "metres in one unit of the file",
+             [](const MeshValue& value) { return value.report.unit; });
+  type.field("format", "string", "format of the file, such as \"OBJ\"",
+             [](const MeshValue& value) { return value.report.format; });
+  api.add(type.build());
+}
+
+void describe_voxelize_function(Api& api) {
+  api.add(RecordEntry{
+      .name = "Core",
+      .summary = "A core of another material under a shell, for voxelize.",
+      .fields = {{.name = "depth",
+                  .type = "quantity",
+                  .dimension = Dimension::length,
+                  .help = "cells deeper under the surface than this are core"},
+                 {.name = "material", .type = "Material", .help = "of the core"}},
+      .example = "core = {depth = \"12 mm\", material = {young = \"1 MPa\", density = 1000}}"});
+  api.add(FunctionEntry{
+      .name = "voxelize",
+      .group = kGroup,
+      .summary = "Fills a closed mesh with cells, part by part, each cell of one material.",
+      .arguments = {{.name = "mesh", .type = "Mesh", .help = "closed surfaces, one or more parts"}},
+      .options =
+          {{.name = "cell",
+            .type = "quantity",
+            .dimension = Dimension::length,
+            .fallback = "longest side / 32",
+            .help = "edge of a cell"},
+           {.name = "materials",
+            .type = "table part = Material",
+            .fallback = "all of the fallback",
+            .help = "by the name of the part, else by the name of its material in the file"},
+           {.name = "fallback",
+            .type = "Material",
+            .fallback = "{young = 1e6, density = 1000, damping = 0.0002}",
+            .help = "for parts that materials does not name"},
+           {.name = "priority",
+            .type = "list of strings",
+            .fallback = "order of the file",
+            .help = "parts in the order in which they claim cells that lie in several"},
+           {.name = "core", .type = "Core", .fallback = "none", .help = "core under a shell"},
+           {.name = "paint",
+            .type = "function(x, y, z, depth, material) -> name",
+            .fallback = "none",
+            .help = "called for each cell with its centre and depth [m] and its material's name; "
+                    "returns the name of one of the materials, or nothing to leave it"}},
+      .returns = "Grid",
+      .errors = "An open part (the message names part and hole), cells too large or too small.",
+      .example = "local grid = s.voxelize(mesh, {cell = \"2 mm\", materials = {\n"
+                 "  rod = {young = \"10 MPa\", density = 1000, damping = 0.004}}})",
+      .call = voxelize_binding});
+}
+
+}  // namespace
+
+void describe_voxelize(Api& api) {
+  describe_mesh(api);
+  api.add(FunctionEntry{
+      .name = "import",
+      .group = kGroup,
+      .summary = "Reads a mesh: OBJ, STL, PLY, GLB/glTF, FBX, OFF or Collada.",
+      .arguments = {{.name = "path", .type = "string", .help = "the file"}},
+      .options = {{.name = "unit",
+                   .type = "string",
+                   .fallback = "the file's, else \"m\" (and said)",
+                   .help = "unit of length of the file: nm um mm cm dm m km in ft"},
+                  {.name = "up",
+                   .type = "one of",
+                   .fallback = "the file's, else the custom of the format (and said)",
+                   .help = "axis of the file that points up",
+                   .choices = {"x", "y", "z"}}},
+      .returns = "Mesh: in metres, z up",
+      .errors = "No such file, not a mesh, no triangles, coordinates that are not finite.",
+      .example = "local mesh = s.import(\"dumbbell.obj\", {unit = \"cm\", up = \"z\"})",
+      .call = import_binding});
+  describe_voxelize_function(api);
+  describe_grid(api);
+  api.add(FunctionEntry{
+      .name = "lattice",
+      .group = kGroup,
+      .summary = "Builds the cubic lattice of masses and springs on a grid (6 + 12 neighbours).",
+      .arguments = {{.name = "grid", .type = "Grid", .help = "filled cells"}},
+      .options = {{.name = "style",
+                   .type = "one of",
+                   .fallback = "\"corners\"",
+                   .help = "nodes at the corners of the cells (no border error) or at their "
+                           "centers (as in the paper)",
+                   .choices = {"corners", "centers"}},
+                  {.name = "hinges",
+                   .type = "one of",
+                   .fallback = "\"report\"",
+                   .help = "where cells touch only along an edge or at a corner: leave and say so, "
+                           "fill a cell, or take the cells apart",
+                   .choices = {"report", "fill", "separate"}}},
+      .returns = "Model: with the mesh's surface bound to its nodes",
+      .errors = "An empty grid.",
+      .example = "local base = s.lattice(grid, {style = \"centers\"})",
+      .call = lattice_binding});
+  describe_random(api);
+}
+
+}  // namespace springlod

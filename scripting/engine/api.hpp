@@ -1,0 +1,132 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/units.hpp"
+
+struct lua_State;
+
+namespace springlod {
+
+class Call;
+
+/// Identity of a type of value: see kValueName in value.hpp.
+using TypeTag = const char* const*;
+
+// `{}` throughout: descriptions are written with named fields and leave out what does not apply.
+
+/// One named thing that a function takes or a value has: an argument, an option, a field.
+struct Parameter {
+  std::string name{};
+  std::string type{};  ///< "Mesh", "integer", "quantity", "list of Obstacle", "Material", ...
+  Dimension dimension = Dimension::number;  ///< of a "quantity": how "5 mm" is read
+  std::string fallback{};                   ///< default as text; empty: required
+  std::string help{};
+  std::vector<std::string> choices{};  ///< words that are allowed, if only some are
+};
+
+/// A function of the module, or a method of a value. `call` is the binding that runs it.
+struct FunctionEntry {
+  std::string name{};   ///< "voxelize"; methods: "node"
+  std::string group{};  ///< heading under which help() lists it
+  std::string summary{};
+  std::vector<Parameter> arguments{};  ///< by position, without the self of a method
+  std::vector<Parameter> options{};    ///< keys of the table that is the last argument
+  std::string returns{};
+  std::string errors{};
+  std::string example{};
+  std::function<int(Call&)> call{};
+  std::string owner{};  ///< type of a method; empty for functions of the module
+};
+
+/// A field that a value computes when it is read. `push` leaves one Lua value.
+struct FieldEntry {
+  Parameter parameter{};
+  std::function<void(lua_State*, const std::shared_ptr<const void>& value)> push{};
+};
+
+/// A type of value: what print shows, which fields and methods it has.
+struct TypeEntry {
+  std::string name{};
+  TypeTag tag = nullptr;
+  std::string summary{};
+  std::vector<FieldEntry> fields{};
+  std::deque<FunctionEntry> methods{};
+  std::function<std::string(const void* value)> describe{};
+  /// `value[n]` and `#value`; null if the type has neither. `index` returns false if there is no
+  /// such element.
+  std::function<bool(lua_State*, const std::shared_ptr<const void>&, long long)> index{};
+  std::function<long long(const void*)> length{};
+};
+
+/// A plain table with known keys, such as a Material.
+struct RecordEntry {
+  std::string name{};
+  std::string summary{};
+  std::vector<Parameter> fields{};
+  std::string example{};
+};
+
+/// Constants of the module: version, seed, threads ...
+struct ConstantEntry {
+  Parameter parameter{};
+  std::function<void(lua_State*)> push{};
+};
+
+/// Everything a script can reach, described once. From it come the module table, help(), the
+/// prompt's completion, the check of option names and docs/api.md. Entries never move once added:
+/// Lua holds pointers to them.
+class Api {
+ public:
+  FunctionEntry& add(FunctionEntry entry);
+  TypeEntry& add(TypeEntry entry);
+  RecordEntry& add(RecordEntry entry);
+  void add(ConstantEntry entry);
+
+  const std::deque<FunctionEntry>& functions() const { return functions_; }
+  const std::deque<TypeEntry>& types() const { return types_; }
+  const std::deque<RecordEntry>& records() const { return records_; }
+  const std::deque<ConstantEntry>& constants() const { return constants_; }
+
+  const FunctionEntry* find_function(std::string_view name) const;
+  const TypeEntry* find_type(std::string_view name) const;
+  /// Throws std::logic_error if there is none: a binding and its description have drifted apart.
+  const RecordEntry& record(std::string_view name) const;
+
+ private:
+  std::deque<FunctionEntry> functions_;
+  std::deque<TypeEntry> types_;
+  std::deque<RecordEntry> records_;
+  std::deque<ConstantEntry> constants_;
+};
+
+/// The first thing that is missing from a description (no summary, a parameter without help, an
+/// unknown type of value ...), one line each; empty if all is described.
+std::vector<std::string> undocumented(const Api& api);
+
+// One a bind_*.cpp: adds what scripts can do with that folder.
+void describe_session(Api& api);
+void describe_model(Api& api);
+void describe_elastic(Api& api);
+void describe_voxelize(Api& api);
+void describe_grid(Api& api);       // of voxelize too, called by describe_voxelize
+void describe_random(Api& api);     // of voxelize too, called by describe_voxelize
+void describe_refill(Api& api);     // likewise, called by describe_lod: it makes levels
+void describe_calibrate(Api& api);  // likewise: certificates and what simplify calibrates by
+void describe_lod(Api& api);
+void describe_merge_log(Api& api);
+void describe_sim(Api& api);
+void describe_compare(Api& api);    // of sim too, called by describe_sim
+void describe_deviation(Api& api);  // likewise
+void describe_stability(Api& api);  // of sim too
+void describe_render(Api& api);
+void describe_report(Api& api);
+void describe_statistics(Api& api);
+
+}  // namespace springlod

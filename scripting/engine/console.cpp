@@ -1,0 +1,152 @@
+#include "scripting/engine/console.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.hpp"
+#include "scripting/engine/interrupt.hpp"
+
+namespace springlod {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// Work that is over sooner needs no bar.
+constexpr auto kSilentFor = 500ms;
+// A bar is redrawn this often; enough for the eye.
+constexpr auto kRedraw = 100ms;
+// In a log file: a line this often.
+constexpr auto kLogLine = 10s;
+constexpr int kBarWidth = 24;
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long long>(std::ceil(std::min(seconds, 359999.0)));
+  if (whole >= 3600)
+    return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+std::string rate_text(double rate) {
+  if (rate >= 1e6) return fmt::format("{:.1f} M/s", rate / 1e6);
+  if (rate >= 1e3) return fmt::format("{:.1f} k/s", rate / 1e3);
+  return fmt::format("{:.1f} /s", rate);
+}
+
+// An empty variable counts as not set (no-color.org).
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != 0;
+}
+
+}  // namespace
+
+std::string progress_line(std::string_view task, std::uint64_t done, std::uint64_t total,
+                          double seconds, bool bar) {
+  const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
+  std::string line = fmt::format("{:<12}", task);
+  if (total == 0) return line + fmt::format("  {}  {}", done, rate_text(rate));
+  const double part = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
+  if (bar) {
+    const int filled = static_cast<int>(part * kBarWidth);
+    line += fmt::format("  [{}{}]", std::string(filled, '='), std::string(kBarWidth - filled, ' '));
+  }
+  line += fmt::format("  {:3.0f} %  {}", 100 * part, rate_text(rate));
+  if (done >= total) return line + fmt::format("  took {}", clock_text(seconds));
+  if (rate > 0)
+    line += fmt::format("  {} left", clock_text(static_cast<double>(total - done) / rate));
+  return line;
+}
+
+Console::Console(Verbosity verbosity)
+    : verbosity_(verbosity),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      colour_(terminal_ && !is_set("NO_COLOR")) {}
+
+void Console::say(std::string_view text) {
+  if (verbosity_ == Verbosity::quiet) return;
+  const std::lock_guard lock(mutex_);
+  clear_bar();
+  fmt::print(stderr, "{}\n", text);
+}
+
+void Console::say_more(std::string_view text) {
+  if (verbosity_ == Verbosity::verbose) say(text);
+}
+
+void Console::begin(std::string_view task, std::uint64_t total) {
+  const std::lock_guard lock(mutex_);
+  if (!running_.empty()) running_.back().done += pending_.exchange(0);
+  pending_ = 0;
+  const auto now = Clock::now();
+  running_.push_back({std::string(task),
+                      total,
+                      0,
+                      now,
+                      now + (terminal_ ? Clock::duration(kSilentFor) : kLogLine),
+                      false,
+                      {}});
+  next_look_ = 0;
+}
+
+void Console::advance(std::uint64_t count) {
+  if (interrupt_requested()) throw InterruptedError();
+  pending_.fetch_add(count, std::memory_order_relaxed);
+  const auto now = Clock::now();
+  if (now.time_since_epoch().count() < next_look_.load(std::memory_order_relaxed)) return;
+  next_look_ = (now + kRedraw).time_since_epoch().count();
+  const std::lock_guard lock(mutex_);
+  if (running_.empty()) return;
+  Running& running = running_.back();
+  running.done += pending_.exchange(0);
+  if (now >= running.next_report) report(running, now, false);
+}
+
+void Console::end() {
+  const std::lock_guard lock(mutex_);
+  if (running_.empty()) return;
+  Running running = std::move(running_.back());
+  running_.pop_back();
+  running.done += pending_.exchange(0);
+  if (terminal_) {
+    clear_bar();
+  } else if (running.reported) {
+    report(running, Clock::now(), true);
+  }
+}
+
+void Console::detail(std::string_view text) {
+  const std::lock_guard lock(mutex_);
+  if (!running_.empty()) running_.back().detail = text;
+}
+
+void Console::report(Running& running, Clock::time_point now, bool last) {
+  running.next_report = now + (terminal_ ? Clock::duration(kRedraw) : kLogLine);
+  if (verbosity_ == Verbosity::quiet) return;
+  running.reported = true;
+  const double seconds = std::chrono::duration<double>(now - running.start).count();
+  std::string line = progress_line(running.name, running.done, running.total, seconds, terminal_);
+  if (!last && !running.detail.empty()) line += "  " + running.detail;
+  if (!terminal_) {
+    fmt::print(stderr, "{}\n", line);
+    return;
+  }
+  // \033[K clears what an earlier, longer line left; \033[2m is dim, which NO_COLOR turns off.
+  fmt::print(stderr, "\r{}{}{}\033[K", colour_ ? "\033[2m" : "", line, colour_ ? "\033[0m" : "");
+  std::fflush(stderr);
+  bar_shown_ = !last;
+}
+
+void Console::clear_bar() {
+  if (!bar_shown_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  bar_shown_ = false;
+}
+
+}  // namespace springlod

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/progress.hpp"
+
+namespace springlod {
+
+enum class Verbosity { quiet, normal, verbose };
+
+/// Talk on stderr (stdout carries results): remarks, and the progress of long work. On a terminal
+/// a bar with rate and time left, redrawn in place; elsewhere a line now and then. Ctrl-C makes
+/// `advance` throw InterruptedError.
+class Console : public Progress {
+ public:
+  explicit Console(Verbosity verbosity);
+
+  /// A remark; not shown if quiet.
+  void say(std::string_view text) override;
+  /// A remark for the curious; shown if verbose.
+  void say_more(std::string_view text);
+  bool verbose() const { return verbosity_ == Verbosity::verbose; }
+
+  void begin(std::string_view task, std::uint64_t total) override;
+  void advance(std::uint64_t count) override;
+  void end() override;
+  void detail(std::string_view text) override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Running {
+    std::string name;
+    std::uint64_t total = 0;
+    std::uint64_t done = 0;
+    Clock::time_point start;
+    Clock::time_point next_report;
+    bool reported = false;
+    std::string detail;
+  };
+
+  void report(Running& running, Clock::time_point now, bool last);
+  void clear_bar();
+
+  Verbosity verbosity_;
+  bool terminal_;
+  bool colour_;
+  std::mutex mutex_;
+  std::vector<Running> running_;           // work within work: the innermost is shown
+  std::atomic<std::uint64_t> pending_{0};  // counts not yet added to running_.back()
+  std::atomic<Clock::rep> next_look_{0};
+  bool bar_shown_ = false;
+};
+
+/// One line of progress: "voxelize  [=====>    ]  52 %  1300/s  0:03 left". Apart for the tests.
+std::string progress_line(std::string_view task, std::uint64_t done, std::uint64_t total,
+                          double seconds, bool bar);
+
+}  // namespace springlod

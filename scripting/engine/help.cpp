@@ -1,0 +1,252 @@
+#include "scripting/engine/help.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "scripting/engine/call.hpp"
+#include "scripting/engine/suggest.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr std::size_t kLineWidth = 88;
+
+// Words of `text` on lines of at most kLineWidth, each indented.
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::string result;
+  std::string line(indent, ' ');
+  std::size_t start = 0;
+  while (start < text.size()) {
+    std::size_t end = text.find(' ', start);
+    if (end == std::string::npos) end = text.size();
+    if (line.size() > indent && line.size() + 1 + end - start > kLineWidth) {
+      result += line + "\n";
+      line.assign(indent, ' ');
+    }
+    if (line.size() > indent) line += ' ';
+    line += text.substr(start, end - start);
+    start = end + 1;
+  }
+  return result + line + "\n";
+}
+
+std::string indented(const std::string& text, std::size_t indent) {
+  std::string result(indent, ' ');
+  for (const char c : text) {
+    result += c;
+    if (c == '\n') result += std::string(indent, ' ');
+  }
+  return result + "\n";
+}
+
+std::string listing(const std::vector<Parameter>& parameters) {
+  std::size_t width = 0;
+  for (const Parameter& parameter : parameters) width = std::max(width, parameter.name.size());
+  std::string text;
+  for (const Parameter& parameter : parameters) {
+    text += fmt::format("  {:<{}}  {}\n", parameter.name, width, type_and_default(parameter));
+    text += wrapped(parameter.help, width + 6);
+  }
+  return text;
+}
+
+std::vector<Parameter> fields_of(const TypeEntry& type) {
+  std::vector<Parameter> fields;
+  for (const FieldEntry& field : type.fields) fields.push_back(field.parameter);
+  return fields;
+}
+
+std::vector<std::string> groups_of(const Api& api) {
+  std::vector<std::string> groups;
+  for (const FunctionEntry& entry : api.functions())
+    if (std::find(groups.begin(), groups.end(), entry.group) == groups.end())
+      groups.push_back(entry.group);
+  return groups;
+}
+
+// A bar would end the cell of a Markdown table.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? "\\|" : std::string(1, c);
+  return result;
+}
+
+std::string markdown_rows(const std::vector<Parameter>& parameters) {
+  std::string text = "| name | type | meaning |\n|---|---|---|\n";
+  for (const Parameter& parameter : parameters)
+    text += fmt::format("| `{}` | {} | {} |\n", parameter.name,
+                        escaped(type_and_default(parameter)), escaped(parameter.help));
+  return text + "\n";
+}
+
+std::string markdown(const FunctionEntry& entry, const std::string& heading) {
+  std::string text =
+      fmt::format("{} {}\n\n`{}`\n\n{}\n\n", heading, entry.name, signature(entry), entry.summary);
+  if (!entry.arguments.empty()) text += "Arguments:\n\n" + markdown_rows(entry.arguments);
+  if (!entry.options.empty()) text += "Options:\n\n" + markdown_rows(entry.options);
+  text += fmt::format("Returns: {}\n\n", entry.returns);
+  if (!entry.errors.empty()) text += fmt::format("Errors: {}\n\n", entry.errors);
+  if (!entry.example.empty()) text += fmt::format("```lua\n{}\n```\n\n", entry.example);
+  return text;
+}
+
+std::string markdown(const TypeEntry& type) {
+  std::string text = fmt::format("### {}\n\n{}\n\n", type.name, type.summary);
+  if (!type.fields.empty()) text += markdown_rows(fields_of(type));
+  for (const FunctionEntry& method : type.methods) text += markdown(method, "####");
+  return text;
+}
+
+}  // namespace
+
+std::string type_and_default(const Parameter& parameter) {
+  std::string text = parameter.type;
+  if (!parameter.choices.empty()) {
+    std::vector<std::string> quoted;
+    for (const std::string& choice : parameter.choices)
+      quoted.push_back(fmt::format("\"{}\"", choice));
+    text += fmt::format(" {}", fmt::join(quoted, ", "));
+  }
+  const std::string_view unit = si_unit(parameter.dimension);
+  if (parameter.dimension != Dimension::number) text += fmt::format(" in {}", unit);
+  if (!parameter.fallback.empty()) text += fmt::format("; default {}", parameter.fallback);
+  return text;
+}
+
+std::string signature(const FunctionEntry& entry) {
+  std::string text = entry.owner.empty() ? "s." : entry.owner + ":";
+  if (!entry.owner.empty()) std::transform(text.begin(), text.end(), text.begin(), ::tolower);
+  std::vector<std::string> taken;
+  for (const Parameter& argument : entry.arguments)
+    taken.push_back(argument.fallback.empty() ? argument.name : "[" + argument.name + "]");
+  if (!entry.options.empty()) {
+    std::vector<std::string> names;
+    for (const Parameter& option : entry.options) names.push_back(option.name);
+    // The full list follows below; a signature should fit a line.
+    constexpr std::size_t kShown = 4;
+    if (names.size() > kShown) {
+      names.resize(kShown);
+      names.emplace_back("...");
+    }
+    taken.push_back("{" + comma_list(names) + "}");
+  }
+  return fmt::format("{}{}({}) -> {}", text, entry.name, comma_list(taken),
+                     entry.returns.substr(0, entry.returns.find(':')));
+}
+
+std::string overview(const Api& api) {
+  std::string text = fmt::format("springlod {}: local s = require \"springlod\"\n", version());
+  for (const std::string& group : groups_of(api)) {
+    text += fmt::format("\n{}\n", group);
+    for (const FunctionEntry& entry : api.functions())
+      if (entry.group == group) text += fmt::format("  {:<13} {}\n", entry.name, entry.summary);
+  }
+  text += "\nValues\n";
+  for (const TypeEntry& type : api.types())
+    text += fmt::format("  {:<13} {}\n", type.name, type.summary);
+  text += "\nTables with known keys\n";
+  for (const RecordEntry& record : api.records())
+    text += fmt::format("  {:<13} {}\n", record.name, record.summary);
+  text += "\nConstants\n";
+  for (const ConstantEntry& constant : api.constants())
+    text += fmt::format("  {:<13} {}\n", constant.parameter.name, constant.parameter.help);
+  return text + "\nhelp(s.simplify), help(\"Mesh\"), help(value) tell more.";
+}
+
+std::string help_for(const FunctionEntry& entry) {
+  std::string text = signature(entry) + "\n\n" + wrapped(entry.summary, 0);
+  if (!entry.arguments.empty()) text += "\nArguments\n" + listing(entry.arguments);
+  if (!entry.options.empty()) text += "\nOptions\n" + listing(entry.options);
+  text += "\nReturns " + entry.returns + "\n";
+  if (!entry.errors.empty()) text += "\nErrors\n" + wrapped(entry.errors, 2);
+  if (!entry.example.empty()) text += "\nExample\n" + indented(entry.example, 2);
+  text.pop_back();
+  return text;
+}
+
+std::string help_for(const TypeEntry& type) {
+  std::string text = type.name + "\n\n" + wrapped(type.summary, 0);
+  if (!type.fields.empty()) text += "\nFields\n" + listing(fields_of(type));
+  if (!type.methods.empty()) text += "\nMethods\n";
+  for (const FunctionEntry& method : type.methods)
+    text += fmt::format("  {}\n", signature(method)) + wrapped(method.summary, 6);
+  text.pop_back();
+  return text;
+}
+
+std::string help_for(const RecordEntry& record) {
+  std::string text =
+      record.name + "\n\n" + wrapped(record.summary, 0) + "\nKeys\n" + listing(record.fields);
+  if (!record.example.empty()) text += "\nExample\n" + indented(record.example, 2);
+  text.pop_back();
+  return text;
+}
+
+std::vector<std::string> help_topics(const Api& api) {
+  std::vector<std::string> names;
+  for (const FunctionEntry& entry : api.functions()) names.push_back(entry.name);
+  for (const TypeEntry& type : api.types()) names.push_back(type.name);
+  for (const RecordEntry& record : api.records()) names.push_back(record.name);
+  for (const TypeEntry& type : api.types())
+    for (const FunctionEntry& method : type.methods) names.push_back(type.name + ":" + method.name);
+  return names;
+}
+
+std::string help_for(const Api& api, const std::string& name) {
+  if (const FunctionEntry* entry = api.find_function(name)) return help_for(*entry);
+  if (const TypeEntry* type = api.find_type(name)) return help_for(*type);
+  for (const RecordEntry& record : api.records())
+    if (record.name == name) return help_for(record);
+  for (const TypeEntry& type : api.types())
+    for (const FunctionEntry& method : type.methods)
+      if (name == type.name + ":" + method.name || name == type.name + "." + method.name)
+        return help_for(method);
+  throw InputError(fmt::format("no help on '{}'{} (help() lists what there is)", name,
+                               did_you_mean(name, help_topics(api))));
+}
+
+std::string help_at(lua_State* L, int index, const Api& api) {
+  if (lua_type(L, index) == LUA_TSTRING) return help_for(api, lua_tostring(L, index));
+  if (const FunctionEntry* entry = entry_of_function(L, index)) return help_for(*entry);
+  for (const TypeEntry& type : api.types())
+    if (boxed_at(L, index, type.tag)) return help_for(type);
+  throw InputError(fmt::format(
+      "there is no help on {}; ask for a function (help(s.simplify)), a value, or a name "
+      "(help(\"Mesh\"))",
+      describe_type_at(L, index)));
+}
+
+std::string api_markdown(const Api& api) {
+  std::string text =
+      "# The scripting API\n\n"
+      "Written by springlod itself: `springlod -e 'print(require(\"springlod\").api_markdown())'`. "
+      "Do not edit.\n\n"
+      "A *quantity* is a number in the SI unit named, or text with a unit: `0.005` or `\"5 mm\"`. "
+      "Nodes and springs are counted from 1, levels from 0 (the base). Options come in a table "
+      "after the other arguments.\n\n";
+  for (const std::string& group : groups_of(api)) {
+    text += fmt::format("## {}\n\n", group);
+    for (const FunctionEntry& entry : api.functions())
+      if (entry.group == group) text += markdown(entry, "###");
+  }
+  text += "## Tables with known keys\n\n";
+  for (const RecordEntry& record : api.records()) {
+    text += fmt::format("### {}\n\n{}\n\n{}", record.name, record.summary,
+                        markdown_rows(record.fields));
+    if (!record.example.empty()) text += fmt::format("```lua\n{}\n```\n\n", record.example);
+  }
+  text += "## Values\n\n";
+  for (const TypeEntry& type : api.types()) text += markdown(type);
+  text += "## Constants\n\n";
+  std::vector<Parameter> constants;
+  for (const ConstantEntry& constant : api.constants()) constants.push_back(constant.parameter);
+  text += markdown_rows(constants);
+  text.pop_back();
+  return text;
+}
+
+}  // namespace springlod

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace springlod {
+
+/// The folder of the stock scripts: ../share/springlod/scripts beside the running program if it is
+/// installed, else scripts/ of the source tree it was built from. Throws IoError if neither is
+/// there.
+std::filesystem::path stock_script_folder();
+
+/// The folder of the sample meshes and scenes, beside that of the stock scripts.
+std::filesystem::path sample_folder();
+
+/// A stock command: scripts/NAME.lua, or scripts/studies/NAME.lua for the studies that measure the
+/// methods themselves. The first line, a comment, says what it does.
+struct StockCommand {
+  std::string name;
+  std::string summary;
+  std::filesystem::path script;
+  bool study = false;
+};
+/// Studies last, each of the two sorted by name.
+std::vector<StockCommand> stock_commands();
+
+/// $XDG_STATE_HOME/springlod/history, or ~/.local/state/springlod/history; empty without a home.
+std::filesystem::path history_file();
+
+}  // namespace springlod

@@ -1,0 +1,230 @@
+#include "scripting/engine/repl.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <clocale>
+#include <cstdio>
+#include <cwchar>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <histedit.h>
+#include <lua.hpp>
+#include <poll.h>
+#include <unistd.h>
+
+#include "scripting/engine/interrupt.hpp"
+#include "scripting/engine/paths.hpp"
+
+namespace springlod {
+
+namespace {
+
+constexpr int kHistoryLines = 2000;
+// A Ctrl-C that comes just before the wait for a key, or on another thread, does not end the wait:
+// it is noticed after this long [ms].
+constexpr int kInterruptWait = 100;
+
+enum class Input { line, interrupted, closed };
+
+// Reads lines with editing, history and completion through libedit's own interface: unlike its
+// readline imitation it keeps no state in globals.
+class LineEditor {
+ public:
+  explicit LineEditor(ScriptState& state) : state_(state) {
+    std::setlocale(LC_CTYPE, "");
+    history_ = history_init();
+    edit_ = el_init("springlod", stdin, stdout, stderr);
+    HistEvent event;
+    history(history_, &event, H_SETSIZE, kHistoryLines);
+    history(history_, &event, H_SETUNIQUE, 1);
+    el_set(edit_, EL_CLIENTDATA, this);
+    el_set(edit_, EL_PROMPT, &LineEditor::give_prompt);
+    el_set(edit_, EL_EDITOR, "emacs");
+    el_set(edit_, EL_SIGNAL, 0);
+    el_set(edit_, EL_GETCFN, &LineEditor::read_key);
+    el_set(edit_, EL_HIST, history, history_);
+    // The narrow form of this one loses two copies of its strings.
+    el_wset(edit_, EL_ADDFN, L"complete-name", L"completes a name", &LineEditor::complete);
+    el_set(edit_, EL_BIND, "^I", "complete-name", nullptr);
+    el_set(edit_, EL_BIND, "^R", "em-inc-search-prev", nullptr);
+    load_history();
+  }
+  ~LineEditor() {
+    save_history();
+    el_end(edit_);
+    history_end(history_);
+  }
+  LineEditor(const LineEditor&) = delete;
+  LineEditor& operator=(const LineEditor&) = delete;
+
+  Input read(const char* prompt, std::string& line) {
+    prompt_ = prompt;
+    int count = 0;
+    errno = 0;
+    // libedit prints the prompt before it takes the terminal over; a Ctrl-D between is lost.
+    el_set(edit_, EL_PREP_TERM, 1);
+    const char* text = el_gets(edit_, &count);
+    if (interrupt_requested()) return Input::interrupted;
+    if (text == nullptr || count <= 0) return Input::closed;
+    line.assign(text, static_cast<std::size_t>(count));
+    while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.pop_back();
+    return Input::line;
+  }
+
+  void remember(const std::string& input) {
+    HistEvent event;
+    history(history_, &event, H_ENTER, input.c_str());
+  }
+
+ private:
+  static LineEditor& self(EditLine* edit) {
+    LineEditor* editor = nullptr;
+    el_get(edit, EL_CLIENTDATA, &editor);
+    return *editor;
+  }
+
+  static char* give_prompt(EditLine* edit) { return const_cast<char*>(self(edit).prompt_); }
+
+  // One character from the terminal; -1 when Ctrl-C came instead, which ends el_gets.
+  static int read_key(EditLine* /*edit*/, wchar_t* key) {
+    std::mbstate_t partial{};
+    while (true) {
+      if (interrupt_requested()) return -1;
+      pollfd terminal{STDIN_FILENO, POLLIN, 0};
+      const int ready = poll(&terminal, 1, kInterruptWait);
+      if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+      char byte = 0;
+      const ssize_t count = ::read(STDIN_FILENO, &byte, 1);
+      if (count == 0) return 0;
+      if (count < 0) return -1;
+      const std::size_t length = std::mbrtowc(key, &byte, 1, &partial);
+      if (length == static_cast<std::size_t>(-2)) continue;  // more bytes of the character follow
+      if (length == static_cast<std::size_t>(-1)) {          // not of this encoding: drop it
+        partial = {};
+        continue;
+      }
+      return 1;
+    }
+  }
+
+  static unsigned char complete(EditLine* edit, int /*key*/) {
+    const LineInfo* line = el_line(edit);
+    const std::string_view before(line->buffer,
+                                  static_cast<std::size_t>(line->cursor - line->buffer));
+    const std::vector<std::string> names = completions(self(edit).state_, before);
+    if (names.empty()) return CC_REFRESH_BEEP;
+    std::size_t word = before.size();
+    while (word > 0 && (std::isalnum(static_cast<unsigned char>(before[word - 1])) != 0 ||
+                        before[word - 1] == '_'))
+      --word;
+    const std::string common = common_start(names);
+    const std::string rest = common.substr(before.size() - word);
+    if (!rest.empty()) {
+      el_insertstr(edit, rest.c_str());
+      return CC_REFRESH;
+    }
+    if (names.size() == 1) return CC_REFRESH;
+    fmt::print("\n{}\n", fmt::join(names, "  "));
+    std::fflush(stdout);
+    return CC_REDISPLAY;
+  }
+
+  static std::string common_start(const std::vector<std::string>& names) {
+    std::string common = names.front();
+    for (const std::string& name : names) {
+      const auto end = std::mismatch(common.begin(), common.end(), name.begin(), name.end()).first;
+      common.erase(end, common.end());
+    }
+    return common;
+  }
+
+  void load_history() {
+    const std::filesystem::path path = history_file();
+    HistEvent event;
+    if (!path.empty()) history(history_, &event, H_LOAD, path.c_str());
+  }
+
+  void save_history() {
+    const std::filesystem::path path = history_file();
+    if (path.empty()) return;
+    std::error_code error;
+    std::filesystem::create_directories(path.parent_path(), error);
+    HistEvent event;
+    if (!error) history(history_, &event, H_SAVE, path.c_str());
+  }
+
+  ScriptState& state_;
+  EditLine* edit_ = nullptr;
+  History* history_ = nullptr;
+  const char* prompt_ = "";
+};
+
+// One prompt's worth of input: lines until they make a chunk.
+class Prompt {
+ public:
+  explicit Prompt(ScriptState& state) : state_(state) {
+    if (isatty(STDIN_FILENO) != 0) editor_.emplace(state);
+  }
+
+  // False when the user leaves.
+  bool turn() {
+    std::string line;
+    switch (read(chunk_.empty() ? "> " : ">> ", line)) {
+      case Input::closed:
+        if (editor_) fmt::print("\n");
+        return false;
+      case Input::interrupted:
+        fmt::print("\n");
+        std::fflush(stdout);
+        chunk_.clear();
+        clear_interrupt();
+        return true;
+      case Input::line:
+        break;
+    }
+    chunk_ += chunk_.empty() ? line : "\n" + line;
+    if (chunk_.find_first_not_of(" \t\n") == std::string::npos) {
+      chunk_.clear();
+      return true;
+    }
+    const Reply reply = evaluate(state_, chunk_);
+    if (reply.incomplete) return true;
+    if (!reply.error.empty()) fmt::print(stderr, "{}\n", reply.error);
+    if (editor_) editor_->remember(chunk_);
+    chunk_.clear();
+    return true;
+  }
+
+ private:
+  Input read(const char* prompt, std::string& line) {
+    if (editor_) return editor_->read(prompt, line);
+    return std::getline(std::cin, line) ? Input::line : Input::closed;
+  }
+
+  ScriptState& state_;
+  std::optional<LineEditor> editor_;
+  std::string chunk_;
+};
+
+}  // namespace
+
+void run_prompt(ScriptState& state) {
+  lua_State* L = state.lua();
+  // What every session begins with; a script would write it out.
+  state.run_text("s = require \"springlod\"", "prompt", {});
+  lua_settop(L, 0);
+  if (isatty(STDIN_FILENO) != 0)
+    fmt::print(
+        "springlod {}: Lua 5.4 with s = require \"springlod\"; help() helps, Ctrl-D leaves\n",
+        version());
+  Prompt prompt(state);
+  while (prompt.turn()) {
+  }
+}
+
+}  // namespace springlod

@@ -1,0 +1,107 @@
+#include "scripting/engine/script_error.hpp"
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+
+namespace springlod {
+
+namespace {
+
+// The Lua line that made the call; binding frames have none.
+std::string call_site(lua_State* L) {
+  lua_Debug frame{};
+  for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
+    lua_getinfo(L, "Sl", &frame);
+    if (frame.currentline > 0) return fmt::format("{}:{}: ", frame.short_src, frame.currentline);
+  }
+  return "";
+}
+
+}  // namespace
+
+void describe_errors(Api& api) {
+  TypeBuilder<ErrorValue> type(
+      "What pcall hands over when a function of springlod fails; tostring(error) gives the line of "
+      "the script and the message.",
+      [](const ErrorValue& error) { return error.where + error.message; });
+  type.field("message", "string", "what is wrong, where, and what to do, without the script's line",
+             [](const ErrorValue& error) { return error.message; });
+  type.field("where", "string", "line of the script, \"script.lua:12: \"",
+             [](const ErrorValue& error) { return error.where; });
+  type.field("kind", "string",
+             "\"input\" (a value or option is wrong), \"io\" (a file), \"unstable\" (a simulation "
+             "left the numbers), \"tunnelled\" (a node went through an obstacle), \"interrupted\" "
+             "(Ctrl-C), \"memory\" or \"internal\"",
+             [](const ErrorValue& error) { return error.kind; });
+  type.table_field("node", "integer",
+                   "first node that left the numbers or went through an obstacle; or nil",
+                   [](lua_State* L, const ErrorValue& error) {
+                     error.node ? push(L, *error.node) : lua_pushnil(L);
+                   });
+  type.table_field("time", "number", "when it did [s]; or nil",
+                   [](lua_State* L, const ErrorValue& error) {
+                     error.time ? push(L, *error.time) : lua_pushnil(L);
+                   });
+  type.table_field("obstacle", "string", "name of the obstacle that a node went through; or nil",
+                   [](lua_State* L, const ErrorValue& error) {
+                     error.obstacle ? push(L, *error.obstacle) : lua_pushnil(L);
+                   });
+  api.add(type.build());
+}
+
+std::shared_ptr<const ErrorValue> current_error(lua_State* L) {
+  auto error = std::make_shared<ErrorValue>();
+  error->where = call_site(L);
+  try {
+    throw;
+  } catch (const InterruptedError& e) {
+    error->kind = "interrupted";
+    error->message = e.what();
+  } catch (const UnstableError& e) {
+    error->kind = "unstable";
+    error->message = e.what();
+    error->node = static_cast<long long>(e.node()) + 1;
+    error->time = e.time();
+  } catch (const TunnelError& e) {
+    error->kind = "tunnelled";
+    error->message = e.what();
+    error->node = static_cast<long long>(e.node()) + 1;
+    error->time = e.time();
+    error->obstacle = e.obstacle();
+  } catch (const IoError& e) {
+    error->kind = "io";
+    error->message = e.what();
+  } catch (const InputError& e) {
+    error->kind = "input";
+    error->message = e.what();
+  } catch (const std::bad_alloc&) {
+    error->kind = "memory";
+    error->message = "out of memory; take larger cells or fewer levels, frames or starts";
+  } catch (const std::exception& e) {
+    error->kind = "internal";
+    error->message = fmt::format("internal error: {}; please report it", e.what());
+  }
+  return error;
+}
+
+void raise(lua_State* L, std::shared_ptr<const ErrorValue> error) {
+  push(L, std::move(error));
+  lua_error(L);
+  throw std::logic_error("lua_error came back");
+}
+
+void raise_interrupted(lua_State* L) {
+  auto error = std::make_shared<ErrorValue>();
+  error->kind = "interrupted";
+  error->message = "interrupted";
+  error->where = call_site(L);
+  raise(L, std::move(error));
+}
+
+}  // namespace springlod

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scripting/engine/console.hpp"
+
+struct lua_State;
+
+namespace springlod {
+
+class Api;
+class StillPictures;
+
+/// What the command line settles for a whole run.
+struct Settings {
+  std::uint64_t seed = 1;
+  std::uint32_t threads = 0;  ///< 0: all cores
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// What bindings need besides their arguments.
+class Session {
+ public:
+  Session(Settings settings, const Api& api);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  const Settings& settings() const { return settings_; }
+  const Api& api() const { return api_; }
+  Console& console() { return console_; }
+  Progress* progress() { return &console_; }
+  StillPictures& still_pictures() { return *still_pictures_; }
+
+ private:
+  Settings settings_;
+  Console console_;
+  const Api& api_;
+  std::unique_ptr<StillPictures> still_pictures_;
+};
+
+/// The session of a Lua state (every coroutine of it included).
+Session& session_of(lua_State* L);
+void set_session(lua_State* L, Session* session);
+
+/// Version of springlod, "0.1.0".
+std::string version();
+
+}  // namespace springlod

@@ -1,0 +1,190 @@
+#include "scripting/engine/state.hpp"
+
+#include <new>
+
+#include <fmt/format.h>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "scripting/bind/still_pictures.hpp"
+#include "scripting/engine/call.hpp"
+#include "scripting/engine/interrupt.hpp"
+#include "scripting/engine/paths.hpp"
+#include "scripting/engine/script_error.hpp"
+#include "scripting/engine/suggest.hpp"
+
+namespace springlod {
+
+namespace {
+
+// Lua instructions between two looks at the Ctrl-C flag: some 0.1 ms, and no measurable cost.
+constexpr int kHookInterval = 10000;
+
+void interrupt_hook(lua_State* L, lua_Debug* /*where*/) {
+  if (!interrupt_requested()) return;
+  // From now on at every instruction: `while true do pcall(f) end` must not outrun the flag.
+  lua_sethook(L, interrupt_hook, LUA_MASKCOUNT, 1);
+  raise_interrupted(L);
+}
+
+// Message handler of every call: leaves the error value and puts the traceback aside.
+constexpr const char* kTraceback = "springlod.traceback";
+
+int keep_traceback(lua_State* L) {
+  luaL_traceback(L, L, nullptr, 1);
+  lua_setfield(L, LUA_REGISTRYINDEX, kTraceback);
+  return 1;
+}
+
+// A wrong name says so where it is read, not "attempt to call a nil value".
+int refuse_name(lua_State* L) {
+  return protect(L, [L]() -> int {
+    const std::string name = luaL_tolstring(L, 2, nullptr);
+    lua_pop(L, 1);
+    std::vector<std::string> names;
+    for (const FunctionEntry& entry : session_of(L).api().functions()) names.push_back(entry.name);
+    const std::string question = did_you_mean(name, names);
+    throw InputError(fmt::format("springlod has no '{}'{} help() lists what it has", name,
+                                 question.empty() ? ";" : question));
+  });
+}
+
+int open_module(lua_State* L) {
+  const Api& api = session_of(L).api();
+  lua_newtable(L);
+  for (const FunctionEntry& entry : api.functions()) {
+    push_function(L, entry);
+    lua_setfield(L, -2, entry.name.c_str());
+  }
+  for (const ConstantEntry& constant : api.constants()) {
+    constant.push(L);
+    lua_setfield(L, -2, constant.parameter.name.c_str());
+  }
+  lua_createtable(L, 0, 1);
+  lua_pushcfunction(L, refuse_name);
+  lua_setfield(L, -2, "__index");
+  lua_setmetatable(L, -2);
+  return 1;
+}
+
+Outcome failed(lua_State* L, bool with_traceback) {
+  Outcome outcome;
+  outcome.done = false;
+  const auto error =
+      std::static_pointer_cast<const ErrorValue>(boxed_at(L, -1, &kValueName<ErrorValue>));
+  outcome.interrupted = error && error->kind == "interrupted";
+  outcome.message = luaL_tolstring(L, -1, nullptr);
+  lua_pop(L, 2);
+  if (with_traceback) {
+    lua_getfield(L, LUA_REGISTRYINDEX, kTraceback);
+    if (lua_isstring(L, -1) != 0) outcome.traceback = lua_tostring(L, -1);
+    lua_pop(L, 1);
+  }
+  return outcome;
+}
+
+}  // namespace
+
+Session& session_of(lua_State* L) {
+  return **static_cast<Session**>(lua_getextraspace(L));
+}
+
+Session::Session(Settings settings, const Api& api)
+    : settings_(settings),
+      console_(settings.verbosity),
+      api_(api),
+      still_pictures_(std::make_unique<StillPictures>()) {}
+
+Session::~Session() = default;
+
+void set_session(lua_State* L, Session* session) {
+  *static_cast<Session**>(lua_getextraspace(L)) = session;
+}
+
+std::string version() {
+  return SPRINGLOD_VERSION;
+}
+
+std::unique_ptr<Api> make_api() {
+  auto api = std::make_unique<Api>();
+  describe_session(*api);
+  describe_voxelize(*api);
+  describe_model(*api);
+  describe_elastic(*api);
+  describe_lod(*api);
+  describe_merge_log(*api);
+  describe_sim(*api);
+  describe_render(*api);
+  describe_report(*api);
+  describe_statistics(*api);
+  describe_errors(*api);
+  return api;
+}
+
+ScriptState::ScriptState(const Settings& settings)
+    : api_(make_api()),
+      session_(std::make_unique<Session>(settings, *api_)),
+      lua_(luaL_newstate()) {
+  if (lua_ == nullptr) throw std::bad_alloc();
+  set_session(lua_, session_.get());
+  luaL_openlibs(lua_);
+  register_types(lua_, *api_);
+  luaL_getsubtable(lua_, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
+  lua_pushcfunction(lua_, open_module);
+  lua_setfield(lua_, -2, "springlod");
+  lua_pop(lua_, 1);
+  push_function(lua_, *api_->find_function("help"));
+  lua_setglobal(lua_, "help");
+  add_search_folder(stock_script_folder());
+}
+
+ScriptState::~ScriptState() {
+  lua_close(lua_);
+}
+
+void ScriptState::add_search_folder(const std::filesystem::path& folder) {
+  lua_getglobal(lua_, "package");
+  lua_getfield(lua_, -1, "path");
+  const std::string path = fmt::format("{}/?.lua;{}", folder.string(), lua_tostring(lua_, -1));
+  lua_pop(lua_, 1);
+  push(lua_, path);
+  lua_setfield(lua_, -2, "path");
+  lua_pop(lua_, 1);
+}
+
+Outcome ScriptState::call(int argument_count, int result_count) {
+  const int function = lua_gettop(lua_) - argument_count;
+  lua_pushcfunction(lua_, keep_traceback);
+  lua_insert(lua_, function);
+  lua_sethook(lua_, interrupt_hook, LUA_MASKCOUNT, kHookInterval);
+  const int status = lua_pcall(lua_, argument_count, result_count, function);
+  lua_sethook(lua_, nullptr, 0, 0);
+  lua_remove(lua_, function);
+  return status == LUA_OK ? Outcome{} : failed(lua_, true);
+}
+
+Outcome ScriptState::run_loaded(int load_status, const std::string& name,
+                                const std::vector<std::string>& arguments) {
+  if (load_status != LUA_OK) return failed(lua_, false);
+  luaL_checkstack(lua_, static_cast<int>(arguments.size()) + 8, "too many arguments");
+  push(lua_, arguments);
+  push(lua_, name);
+  lua_rawseti(lua_, -2, 0);
+  lua_setglobal(lua_, "arg");
+  for (const std::string& argument : arguments) push(lua_, argument);
+  return call(static_cast<int>(arguments.size()), 0);
+}
+
+Outcome ScriptState::run_file(const std::filesystem::path& path,
+                              const std::vector<std::string>& arguments) {
+  add_search_folder(path.has_parent_path() ? path.parent_path() : ".");
+  return run_loaded(luaL_loadfile(lua_, path.c_str()), path.string(), arguments);
+}
+
+Outcome ScriptState::run_text(std::string_view code, const std::string& name,
+                              const std::vector<std::string>& arguments) {
+  return run_loaded(luaL_loadbuffer(lua_, code.data(), code.size(), ("=" + name).c_str()), name,
+                    arguments);
+}
+
+}  // namespace springlod

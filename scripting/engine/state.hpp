@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scripting/engine/api.hpp"
+#include "scripting/engine/session.hpp"
+
+struct lua_State;
+
+namespace springlod {
+
+/// How a script ended.
+struct Outcome {
+  bool done = true;
+  bool interrupted = false;
+  std::string message;    ///< "script.lua:12: unknown option ..." if not done
+  std::string traceback;  ///< "stack traceback: ..." if not done
+};
+
+/// A Lua state with the standard libraries, `require "springlod"`, the global `help`, and a hook
+/// through which Ctrl-C stops a running script. Not to be shared between threads.
+class ScriptState {
+ public:
+  explicit ScriptState(const Settings& settings);
+  ~ScriptState();
+  ScriptState(const ScriptState&) = delete;
+  ScriptState& operator=(const ScriptState&) = delete;
+
+  /// Runs a file with `arguments` as its `...` and in the table `arg`. Modules beside the script
+  /// are found by `require`.
+  Outcome run_file(const std::filesystem::path& path, const std::vector<std::string>& arguments);
+  Outcome run_text(std::string_view code, const std::string& name,
+                   const std::vector<std::string>& arguments);
+
+  /// Calls the function below its `argument_count` arguments on the stack, as pcall does, with a
+  /// traceback in the outcome. If done, its results are on the stack.
+  Outcome call(int argument_count, int result_count);
+
+  lua_State* lua() const { return lua_; }
+  Session& session() { return *session_; }
+  const Api& api() const { return *api_; }
+
+ private:
+  Outcome run_loaded(int load_status, const std::string& name,
+                     const std::vector<std::string>& arguments);
+  void add_search_folder(const std::filesystem::path& folder);
+
+  std::unique_ptr<Api> api_;
+  std::unique_ptr<Session> session_;
+  lua_State* lua_;
+};
+
+/// The registry of everything.
+std::unique_ptr<Api> make_api();
+
+}  // namespace springlod

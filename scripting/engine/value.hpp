@@ -1,0 +1,145 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "model/vec.hpp"
+#include "scripting/engine/api.hpp"
+
+struct lua_State;
+
+namespace springlod {
+
+/// The name scripts see of a type of value; specialised beside the type. The address of the
+/// variable is the identity of the type.
+template <class T>
+inline constexpr const char* kValueName = nullptr;
+
+/// Values are userdata holding a std::shared_ptr<const T>: immutable, shared, and checked by their
+/// tag, not by their metatable, so that a script cannot pass one type off as another even with the
+/// debug library.
+void push_boxed(lua_State* L, std::shared_ptr<const void> value, TypeTag tag);
+/// Null if the thing at `index` is not such a value.
+std::shared_ptr<const void> boxed_at(lua_State* L, int index, TypeTag tag);
+
+/// Makes the metatable of each type of value in the registry.
+void register_types(lua_State* L, const Api& api);
+
+/// "a Mesh", "a string", "nothing": for messages.
+std::string describe_type_at(lua_State* L, int index);
+
+// push: leaves one Lua value for one C++ value.
+void push(lua_State* L, bool value);
+void push(lua_State* L, double value);
+void push(lua_State* L, const std::string& value);
+void push(lua_State* L, const char* value);
+void push(lua_State* L, const Vec3& value);
+void push(lua_State* L, const Mat3& value);
+template <class T>
+requires std::integral<T> &&(!std::same_as<T, bool>)void push(lua_State* L, T value);
+template <class T>
+void push(lua_State* L, const std::vector<T>& values);
+template <class T>
+requires(kValueName<T> != nullptr) void push(lua_State* L, std::shared_ptr<const T> value) {
+  push_boxed(L, std::move(value), &kValueName<T>);
+}
+
+void push_integer(lua_State* L, long long value);
+void begin_list(lua_State* L, std::size_t count);
+void end_list_entry(lua_State* L, std::size_t number);
+void begin_table(lua_State* L);
+void end_field(lua_State* L, const char* name);
+
+template <class T>
+requires std::integral<T> &&(!std::same_as<T, bool>)void push(lua_State* L, T value) {
+  push_integer(L, static_cast<long long>(value));
+}
+
+template <class T>
+void push(lua_State* L, const std::vector<T>& values) {
+  begin_list(L, values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    push(L, values[i]);
+    end_list_entry(L, i + 1);
+  }
+}
+
+/// table[name] = value, for the table on top.
+template <class T>
+void set_field(lua_State* L, const char* name, const T& value) {
+  push(L, value);
+  end_field(L, name);
+}
+
+/// Makes a TypeEntry whose fields are plain C++ functions of the value.
+template <class T>
+class TypeBuilder {
+ public:
+  TypeBuilder(std::string summary, std::function<std::string(const T&)> describe) {
+    entry_.name = kValueName<T>;
+    entry_.tag = &kValueName<T>;
+    entry_.summary = std::move(summary);
+    entry_.describe = [describe = std::move(describe)](const void* value) {
+      return describe(*static_cast<const T*>(value));
+    };
+  }
+  /// `get` returns something that `push` takes.
+  template <class Get>
+  TypeBuilder& field(const std::string& name, const std::string& type, const std::string& help,
+                     Get get) {
+    entry_.fields.push_back({{.name = name, .type = type, .help = help},
+                             [get](lua_State* L, const std::shared_ptr<const void>& value) {
+                               push(L, get(*static_cast<const T*>(value.get())));
+                             }});
+    return *this;
+  }
+  /// `fill` pushes exactly one value itself.
+  TypeBuilder& table_field(const std::string& name, const std::string& type,
+                           const std::string& help,
+                           std::function<void(lua_State*, const T&)> fill) {
+    entry_.fields.push_back(
+        {{.name = name, .type = type, .help = help},
+         [fill = std::move(fill)](lua_State* L, const std::shared_ptr<const void>& value) {
+           fill(L, *static_cast<const T*>(value.get()));
+         }});
+    return *this;
+  }
+  /// Likewise, for what has to keep the value alive.
+  TypeBuilder& shared_field(const std::string& name, const std::string& type,
+                            const std::string& help,
+                            std::function<void(lua_State*, std::shared_ptr<const T>)> fill) {
+    entry_.fields.push_back(
+        {{.name = name, .type = type, .help = help},
+         [fill = std::move(fill)](lua_State* L, const std::shared_ptr<const void>& value) {
+           fill(L, std::static_pointer_cast<const T>(value));
+         }});
+    return *this;
+  }
+  TypeBuilder& method(FunctionEntry entry) {
+    entry_.methods.push_back(std::move(entry));
+    return *this;
+  }
+  TypeBuilder& elements(std::function<long long(const T&)> length,
+                        std::function<bool(lua_State*, std::shared_ptr<const T>, long long)> get) {
+    entry_.length = [length = std::move(length)](const void* value) {
+      return length(*static_cast<const T*>(value));
+    };
+    entry_.index = [get = std::move(get)](lua_State* L, const std::shared_ptr<const void>& value,
+                                          long long number) {
+      return get(L, std::static_pointer_cast<const T>(value), number);
+    };
+    return *this;
+  }
+  TypeEntry build() { return std::move(entry_); }
+
+ private:
+  TypeEntry entry_;
+};
+
+}  // namespace springlod

@@ -1,0 +1,238 @@
+-- Measures levels beside their bases: plain merging, calibration, groupings, refilling, on the
+-- bodies of lib/accuracy_bodies.lua.
+
+local s = require "springlod"
+local command = require "lib.command"
+local bodies = require "studies.accuracy.bodies"
+local intervals = require "lib.intervals"
+local timed_run = require "lib.timed_run"
+local trade_off = require "studies.accuracy.trade_off"
+
+local function names_of(list)
+  local names = {}
+  for i, one in ipairs(list) do names[i] = one.name end
+  return names
+end
+
+local methods = {
+  {name = "plain merging", options = {grouping = "standard"}},
+  {name = "moduli", options = {grouping = "standard", calibrate = "moduli"}},
+  {name = "calibrated", options = {grouping = "standard", calibrate = "modes"}},
+  {name = "compact plain", options = {grouping = "compact"}},
+  {name = "compact calibrated", options = {grouping = "compact", calibrate = "modes"}},
+  {name = "compact pieces", options = {
+    grouping = "compact", calibrate = "modes", calibration = {moments = "pieces"},
+  }},
+  {name = "METIS plain", options = {grouping = "metis"}},
+  {name = "METIS calibrated", options = {grouping = "metis", calibrate = "modes"}},
+  {name = "random refill", refill = "random"},
+  {name = "lattice refill", refill = "lattice"},
+}
+
+local parser = command.parser("accuracy", "Measures levels of 45 % and 20 % of the nodes beside "
+  .. "their bases, made by plain merging, calibrated, by several groupings and by refilling. "
+  .. "Writes levels.csv (each level), methods.csv (means over bodies and seeds, and worst bodies) "
+  .. "and prints the latter.")
+parser:argument("folder", "where to write"):args("?"):default("out/accuracy")
+parser:option("--seeds", "runs of each body and method"):convert(command.whole("--seeds", 1))
+  :default("5")
+local function some_of(option, list)
+  local names = names_of(list)
+  parser:option(option, "some of " .. table.concat(names, ", "))
+    :convert(command.words_of(option, names)):default(table.concat(names, ","))
+end
+some_of("--bodies", bodies)
+some_of("--methods", methods)
+parser:flag("--trade-off", "levels of 80 % to 10 % of the nodes of compact groups, plain and "
+  .. "calibrated, and a chart, trade-off.svg and .png: errors against saved cost")
+parser:flag("--quick", "one seed of one small body: some seconds")
+local args = parser:parse()
+
+local keep = args.trade_off and trade_off.keep or {0.45, 0.2}
+if args.trade_off then args.methods = trade_off.methods end
+local seeds = args.quick and 1 or args.seeds
+if args.quick then args.bodies = {"sphere"} end
+
+local function make_chain(body, method, seed)
+  if method.refill then
+    local counts = {}
+    for i, part in ipairs(keep) do counts[i] = math.floor(part * body.base.node_count + 0.5) end
+    if method.refill == "lattice" and seed > 1 then return nil end -- there is but one
+    return s.certify(s.refill(body.base, body.grid,
+      {nodes = counts, style = method.refill, lattice = body.lattice, seed = seed}))
+  end
+  local options = {keep = keep, seed = seed}
+  for name, value in pairs(method.options) do options[name] = value end
+  local chain = s.simplify(body.base, options)
+  if options.calibrate ~= "modes" then chain = s.certify(chain) end
+  return chain
+end
+
+-- How many times less a simulated second takes by the clock than one of the base, run by turns,
+-- each at its own step: the body floats by itself. Both by the kernel for "any shape", or each by
+-- its "fastest", which for a lattice is another.
+local function times_faster(body, model, layout)
+  local turns, least_seconds = 3, 0.02
+  body.seconds = body.seconds or least_seconds / timed_run.once(body.base, {duration = 0.1})
+  local scene, how = {duration = body.seconds}, {layout = layout}
+  local ratios = {}
+  for turn = 1, turns do
+    ratios[turn] = timed_run.long(body.base, scene, how, least_seconds)
+      / timed_run.long(model, scene, how, least_seconds)
+  end
+  return intervals.median(ratios).value
+end
+
+-- What is told of a level, by column; errors in percent.
+local measures = {
+  {"f1..10", function(c) return 100 * c.f1_10_error end},
+  {"f11..20", function(c) return 100 * c.f11_20_error end},
+  {"smooth loads", function(c) return 100 * c.fitted_load_error end},
+  {"held-out loads", function(c) return 100 * c.held_out_load_error end},
+  {"omega/base", function(c) return c.highest_frequency / c.base_highest_frequency end},
+  {"base cost/cost", function(c) return c.base_cost / c.cost end},
+  {"same kernel", function(_, body, model) return times_faster(body, model, "any shape") end},
+  {"fastest kernel", function(_, body, model) return times_faster(body, model, "fastest") end},
+  {"second moments", function(c) return 100 * c.second_moment_error end},
+  {"mechanisms", function(c) return c.zero_modes > c.expected_zero_modes and 1 or 0 end},
+}
+-- Of these the smallest is the worst.
+local more_is_better = {
+  ["base cost/cost"] = true, ["same kernel"] = true, ["fastest kernel"] = true,
+}
+
+local level_columns = {"body", "method", "seed", "level", "nodes", "base nodes"}
+local method_columns = {"level", "method", "levels"}
+for _, measure in ipairs(measures) do
+  level_columns[#level_columns + 1] = measure[1]
+  method_columns[#method_columns + 1] = measure[1]
+end
+for _, measure in ipairs(measures) do
+  method_columns[#method_columns + 1] = measure[1] .. " worst"
+end
+
+local rows, samples = {}, {}
+
+local function sample_of(level, method)
+  local key = level .. " " .. method.name
+  samples[key] = samples[key] or {level = level, method = method.name, by_body = {}}
+  return samples[key]
+end
+
+local function note(body, method, seed, chain)
+  for number, level in ipairs(s.info(chain).levels) do
+    local c = level.certificate
+    if c then
+      local row = {body.name, method.name, seed, number - 1, level.nodes, body.base.node_count}
+      local values = {}
+      for i, measure in ipairs(measures) do
+        values[i] = measure[2](c, body, chain[number - 1])
+        row[#row + 1] = values[i]
+      end
+      rows[#rows + 1] = row
+      local of_body = sample_of(number - 1, method).by_body
+      of_body[body.name] = of_body[body.name] or {}
+      table.insert(of_body[body.name], values)
+    end
+  end
+end
+
+local function mean(list, i)
+  local sum = 0
+  for _, values in ipairs(list) do sum = sum + values[i] end
+  return sum / #list
+end
+
+-- Means over the bodies' means, and the worst of these.
+local function summary(sample)
+  local means, worst, levels, count = {}, {}, 0, 0
+  for _, list in pairs(sample.by_body) do
+    levels, count = levels + #list, count + 1
+    for i, measure in ipairs(measures) do
+      local value = mean(list, i)
+      means[i] = (means[i] or 0) + value
+      local pick = more_is_better[measure[1]] and math.min or math.max
+      worst[i] = worst[i] and pick(worst[i], value) or value
+    end
+  end
+  for i = 1, #means do means[i] = means[i] / count end
+  return means, worst, levels
+end
+
+local function summary_rows()
+  local all = {}
+  for level = 1, #keep do
+    for _, method in ipairs(methods) do
+      local sample = samples[level .. " " .. method.name]
+      if sample then
+        local means, worst, levels = summary(sample)
+        local row = {level, method.name, levels}
+        table.move(means, 1, #means, #row + 1, row)
+        table.move(worst, 1, #worst, #row + 1, row)
+        all[#all + 1] = row
+      end
+    end
+  end
+  return all
+end
+
+local function show(all)
+  local texts = {}
+  for i, row in ipairs(all) do
+    texts[i] = {row[1], row[2]}
+    for k = 1, #measures do
+      texts[i][k + 2] = ("%.2f (%.2f)"):format(row[3 + k], row[3 + #measures + k])
+    end
+  end
+  local columns = {"level", "method"}
+  for i, measure in ipairs(measures) do columns[i + 2] = measure[1] end
+  print("means over bodies and seeds, and in brackets the worst body; errors in percent")
+  print(s.format_table(texts, {columns = columns}))
+end
+
+local function wanted(list, one)
+  for _, name in ipairs(list) do
+    if name == one.name then return true end
+  end
+  return false
+end
+
+-- The column of a measure, by its name.
+local function place_of(name)
+  for i, measure in ipairs(measures) do
+    if measure[1] == name then return i end
+  end
+end
+
+local function draw_trade_off()
+  trade_off.chart(args.folder .. "/trade-off", function(level, method, measure)
+    local sample = samples[level .. " " .. method]
+    return sample and (summary(sample))[place_of(measure)]
+  end)
+end
+
+local ok, failure = command.try(function()
+  for _, body in ipairs(bodies) do
+    if wanted(args.bodies, body) then
+      body.base, body.grid, body.lattice = body.make()
+      for _, method in ipairs(methods) do
+        for seed = 1, wanted(args.methods, method) and seeds or 0 do
+          local made, chain = command.try(make_chain, body, method, seed)
+          if not made then
+            s.say(("%s, %s, seed %d: left out: %s"):format(body.name, method.name, seed, chain))
+          elseif chain then
+            note(body, method, seed, chain)
+          end
+        end
+      end
+      s.say(("%s: %d nodes measured"):format(body.name, body.base.node_count))
+    end
+  end
+  s.csv(args.folder .. "/levels.csv", rows, {columns = level_columns})
+  local all = summary_rows()
+  s.csv(args.folder .. "/methods.csv", all, {columns = method_columns})
+  show(all)
+  if args.trade_off then draw_trade_off() end
+end)
+if not ok then command.fail("accuracy: %s", failure) end
+s.say("wrote " .. args.folder)

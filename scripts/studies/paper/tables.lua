@@ -1,0 +1,183 @@
+-- The paper's two tables from samples of many runs (lib.paper_runs), with what a table needs to be
+-- believed: intervals, the noise floor, and whether "the same" has been shown.
+
+local s = require "springlod"
+local averages = require "lib.averages"
+local by_start = require "lib.by_start"
+local paper_numbers = require "studies.paper.numbers"
+local paper_runs = require "studies.paper.runs"
+local paper_variants = require "studies.paper.variants"
+
+local mean = averages.mean
+
+local paper_tables = {}
+
+paper_tables.columns = {
+  "case", "model", "nodes", "ends", "paper_nodes", "paper_ends",
+  "distance", "distance_low", "distance_high", "spread",
+  "difference", "difference_low", "difference_high",
+  "over_spread", "over_spread_low", "over_spread_high",
+  "wasserstein", "wasserstein_low", "wasserstein_high",
+  "noise_floor", "seeds_inside", "seeds", "equivalent", "turned_over_percent",
+  "paper_distance", "paper_difference",
+}
+
+-- Nodes and ends of a level, means over the seeds.
+local function counts(one, variant, level, settings)
+  local function mean_of(field)
+    return math.floor(mean(paper_runs.by_seed(settings, function(seed)
+      return paper_runs.chain(one.base, variant, seed)[level][field]
+    end)) + 0.5)
+  end
+  return mean_of("node_count"), mean_of("end_count")
+end
+
+local function base_row(one)
+  local m = s.statistics(one.base_distances)
+  return {
+    case = one.name, model = "base", nodes = one.base.node_count, ends = one.base.end_count,
+    distance = m.mean, distance_low = m.mean_low, distance_high = m.mean_high,
+    spread = m.deviation,
+    turned_over_percent = 100 * one.turned_over.base / #one.base_distances,
+  }
+end
+
+local function level_row(one, variant, level, floor, settings)
+  local label = paper_variants.label(variant.name, level)
+  local seeds = one.levels[label]
+  local c = s.compare_samples(one.base_distances, by_start(seeds),
+    {paired = true, margin = settings.margin})
+  local m = s.statistics(by_start(seeds))
+  local inside = 0
+  for _, distances in ipairs(seeds) do
+    if floor:judge(one.base_distances, distances).inside then inside = inside + 1 end
+  end
+  local nodes, ends = counts(one, variant, level, settings)
+  return {
+    case = one.name, model = label, nodes = nodes, ends = ends,
+    distance = m.mean, distance_low = m.mean_low, distance_high = m.mean_high,
+    spread = m.deviation,
+    difference = c.difference.value, difference_low = c.difference.low,
+    difference_high = c.difference.high,
+    over_spread = c.difference_over_spread.value, over_spread_low = c.difference_over_spread.low,
+    over_spread_high = c.difference_over_spread.high,
+    wasserstein = c.wasserstein.value, wasserstein_low = c.wasserstein.low,
+    wasserstein_high = c.wasserstein.high,
+    noise_floor = floor.level, seeds_inside = inside, seeds = #seeds,
+    equivalent = c.equivalent and "yes" or "not shown",
+    turned_over_percent = 100 * one.turned_over[label] / (#seeds * #seeds[1]),
+  }
+end
+
+local function beside_paper(row, one)
+  local counted
+  if one.speed then counted = paper_numbers.rods[row.model]
+  else counted = paper_numbers.roll[row.model] end
+  if not counted then return row end -- no variant of the paper's
+  row.paper_nodes, row.paper_ends = counted.nodes, counted.ends
+  if one.speed then
+    local theirs = paper_numbers.at(row.model, one.speed)
+    local base = paper_numbers.at("base", one.speed)
+    if theirs then
+      row.paper_distance, row.paper_difference = theirs[1], theirs[1] - base[1]
+    end
+  else
+    row.paper_distance = counted.distance
+    row.paper_difference = counted.distance - paper_numbers.roll.base.distance
+  end
+  return row
+end
+
+-- The rows of one case: the base, then every variant's levels.
+function paper_tables.rows(one, settings)
+  local floor = s.noise_floor(one.noise, {size = #one.base_distances})
+  local rows = {beside_paper(base_row(one), one)}
+  paper_runs.each_level(one, function(_, variant, level)
+    rows[#rows + 1] = beside_paper(level_row(one, variant, level, floor, settings), one)
+  end)
+  return rows
+end
+
+-- Of a model in all rows of tables: how many simplifications stay inside the noise floor, how many
+-- there are, and in how many rows all of them together stay inside.
+local function inside_floor(model, all)
+  local inside, seeds, together = 0, 0, 0
+  for _, row in ipairs(all) do
+    if row.model == model then
+      inside, seeds = inside + row.seeds_inside, seeds + row.seeds
+      if row.wasserstein <= row.noise_floor then together = together + 1 end
+    end
+  end
+  return inside, seeds, together
+end
+
+-- Table 2 in few numbers a model: the mean over the speeds of |difference of the means|, beside the
+-- paper's and beside what the base makes of itself with other starts; the same over the base's
+-- spread; how many simplifications stay inside the noise floor, and at how many speeds all of them
+-- together. `all`: the rows of all speeds.
+function paper_tables.over_speeds(cases, all)
+  local rows, spread = {}, {}
+  for _, row in ipairs(all) do
+    if row.model == "base" then spread[row.case] = row.spread end
+  end
+  local other, other_spreads = {}, {}
+  for i, one in ipairs(cases) do
+    other[i] = math.abs(mean(one.noise[1]) - mean(one.base_distances))
+    other_spreads[i] = other[i] / spread[one.name]
+  end
+  rows[1] = {
+    model = "base, other starts", mean_difference = mean(other),
+    mean_over_spread = mean(other_spreads),
+  }
+  paper_runs.each_level(cases[1], function(label)
+    local ours, spreads, theirs = {}, {}, {}
+    for i, one in ipairs(cases) do
+      local seeds = {}
+      for _, distances in ipairs(one.levels[label]) do seeds[#seeds + 1] = mean(distances) end
+      ours[i] = math.abs(mean(seeds) - mean(one.base_distances))
+      spreads[i] = ours[i] / spread[one.name]
+      local paper = paper_numbers.at(label, one.speed)
+      if paper then
+        theirs[#theirs + 1] = math.abs(paper[1] - paper_numbers.at("base", one.speed)[1])
+      end
+    end
+    local inside, seeds_of, together = inside_floor(label, all)
+    rows[#rows + 1] = {
+      model = label, mean_difference = mean(ours), mean_over_spread = mean(spreads),
+      seeds_inside = inside, seeds = seeds_of, speeds_inside = together,
+      paper_mean_difference = #theirs > 0 and mean(theirs) or nil,
+    }
+  end)
+  return rows, {
+    "model", "mean_difference", "mean_over_spread", "seeds_inside", "seeds",
+    "speeds_inside", "paper_mean_difference",
+  }
+end
+
+-- The table as people read it: each interval in one cell.
+function paper_tables.readable(rows)
+  local short = {}
+  for i, row in ipairs(rows) do
+    local function interval(name)
+      if not row[name] then return "" end
+      return ("%.2f (%.2f .. %.2f)"):format(row[name], row[name .. "_low"], row[name .. "_high"])
+    end
+    local function difference(value) return value and ("%+.1f"):format(value) or "" end
+    short[i] = {
+      row.model, ("%d/%d"):format(row.nodes, row.ends),
+      row.paper_nodes and ("%d/%d"):format(row.paper_nodes, row.paper_ends) or "",
+      interval("distance"),
+      ("%.2f"):format(row.spread), interval("over_spread"), interval("wasserstein"),
+      row.noise_floor and ("%.2f"):format(row.noise_floor) or "",
+      row.seeds and ("%d of %d"):format(row.seeds_inside, row.seeds) or "", row.equivalent or "",
+      ("%.0f %%"):format(row.turned_over_percent), difference(row.difference),
+      difference(row.paper_difference),
+    }
+  end
+  return short, {
+    "model", "nodes/ends", "paper", "distance [m]", "spread [m]", "difference/spread", "W1 [m]",
+    "floor [m]", "inside", "same", "turned", "difference [m]", "paper's",
+  }
+end
+
+return paper_tables

@@ -1,0 +1,105 @@
+-- What springlod pareto compares: ways of making levels, ways of stepping them, and their names.
+
+local paper_variants = require "studies.paper.variants"
+
+local pareto_variants = {}
+
+-- Every word of each axis.
+pareto_variants.axes = {
+  groupings = {"standard", "priority", "priority_hard", "compact", "metis"},
+  borders = {"none", "weak", "strong"},
+  calibrations = {"none", "moduli", "modes"},
+  integrators = {"symplectic_euler", "velocity_verlet", "runge_kutta_4", "backward_euler_cg",
+                 "backward_euler_direct", "xpbd", "projective_dynamics"},
+  precisions = {"double", "single"},
+  errors = {"frequencies", "loads", "surface", "ensemble"},
+}
+
+local borderless = {metis = true} -- graph partitions know no borders
+local single_too = {symplectic_euler = true} -- alone has both precisions
+local implicit = {backward_euler_cg = true, backward_euler_direct = true, xpbd = true,
+                  projective_dynamics = true}
+local paper_groupings = {standard = true, priority = true}
+
+local short = { -- in labels, where every letter counts
+  priority_hard = "hard", velocity_verlet = "Verlet", runge_kutta_4 = "RK4",
+  backward_euler_cg = "BE", backward_euler_direct = "BE direct", xpbd = "XPBD",
+  projective_dynamics = "PD",
+}
+
+-- The ways of making levels; first the base as it is, which has no grouping.
+function pareto_variants.ways_of_making(axes)
+  local ways = {{name = "base"}}
+  for _, grouping in ipairs(axes.groupings) do
+    for _, border in ipairs(axes.borders) do
+      for _, calibration in ipairs(axes.calibrations) do
+        if border == "none" or not borderless[grouping] then
+          ways[#ways + 1] = {
+            name = ("%s-%s-%s"):format(grouping, border, calibration), grouping = grouping,
+            border = border, calibration = calibration,
+          }
+        end
+      end
+    end
+  end
+  return ways
+end
+
+function pareto_variants.ways_of_stepping(axes)
+  local ways = {}
+  for _, integrator in ipairs(axes.integrators) do
+    for _, precision in ipairs(axes.precisions) do
+      if precision == "double" or single_too[integrator] then
+        ways[#ways + 1] = {
+          name = integrator .. "-" .. precision, integrator = integrator, precision = precision,
+          usual = integrator == "symplectic_euler" and precision == "double",
+        }
+      end
+    end
+  end
+  return ways
+end
+
+-- "compact weak modes L1 RK4": what is usual is left out.
+local function label(making, level, stepping)
+  local words = {}
+  local function add(word) words[#words + 1] = short[word] or word end
+  if making.grouping then
+    add(making.grouping)
+    if making.border ~= "none" then add(making.border) end
+    if making.calibration ~= "none" then add(making.calibration) end
+    add("L" .. level)
+  else
+    add("base")
+  end
+  if stepping.integrator ~= "symplectic_euler" then add(stepping.integrator) end
+  if stepping.precision == "single" then add("single") end
+  return table.concat(words, " ")
+end
+
+-- The paper's name of a level, "LOD-hb-1", or ours where it has none; nil if it is not the paper's.
+local function paper_name(making, level, stepping)
+  if not (paper_groupings[making.grouping] and making.calibration == "none" and stepping.usual) then
+    return nil
+  end
+  for _, variant in ipairs(paper_variants) do
+    if variant.grouping == making.grouping and variant.border == making.border then
+      return paper_variants.label(variant.name, level)
+    end
+  end
+  return label(making, level, stepping)
+end
+
+-- A level made in one way and stepped in one way; `step_options` are those of s.run.
+function pareto_variants.variant(making, level, stepping, implicit_step)
+  return {
+    name = making.grouping and ("%s-%d-%s"):format(making.name, level, stepping.name)
+      or "base-" .. stepping.name,
+    label = label(making, level, stepping), paper = paper_name(making, level, stepping),
+    making = making, level = level, stepping = stepping,
+    step_options = {integrator = stepping.integrator, precision = stepping.precision,
+                    step = implicit[stepping.integrator] and implicit_step or nil},
+  }
+end
+
+return pareto_variants

@@ -1,0 +1,21 @@
+#include "sim/contact/contact_losses.hpp"
+
+#include <cmath>
+
+namespace springlod {
+
+void book_contact(const Contact& contact, double mass, double step, const Vec3& v,
+                  double to_neighbour, LedgerEntry& losses) {
+  const double speed = contact.normal.dot(v);
+  losses.lost_contact -= 0.5 * step * contact.damping_force * speed;
+  losses.lost_friction -= 0.5 * mass * contact.slip_change.dot(v);
+  // What the grip took is not lost, until it lets go.
+  if (to_neighbour < 0) losses.lost_friction -= contact.grip_gain;
+  // Free at the neighbouring step: the trapezoid rule cuts the corner of the force there.
+  const double gap = to_neighbour * speed - contact.depth;
+  if (gap <= 0) return;
+  losses.lost_contact -= std::copysign(0.5 * contact.stiffness * contact.depth * gap, to_neighbour);
+  if (to_neighbour > 0) losses.lost_friction += contact.grip_energy();
+}
+
+}  // namespace springlod

@@ -1,0 +1,78 @@
+#include "sim/contact/contact_points.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace springlod {
+namespace {
+
+/// Of the springs of each node [s], N; 0 without any.
+std::vector<double> damping_times(const MassSpringModel& model) {
+  std::vector<double> damping(model.node_count(), 0);
+  std::vector<double> stiffness(model.node_count(), 0);
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+    for (const std::uint32_t node : {model.a[s], model.b[s]}) {
+      damping[node] += model.damping[s];
+      stiffness[node] += model.stiffness[s];
+    }
+  for (std::size_t i = 0; i < damping.size(); ++i)
+    if (stiffness[i] > 0) damping[i] /= stiffness[i];
+  return damping;
+}
+
+}  // namespace
+
+ContactPoints::ContactPoints(const MassSpringModel& model) : node_count_(model.node_count()) {
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    if (!(model.contact_area[i] > 0)) continue;
+    shares_.push_back({.node = i, .weight = 1});
+    end_point(model, i, model.contact_area[i], 0);
+  }
+}
+
+ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& skin)
+    : node_count_(model.node_count()), skin_(true) {
+  validate(skin, node_count_);
+  const Binding& of_nodes = skin.of_nodes;
+  for (std::uint32_t p = 0; p < of_nodes.point_count(); ++p) {
+    for (std::uint32_t e = of_nodes.start[p]; e < of_nodes.start[p + 1]; ++e)
+      shares_.push_back({.node = of_nodes.node[e], .weight = of_nodes.weight[e]});
+    end_point(model, skin.base_node[p], skin.area[p], skin.give[p]);
+  }
+  const std::vector<double> damping = damping_times(model);
+  for (std::uint32_t p = 0; p < count(); ++p) {
+    give_damping_[p] = 0;
+    for (const Share& share : shares(p))
+      give_damping_[p] += std::abs(share.weight) / reach_[p] * damping[share.node];
+  }
+}
+
+void ContactPoints::end_point(const MassSpringModel& model, std::uint32_t number, double area,
+                              double give) {
+  const std::uint32_t first = start_.back();
+  start_.push_back(static_cast<std::uint32_t>(shares_.size()));
+  double mobility = 0;
+  double reach = 0;
+  for (std::size_t e = first; e < shares_.size(); ++e) {
+    mobility += shares_[e].weight * shares_[e].weight / model.mass[shares_[e].node];
+    reach += std::abs(shares_[e].weight);
+  }
+  const bool is_node = shares_.size() == first + 1 && shares_[first].weight == 1;  // to the bit
+  const double mass = is_node ? model.mass[shares_[first].node] : 1 / mobility;
+  for (std::size_t e = first; e < shares_.size(); ++e)
+    shares_[e].kick = is_node ? 1 : shares_[e].weight * mass / model.mass[shares_[e].node];
+  area_.push_back(area);
+  give_.push_back(give);
+  give_damping_.push_back(0);
+  mass_.push_back(mass);
+  reach_.push_back(reach);
+  number_.push_back(number);
+}
+
+std::string ContactPoints::name(std::size_t point) const {
+  return fmt::format("{} {}{}", skin_ ? "the surface at node" : "node", number(point),
+                     skin_ ? " of the base" : "");
+}
+
+}  // namespace springlod

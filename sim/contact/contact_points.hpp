@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+#include "sim/contact/contact_skin.hpp"
+
+namespace springlod {
+
+/// Where a body touches obstacles: its nodes with an area, or the points of a skin. A point p lies
+/// at sum w_i x_i. A force f on it is w_i f on the nodes, which does the same work and, since the
+/// w_i add up to 1 and give the place of p, is the same force and the same torque.
+class ContactPoints {
+ public:
+  struct Share {
+    std::uint32_t node = 0;
+    double weight = 0;  ///< w_i [1]
+    double kick = 0;    ///< change of the node's velocity when an impulse changes the point's [1]
+  };
+
+  /// The nodes with an area, rising.
+  explicit ContactPoints(const MassSpringModel& model);
+  /// Throws InputError for a skin that does not fit the model.
+  ContactPoints(const MassSpringModel& model, const ContactSkin& skin);
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(area_.size()); }
+  std::uint32_t node_count() const { return node_count_; }
+  double area(std::size_t point) const { return area_[point]; }  ///< [m2]
+  double give(std::size_t point) const { return give_[point]; }  ///< see ContactSkin [m/N]
+  /// Damping time of what gives: that of the springs of the nodes that carry the point [s].
+  double give_damping(std::size_t point) const { return give_damping_[point]; }
+  /// Of its contact with an obstacle of stiffness kappa [N/m3], what the point gives by itself in a
+  /// row with it: kappa A / (1 + kappa A give) [N/m].
+  double stiffness(std::size_t point, double kappa) const {
+    const double bare = kappa * area_[point];
+    return bare / (1 + bare * give_[point]);
+  }
+  /// Damping time of that contact if the obstacle's is `damping` [s].
+  double damping(std::size_t point, double kappa, double damping) const {
+    const double given = stiffness(point, kappa) * give_[point];  // part of the depth [1]
+    return (1 - given) * damping + given * give_damping_[point];
+  }
+  /// What an impulse at the point meets, 1 / sum (w_i^2 / m_i) [kg].
+  double mass(std::size_t point) const { return mass_[point]; }
+  /// sum |w_i| [1]: the point moves at most so much farther than any of its nodes.
+  double reach(std::size_t point) const { return reach_[point]; }
+  std::span<const Share> shares(std::size_t point) const {
+    return {shares_.data() + start_[point], start_[point + 1] - start_[point]};
+  }
+  /// For messages: which node it is, of the model or of the base.
+  std::uint32_t number(std::size_t point) const { return number_[point]; }
+  /// "node 7", "the surface at node 7 of the base".
+  std::string name(std::size_t point) const;
+
+  /// Of positions or velocities of the nodes.
+  Vec3 carried(std::size_t point, const std::vector<Vec3>& nodes) const {
+    Vec3 sum = Vec3::Zero();
+    for (const Share& share : shares(point)) sum += share.weight * nodes[share.node];
+    return sum;
+  }
+  /// A force at the point [N] to those on the nodes.
+  void add_force(std::size_t point, const Vec3& force, std::vector<Vec3>& forces) const {
+    for (const Share& share : shares(point)) forces[share.node] += share.weight * force;
+  }
+  /// Changes the point's velocity (or place) by `change` as an impulse there does.
+  void kick(std::size_t point, const Vec3& change, std::vector<Vec3>& nodes) const {
+    for (const Share& share : shares(point)) nodes[share.node] += share.kick * change;
+  }
+
+ private:
+  void end_point(const MassSpringModel& model, std::uint32_t number, double area, double give);
+
+  std::uint32_t node_count_ = 0;
+  bool skin_ = false;
+  std::vector<std::uint32_t> start_{0};
+  std::vector<Share> shares_;
+  std::vector<double> area_, give_, give_damping_, mass_, reach_;
+  std::vector<std::uint32_t> number_;
+};
+
+}  // namespace springlod

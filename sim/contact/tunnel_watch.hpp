@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/contact/contact_points.hpp"
+#include "sim/scenario.hpp"
+
+namespace springlod {
+
+/// Follows the points of a body through the boxes of a scenario, step by step, whatever the
+/// scheme: a point that leaves a box by the face opposite to the one by which it came in, in one
+/// step or in many, has gone through. (Cutting a corner, in by one face and out by one beside it,
+/// happens at any step and is let pass.) A step costs one turn into the axes of each box a point;
+/// nothing without boxes.
+class TunnelWatch {
+ public:
+  /// `x`: the start positions of the nodes. The points must outlive the watch.
+  TunnelWatch(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
+              const std::vector<Vec3>& x);
+  /// Positions of the nodes at the end of the next step. Throws TunnelError for the first point
+  /// that went through.
+  void look(const std::vector<Vec3>& x, double time, double step);
+
+  /// The same for one box and one point, from where it was to where it is: whether it went
+  /// through. A point that stays outside need not be looked at.
+  bool goes_through(std::size_t wall, std::size_t point, const Vec3& from, const Vec3& to);
+  [[noreturn]] void throw_tunnelled(std::size_t wall, std::size_t point, const Vec3& from,
+                                    const Vec3& to, double time, double step) const;
+  std::size_t wall_count() const { return walls_.size(); }
+  const SolidBox& wall(std::size_t number) const { return walls_[number].box; }
+
+ private:
+  /// A face of a box: 1 to 3 for those at the positive end of its axes, -1 to -3 for the others.
+  using Face = std::int8_t;
+
+  struct Wall {
+    std::string name;
+    SolidBox box;
+    std::vector<Face> entry;  // by which face they came in; 0 outside
+  };
+  struct Pass {
+    Face in = 0;   // 0: was inside before
+    Face out = 0;  // 0: is inside now
+    bool hits = false;
+  };
+  static Pass pass(const Vec3& half_size, const Vec3& from, const Vec3& to);
+
+  const ContactPoints* points_;
+  std::vector<Vec3> at_;  // where they are [m]; nothing without walls
+  std::vector<Wall> walls_;
+};
+
+}  // namespace springlod

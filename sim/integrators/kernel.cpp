@@ -1,0 +1,64 @@
+#include "sim/integrators/kernel.hpp"
+
+#include <algorithm>
+
+namespace springlod {
+namespace {
+
+// A spring shorter than this part of its rest length has no direction left to push along: its force
+// fades to 0 with its length instead of dividing by 0. Far below anything a sound run comes to.
+constexpr double kShortest = 1e-9;
+
+}  // namespace
+
+template <bool with_damping>
+void add_spring_forces(const MassSpringModel& model, const std::vector<Vec3>& x,
+                       const std::vector<Vec3>& v, std::vector<Vec3>& force,
+                       std::vector<Vec3>& damping_force) {
+  const std::uint32_t spring_count = model.spring_count();
+  for (std::uint32_t s = 0; s < spring_count;) {
+    // Springs are sorted by a: all of one a are summed up before they go to memory, or every spring
+    // would wait for the store of the one before.
+    const std::uint32_t a = model.a[s];
+    const Vec3& xa = x[a];
+    const Vec3& va = v[a];
+    Vec3 force_a = force[a];
+    Vec3 damping_a = with_damping ? damping_force[a] : Vec3::Zero();
+    for (; s < spring_count && model.a[s] == a; ++s) {
+      const std::uint32_t b = model.b[s];
+      const Vec3 along = x[b] - xa;
+      const double length = along.norm();
+      const double rest = model.rest_length[s];
+      const Vec3 unit = along * (1 / std::max(length, kShortest * rest));
+      const double damping = model.damping[s] * unit.dot(v[b] - va);
+      const Vec3 pull = (model.stiffness[s] * (length - rest) + damping) * unit;
+      force_a += pull;
+      force[b] -= pull;
+      if constexpr (with_damping) {
+        const Vec3 drag = damping * unit;
+        damping_a += drag;
+        damping_force[b] -= drag;
+      }
+    }
+    force[a] = force_a;
+    if constexpr (with_damping) damping_force[a] = damping_a;
+  }
+}
+
+template void add_spring_forces<true>(const MassSpringModel&, const std::vector<Vec3>&,
+                                      const std::vector<Vec3>&, std::vector<Vec3>&,
+                                      std::vector<Vec3>&);
+template void add_spring_forces<false>(const MassSpringModel&, const std::vector<Vec3>&,
+                                       const std::vector<Vec3>&, std::vector<Vec3>&,
+                                       std::vector<Vec3>&);
+
+double elastic_energy(const MassSpringModel& model, const std::vector<Vec3>& x) {
+  double energy = 0;
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    const double stretch = (x[model.b[s]] - x[model.a[s]]).norm() - model.rest_length[s];
+    energy += 0.5 * model.stiffness[s] * stretch * stretch;
+  }
+  return energy;
+}
+
+}  // namespace springlod

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/integrators/stepper.hpp"
+
+namespace springlod {
+
+/// The moving part of a run, as leapfrog sees it: positions x_n at whole steps, velocities half a
+/// step before and after.
+///
+///   kick:   v+ = v- + dt (F(x_n, w_n) / m + g), then friction takes its part of the slip
+///   drift:  x_{n+1} = x_n + dt v+
+///
+/// Both integrators are this scheme; they differ in the velocity w_n that damping sees:
+/// - symplectic_euler: w_n = v-, the old velocity. Damping is first order in dt; the limit is
+///   dt = -beta + sqrt(beta^2 + 4/omega^2).
+/// - velocity_verlet: w_n = v- + (v- - v--) / 2, the velocity extrapolated to x_n. Damping is
+/// second
+///   order; the limit is that of twice the damping time, dt = -2 beta + sqrt(4 beta^2 + 4/omega^2)
+///   (the root z = -1 of z^3 + (W + 3d/2 - 2) z^2 + (1 - 2d) z + d/2 with W = omega^2 dt^2,
+///   d = beta omega^2 dt; the Jury conditions for the other roots are weaker).
+/// Without damping the two are the same. The start v_{-1/2} = v_0 - dt/2 F(x_0, v_0)/m makes both
+/// second order in the elastic forces and puts x_n of a free flight exactly on the parabola.
+class Leapfrog final : public StepByStep {
+ public:
+  Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
+           const StepperOptions& options);
+
+  /// Kick: takes v- to v+ at x_n and books the first half of the step's losses.
+  void prepare() override;
+
+  std::uint64_t spring_updates() const override { return n_ * model_->spring_count(); }
+  /// x_n + (t - t_n) v+
+  std::vector<Vec3> positions_at(double time) const override;
+  /// x_n and the mean of v- and v+.
+  State state() const override;
+  /// The energies of this instant and the losses so far; see ledger.hpp for what is exact.
+  LedgerEntry ledger_entry() const override;
+
+ private:
+  /// Drift: takes x_n to x_{n+1} and books the second half.
+  void commit() override;
+  const std::vector<Vec3>& velocities_after() const override { return v_plus_; }
+  void find_forces(bool with_damping);
+  /// Half of a step's losses, with the velocity v- (to_neighbour = -dt) or v+ (dt).
+  void book_half_step(const std::vector<Vec3>& v, double to_neighbour);
+
+  Integrator integrator_;
+  bool with_ledger_;
+  std::vector<Vec3> v_minus_, v_plus_;
+  std::vector<Vec3> v_damping_;  // w_n; unused by symplectic Euler
+  std::vector<Vec3> force_, damping_force_;
+  std::vector<Contact> contacts_before_;  // a step ago
+  LedgerEntry losses_;
+};
+
+}  // namespace springlod

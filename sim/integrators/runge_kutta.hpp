@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/integrators/whole_step.hpp"
+
+namespace springlod {
+
+/// The classical Runge-Kutta scheme of fourth order on (x, v): elastic, damping and contact forces
+/// at four points a step. (Where nodes touch obstacles or come free, and for friction, which is
+/// split off, its order is lower.)
+class RungeKutta final : public WholeStep {
+ public:
+  RungeKutta(const MassSpringModel& model, const Scenario& scenario, const State& start,
+             double step, const StepperOptions& options);
+
+ private:
+  void solve() override;
+  /// Acceleration at (x, v) into `a`; returns the power that damping takes [W].
+  double accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Vec3>& a);
+
+  std::vector<Vec3> x_stage_, v_stage_, acceleration_, damping_force_;
+  std::vector<Contact> contacts_stage_;
+};
+
+/// Largest stable step of the scheme for springs of one damping time beta [s] and frequencies up to
+/// omega_max [rad/s]: |1 + z + z^2/2 + z^3/6 + z^4/24| <= 1 for z = lambda dt, lambda the roots of
+/// lambda^2 + beta omega^2 lambda + omega^2, at omega_max and at frequencies below it; 2.83 / omega
+/// without damping. Infinite for omega_max = 0.
+double runge_kutta_stable_step(double omega_max, double damping_time);
+
+}  // namespace springlod

@@ -1,0 +1,89 @@
+#include "sim/integrators/stepper.hpp"
+
+#include <numeric>
+
+#include "sim/fast/fast_leapfrog.hpp"
+#include "sim/integrators/backward_euler.hpp"
+#include "sim/integrators/leapfrog.hpp"
+#include "sim/integrators/projective_dynamics.hpp"
+#include "sim/integrators/runge_kutta.hpp"
+#include "sim/integrators/xpbd.hpp"
+
+namespace springlod {
+
+Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start,
+                 double step, const ContactSkin* skin)
+    : model_(&model),
+      gravity_(scenario.gravity),
+      step_(step),
+      x_(start.x),
+      points_(skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model)),
+      finder_(points_, scenario.obstacles, start.x),
+      walls_(points_, scenario.obstacles, start.x),
+      total_mass_(std::accumulate(model.mass.begin(), model.mass.end(), 0.0)),
+      first_center_(center_of_mass()) {}
+
+void StepByStep::advance(std::uint64_t steps) {
+  for (std::uint64_t i = 0; i < steps; ++i) {
+    if (!first_contact_ && !contacts_.empty()) first_contact_ = time();
+    commit();
+    walls_.look(x_, time(), step_);
+    prepare();
+  }
+  if (!first_contact_ && !contacts_.empty()) first_contact_ = time();
+}
+
+Vec3 Stepper::center_of_mass() const {
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t i = 0; i < x_.size(); ++i) moment += model_->mass[i] * x_[i];
+  return moment / total_mass_;
+}
+
+Vec3 Stepper::center_velocity() const {
+  const std::vector<Vec3>& v = velocities_after();
+  Vec3 momentum = Vec3::Zero();
+  for (std::size_t i = 0; i < v.size(); ++i) momentum += model_->mass[i] * v[i];
+  return momentum / total_mass_;
+}
+
+double Stepper::gravity_energy() const {
+  return -total_mass_ * gravity_.dot(center_of_mass() - first_center_);
+}
+
+double Stepper::kinetic_after(std::uint32_t* fastest) const {
+  const std::vector<Vec3>& v = velocities_after();
+  double sum = 0;
+  double most = -1;
+  for (std::uint32_t i = 0; i < v.size(); ++i) {
+    const double kinetic = 0.5 * model_->mass[i] * v[i].squaredNorm();
+    sum += kinetic;
+    if (kinetic > most) {
+      most = kinetic;
+      *fastest = i;
+    }
+  }
+  return sum;
+}
+
+std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenario& scenario,
+                                      const State& start, double step,
+                                      const StepperOptions& options) {
+  switch (options.integrator) {
+    case Integrator::symplectic_euler:
+      return std::make_unique<FastLeapfrog>(model, scenario, start, step, options);
+    case Integrator::velocity_verlet:
+      return std::make_unique<Leapfrog>(model, scenario, start, step, options);
+    case Integrator::runge_kutta_4:
+      return std::make_unique<RungeKutta>(model, scenario, start, step, options);
+    case Integrator::backward_euler_cg:
+    case Integrator::backward_euler_direct:
+      return std::make_unique<BackwardEuler>(model, scenario, start, step, options);
+    case Integrator::xpbd:
+      return std::make_unique<Xpbd>(model, scenario, start, step, options);
+    case Integrator::projective_dynamics:
+      return std::make_unique<ProjectiveDynamics>(model, scenario, start, step, options);
+  }
+  return nullptr;
+}
+
+}  // namespace springlod

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/integrators/implicit_springs.hpp"
+#include "sim/integrators/whole_step.hpp"
+
+namespace springlod {
+
+/// Extended position based dynamics (Macklin, Mueller, Chentanez 2016): springs as constraints
+/// l = L' of compliance 1/k', contacts as one-sided ones, solved one after the other in the model's
+/// order. One sweep and small steps rather than many sweeps (Macklin et al. 2019). Swept to
+/// convergence it is backward Euler; cut short it is softer, the more so the stiffer the springs.
+class Xpbd final : public WholeStep {
+ public:
+  Xpbd(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
+       const StepperOptions& options);
+
+ private:
+  void solve() override;
+  void sweep_springs();
+  void sweep_contacts();
+
+  ImplicitSprings springs_;
+  std::uint32_t sweeps_;
+  std::vector<double> inverse_mass_;        // [1/kg]
+  std::vector<double> multiplier_;          // of springs [N s2]
+  std::vector<Contact> candidates_;         // found at the free flight's end ...
+  std::vector<Vec3> found_at_;              // ... where their nodes were then [m]
+  std::vector<double> contact_multiplier_;  // [N s2] >= 0
+};
+
+}  // namespace springlod

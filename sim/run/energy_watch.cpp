@@ -1,0 +1,73 @@
+#include "sim/run/energy_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "sim/integrators/kernel.hpp"
+
+namespace springlod {
+namespace {
+
+// The kinetic energy of the half-step velocities may exceed what is there by
+// 1 / (1 - (omega dt / 2)^2): 50 if all of it were in the top mode at 0.99 of the limit. [1]
+constexpr double kEnergyMargin = 100;
+
+// Strain whose energy counts as rounding [1]: below it nothing is called growth. Without damping
+// rounding shakes a body more and more, single precision within a second to strains of 1e-6.
+double rounding_strain(Precision precision) {
+  return precision == Precision::single_precision ? 1e-3 : 1e-11;
+}
+
+}  // namespace
+
+EnergyWatch::EnergyWatch(const MassSpringModel& model, const Stepper& start, Precision precision,
+                         double step, const StepLimit& limit)
+    : step_(step),
+      limit_(limit),
+      rounding_(std::pow(rounding_strain(precision), 2) * spring_work(model)) {
+  std::uint32_t node = 0;
+  available_ = start.kinetic_after(&node) + elastic_energy(model, start.positions()) +
+               contact_energy(start.contacts());
+}
+
+void EnergyWatch::look(const Stepper& body, double gravity_work) {
+  std::uint32_t node = 0;
+  const double kinetic = body.kinetic_after(&node);
+  if (!std::isfinite(kinetic)) throw_not_finite(body);
+  most_gravity_work_ = std::max(most_gravity_work_, gravity_work);
+  const double bound = kEnergyMargin * (available_ + most_gravity_work_) + rounding_;
+  if (kinetic > bound)
+    throw UnstableError(
+        fmt::format("the run became unstable: at t = {:.6g} s the kinetic energy is {:.3g} J, of "
+                    "at most {:.3g} J that were there, most of it in node {}; {}",
+                    body.time(), kinetic, available_ + most_gravity_work_, node, advice()),
+        node, body.time());
+}
+
+void EnergyWatch::throw_not_finite(const Stepper& body) const {
+  const State state = body.state();
+  std::uint32_t node = 0;
+  while (node + 1 < state.x.size() && state.x[node].allFinite() && state.v[node].allFinite())
+    ++node;
+  throw UnstableError(
+      fmt::format("the run became unstable: node {} is not finite at t = {:.6g} s; {}", node,
+                  body.time(), advice()),
+      node, body.time());
+}
+
+std::string EnergyWatch::advice() const {
+  if (step_ <= limit_.step) return "take a smaller step";
+  const bool damping_alone = step_ <= limit_.without_damping;
+  if (damping_alone || limit_.set_by_damping())
+    return fmt::format(
+        "damping is what bounds the step: {:.3g} s is beyond its limit of {:.3g} s ({:.3g} s "
+        "without damping); take a smaller step, less damping or an implicit integrator",
+        step_, limit_.step, limit_.without_damping);
+  return fmt::format("{:.3g} s is beyond the limit of {:.3g} s; take a smaller step", step_,
+                     limit_.step);
+}
+
+}  // namespace springlod

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+
+#include "sim/integrators/stepper.hpp"
+#include "sim/run.hpp"
+
+namespace springlod {
+
+/// Keeps what is asked for at the frame times.
+class Recorder {
+ public:
+  /// `frame_rate`: frames a second; 0: only the first and the last.
+  Recorder(double frame_rate, bool ledger, Trajectory& trajectory)
+      : rate_(frame_rate), ledger_(ledger), trajectory_(&trajectory) {}
+
+  /// All frames that fall into the step that `body` is about to take.
+  void record(const Stepper& body);
+  /// Steps after which the next frame falls into the step that follows; 1 or more.
+  std::uint64_t steps_to_next(const Stepper& body) const;
+  /// All frames until `time` of a body that does not move any more.
+  void record_rest(const Stepper& body, double time);
+  /// The last state, at `time`, unless it is a frame already.
+  void record_end(const Stepper& body, double time);
+
+ private:
+  double next_time() const;
+  void keep(double time, const Stepper& body, double position_time);
+
+  double rate_;
+  bool ledger_;
+  Trajectory* trajectory_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace springlod

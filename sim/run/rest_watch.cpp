@@ -1,0 +1,32 @@
+#include "sim/run/rest_watch.hpp"
+
+#include <numeric>
+
+namespace springlod {
+namespace {
+
+// A body sleeps after it has been at rest this long [s]: longer than a bounce stays at its top.
+constexpr double kRest = 0.25;
+
+}  // namespace
+
+bool StopWatch::look(const Stepper& body) {
+  if (!rule_) return false;
+  if (body.center_velocity().norm() >= rule_->speed) last_fast_ = body.time();
+  return body.time() - last_fast_ >= rule_->hold;
+}
+
+SleepWatch::SleepWatch(const MassSpringModel& model, const Scenario& scenario, double part) {
+  const double mass = std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
+  const double square = scenario.gravity.norm() * bounds(model.rest).sizes().norm();
+  most_energy_ = 0.5 * mass * part * part * square;
+}
+
+bool SleepWatch::look(const Stepper& body) {
+  std::uint32_t fastest = 0;
+  if (body.contacts().empty() || !(body.kinetic_after(&fastest) < most_energy_))
+    last_awake_ = body.time();
+  return body.time() - last_awake_ >= kRest;
+}
+
+}  // namespace springlod

@@ -1,0 +1,34 @@
+#include "sim/run/spring_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/run/motion.hpp"
+
+namespace springlod {
+
+void SpringWatch::look(State state) {
+  const Vec3 spin = angular_velocity(*model_, before_);
+  const double angle = spin.norm() * (state.t - before_.t);
+  const Mat3 turn = angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix()
+                              : Mat3(Mat3::Identity());
+  bool crossed = first_crossing_.has_value();
+  double most = 1;  // of l^2 / L^2
+  double least = 1;
+  for (std::uint32_t s = 0; s < model_->spring_count(); ++s) {
+    const std::uint32_t a = model_->a[s];
+    const std::uint32_t b = model_->b[s];
+    const Vec3 now = state.x[b] - state.x[a];
+    const double square = now.squaredNorm() / (model_->rest_length[s] * model_->rest_length[s]);
+    most = std::max(most, square);
+    least = std::min(least, square);
+    if (crossed) continue;
+    crossed = (turn * (before_.x[b] - before_.x[a])).dot(now) < 0;
+    if (crossed) first_crossing_ = Crossing{a, b, state.t};
+  }
+  largest_strain_ = std::max(std::sqrt(most) - 1, 1 - std::sqrt(least));
+  before_ = std::move(state);
+}
+
+}  // namespace springlod

@@ -1,0 +1,45 @@
+#include "sim/run/step_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elastic/stable_step.hpp"
+
+namespace springlod {
+namespace {
+
+// A step is halved above this part of the limit, and doubled if twice of it is below the other; far
+// enough apart that it does not go back and forth [1].
+constexpr double kTooLong = 0.95;
+constexpr double kShortEnough = 0.85;
+
+constexpr std::uint32_t kMostHalvings = 6;  // a body that needs more is past saving
+
+}  // namespace
+
+StepWatch::StepWatch(const MassSpringModel& model, const StepLimit& limit, double step)
+    : model_(&model), limit_(limit), step_(step) {}
+
+// The bounds of the nodes lie above the highest frequency, of light ones far above. So none counts
+// for more than by how much it grew.
+double StepWatch::frequency(const std::vector<Vec3>& x) {
+  if (at_rest_.empty())
+    at_rest_ = node_frequency_bounds(*model_, model_->rest, limit_.ground_stiffness);
+  const std::vector<double> now = node_frequency_bounds(*model_, x, limit_.ground_stiffness);
+  const double square = limit_.omega * limit_.omega;
+  double most = square;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (at_rest_[i] > 0) most = std::max(most, std::min(now[i], square * now[i] / at_rest_[i]));
+  return std::sqrt(most);
+}
+
+double StepWatch::step_for(const std::vector<Vec3>& x, double strain) {
+  const double omega = strain > kSmallStrain ? frequency(x) : limit_.omega;
+  const double limit = stable_step(omega, limit_.damping_time);
+  const auto step = [&] { return std::ldexp(step_, -static_cast<int>(halvings_)); };
+  while (halvings_ < kMostHalvings && step() > kTooLong * limit) ++halvings_;
+  while (halvings_ > 0 && 2 * step() < kShortEnough * limit) --halvings_;
+  return step();
+}
+
+}  // namespace springlod

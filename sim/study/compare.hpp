@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "model/chain.hpp"
+#include "sim/run.hpp"
+#include "sim/scenario.hpp"
+#include "sim/study/starts.hpp"
+
+namespace springlod {
+
+struct CompareOptions {
+  std::uint32_t starts = 1;  ///< paired starts: the same jitter for every level
+  double jitter = 0.02;  ///< relative, uniform, on speed and start height; the first start has none
+  std::uint64_t seed = 1;
+  std::uint32_t threads =
+      0;                ///< runs are spread over threads; 0: all cores. Never changes the result
+  RunOptions run = {};  ///< of all levels; they have no skin in common
+  ContactAt contact = ContactAt::nodes;
+  /// Errors are averaged from t = 0 to this long after the base's first contact [s].
+  double error_window = 0.25;
+  /// Goes into the labels of the levels: "hb" makes "LOD-hb-1"; empty: "LOD-1".
+  std::string variant = {};
+  Progress* progress = nullptr;
+};
+
+/// What one level did in one start.
+struct StartResult : RunSummary {
+  /// Mass-weighted RMS distance of the level-0 nodes from the base's, averaged over the frames of
+  /// the window [m].
+  double surface_error = 0;
+  double shape_error = 0;  ///< the same after the best rigid fit, over all common frames [m]
+  /// Largest difference of the mechanical energy from the base's at one time, over the base's
+  /// largest kinetic energy [1]: the maximum energy difference of Yeh, Reinman, Patel, Faloutsos
+  /// 2009 (their percentage is of the energy itself, which has no zero where gravity has none). 0
+  /// without a ledger.
+  double energy_difference = 0;
+};
+
+struct LevelRuns {
+  std::string label;  ///< "base", "LOD-hb-1"
+  std::uint32_t level = 0;
+  std::vector<StartResult> starts;
+  /// Of the first start, brought back to level 0 (N0 positions a frame).
+  Trajectory first;
+  std::vector<Frame> base_frames;
+};
+
+struct Comparison {
+  Scenario scenario;
+  std::vector<LevelRuns> levels;
+};
+
+/// Runs every level of the chain from the same starts, spread over threads; the result does not
+/// depend on their number. Only the frames of the first start are kept. Without frames between
+/// (frame_rate 0) the errors mean nothing. Throws what the first run that failed threw, naming
+/// level and start; InterruptedError from `progress` stops all runs.
+Comparison compare(const LodChain& chain, const Scenario& scenario,
+                   const CompareOptions& options = {});
+
+}  // namespace springlod

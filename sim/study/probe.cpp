@@ -1,0 +1,59 @@
+#include "sim/study/probe.hpp"
+
+#include <array>
+#include <utility>
+
+#include "sim/run/motion.hpp"
+
+namespace springlod {
+namespace {
+
+// How far the ends would swing in the slowest mode, as part of the longest side [1].
+constexpr double kSwing = 0.01;
+
+// Angle by which the body turns in all [rad]: moves the ends about as far as they swing.
+constexpr double kTurn = 0.05;
+
+// Mean of the square of the place along the body in [-1, 1], so that bending moves no mean.
+constexpr double kMeanSquare = 1. / 3;
+
+}  // namespace
+
+ProbeMotion probe_motion(const MassSpringModel& base, double omega, double duration) {
+  const Vec3 size = bounds(base.rest).sizes();
+  std::array<Eigen::Index, 3> axes{0, 1, 2};
+  for (int pass = 0; pass < 2; ++pass)  // three sides, the longest first; equal ones stay in order
+    for (std::size_t i = 0; i < 2; ++i)
+      if (size[axes[i + 1]] > size[axes[i]]) std::swap(axes[i], axes[i + 1]);
+  ProbeMotion motion;
+  motion.center = mass_properties(base).center;
+  motion.along = Vec3::Unit(axes[0]);
+  motion.across = Vec3::Unit(axes[1]);
+  motion.half_length = size[axes[0]] / 2;
+  motion.speed = kSwing * size[axes[0]] * omega;
+  motion.spin = kTurn / duration * Vec3::Ones().normalized();
+  motion.duration = duration;
+  return motion;
+}
+
+State probe_state(const MassSpringModel& model, const ProbeMotion& motion) {
+  State state = rest_state(model);
+  Vec3 momentum = Vec3::Zero();
+  double mass = 0;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    const double place = motion.along.dot(model.rest[i] - motion.center) / motion.half_length;
+    state.v[i] =
+        motion.speed * (place * motion.along + (place * place - kMeanSquare) * motion.across);
+    momentum += model.mass[i] * state.v[i];
+    mass += model.mass[i];
+  }
+  for (Vec3& v : state.v) v -= momentum / mass;
+  // The turning that stretching and bending bring along goes, so that only the spin is left.
+  const Vec3 center = mass_properties(model).center;
+  const Vec3 turn = motion.spin - angular_velocity(model, state);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    state.v[i] += turn.cross(model.rest[i] - center);
+  return state;
+}
+
+}  // namespace springlod

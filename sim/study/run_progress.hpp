@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+#include "base/error.hpp"
+#include "base/progress.hpp"
+
+namespace springlod {
+
+/// One run of many: turns its steps into its share of the whole, and stops it when asked to.
+class RunProgress : public Progress {
+ public:
+  /// Of one run, whatever its number of steps.
+  static constexpr std::uint64_t kUnits = 1000;
+
+  RunProgress(Progress* whole, const std::function<bool()>& stopped)
+      : whole_(whole), stopped_(&stopped) {}
+  void begin(std::string_view /*task*/, std::uint64_t total) override { total_ = total; }
+  void advance(std::uint64_t count) override {
+    if ((*stopped_)()) throw InterruptedError();
+    done_ += count;
+    report(kUnits * done_ / total_);
+  }
+  /// What is left when a stop rule ended the run early.
+  void finish() { report(kUnits); }
+
+ private:
+  void report(std::uint64_t units) {
+    if (whole_ != nullptr && units > reported_) whole_->advance(units - reported_);
+    reported_ = units;
+  }
+  Progress* whole_;
+  const std::function<bool()>* stopped_;
+  std::uint64_t total_ = 1;
+  std::uint64_t done_ = 0;
+  std::uint64_t reported_ = 0;
+};
+
+}  // namespace springlod

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "model/chain.hpp"
+#include "sim/integrators/integrator.hpp"
+
+namespace springlod {
+
+/// What is said of one point of a stability map: the first of these that holds, from the bottom up.
+enum class Verdict {
+  stable,       ///< none of the others
+  inaccurate,   ///< its motion is off by more than kInaccurate
+  drifting,     ///< the scheme itself gained or lost more than kDrifting of the energy
+  off_design,   ///< the level is not the body any more: its frequencies are off by kOffDesign
+  crossed,      ///< nodes went past each other: the body is inside out somewhere
+  unconverged,  ///< the solver of backward Euler gave up short of its tolerance
+  runaway,      ///< the energy rose by kRunaway: the numbers are finite and mean nothing
+  diverged,     ///< the run left the numbers
+  mechanism,    ///< springs leave nodes loose: not run
+};
+const char* to_string(Verdict verdict);
+
+/// Mean distance from the reference over its mean way [1]. A tenth shows to the eye.
+inline constexpr double kInaccurate = 0.1;
+/// Energy gained or lost by the scheme over the energy at the start [1].
+inline constexpr double kDrifting = 0.1;
+/// Energy gained over the energy at the start beyond which a run is not called stable, although its
+/// numbers are finite [1].
+inline constexpr double kRunaway = 1;
+/// Mean relative error of a level's lowest frequencies against the base's [1]. Plain merging stays
+/// below it at two levels of the paper's bodies (5 to 17 %).
+inline constexpr double kOffDesign = 0.25;
+
+struct StabilityOptions {
+  std::vector<std::uint32_t> levels = {};  ///< empty: all
+  /// Young's modulus of the stiff part over that of the soft one: see with_stiffness_ratio.
+  std::vector<double> ratios{1, 10, 100, 1e3, 1e4, 1e5};
+  /// Levels change with the ratio as if they were merged again from the rescaled base; false: they
+  /// stay as they are, which tells how far a level may be used off the ratio it was made for.
+  bool remake_levels = true;
+  std::vector<Integrator> integrators{kIntegrators.begin(), kIntegrators.end()};
+  /// Of XPBD and projective dynamics, each run with each; 0: the default of the scheme.
+  std::vector<std::uint32_t> iterations{0};
+  /// Whether springs keep their damping. Without it every loss of energy is the scheme's own, and
+  /// the explicit limit falls with the root of the ratio instead of the ratio.
+  bool damping = false;
+  /// Of explicit schemes, in their own predicted limits [1].
+  std::vector<double> steps{0.5, 0.9, 1.1, 2, 5, 20};
+  /// Of backward Euler, in periods of the body's slowest mode [1].
+  std::vector<double> implicit_steps{0.003, 0.01, 0.03, 0.1};
+  /// Of XPBD and projective dynamics, whose steps are cheaper, in periods of the slowest mode [1].
+  std::vector<double> sweep_steps{0.0003, 0.001, 0.003, 0.01, 0.03};
+  /// Steps for all schemes, in place of these [s].
+  std::vector<double> absolute_steps = {};
+  /// How long each run is, in periods of the body's slowest mode [1].
+  double periods = 1;
+  std::optional<double> duration = {};  ///< the same in seconds
+  std::uint32_t threads = 0;            ///< 0: all cores. Never changes the result
+  std::uint64_t seed = 1;               ///< of the search for frequencies
+  Progress* progress = nullptr;
+};
+
+/// One level at one ratio: what all its points share.
+struct StabilityBody {
+  std::uint32_t level = 0;
+  double ratio = 1;
+  std::uint32_t nodes = 0;
+  std::uint32_t springs = 0;
+  double period = 0;    ///< of the slowest mode of the base [s]
+  double duration = 0;  ///< of each run [s]
+  /// Of symplectic Euler [s]: what the map draws as the predicted limit.
+  double limit = 0;
+  bool limited_by_damping = false;
+  /// Mean relative error of the lowest frequencies against those of the base at the same ratio [1].
+  double frequency_error = 0;
+  /// Distance of the reference from one of twice its step, over 3, as the error of a point [1].
+  double reference_error = 0;
+  std::vector<std::uint32_t> mechanism_nodes;  ///< loose nodes, worst first
+};
+
+struct StabilityPoint {
+  std::uint32_t body = 0;  ///< number in StabilityMap::bodies
+  Integrator integrator = Integrator::symplectic_euler;
+  std::uint32_t iterations = 0;  ///< of implicit schemes, at most
+  double step = 0;               ///< [s]
+  double limit = 0;              ///< of this scheme if it is explicit, else of symplectic Euler [s]
+  bool stable = false;           ///< it came to its end with an energy that never rose by kRunaway
+  bool finished = false;         ///< it came to its end: the numbers below are there
+  Verdict verdict = Verdict::stable;
+  std::optional<double> diverged_at;  ///< [s]
+  /// The worst node of a run that diverged, of a crossing, of a mechanism.
+  std::optional<std::uint32_t> node;
+  // Of finished runs:
+  double energy_drift =
+      0;  ///< worst change of the ledger's total, with its sign, over the first [1]
+  /// RMS distance of the nodes from those of the reference over the RMS of its way from the start,
+  /// both weighted by mass, over kSamples common times [1].
+  double error = 0;
+  double cost = 0;  ///< spring updates a simulated second
+  std::uint64_t unconverged_steps = 0;
+  double wall_seconds = 0;  ///< measured; kept out of results
+};
+
+struct StabilityMap {
+  std::string stiff_part;              ///< what is stiff
+  std::vector<StabilityBody> bodies;   ///< level by level, ratios rising
+  std::vector<StabilityPoint> points;  ///< body by body, scheme by scheme, steps rising
+};
+
+/// Runs every level at every stiffness ratio under every scheme and step, and compares each run
+/// with a fine one of the same model: velocity Verlet at a quarter of its limit. The bits do not
+/// depend on the number of threads. Throws InputError for options out of range and a chain whose
+/// base has no mode, InterruptedError from `progress`.
+StabilityMap stability_map(const LodChain& chain, const StabilityOptions& options = {});
+
+}  // namespace springlod

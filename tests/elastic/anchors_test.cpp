@@ -1,0 +1,232 @@
+// Bodies with nodes held where they are: modes, static loads, what the anchors leave free.
+
+#include "model/anchors.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "base/error.hpp"
+#include "elastic/loads/static_loads.hpp"
+#include "elastic/modes.hpp"
+#include "elastic/zero_modes.hpp"
+#include "model/chain.hpp"
+#include "tests/elastic/elastic_samples.hpp"
+#include "tests/support/models.hpp"
+
+namespace springlod {
+namespace {
+
+using Nodes = std::vector<std::uint32_t>;
+
+/// Nodes of a box whose z is below `height`.
+Nodes nodes_below(const MassSpringModel& model, double height) {
+  Nodes nodes;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    if (model.rest[i].z() < height) nodes.push_back(i);
+  return nodes;
+}
+
+StaticLoad no_load(const MassSpringModel& model) {
+  return {"test", std::vector<Vec3>(model.node_count(), Vec3::Zero())};
+}
+
+TEST_CASE("Anchored rows of masses swing at the frequencies of the textbook") {
+  const std::uint32_t n = GENERATE(7U, 150U);
+  const double k = 40;
+  const MassSpringModel row = test::chain_of_nodes(n, k);  // masses of 1
+  const auto omega = [&](double waves) {
+    return 2 * std::sqrt(k) * std::sin(std::numbers::pi * waves / 2);
+  };
+  SECTION("held at one end") {
+    const Modes found = lowest_modes(elastic_body(row, {.anchored = {0}}), {.count = 4});
+    CHECK(found.zero_modes_skipped == 2 * (n - 1));  // all ways across
+    REQUIRE(found.modes.size() == 4);
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double waves = (2.0 * static_cast<double>(j) + 1) / (2.0 * (n - 1) + 1);
+      CHECK(found.modes[j].angular_frequency == Approx(omega(waves)).epsilon(1e-7));
+      CHECK(found.modes[j].shape[0] == Vec3::Zero());
+    }
+  }
+  SECTION("held at both ends") {
+    const Modes found = lowest_modes(elastic_body(row, {.anchored = {n - 1, 0}}), {.count = 4});
+    for (std::size_t j = 0; j < 4; ++j)
+      CHECK(found.modes[j].angular_frequency ==
+            Approx(omega((static_cast<double>(j) + 1) / (n - 1))).epsilon(1e-7));
+  }
+  SECTION("held in the middle, each half swings by itself") {
+    const Modes found = lowest_modes(elastic_body(row, {.anchored = {n / 3}}), {.count = 2});
+    const std::uint32_t shorter = n / 3, longer = n - 1 - shorter;  // masses that move
+    const auto side = [&](std::uint32_t moving, double wave) {
+      return omega(wave / (2.0 * moving + 1));
+    };
+    CHECK(found.modes[0].angular_frequency == Approx(side(longer, 1)).epsilon(1e-7));
+    CHECK(found.modes[1].angular_frequency ==
+          Approx(std::min(side(shorter, 1), side(longer, 3))).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("A held body swings and gives way as a dense solver says") {
+  const MassSpringModel model = test::random_model(3, GENERATE(4, 6));
+  const Nodes anchored = nodes_below(model, 0.9);
+  const ElasticBody body = elastic_body(model, {.anchored = anchored});
+  CHECK(body.zero_mode_count() == 0);
+  CHECK(body.anchored == anchored);
+
+  const std::vector<std::uint8_t> held = anchor_flags(model, anchored);
+  const Eigen::MatrixXd all = stiffness_matrix(model);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < all.rows(); ++i)
+    if (held[static_cast<std::size_t>(i / 3)] == 0) rows.push_back(i);
+  const Eigen::MatrixXd stiffness = all(rows, rows);
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(stiffness.rows(), stiffness.rows());
+  for (Eigen::Index i = 0; i < mass.rows(); ++i)
+    mass(i, i) = model.mass[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)] / 3)];
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(stiffness, mass);
+
+  const Modes found = lowest_modes(body, {.count = 15});
+  CHECK(found.zero_modes_skipped == 0);
+  for (std::size_t j = 0; j < found.modes.size(); ++j)
+    CHECK(found.modes[j].angular_frequency ==
+          Approx(std::sqrt(dense.eigenvalues()[static_cast<Eigen::Index>(j)])).epsilon(1e-6));
+
+  StaticLoad load = no_load(model);
+  for (std::size_t i = 0; i < load.force.size(); ++i)
+    load.force[i] = Vec3(1, 0.1 * static_cast<double>(i % 7), -0.5);
+  const StaticSolution solution = solve_static(body, {load}).at(0);
+  const Eigen::VectorXd force = test::flatten(load.force)(rows);
+  const Eigen::VectorXd expected = stiffness.ldlt().solve(force);
+  CHECK((test::flatten(solution.displacement)(rows) - expected).norm() < 1e-9 * expected.norm());
+  CHECK(solution.compliance == Approx(force.dot(expected)).epsilon(1e-9));
+  for (const std::uint32_t node : anchored) CHECK(solution.displacement[node] == Vec3::Zero());
+}
+
+TEST_CASE("A bar held at one end hangs as its material says") {
+  // The held end cannot contract, which stiffens it; far from it the strain is the material's.
+  const double young = 3e6, a = 0.01;
+  const int cells = 2, along = 24;
+  const MassSpringModel bar = test::corners_box(cells, cells, along, a, young, 1000);
+  StaticLoad load = no_load(bar);
+  for (std::uint32_t i = 0; i < bar.node_count(); ++i)
+    if (bar.rest[i].z() > (along - 0.5) * a) {
+      const auto edges = [&](int d) { return std::abs(bar.rest[i][d] - a) > a / 2 ? 0.5 : 1.0; };
+      load.force[i].z() = edges(0) * edges(1) / (cells * cells);
+    }
+  const StaticSolution solution =
+      solve_static(elastic_body(bar, {.anchored = nodes_below(bar, a / 2)}), {load}).at(0);
+  const auto height = [&](std::size_t layer) { return solution.displacement[layer * 9].z(); };
+  const double strain = 1 / (young * std::pow(cells * a, 2));
+  CHECK((height(24) - height(12)) / (12 * a) == Approx(strain).epsilon(1e-4));
+  CHECK(height(24) < strain * along * a);  // the held end is stiffer
+  CHECK(height(24) > 0.97 * strain * along * a);
+}
+
+/// Deflection of the end of a cantilever of square section under a unit load across it.
+double tip_deflection(int cells, double thick, double length, double young) {
+  const double a = thick / cells;
+  const MassSpringModel bar =
+      test::corners_box(cells, cells, static_cast<int>(std::lround(length / a)), a, young, 1000);
+  StaticLoad load = no_load(bar);
+  const Nodes inner = nodes_below(bar, length - a / 2);
+  const std::vector<std::uint8_t> is_inner = anchor_flags(bar, inner);
+  double nodes = std::pow(cells + 1, 2), sum = 0;
+  for (std::uint32_t i = 0; i < bar.node_count(); ++i)
+    if (is_inner[i] == 0) load.force[i].x() = 1 / nodes;
+  const StaticSolution solution =
+      solve_static(elastic_body(bar, {.anchored = nodes_below(bar, a / 2)}), {load}).at(0);
+  for (std::uint32_t i = 0; i < bar.node_count(); ++i)
+    if (is_inner[i] == 0) sum += solution.displacement[i].x() / nodes;
+  return sum;
+}
+
+TEST_CASE("A cantilever bends as Timoshenko says, the more so the finer it is") {
+  const double young = 2e6, thick = 0.1, length = 1, nu = 0.25;
+  const double shear = young / (2 * (1 + nu)), area = thick * thick;
+  const double expected = std::pow(length, 3) / (3 * young * std::pow(thick, 4) / 12) +
+                          length / (10 * (1 + nu) / (12 + 11 * nu) * shear * area);
+  const double e2 = tip_deflection(2, thick, length, young) / expected - 1;
+  const double e4 = tip_deflection(4, thick, length, young) / expected - 1;
+  INFO("errors " << e2 << ' ' << e4);
+  CHECK(e2 < 0);  // too stiff
+  CHECK(std::abs(e4) < 0.12);
+  // Second order, seen through the end's resistance to contracting and terms of fourth order.
+  CHECK(e2 / e4 > 2.5);
+  CHECK(e2 / e4 < 4.5);
+}
+
+TEST_CASE("Anchors are seen to leave what they leave") {
+  const MassSpringModel box = test::box_lattice(6, 4, 5);
+  struct Case {
+    Nodes anchored;
+    std::uint32_t free;
+  };
+  // Node 1 is the neighbour of node 0 along x, node 6 along y.
+  for (const auto& [anchored, free] : {Case{{0}, 3}, Case{{0, 1}, 1}, Case{{0, 5, 3}, 1},
+                                       Case{{0, 1, 6}, 0}, Case{{6, 0, 1, 0, 1}, 0}}) {
+    const PartModes part = zero_modes(box, anchored).at(0);
+    CHECK(part.zero_modes == free);
+    CHECK(part.expected == 0);
+    CHECK(part.mechanism_nodes.empty() == (free == 0));
+    CHECK(elastic_body(box, {.anchored = anchored}).zero_mode_count() == free);
+  }
+  CHECK(zero_modes(box, {0, 1, 6, 1}).at(0).anchored == 3);
+}
+
+TEST_CASE("A body that is all anchored has nothing to tell") {
+  const MassSpringModel box = test::box_lattice(2, 2, 2);
+  const MassSpringModel two = test::side_by_side(box, box, {9, 0, 0});
+  const ElasticBody body = elastic_body(two, {.anchored = {0, 1, 2, 3, 4, 5, 6, 7}});
+  CHECK(body.parts.size() == 1);
+  CHECK(lowest_modes(body, {.count = 100}).modes.size() == 18);
+  CHECK(lowest_modes(body).zero_modes_skipped == 6);
+  const ElasticBody none = elastic_body(box, {.anchored = {0, 1, 2, 3, 4, 5, 6, 7}});
+  CHECK(lowest_modes(none).modes.empty());
+  StaticLoad load = no_load(box);
+  load.force[0].x() = 1;
+  CHECK(solve_static(none, {load}).at(0).compliance == 0);
+}
+
+TEST_CASE("A load that the anchors do not hold is refused, one that they hold is not") {
+  const MassSpringModel box = test::box_lattice(4, 4, 4);
+  const ElasticBody hinged = elastic_body(box, {.anchored = {0, 3}});  // turns about x
+  StaticLoad load = no_load(box);
+  load.force[63] = {0, 1, 0};
+  CHECK_THROWS_WITH(solve_static(hinged, {load}), Catch::Matchers::Contains("anchor more nodes"));
+  load.force[63] = {1, 0, 0};  // does not turn it about x
+  CHECK(solve_static(hinged, {load}).at(0).compliance > 0);
+
+  const MassSpringModel row = test::chain_of_nodes(20, 10);
+  const ElasticBody held = elastic_body(row, {.anchored = {0}});
+  StaticLoad pull = no_load(row);
+  pull.force.back() = {2, 0, 0};
+  CHECK(solve_static(held, {pull}).at(0).displacement.back().x() ==
+        Approx(2 * 19 / 10.0).epsilon(1e-10));
+  pull.force.back() = {2, 1e-3, 0};
+  CHECK_THROWS_AS(solve_static(held, {pull}), InputError);
+
+  // A part that nothing holds beside one that is held.
+  const MassSpringModel two = test::side_by_side(box, box, {9, 0, 0});
+  const ElasticBody half = elastic_body(two, {.anchored = {0, 1, 4}});
+  StaticLoad push = no_load(two);
+  push.force[63] = {1, 0, 0};
+  CHECK(solve_static(half, {push}).at(0).compliance > 0);
+  push.force[64] = {1, 0, 0};
+  CHECK_THROWS_AS(solve_static(half, {push}), InputError);
+}
+
+TEST_CASE("Anchors go with the groups from level to level") {
+  const Groups groups{{2, 0, 0, 1, 2}, 3};
+  CHECK(carried(groups, {}).empty());
+  CHECK(carried(groups, {4, 1, 2}) == Nodes{0, 2});
+  CHECK_THROWS_AS(carried(groups, {5}), InputError);
+}
+
+TEST_CASE("An anchored node that is none is refused by name") {
+  const MassSpringModel box = test::box_lattice(2, 2, 2);
+  CHECK_THROWS_WITH(elastic_body(box, {.anchored = {8}}), Catch::Matchers::Contains("no node 8"));
+  CHECK_THROWS_AS(zero_modes(box, {8}), InputError);
+}
+
+}  // namespace
+}  // namespace springlod

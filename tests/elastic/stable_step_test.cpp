@@ -1,0 +1,120 @@
+#include "elastic/stable_step.hpp"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+
+#include "base/error.hpp"
+#include "tests/model/sample_models.hpp"
+
+namespace springlod {
+namespace {
+
+using test::box_lattice;
+using test::chain_of_nodes;
+using test::make_model;
+
+double dense_frequency(const MassSpringModel& m) {
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(3 * m.node_count(), 3 * m.node_count());
+  for (std::uint32_t s = 0; s < m.spring_count(); ++s) {
+    const Vec3 u = spring_direction(m, s);
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(k.rows());
+    row.segment<3>(3 * m.a[s]) = -u / std::sqrt(m.mass[m.a[s]]);
+    row.segment<3>(3 * m.b[s]) = u / std::sqrt(m.mass[m.b[s]]);
+    k += m.stiffness[s] * row * row.transpose();
+  }
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues().maxCoeff());
+}
+
+TEST_CASE("Two masses on a spring have the frequency of their reduced mass") {
+  MassSpringModel m = chain_of_nodes(2, 30);
+  m.mass = {2, 3};
+  const double exact = std::sqrt(30 * (1.0 / 2 + 1.0 / 3));
+  CHECK(largest_frequency(m) == Approx(exact).epsilon(1e-12));
+  CHECK(frequency_bound(m) == Approx(std::sqrt(30.0)).epsilon(1e-12));
+}
+
+TEST_CASE("A long chain has the frequency of theory, from above by less than 1 part in 1e4") {
+  const std::uint32_t n = GENERATE(20U, 60U, 400U);
+  const double exact = 2 * std::sqrt(50.0) * std::sin(M_PI * (n - 1) / (2.0 * n));
+  const double found = largest_frequency(chain_of_nodes(n, 50));
+  CHECK(found >= exact * (1 - 1e-12));
+  CHECK(found <= exact * (1 + 1e-4));
+}
+
+TEST_CASE("Lanczos agrees with a dense eigenvalue solver on an uneven lattice") {
+  MassSpringModel m = box_lattice(4, 5, 6);
+  for (std::uint32_t i = 0; i < m.node_count(); ++i) m.mass[i] = 1 + 0.3 * std::sin(i);
+  for (std::uint32_t s = 0; s < m.spring_count(); ++s) m.stiffness[s] = 2 + std::cos(3.0 * s);
+  const double exact = dense_frequency(m);
+  FrequencyOptions options;
+  options.seed = GENERATE(1U, 2U, 3U);
+  const double found = largest_frequency(m, options);
+  CHECK(found >= exact * (1 - 1e-12));
+  CHECK(found <= exact * (1 + 1e-4));
+  CHECK(frequency_bound(m) >= found);
+  CHECK(largest_frequency(m, options) == found);
+}
+
+TEST_CASE("The bound without iterating is nearly reached inside a lattice") {
+  // Infinite lattice: omega^2 = 12 k/m (6 k in each direction at a node, twice).
+  const MassSpringModel m = box_lattice(10, 10, 10);
+  CHECK(frequency_bound(m) == Approx(std::sqrt(12.0)).epsilon(1e-12));
+  CHECK(largest_frequency(m) > 0.95 * frequency_bound(m));
+}
+
+TEST_CASE("Ground stiffness raises the frequency of the nodes that touch") {
+  FrequencyOptions options;
+  options.ground_stiffness = {0, 500, 0};
+  MassSpringModel loose = make_model({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {});
+  loose.mass = {1, 5, 1};
+  CHECK(largest_frequency(loose) == 0);
+  CHECK(largest_frequency(loose, options) == Approx(10).epsilon(1e-12));
+
+  MassSpringModel big = box_lattice(6, 6, 6);
+  options.ground_stiffness.assign(big.node_count(), 0);
+  const double free = largest_frequency(big, options);
+  options.ground_stiffness[0] = 1000;
+  const double held = largest_frequency(big, options);
+  CHECK(held > free);
+  CHECK(held * held > 1000);
+  CHECK(held * held < 1000 + free * free);
+
+  options.ground_stiffness.pop_back();
+  CHECK_THROWS_AS(largest_frequency(big, options), InputError);
+}
+
+TEST_CASE("Parts that are not joined each have their say") {
+  std::vector<Vec3> points;
+  std::vector<test::Pair> pairs;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    points.emplace_back(2.0 * i, 0, 0);
+    points.emplace_back(2.0 * i + 1, 0, 0);
+    pairs.emplace_back(2 * i, 2 * i + 1);
+  }
+  MassSpringModel m = make_model(points, pairs);
+  m.stiffness[17] = 8;
+  CHECK(largest_frequency(m) == Approx(4).epsilon(1e-4));
+}
+
+TEST_CASE("The stable step follows the formula for damped springs") {
+  CHECK(stable_step(10, 0) == Approx(0.2).epsilon(1e-14));
+  CHECK(stable_step(10, 0.3) == Approx(-0.3 + std::sqrt(0.09 + 0.04)).epsilon(1e-14));
+  CHECK(stable_step(1e-3, 1e6) == Approx(2).epsilon(1e-6));
+  CHECK(std::isinf(stable_step(0, 0.3)));
+
+  MassSpringModel m = chain_of_nodes(3, 4);
+  m.damping = {4 * 0.1, 4 * 0.2};
+  CHECK(largest_damping_time(m) == Approx(0.2).epsilon(1e-14));
+  CHECK(stable_step(m) == Approx(stable_step(largest_frequency(m), 0.2)).epsilon(1e-14));
+  m.a.clear();
+  m.b.clear();
+  m.rest_length.clear();
+  m.stiffness.clear();
+  m.damping.clear();
+  CHECK(std::isinf(stable_step(m)));
+}
+
+}  // namespace
+}  // namespace springlod

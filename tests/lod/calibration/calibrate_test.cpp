@@ -1,0 +1,273 @@
+#include "lod/calibration/calibrate.hpp"
+
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "base/error.hpp"
+#include "elastic/stable_step.hpp"
+#include "lod/build.hpp"
+#include "lod/calibration/elastic_fit.hpp"
+#include "lod/calibration/frequency_cap.hpp"
+#include "lod/calibration/long_springs.hpp"
+#include "lod/calibration/mass_moments.hpp"
+#include "lod/calibration/rescale_moduli.hpp"
+#include "lod/calibration/second_moments.hpp"
+#include "lod/calibration/tolerance.hpp"
+#include "lod/quality/certify.hpp"
+#include "tests/lod/bodies.hpp"
+#include "tests/support/models.hpp"
+
+using namespace springlod;
+using springlod::test::ball;
+using springlod::test::block;
+using springlod::test::rods;
+
+namespace {
+
+/// A level of the chain before anything is calibrated.
+Level plain_level(const MassSpringModel& base, double keep) {
+  return simplify(base, {.levels = 1, .keep = {keep}, .grouping = {.grouping = Grouping::compact}})
+      .levels[1];
+}
+
+/// The level with ln k, then ln m, moved by h along `way`.
+MassSpringModel moved(MassSpringModel level, const Eigen::VectorXd& way, double h) {
+  for (std::uint32_t s = 0; s < level.spring_count(); ++s)
+    level.stiffness[s] *= std::exp(h * way[s]);
+  for (std::uint32_t i = 0; i < level.node_count(); ++i)
+    level.mass[i] *= std::exp(h * way[level.spring_count() + i]);
+  return level;
+}
+
+Eigen::VectorXd any_way(const MassSpringModel& level, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  Eigen::VectorXd way(level.spring_count() + level.node_count());
+  for (double& each : way) each = 2 * test::uniform(random) - 1;
+  return way;
+}
+
+}  // namespace
+
+TEST_CASE("Second moments, mass and centre of a level are those of the base, k L stays") {
+  for (const MassSpringModel& base : {ball(), rods()}) {
+    Level level = plain_level(base, 0.2);
+    const MassSpringModel before = level.model;
+    const double lost = 1 - second_moments(before).trace() / second_moments(base).trace();
+    CHECK(lost > 0.01);
+    restore_second_moments(base, level.of_base, level.model);
+    const Mat3 wanted = second_moments(base);
+    CHECK((second_moments(level.model) - wanted).norm() < 1e-12 * wanted.norm());
+    CHECK((mass_properties(level.model).center - mass_properties(base).center).norm() < 1e-12);
+    for (std::uint32_t s = 0; s < before.spring_count(); ++s)
+      CHECK(level.model.stiffness[s] * level.model.rest_length[s] ==
+            Approx(before.stiffness[s] * before.rest_length[s]).epsilon(1e-12));
+    validate(level.model);
+  }
+}
+
+TEST_CASE("A sheet stays a sheet when its second moments are restored") {
+  const MassSpringModel base = block(8, 8, 1);
+  Level level = plain_level(base, 0.4);
+  restore_second_moments(base, level.of_base, level.model);
+  for (const Vec3& x : level.model.rest) CHECK(x.z() == Approx(base.rest[0].z()));
+}
+
+TEST_CASE("Masses that shift come back to their moments") {
+  const MassSpringModel model = ball();
+  const MassMoments moments(model);
+  MassSpringModel shifted = model;
+  std::mt19937_64 random(1);
+  for (double& mass : shifted.mass) mass *= std::exp(0.5 * (2 * test::uniform(random) - 1));
+  moments.restore(shifted.mass);
+  const Mat3 wanted = second_moments(model);
+  CHECK(mass_properties(shifted).mass == Approx(mass_properties(model).mass).epsilon(1e-13));
+  CHECK((second_moments(shifted) - wanted).norm() < 1e-11 * wanted.norm());
+  for (const double mass : shifted.mass) CHECK(mass > 0);
+}
+
+TEST_CASE("Projected changes of masses leave the moments alone to first order") {
+  const MassSpringModel model = rods();
+  const MassMoments moments(model);
+  Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(model.node_count(), 1);
+  std::mt19937_64 random(2);
+  for (Eigen::Index i = 0; i < changes.rows(); ++i) changes(i, 0) = test::uniform(random);
+  moments.project(model.mass, changes);
+  CHECK(changes.norm() > 1);
+  Mat3 change = Mat3::Zero();
+  double mass = 0;
+  const Vec3 center = mass_properties(model).center;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    const double more = model.mass[i] * changes(i, 0);
+    mass += more;
+    change += more * (model.rest[i] - center) * (model.rest[i] - center).transpose();
+  }
+  CHECK(std::abs(mass) < 1e-10);
+  CHECK(change.norm() < 1e-10);
+}
+
+TEST_CASE("Favouring long springs keeps sum k L^2 and c / k") {
+  const MassSpringModel before = plain_level(rods(), 0.3).model;
+  MassSpringModel after = before;
+  favour_long_springs(after);
+  CHECK(spring_work(after) == Approx(spring_work(before)).epsilon(1e-13));
+  const double ratio = after.stiffness[0] / before.stiffness[0] / before.rest_length[0];
+  for (std::uint32_t s = 0; s < before.spring_count(); ++s) {
+    CHECK(after.stiffness[s] == Approx(ratio * before.rest_length[s] * before.stiffness[s]));
+    CHECK(after.damping[s] / after.stiffness[s] == Approx(before.damping[s] / before.stiffness[s]));
+  }
+  CHECK(largest_frequency(after) < largest_frequency(before));
+}
+
+TEST_CASE("Rescaled moduli of one material are those of eq. 2") {
+  const MassSpringModel base = block(5, 5, 5);
+  MassSpringModel level = plain_level(base, 0.4).model;
+  CHECK(estimated_young(level) > 1.02 * estimated_young(base));
+  rescale_moduli(base, level);
+  CHECK(estimated_young(level) == Approx(estimated_young(base)).epsilon(1e-12));
+}
+
+TEST_CASE("Slopes of the misses are what finite differences say") {
+  for (const bool anchored : {false, true}) {
+    const MassSpringModel base = rods();
+    TargetOptions options{.modes = 8, .patches = 6};
+    if (anchored)
+      for (std::uint32_t i = 0; i < base.node_count(); ++i)
+        if (base.rest[i].z() < 0.1) options.anchored.push_back(i);
+    const ElasticTargets targets = measure_targets(base, options);
+    const Level level = plain_level(base, 0.4);
+    const ElasticFit fit(level.model, level.of_base, targets);
+    const ElasticMisses here = fit.misses(level.model);
+    const Eigen::VectorXd way = any_way(level.model, 3);
+    constexpr double h = 1e-4;
+    const ElasticMisses ahead = fit.misses(moved(level.model, way, h));
+    const ElasticMisses behind = fit.misses(moved(level.model, way, -h));
+    const Eigen::VectorXd measured = (behind.miss - ahead.miss) / (2 * h);
+    const Eigen::VectorXd told = here.slopes.transpose() * way;
+    REQUIRE(measured.size() == told.size());
+    for (Eigen::Index r = 0; r < told.size(); ++r)
+      if (here.miss[r] != 0)  // rows of pairs of modes have no miss of their own
+        CHECK(told[r] == Approx(measured[r]).epsilon(2e-3).margin(1e-5));
+  }
+}
+
+TEST_CASE("Slopes of the nodes' bounds are what finite differences say") {
+  const MassSpringModel level = plain_level(ball(), 0.4).model;
+  const CapRows here = cap_rows(level, 1, 1e3);
+  REQUIRE(here.excess.size() == level.node_count());
+  const Eigen::VectorXd way = any_way(level, 4);
+  constexpr double h = 1e-5;
+  const Eigen::VectorXd measured = (cap_rows(moved(level, way, h), 1, 1e3).excess -
+                                    cap_rows(moved(level, way, -h), 1, 1e3).excess) /
+                                   (2 * h);
+  CHECK((here.slopes * way - measured).cwiseAbs().maxCoeff() < 1e-6);
+  const double bound = largest_node_bound(level);
+  CHECK(std::log(bound) == Approx(here.excess.maxCoeff()));
+  CHECK(bound >= std::pow(frequency_bound(level), 2) * (1 - 1e-12));
+  CHECK(bound <= std::pow(frequency_bound(level), 2) * 1.04);
+  CHECK(squared_excess(level, bound) == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("Calibrated levels swing and give way as the base, with a longer step") {
+  const MassSpringModel base = ball();
+  const GroupingOptions compact{.grouping = Grouping::compact};
+  LodChain plain = simplify(base, {.keep = {0.45, 0.2}, .grouping = compact});
+  LodChain fitted =
+      simplify(base, {.keep = {0.45, 0.2}, .grouping = compact, .calibration = Calibration::modes});
+  certify(plain);
+  certify(fitted);
+  CHECK_FALSE(plain.levels[0].certificate);
+  for (std::size_t level : {1, 2}) {
+    REQUIRE(fitted.levels[level].certificate);
+    const Certificate& before = *plain.levels[level].certificate;
+    const Certificate& after = *fitted.levels[level].certificate;
+    validate(fitted.levels[level].model);
+    CHECK(fitted.levels[level].model.node_count() == (level == 1 ? 126 : 56));
+    CHECK(mean_frequency_error(after, 0, 10) < frequency_tolerance(0, 281, level == 1 ? 126 : 56));
+    CHECK(mean_frequency_error(before, 0, 10) > 0.02);
+    CHECK(mean_load_error(after, false) < 0.05);
+    CHECK(mean_load_error(after, true) < mean_load_error(before, true));
+    CHECK(after.highest_frequency < 0.75 * after.base_highest_frequency);
+    CHECK(after.cost < 0.5 * before.cost);
+    CHECK(std::abs(after.mass_error) < 1e-12);
+    CHECK(after.center_shift < 1e-12);
+    CHECK(after.second_moment_error < 1e-9);
+    CHECK(after.zero_modes == 6);
+    CHECK(after.expected_zero_modes == 6);
+    REQUIRE(after.frequencies.size() == 20);
+    double mac = 0;
+    for (std::size_t i = 0; i < 10; ++i) mac += after.frequencies[i].mac / 10;
+    CHECK(mac > 0.6);  // a sphere's modes come in fives, which may turn among themselves
+    CHECK(before.misses.size() > after.misses.size());
+  }
+}
+
+TEST_CASE("Calibration gives the same bits for any number of threads") {
+  const MassSpringModel base = block(4, 4, 5);
+  SimplifyOptions options{.calibration = Calibration::modes};
+  options.calibrate.fit.iterations = 3;
+  const LodChain one = simplify(base, options);
+  options.calibrate.threads = 2;
+  const LodChain two = simplify(base, options);
+  for (std::size_t level : {1, 2}) {
+    CHECK(one.levels[level].model.stiffness == two.levels[level].model.stiffness);
+    CHECK(one.levels[level].model.mass == two.levels[level].model.mass);
+  }
+}
+
+TEST_CASE("Several parts, one of them a single node, and anchors are calibrated too") {
+  MassSpringModel two = block(4, 4, 4);
+  const MassSpringModel other = block(3, 3, 6);
+  const std::uint32_t first = two.node_count();
+  for (std::uint32_t i = 0; i < other.node_count(); ++i) {
+    two.rest.emplace_back(other.rest[i] + Vec3(5, 0, 0));
+    two.mass.push_back(other.mass[i]);
+    two.volume.push_back(other.volume[i]);
+    two.contact_area.push_back(other.contact_area[i]);
+    two.border.push_back(other.border[i]);
+    two.material.push_back(0);
+  }
+  for (std::uint32_t s = 0; s < other.spring_count(); ++s) {
+    two.a.push_back(other.a[s] + first);
+    two.b.push_back(other.b[s] + first);
+    two.rest_length.push_back(other.rest_length[s]);
+    two.stiffness.push_back(other.stiffness[s]);
+    two.damping.push_back(other.damping[s]);
+  }
+  two.rest.emplace_back(20, 0, 0);
+  two.mass.push_back(1);
+  two.volume.push_back(1e-3);
+  two.contact_area.push_back(0);
+  two.border.push_back(1);
+  two.material.push_back(0);
+  validate(two);
+  SimplifyOptions options{.levels = 1, .calibration = Calibration::modes};
+  for (std::uint32_t i = first; i < first + 9; ++i) options.calibrate.targets.anchored.push_back(i);
+  options.calibrate.fit.iterations = 20;
+  LodChain chain = simplify(two, options);
+  validate(chain.levels[1].model);
+  options.calibrate.targets.smooth_loads = false;
+  options.calibrate.targets.patches = 0;
+  const ElasticTargets wanted = measure_targets(two, options.calibrate.targets);
+  const ElasticFit fit(chain.levels[1].model, chain.levels[1].of_base, wanted);
+  const ElasticMisses misses = fit.misses(chain.levels[1].model);
+  double mean = 0;
+  for (int i = 0; i < 10; ++i) mean += misses.frequency[static_cast<std::size_t>(i)] / 10;
+  CHECK(mean < 0.01);
+}
+
+TEST_CASE("Levels keep exactly as many nodes as they should") {
+  for (const Grouping grouping :
+       {Grouping::standard, Grouping::priority_soft, Grouping::compact, Grouping::metis}) {
+    const LodChain chain =
+        simplify(ball(), {.keep = {0.45, 0.2}, .grouping = {.grouping = grouping}});
+    CHECK(chain.levels[1].model.node_count() == 126);
+    CHECK(chain.levels[2].model.node_count() == 56);
+  }
+  CHECK_THROWS_WITH(simplify(ball(), {.keep = {0.2, 0.45}}), Catch::Contains("must fall"));
+  CHECK_THROWS_WITH(simplify(ball(), {.levels = 3, .keep = {0.5, 0.2}}),
+                    Catch::Contains("leave one out"));
+  CHECK_THROWS_WITH(
+      simplify(ball(), {.mass = MassRule::proximity, .calibration = Calibration::modes}),
+      Catch::Contains("proximity"));
+}

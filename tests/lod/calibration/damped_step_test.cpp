@@ -1,0 +1,112 @@
+#include "lod/calibration/damped_step.hpp"
+
+#include <Eigen/Cholesky>
+#include <catch2/catch.hpp>
+
+#include "elastic/solver/random_block.hpp"
+
+using namespace springlod;
+using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+namespace {
+
+/// Each limit on three neighbouring unknowns.
+Rows limits_of(Eigen::Index count, Eigen::Index unknowns) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int r = 0; r < count; ++r)
+    for (int c = 0; c < 3; ++c)
+      entries.emplace_back(r, (2 * r + c) % static_cast<int>(unknowns), 0.4);
+  Rows rows(count, unknowns);
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("A step is the dense least-squares solution over its rows and the active limits") {
+  constexpr Eigen::Index n = 40, r = 6, l = 15;
+  const Eigen::MatrixXd slopes = random_block(n, r, 1);
+  const Eigen::VectorXd miss = 0.01 * random_block(r, 1, 2);
+  const Rows limits = limits_of(l, n);
+  const Eigen::VectorXd excess = Eigen::VectorXd::Constant(l, 0.05);  // all active
+  double damping = 1e-3;
+  const Eigen::VectorXd d = damped_step({.slopes = slopes,
+                                         .normal = slopes.transpose() * slopes,
+                                         .miss = miss,
+                                         .limits = limits,
+                                         .excess = excess,
+                                         .limit_weight = 0.7,
+                                         .most_rms = 10},
+                                        damping);
+  CHECK(damping == 1e-3);
+  const double ridge = damping * (slopes.transpose() * slopes).diagonal().mean();
+  const Eigen::MatrixXd h = 0.7 * Eigen::MatrixXd(limits);
+  const Eigen::MatrixXd normal =
+      slopes * slopes.transpose() + h.transpose() * h + ridge * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::VectorXd expected =
+      normal.ldlt().solve(slopes * miss - 0.7 * (h.transpose() * excess));
+  CHECK((d - expected).norm() < 1e-6 * expected.norm());
+}
+
+TEST_CASE("A limit that only the step would break is held, one that stays far off is not there") {
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, 1);
+  slopes(0, 0) = 1;
+  const Eigen::VectorXd miss = Eigen::VectorXd::Constant(1, 0.5);
+  Rows limits(1, 2);
+  limits.insert(0, 0) = 1;
+  const auto first = [&](double excess) {
+    double damping = 1e-6;
+    const Eigen::VectorXd over = Eigen::VectorXd::Constant(1, excess);
+    return damped_step({.slopes = slopes,
+                        .normal = slopes.transpose() * slopes,
+                        .miss = miss,
+                        .limits = limits,
+                        .excess = over,
+                        .limit_weight = 100,
+                        .most_rms = 10},
+                       damping)[0];
+  };
+  CHECK(first(-1) == Approx(0.5).epsilon(1e-4));
+  CHECK(first(-0.2) == Approx(0.2).epsilon(1e-3));
+}
+
+TEST_CASE("The damping rises until the step is short enough") {
+  const Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(3, 3);
+  const Eigen::VectorXd miss = Eigen::VectorXd::Constant(3, 5);
+  const Rows none(0, 3);
+  const Eigen::VectorXd no_excess;
+  double damping = 1e-4;
+  const Eigen::VectorXd d = damped_step({.slopes = slopes,
+                                         .normal = slopes.transpose() * slopes,
+                                         .miss = miss,
+                                         .limits = none,
+                                         .excess = no_excess,
+                                         .most_rms = 0.2},
+                                        damping);
+  CHECK(damping > 1);
+  CHECK(d[0] <= 0.2);
+  CHECK(d[0] > 0.05);
+}
+
+TEST_CASE("A limit that is broken near where the step ends counts, though it is not at its start") {
+  const Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(2, 1);
+  const Eigen::MatrixXd normal = slopes.transpose() * slopes;
+  const Eigen::VectorXd miss = Eigen::VectorXd::Zero(1);
+  const Eigen::VectorXd excess = Eigen::VectorXd::Constant(1, -1);
+  Rows limits(1, 2);
+  limits.insert(0, 1) = 1;
+  const auto second = [&](const Eigen::VectorXd& near) {
+    double damping = 1e-6;
+    return damped_step({.slopes = slopes,
+                        .normal = normal,
+                        .miss = miss,
+                        .limits = limits,
+                        .excess = excess,
+                        .near = near,
+                        .limit_weight = 100,
+                        .most_rms = 10},
+                       damping)[1];
+  };
+  CHECK(second({}) == 0);
+  CHECK(second(Eigen::VectorXd::Constant(2, 1.5)) == Approx(1).epsilon(1e-3));
+}

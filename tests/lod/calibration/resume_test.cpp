@@ -1,0 +1,224 @@
+// Calibrations that are stopped and go on from what their store keeps.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "lod/build.hpp"
+#include "lod/calibration/calibration_store.hpp"
+#include "tests/lod/bodies.hpp"
+#include "tests/model/sample_assets.hpp"
+
+using namespace springlod;
+using Catch::Matchers::Contains;
+using springlod::test::block;
+using springlod::test::TemporaryFolder;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Stops the calibration when it goes on for so many times, and remembers what it was told.
+class Watcher : public Progress {
+ public:
+  explicit Watcher(std::uint64_t stop_after = std::numeric_limits<std::uint64_t>::max())
+      : left_(stop_after) {}
+
+  void begin(std::string_view task, std::uint64_t /*total*/) override { tasks.emplace_back(task); }
+  void advance(std::uint64_t count) override {
+    if (tasks.empty() || tasks.back() != "calibrating" || count == 0) return;
+    if (left_ == 0) throw InterruptedError();
+    --left_;
+    ++steps;
+  }
+  void detail(std::string_view text) override { last_detail = text; }
+  void say(std::string_view text) override { said += std::string(text) + "\n"; }
+
+  std::vector<std::string> tasks;
+  std::string said, last_detail;
+  std::uint64_t steps = 0;
+
+ private:
+  std::uint64_t left_;
+};
+
+LodChain plain() {
+  static const LodChain chain =
+      simplify(block(4, 4, 6), {.keep = {0.5, 0.25}, .grouping = {.grouping = Grouping::compact}});
+  return chain;
+}
+
+CalibrateOptions options_with(const fs::path& store, Progress* progress) {
+  CalibrateOptions options{.store = store, .progress = progress};
+  options.targets.patches = 10;
+  options.fit.iterations = 14;
+  return options;
+}
+
+LodChain calibrated(const CalibrateOptions& options) {
+  LodChain chain = plain();
+  calibrate(chain, options);
+  return chain;
+}
+
+bool same_bits(const LodChain& one, const LodChain& two) {
+  for (std::size_t level : {1, 2}) {
+    const MassSpringModel &p = one.levels[level].model, &q = two.levels[level].model;
+    if (p.mass != q.mass || p.stiffness != q.stiffness || p.damping != q.damping) return false;
+  }
+  return true;
+}
+
+void overwrite(const fs::path& path, std::size_t place, char byte) {
+  std::string bytes = read_file(path);
+  bytes.at(place) = byte;
+  write_text_file(path, bytes);
+}
+
+const fs::path kNoStore;
+
+}  // namespace
+
+TEST_CASE("A calibration that is stopped again and again ends with the bits of one that was not") {
+  const LodChain whole = calibrated(options_with(kNoStore, nullptr));
+  for (const std::uint64_t advances : {2, 5, 12}) {  // what is kept already counts as one a level
+    const TemporaryFolder folder;
+    std::optional<LodChain> found;
+    int stops = 0;
+    for (; !found && stops < 50; ++stops) {
+      Watcher watcher(advances);
+      try {
+        found = calibrated(options_with(folder / "store", &watcher));
+      } catch (const InterruptedError&) {
+        CHECK_THAT(watcher.said, Contains("its state is kept in " + (folder / "store").string()));
+      }
+    }
+    CHECK(stops > 2);
+    REQUIRE(found);
+    CHECK(same_bits(*found, whole));
+  }
+}
+
+TEST_CASE("Threads do not matter to a calibration that goes on") {
+  const LodChain whole = calibrated(options_with(kNoStore, nullptr));
+  const TemporaryFolder folder;
+  Watcher watcher(6);
+  CalibrateOptions options = options_with(folder / "store", &watcher);
+  options.threads = 2;
+  CHECK_THROWS_AS(calibrated(options), InterruptedError);
+  options.progress = nullptr;
+  CHECK(same_bits(calibrated(options), whole));
+}
+
+TEST_CASE("What is measured of the base, and levels that are finished, are not made again") {
+  const TemporaryFolder folder;
+  Watcher first(9);
+  CHECK_THROWS_AS(calibrated(options_with(folder / "store", &first)), InterruptedError);
+  CHECK(std::count(first.tasks.begin(), first.tasks.end(), "iterating for modes") == 1);
+  CHECK_THAT(first.last_detail, Contains("level 1, step 10: f1..10 off by"));
+
+  Watcher second;
+  const LodChain whole = calibrated(options_with(folder / "store", &second));
+  CHECK_THAT(second.said, Contains("goes on from what is kept in"));
+  CHECK(std::count(second.tasks.begin(), second.tasks.end(), "iterating for modes") == 0);
+
+  Watcher third;
+  CHECK(same_bits(calibrated(options_with(folder / "store", &third)), whole));
+  CHECK(third.steps == 2);  // each level, all at once
+}
+
+TEST_CASE("A store of another base, level or options, or a damaged one, is not used") {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "store";
+  calibrated(options_with(store, nullptr));
+
+  Watcher watcher;
+  CalibrateOptions other = options_with(store, &watcher);
+  other.fit.tolerance = 0.02;
+  const LodChain found = calibrated(other);
+  CHECK_THAT(watcher.said, Contains("level-1-part-1.bin is of another base, another level or other "
+                                    "options; that part begins anew"));
+  CHECK_THAT(watcher.said, !Contains("base-part-1.bin"));
+  other.store.clear();
+  CHECK(same_bits(found, calibrated(other)));
+
+  Watcher seeded;
+  other = options_with(store, &seeded);
+  other.targets.seed = 2;
+  calibrated(other);
+  CHECK_THAT(seeded.said, Contains("base-part-1.bin is of another base"));
+
+  const LodChain whole = calibrated(options_with(store, nullptr));
+  overwrite(store / "level-2-part-1.bin", 100, 'x');
+  write_text_file(store / "level-1-part-1.bin", "short");
+  Watcher damaged;
+  CHECK(same_bits(calibrated(options_with(store, &damaged)), whole));
+  CHECK_THAT(damaged.said, Contains("level-2-part-1.bin is damaged"));
+  CHECK_THAT(damaged.said, Contains("level-1-part-1.bin is damaged"));
+}
+
+TEST_CASE("A store that cannot be written is refused before anything is measured") {
+  const TemporaryFolder folder;
+  write_text_file(folder / "file", "no folder");
+  Watcher watcher;
+  const CalibrateOptions options = options_with(folder / "file" / "store", &watcher);
+  CHECK_THROWS_AS(calibrated(options), IoError);
+  CHECK_THROWS_WITH(calibrated(options), Contains("its state cannot be kept in") &&
+                                             Contains("name a folder that can be written to"));
+  CHECK(watcher.tasks.empty());
+}
+
+TEST_CASE("A fit state reads back as it was kept") {
+  const TemporaryFolder folder;
+  const CalibrationStore store(folder / "store", nullptr);
+  FitState state{.iteration = 7,
+                 .tries = 3,
+                 .limit = 1.5,
+                 .damping = 1e-3,
+                 .tighten = 0.9,
+                 .now = {Eigen::VectorXd::LinSpaced(5, 0, 1), {1, 2, 3}},
+                 .best = {},
+                 .best_frequency = 12};
+  for (const bool good : {false, true}) {
+    if (good) state.best = FitPoint{Eigen::VectorXd::LinSpaced(5, 1, 2), {3, 2, 1}};
+    store.keep(2, 0, "fingerprint", state);
+    CHECK_FALSE(store.fit(2, 0, "another"));
+    CHECK_FALSE(store.fit(1, 0, "fingerprint"));
+    const std::optional<FitState> back = store.fit(2, 0, "fingerprint");
+    REQUIRE(back);
+    CHECK(back->iteration == 7);
+    CHECK(back->tries == 3);
+    CHECK_FALSE(back->finished);
+    CHECK(back->limit == state.limit);
+    CHECK(back->damping == state.damping);
+    CHECK(back->tighten == state.tighten);
+    CHECK(back->best_frequency == 12);
+    CHECK(back->now.theta == state.now.theta);
+    CHECK(back->now.mass == state.now.mass);
+    CHECK(back->best.has_value() == good);
+    if (good) CHECK(back->best->theta == state.best->theta);
+  }
+}
+
+TEST_CASE("Steps of a fit whose misses are not finite are not taken") {
+  const MassSpringModel base = block(4, 4, 6);
+  const Level level = plain().levels[2];
+  ElasticTargets targets = measure_targets(base, {.modes = 10, .patches = 4});
+  targets.loads.front().compliance = std::numeric_limits<double>::infinity();
+  FitOptions options;
+  FitState last;
+  options.on_iteration = [&](const FitState& state) { last = state; };
+  const MassSpringModel same = fit_part(level.model, level.of_base, targets, options);
+  CHECK(last.finished);
+  CHECK(last.iteration < 40);  // the damping grows out of bounds
+  CHECK(same.stiffness == level.model.stiffness);
+  for (const double mass : same.mass) CHECK(std::isfinite(mass));
+}

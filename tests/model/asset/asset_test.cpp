@@ -1,0 +1,215 @@
+#include "model/asset/asset.hpp"
+
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "tests/model/asset/glb_text.hpp"
+#include "tests/model/sample_assets.hpp"
+
+namespace springlod {
+namespace {
+
+using Catch::Matchers::Contains;
+using test::Layout;
+using test::sample_asset;
+using test::TemporaryFolder;
+using test::with_json;
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(static_cast<const void*>(a.data()),
+                                   static_cast<const void*>(b.data()), a.size() * sizeof(T)) == 0);
+}
+
+void check_same(const LodAsset& a, const LodAsset& b) {
+  REQUIRE(a.chain.levels.size() == b.chain.levels.size());
+  for (std::size_t n = 0; n < a.chain.levels.size(); ++n) {
+    const Level& p = a.chain.levels[n];
+    const Level& q = b.chain.levels[n];
+    CHECK(p.made_by == q.made_by);
+    CHECK(p.of_base.count == q.of_base.count);
+    CHECK(same_bits(p.of_base.of, q.of_base.of));
+    CHECK(p.model.materials == q.model.materials);
+    CHECK(same_bits(p.model.rest, q.model.rest));
+    CHECK(same_bits(p.model.mass, q.model.mass));
+    CHECK(same_bits(p.model.volume, q.model.volume));
+    CHECK(same_bits(p.model.contact_area, q.model.contact_area));
+    CHECK(same_bits(p.model.border, q.model.border));
+    CHECK(same_bits(p.model.material, q.model.material));
+    CHECK(same_bits(p.model.a, q.model.a));
+    CHECK(same_bits(p.model.b, q.model.b));
+    CHECK(same_bits(p.model.rest_length, q.model.rest_length));
+    CHECK(same_bits(p.model.stiffness, q.model.stiffness));
+    CHECK(same_bits(p.model.damping, q.model.damping));
+  }
+  CHECK(same_bits(a.surface.positions, b.surface.positions));
+  CHECK(same_bits(a.surface.triangles, b.surface.triangles));
+  REQUIRE(a.surface.parts.size() == b.surface.parts.size());
+  for (std::size_t p = 0; p < a.surface.parts.size(); ++p) {
+    CHECK(a.surface.parts[p].name == b.surface.parts[p].name);
+    CHECK(a.surface.parts[p].material == b.surface.parts[p].material);
+    CHECK(a.surface.parts[p].first_triangle == b.surface.parts[p].first_triangle);
+    CHECK(a.surface.parts[p].triangle_count == b.surface.parts[p].triangle_count);
+  }
+  CHECK(same_bits(a.surface_of_base.start, b.surface_of_base.start));
+  CHECK(same_bits(a.surface_of_base.node, b.surface_of_base.node));
+  CHECK(same_bits(a.surface_of_base.weight, b.surface_of_base.weight));
+  CHECK(a.provenance.entries == b.provenance.entries);
+}
+
+/// Overwrites in place: thousands of renames would each wait for the disk.
+void overwrite(const std::filesystem::path& path, std::string_view bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST_CASE("An asset reads back with the same bits") {
+  const TemporaryFolder folder;
+  const LodAsset asset = sample_asset();
+  save_asset(asset, folder / "asset.glb");
+  check_same(load_asset(folder / "asset.glb"), asset);
+}
+
+TEST_CASE("An asset without surface, springs or provenance reads back with the same bits") {
+  const TemporaryFolder folder;
+  LodAsset asset;
+  asset.chain.levels.resize(1);
+  asset.chain.levels[0].model = test::make_model({{1.0 / 3, 2, 3}}, {});
+  asset.chain.levels[0].of_base = identity_groups(1);
+  SECTION("no binding") {}
+  SECTION("a binding of no points") {
+    asset.surface_of_base.start = {0};
+  }
+  SECTION("a surface of vertices alone") {
+    asset.surface.positions = {{0, 0, 0}};
+    asset.surface_of_base = bind_points(asset.surface.positions, asset.chain.levels[0].model);
+  }
+  SECTION("a part without triangles") {
+    asset.surface.parts = {{"nothing", "", 0, 0}};
+  }
+  save_asset(asset, folder / "asset.glb");
+  check_same(load_asset(folder / "asset.glb"), asset);
+}
+
+TEST_CASE("The same asset gives the same bytes") {
+  const TemporaryFolder folder;
+  save_asset(sample_asset(), folder / "a.glb");
+  save_asset(sample_asset(), folder / "b.glb");
+  const std::string bytes = read_file(folder / "a.glb");
+  CHECK(bytes == read_file(folder / "b.glb"));
+  save_asset(load_asset(folder / "a.glb"), folder / "c.glb");
+  CHECK(bytes == read_file(folder / "c.glb"));
+}
+
+TEST_CASE("Names that are not UTF-8 are saved with their odd bytes replaced") {
+  const TemporaryFolder folder;
+  LodAsset asset = sample_asset();
+  asset.surface.parts[0].name = "gr\xFCn";
+  save_asset(asset, folder / "asset.glb");
+  CHECK(load_asset(folder / "asset.glb").surface.parts[0].name == "gr\xEF\xBF\xBDn");
+}
+
+TEST_CASE("A broken asset is not saved") {
+  const TemporaryFolder folder;
+  LodAsset asset = sample_asset();
+  asset.chain.levels[1].model.mass[3] = -1;
+  CHECK_THROWS_WITH(save_asset(asset, folder / "asset.glb"),
+                    Contains("level 1") && Contains("node 3"));
+  CHECK_FALSE(std::filesystem::exists(folder / "asset.glb"));
+}
+
+TEST_CASE("What is no asset is refused with the reason") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  CHECK_THROWS_WITH(load_asset(folder / "missing.glb"),
+                    Contains("missing.glb") && Contains("No such file"));
+  CHECK_THROWS_AS(load_asset(folder.path()), IoError);
+  for (const char* text : {"", "glTF", "solid thing\nendsolid, and some more text\n"}) {
+    overwrite(path, text);
+    CHECK_THROWS_WITH(load_asset(path), Contains("no .glb file"));
+  }
+  save_asset(sample_asset(), path);
+  const std::string bytes = read_file(path);
+  overwrite(path, with_json(bytes, "\"extensions\":", "\"extras\":"));
+  CHECK_THROWS_WITH(load_asset(path), Contains("no level-of-detail chain"));
+  overwrite(path, with_json(bytes, "\"version\":1", "\"version\":2"));
+  CHECK_THROWS_WITH(load_asset(path), Contains("version 2") && Contains("update"));
+  overwrite(path, with_json(bytes, "by hand", "by mind"));
+  CHECK_THROWS_WITH(load_asset(path), Contains("damaged") && Contains("checksum"));
+  CHECK_THROWS_AS(load_asset(path), IoError);
+}
+
+TEST_CASE("A buffer view that points outside the file is found out") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  save_asset(sample_asset(), path);
+  const std::string bytes = read_file(path);
+  for (const char* length : {"18446744073709551615", "-1", "1.5", "99999999", "1920000", "0"}) {
+    const std::string first = "\"byteLength\":1920";  // level 0: 80 nodes of 24 bytes
+    overwrite(path, with_json(bytes, first, fmt::format("\"byteLength\":{}", length)));
+    CHECK_THROWS_WITH(load_asset(path), Contains("damaged"));
+  }
+}
+
+TEST_CASE("A file cut short anywhere is refused") {
+  const TemporaryFolder folder;
+  save_asset(sample_asset(), folder / "asset.glb");
+  const std::string bytes = read_file(folder / "asset.glb");
+  for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 40) {
+    overwrite(folder / "cut.glb", std::string_view(bytes).substr(0, length));
+    CHECK_THROWS_AS(load_asset(folder / "cut.glb"), IoError);
+  }
+}
+
+TEST_CASE("A flipped bit is refused, or changes nothing that is read") {
+  const TemporaryFolder folder;
+  const LodAsset asset = sample_asset();
+  save_asset(asset, folder / "asset.glb");
+  const std::string bytes = read_file(folder / "asset.glb");
+  const Layout layout(bytes);
+  std::size_t tried = 0;
+  std::size_t refused = 0;
+  // Every byte of the headers and of the JSON, every 13th of the arrays. What passes may lie in
+  // padding, in what only viewers look at, or in a digit too many to change a number.
+  for (std::size_t byte = 0; byte < bytes.size(); byte += byte < layout.binary_begin ? 1 : 13) {
+    std::string flipped = bytes;
+    flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << (tried++ * 5 % 8)));
+    overwrite(folder / "flipped.glb", flipped);
+    INFO("byte " << byte);
+    try {
+      check_same(load_asset(folder / "flipped.glb"), asset);
+    } catch (const IoError&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > tried / 2);
+}
+
+TEST_CASE("A flipped bit in an exact array or in the description of it is refused") {
+  const TemporaryFolder folder;
+  save_asset(sample_asset(), folder / "asset.glb");
+  const std::string bytes = read_file(folder / "asset.glb");
+  const Layout layout(bytes);
+  std::vector<std::size_t> places;
+  // The first array is the rest positions of level 0: 80 nodes of 24 bytes.
+  for (std::size_t i = 0; i < 1920; i += 7) places.push_back(layout.binary_begin + i);
+  for (const char* text : {"\"nodes\":80", "\"steel\"", "\"a first key\"", "\"ends\":6", "7850.1"})
+    places.push_back(bytes.find(text) + 2);
+  for (const std::size_t byte : places)
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string flipped = bytes;
+      flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << bit));
+      overwrite(folder / "flipped.glb", flipped);
+      INFO("byte " << byte << ", bit " << bit);
+      CHECK_THROWS_AS(load_asset(folder / "flipped.glb"), IoError);
+    }
+}
+
+}  // namespace
+}  // namespace springlod

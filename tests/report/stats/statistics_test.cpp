@@ -1,0 +1,140 @@
+#include "report/stats/statistics.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include <catch2/catch.hpp>
+
+#include "base/error.hpp"
+#include "report/stats/probability.hpp"
+#include "tests/report/samples.hpp"
+
+using namespace springlod;
+using namespace springlod::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// The energy distance by its definition, over all pairs.
+double energy_by_pairs(const Values& x, const Values& y) {
+  const auto mean_distance = [](const Values& a, const Values& b) {
+    double sum = 0;
+    for (const double p : a)
+      for (const double q : b) sum += std::abs(p - q);
+    return sum / static_cast<double>(a.size() * b.size());
+  };
+  return 2 * mean_distance(x, y) - mean_distance(x, x) - mean_distance(y, y);
+}
+
+/// Values that cut a distribution into equal parts: all but free of chance.
+Values even_sample(int size, const std::function<double(double)>& quantile_function) {
+  Values values;
+  for (int i = 0; i < size; ++i) values.push_back(quantile_function((i + 0.5) / size));
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("mean, deviation and quantiles of a sample") {
+  const Values sample{4, 1, 2, 3};
+  CHECK(mean(sample) == 2.5);
+  CHECK(standard_deviation(sample) == Approx(std::sqrt(5.0 / 3)));
+  CHECK(quantile(sample, 0) == 1);
+  CHECK(quantile(sample, 1) == 4);
+  CHECK(quantile(sample, 0.5) == 2.5);
+  CHECK(quantile(sample, 0.25) == 1.75);  // as R and NumPy have it
+  CHECK(quantile({7}, 0.3) == 7);
+}
+
+TEST_CASE("the difference of means is measured in spreads of the base") {
+  CHECK(difference_over_spread({1, 2, 3}, {5}) == 3);
+  CHECK(difference_over_spread({1, 2, 3}, {1, 1, 1}) == -1);
+  CHECK(difference_over_spread({2, 2}, {2, 2}) == 0);
+  CHECK(difference_over_spread({2, 2}, {1}) == -std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("distances of small samples are those worked out by hand") {
+  CHECK(wasserstein_distance({0, 1}, {3, 0, 0}) == Approx(5.0 / 6).epsilon(1e-14));
+  CHECK(wasserstein_distance({1, 2, 3}, {3, 1, 2}) == 0);
+  CHECK(wasserstein_distance({0}, {-2}) == 2);
+  CHECK(energy_distance({0}, {1}) == 2);  // 2 * 1 - 0 - 0
+  const Values x{0.5, 1, 1, 4, 2.25};
+  const Values y{1, 3, -2};
+  CHECK(energy_distance(x, y) == Approx(energy_by_pairs(x, y)).epsilon(1e-13));
+  CHECK(energy_distance(y, x) == Approx(energy_by_pairs(x, y)).epsilon(1e-13));
+  CHECK(energy_distance(x, x) == 0);
+}
+
+TEST_CASE("a shifted sample is as far as it was shifted") {
+  ChanceStream chance(1);
+  const Values sample = exponential_sample(chance, 100);
+  for (const double shift : {-3.0, 0.01, 40.0})
+    CHECK(wasserstein_distance(sample, shifted(sample, shift)) ==
+          Approx(std::abs(shift)).epsilon(1e-12));
+}
+
+TEST_CASE("distances of large samples are those of their distributions") {
+  constexpr int kSize = 20000;
+  const auto uniform = [](double p) { return p; };
+  const auto wide = [](double p) { return 2 * p; };
+  const auto exponential = [](double p) { return -std::log1p(-p); };
+  const auto slow = [](double p) { return -2 * std::log1p(-p); };
+  const auto wide_normal = [](double p) { return 2 * normal_quantile(p); };
+  struct Case {
+    std::function<double(double)> base, other;
+    double wasserstein, energy;
+  };
+  // Energy of two normals: E|X - Y| of centred normals is sqrt(2 variance / pi).
+  const double normal_energy =
+      2 * std::sqrt(2 * 5 / std::numbers::pi) - (1 + 2) * 2 / std::sqrt(std::numbers::pi);
+  const std::vector<Case> cases{
+      {uniform, wide, 0.5, 1.0 / 3},
+      {exponential, slow, 1, 1.0 / 3},
+      {normal_quantile, wide_normal, std::sqrt(2 / std::numbers::pi), normal_energy}};
+  for (const Case& c : cases) {
+    // Sizes differ, as they may.
+    const Values base = even_sample(kSize, c.base);
+    const Values other = even_sample(kSize / 2 * 3, c.other);
+    CHECK(wasserstein_distance(base, other) == Approx(c.wasserstein).epsilon(1e-3));
+    CHECK(energy_distance(base, other) == Approx(c.energy).epsilon(1e-3));
+  }
+  ChanceStream chance(2);
+  const Values base = normal_sample(chance, kSize);
+  const Values other = normal_sample(chance, kSize, 1);
+  // By chance 4 sqrt(2 / n) = 0.04; E|N(1, 2)| by hand.
+  CHECK(wasserstein_distance(base, other) == Approx(1).margin(0.04));
+  const double between =
+      2 / std::sqrt(std::numbers::pi) * std::exp(-0.25) + 1 - 2 * normal_below(-std::sqrt(0.5));
+  CHECK(energy_distance(base, other) ==
+        Approx(2 * between - 4 / std::sqrt(std::numbers::pi)).margin(0.04));
+}
+
+TEST_CASE("values that are no numbers and samples that are too small are refused by name") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(wasserstein_distance({1, 2}, {1, nan}),
+                    Contains("value 2") && Contains("'other'"));
+  CHECK_THROWS_WITH(energy_distance({}, {1}), Contains("'base' has 0 values"));
+  CHECK_THROWS_AS(standard_deviation({1}), InputError);
+  CHECK_THROWS_AS(mean({}), InputError);
+  CHECK_THROWS_AS(mean({HUGE_VAL}), InputError);
+  CHECK_THROWS_AS(quantile({1, 2}, 1.5), InputError);
+  CHECK_THROWS_AS(quantile({1, 2}, nan), InputError);
+}
+
+TEST_CASE("distribution functions are those of the tables") {
+  CHECK(normal_below(0) == 0.5);
+  CHECK(normal_below(-1.959963984540054) == Approx(0.025).epsilon(1e-12));
+  CHECK(normal_quantile(0.975) == Approx(1.959963984540054).epsilon(1e-12));
+  CHECK(normal_quantile(1e-10) == Approx(-6.361340902404056).epsilon(1e-12));
+  CHECK(std::isinf(normal_quantile(1)));
+  // One degree of freedom is Cauchy's distribution, two have a closed form, many are normal.
+  for (const double t : {-30.0, -1.0, 0.0, 0.3, 2.0, 1e6}) {
+    CHECK(student_above(t, 1) == Approx(std::atan2(1, t) / std::numbers::pi).epsilon(1e-11));
+    CHECK(student_above(t, 2) == Approx(0.5 - t / (2 * std::sqrt(2 + t * t))).margin(1e-12));
+  }
+  CHECK(student_above(1.959963984540054, 1e7) == Approx(0.025).epsilon(1e-5));
+  CHECK(student_quantile(0.975, 10) == Approx(2.2281388519649385).epsilon(1e-11));
+  CHECK(student_above(student_quantile(0.9, 3.7), 3.7) == Approx(0.1).epsilon(1e-11));
+}

@@ -1,0 +1,131 @@
+#include "sim/run/step_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <catch2/catch.hpp>
+
+#include "base/error.hpp"
+#include "elastic/stable_step.hpp"
+#include "sim/run.hpp"
+#include "tests/sim/bodies.hpp"
+
+using namespace springlod;
+
+namespace {
+
+MassSpringModel soft_block() {
+  return bodies::block(5, 5, 5, 0.1, bodies::material("m", 1e5, 1000, 0), LatticeStyle::corners);
+}
+
+std::vector<Vec3> scaled(const MassSpringModel& model, const Vec3& by) {
+  std::vector<Vec3> x = model.rest;
+  for (Vec3& p : x) p = p.cwiseProduct(by);
+  return x;
+}
+
+std::size_t inner_node(const MassSpringModel& model) {
+  const Vec3 middle = bounds(model.rest).center();
+  return static_cast<std::size_t>(std::min_element(model.rest.begin(), model.rest.end(),
+                                                   [&](const Vec3& p, const Vec3& q) {
+                                                     return (p - middle).norm() <
+                                                            (q - middle).norm();
+                                                   }) -
+                                  model.rest.begin());
+}
+
+}  // namespace
+
+TEST_CASE("A node's frequency bound grows as springs are stretched or pressed flat") {
+  MassSpringModel pair;
+  pair.rest = {Vec3::Zero(), Vec3::UnitX()};
+  pair.mass = {2, 2};
+  pair.a = {0};
+  pair.b = {1};
+  pair.rest_length = {1};
+  pair.stiffness = {8};
+  const auto bounds_at = [](const MassSpringModel& model, const std::vector<Vec3>& x) {
+    return node_frequency_bounds(model, x, {});
+  };
+  // Stretched or not, it is stiffest along itself: 2 k / m.
+  CHECK(bounds_at(pair, pair.rest)[0] == Approx(8));
+  CHECK(bounds_at(pair, {Vec3::Zero(), 3 * Vec3::UnitX()})[1] == Approx(8));
+  CHECK(node_frequency_bounds(pair, pair.rest, {2, 0})[0] == Approx(9));
+
+  const MassSpringModel model = soft_block();
+  const auto rest = bounds_at(model, model.rest);
+  // Light corners lead; their bound is not exact.
+  const double most = std::sqrt(*std::max_element(rest.begin(), rest.end()));
+  CHECK(most > (1 - 1e-12) * frequency_bound(model));
+  CHECK(most < 1.1 * frequency_bound(model));
+  // Inside, springs to all sides sum up to the same whatever the direction. Stretched to twice the
+  // length, each counts 1 + 2 (1 - 1/2) times.
+  const std::size_t inside = inner_node(model);
+  CHECK(bounds_at(model, scaled(model, {2, 2, 2}))[inside] == Approx(2 * rest[inside]));
+  // Pressed flat, what was aslant points along the plane.
+  CHECK(bounds_at(model, scaled(model, {1, 1, 0.05}))[inside] > 1.2 * rest[inside]);
+  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  std::vector<Vec3> turned = model.rest;
+  for (Vec3& p : turned) p = turn * p;
+  CHECK(bounds_at(model, turned)[0] == Approx(rest[0]));
+}
+
+TEST_CASE("The step is halved where springs are strained hard, and doubled again") {
+  const MassSpringModel model = soft_block();
+  Scenario scene = bodies::weightless(1);
+  const StepLimit limit = step_limit(model, scene);
+  const double step = 0.8 * limit.step;
+  StepWatch watch(model, limit, step);
+  CHECK(watch.step_for(model.rest, 0) == step);
+  CHECK(watch.step_for(scaled(model, {2, 2, 2}), 1) == step / 2);
+  CHECK(watch.step_for(scaled(model, {1.3, 1.3, 1.3}), 0.3) == step / 2);  // not back and forth
+  CHECK(watch.step_for(model.rest, 0) == step);
+}
+
+TEST_CASE("A body let go stretched to twice its size only holds with the step adapted") {
+  const MassSpringModel model = soft_block();
+  Scenario scene = bodies::weightless(2);
+  const State start{scaled(model, {2, 2, 2}), std::vector<Vec3>(model.node_count(), Vec3::Zero()),
+                    0};
+  // As it snaps back it turns inside out: only the step is looked at here.
+  RunOptions options{.safety = 0.95};
+  const Trajectory adapted = run(model, scene, start, options);
+  CHECK(adapted.shortest_step < adapted.step);
+  CHECK(adapted.simulated == Approx(2));
+  options.step = adapted.step;
+  CHECK_THROWS_AS(run(model, scene, start, options), UnstableError);
+}
+
+TEST_CASE("A body at rest sleeps at no cost; one that falls, floats or is told not to does not") {
+  const MassSpringModel model =
+      bodies::block(3, 3, 3, 0.1, bodies::material("m", 1e6, 1000, 0.01), LatticeStyle::corners);
+  Scenario scene;
+  scene.obstacles = {bodies::floor(1e6, 0.5)};
+  scene.obstacles[0].damping = 0.01;
+  std::get<Plane>(scene.obstacles[0].shape).offset = bounds(model.rest).min().z();
+  scene.duration = 4;
+  const Trajectory slept = run(model, scene);
+  REQUIRE(slept.asleep_since.has_value());
+  CHECK(slept.simulated == Approx(4));
+  CHECK(slept.final.t == Approx(4));
+  CHECK(slept.frames.size() == 241);
+  CHECK(slept.ledger.size() == 241);
+  CHECK(slept.ledger.back().time == Approx(4));
+  CHECK(closure_error(slept.ledger) < 0.01);
+  scene.duration = 40;
+  CHECK(run(model, scene).steps == slept.steps);  // nothing more
+
+  scene.duration = 4;
+  const Trajectory awake = run(model, scene, RunOptions{.sleep = 0});
+  CHECK_FALSE(awake.asleep_since.has_value());
+  CHECK(awake.steps > slept.steps);
+  double moved = 0;
+  for (std::size_t i = 0; i < awake.final.x.size(); ++i)
+    moved = std::max(moved, (awake.final.x[i] - slept.final.x[i]).norm());
+  CHECK(moved < 1e-5);
+
+  scene.obstacles.clear();
+  CHECK_FALSE(run(model, scene).asleep_since.has_value());
+  CHECK_FALSE(run(model, bodies::weightless(1)).asleep_since.has_value());
+  CHECK_THROWS_AS(run(model, scene, RunOptions{.sleep = -1}), InputError);
+}

@@ -1,0 +1,92 @@
+#include "sim/study/ensemble.hpp"
+
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "base/error.hpp"
+#include "sim/study/compare.hpp"
+#include "tests/sim/bodies.hpp"
+
+using namespace springlod;
+
+namespace {
+
+Scenario scene() {
+  return bodies::small_scene(0.5);
+}
+
+}  // namespace
+
+TEST_CASE("An ensemble runs the starts that compare runs") {
+  CompareOptions compared;
+  compared.starts = 4;
+  const Comparison comparison = compare(bodies::small_chain(), scene(), compared);
+  EnsembleOptions options;
+  options.starts = 4;
+  for (std::size_t level = 0; level < bodies::small_chain().levels.size(); ++level) {
+    const auto runs = run_ensemble(bodies::small_chain().levels[level].model, scene(), options);
+    REQUIRE(runs.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const StartResult& start = comparison.levels[level].starts[i];
+      CHECK(runs[i].start == i);
+      CHECK(runs[i].distance == start.distance);
+      CHECK(runs[i].spring_updates == start.spring_updates);
+      CHECK(runs[i].simulated == start.simulated);
+    }
+  }
+}
+
+TEST_CASE("An ensemble is the same in parts and for any number of threads") {
+  const MassSpringModel& model = bodies::small_chain().levels[1].model;
+  EnsembleOptions options;
+  options.starts = 6;
+  options.threads = 1;
+  const auto whole = run_ensemble(model, scene(), options);
+  options.threads = 2;
+  options.first_start = 3;
+  options.starts = 3;
+  const auto part = run_ensemble(model, scene(), options);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(part[i].start == whole[i + 3].start);
+    CHECK(part[i].distance == whole[i + 3].distance);
+  }
+  CHECK(whole[4].distance != whole[5].distance);
+}
+
+TEST_CASE("An ensemble refuses what it cannot run, and names the start that diverged") {
+  EnsembleOptions options;
+  options.starts = 0;
+  CHECK_THROWS_AS(run_ensemble(bodies::small_chain().levels[0].model, scene(), options),
+                  InputError);
+  options.starts = 2;
+  options.jitter = 1;
+  CHECK_THROWS_AS(run_ensemble(bodies::small_chain().levels[0].model, scene(), options),
+                  InputError);
+  options.jitter = 0.02;
+  options.run.step = 3 * predicted_step(bodies::small_chain().levels[0].model, scene());
+  try {
+    run_ensemble(bodies::small_chain().levels[0].model, scene(), options);
+    FAIL("stable at three times the predicted step");
+  } catch (const UnstableError& e) {
+    CHECK_THAT(e.what(), Catch::Matchers::StartsWith("start 1: "));
+  }
+}
+
+TEST_CASE("Runs of many tell when springs turned over, or that none did") {
+  Scenario violent = scene();
+  violent.start.velocity = {0, 0, -120};  // far above the speed of sound of the block, 32 m/s
+  violent.obstacles = {bodies::floor(1e8, 0.5)};
+  violent.duration = 0.02;
+  CompareOptions compared;
+  compared.starts = 2;
+  const Comparison comparison = compare(bodies::small_chain(), violent, compared);
+  const auto runs = run_ensemble(bodies::small_chain().levels[0].model, violent, {.starts = 2});
+  for (std::size_t i = 0; i < 2; ++i) {
+    REQUIRE(runs[i].first_crossing.has_value());
+    CHECK(*runs[i].first_crossing > 0.001);
+    CHECK(runs[i].first_crossing == comparison.levels[0].starts[i].first_crossing);
+  }
+  CHECK_FALSE(run_ensemble(bodies::small_chain().levels[0].model, scene(), {.starts = 1})[0]
+                  .first_crossing);
+}
