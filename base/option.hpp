@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "model/units.hpp"
+#include "base/units.hpp"
 
 namespace springlod {
 

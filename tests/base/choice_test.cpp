@@ -1,4 +1,4 @@
-#include "model/choice.hpp"
+#include "base/choice.hpp"
 
 #include <catch2/catch.hpp>
 
