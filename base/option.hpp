@@ -12,8 +12,8 @@ namespace springlod {
 /// One row of an options struct: a member under the name that scripts use. The default is the
 /// member's own, in a struct that nobody touched.
 ///
-/// A struct S lists its rows in `option_rows(const S*)`, declared beside it, where argument-dependent
-/// lookup finds it:
+/// A struct S lists its rows in `option_rows(const S*)`, declared beside it, where
+/// argument-dependent lookup finds it:
 ///
 ///   constexpr auto option_rows(const FitOptions*) {
 ///     return std::tuple(option("tolerance", &FitOptions::tolerance, "mean error ..."), ...);

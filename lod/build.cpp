@@ -8,9 +8,7 @@
 
 #include "base/error.hpp"
 #include "lod/calibration/rescale_moduli.hpp"
-#include "lod/grouping/compact_groups.hpp"
 #include "lod/grouping/exact_count.hpp"
-#include "lod/grouping/metis_groups.hpp"
 
 namespace springlod {
 namespace {
@@ -38,8 +36,8 @@ std::string told_calibration(Calibration calibration) {
 }
 
 bool straight_from_base(const SimplifyOptions& options) {
-  return options.straight || (!options.groups && (options.grouping.grouping == Grouping::compact ||
-                                                  options.grouping.grouping == Grouping::metis));
+  return options.straight ||
+         (!options.groups && choice_of(options.grouping.grouping).traits.from_base);
 }
 
 /// 0 if the grouping decides.
@@ -55,14 +53,9 @@ std::uint32_t wanted_nodes(std::uint32_t base_nodes, const SimplifyOptions& opti
 Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
                   std::uint32_t level, std::uint32_t wanted) {
   if (options.groups) return options.groups(finer.model, finer.of_base, level);
-  if (options.grouping.grouping == Grouping::compact)
-    return compact_groups(finer.model, {.count = wanted,
-                                        .border = options.grouping.border,
-                                        .grading = options.grouping.grading,
-                                        .seed = options.grouping.seed});
-  if (options.grouping.grouping == Grouping::metis)
-    return metis_groups(finer.model, wanted, options.grouping.seed);
-  Groups groups = group_nodes(finer.model, springs, options.grouping);
+  const GroupingChoice& grouping = choice_of(options.grouping.grouping);
+  Groups groups = grouping.make({finer.model, springs, wanted, options.grouping});
+  if (grouping.traits.from_base) return groups;
   while (wanted > 0 && groups.count > wanted) {
     const MassSpringModel merged = merge(finer.model, groups);
     Groups more = group_nodes(merged, options.grouping);
@@ -158,10 +151,12 @@ void check(const SimplifyOptions& options) {
     throw InputError(
         "simplify: keep asks for numbers of nodes, which groups named by hand already have; leave "
         "one out");
-  if (!options.groups && options.grouping.grouping == Grouping::metis &&
+  const GroupingChoice& grouping = choice_of(options.grouping.grouping);
+  if (!options.groups && !grouping.traits.follows_border &&
       options.grouping.border != BorderRule::none)
-    throw InputError(
-        "simplify: grouping = \"metis\" knows no borders; leave border out or take compact");
+    throw InputError(fmt::format(
+        "simplify: grouping = \"{}\" knows no borders; leave border out or take compact",
+        grouping.name));
   if (options.calibration == Calibration::modes && options.mass == MassRule::proximity)
     throw InputError(
         "simplify: calibrate = \"modes\" finds the masses itself; leave out mass = \"proximity\"");

@@ -2,23 +2,18 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
+#include "base/choice.hpp"
+#include "base/option.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 #include "model/spring_rows.hpp"
 
 namespace springlod {
 
-/// What draws two or three nodes together (the paper, section 5).
-enum class Grouping {
-  standard,       ///< nearest neighbours first, nodes in random order (5.1)
-  priority_soft,  ///< key L (1 + 4 g L): low gradient and short springs first
-  priority_hard,  ///< gradient first, distance second: the paper's words (5.2)
-  compact,        ///< round groups straight from the base, see compact_groups
-  metis,          ///< graph partitions straight from the base, see metis_groups
-};
+/// Which nodes merge; what each means is said in its row, see choices(Grouping).
+enum class Grouping { standard, priority_soft, priority_hard, compact, metis };
 
 /// What may happen to border nodes (5.3).
 enum class BorderRule {
@@ -28,6 +23,14 @@ enum class BorderRule {
   weak,
   strong,  ///< border nodes never merge
 };
+
+inline constexpr Choice<BorderRule> kBorderRules[] = {
+    {BorderRule::none, "none", "border nodes merge freely"},
+    {BorderRule::weak, "weak", "border nodes merge only with border nodes"},
+    {BorderRule::strong, "strong", "border nodes never merge"}};
+constexpr ChoiceTable<Choice<BorderRule>> choices(BorderRule) {
+  return {"border", kBorderRules};
+}
 
 /// Lower goes first. Called once a node.
 using NodePriority = std::function<double(std::uint32_t node)>;
@@ -42,9 +45,38 @@ struct GroupingOptions {
   NodePriority node_priority{};  ///< replaces the order in which nodes are visited
   PairCost pair_cost{};          ///< replaces the key by which neighbours are chosen
 };
+constexpr auto option_rows(const GroupingOptions*) {
+  return std::tuple(
+      option("grouping", &GroupingOptions::grouping, "which nodes merge"),
+      option("border", &GroupingOptions::border, "what may happen to border nodes"),
+      option("seed", &GroupingOptions::seed,
+             "of the random order; the same seed gives the same bits"),
+      option("grading", &GroupingOptions::grading,
+             "of compact: 0 .. 1, by how much stiff materials get larger groups than soft ones, "
+             "for a longer step"));
+}
 
-/// Puts nodes that are joined by springs into groups of 2 or 3 (each drawn with probability 1/2);
-/// what is left over stays single. Same options, same bits.
+/// What a maker of groups is given.
+struct GroupingTask {
+  const MassSpringModel& model;
+  const SpringRows& springs;       ///< of the model
+  std::uint32_t count;             ///< groups wanted
+  const GroupingOptions& options;  ///< the grouping itself is the maker's own
+};
+
+/// A row of the table of groupings.
+struct GroupingChoice : Choice<Grouping> {
+  Groups (*make)(const GroupingTask& task);
+  struct Traits {
+    /// Makes as many groups as wanted, so that every level is merged straight from the base. The
+    /// others make what they make, from the level before.
+    bool from_base = false;
+    bool follows_border = true;  ///< keeps BorderRule
+  } traits = {};
+};
+ChoiceTable<GroupingChoice> choices(Grouping);
+
+/// Groups of the maker that `options` name. Same options, same bits.
 Groups group_nodes(const MassSpringModel& model, const GroupingOptions& options);
 /// The same for whom has the rows of its springs at hand.
 Groups group_nodes(const MassSpringModel& model, const SpringRows& springs,
@@ -55,7 +87,8 @@ Groups group_nodes(const MassSpringModel& model, const SpringRows& springs,
 Groups groups_from_sets(const MassSpringModel& model,
                         const std::vector<std::vector<std::uint32_t>>& sets);
 
-std::string to_string(Grouping grouping);
-std::string to_string(BorderRule border);
+/// Groups from the first node of each node's group, numbered by their lowest node: coarse nodes
+/// keep the order of the fine ones, which keeps neighbours near in memory.
+Groups groups_from_leaders(const std::vector<std::uint32_t>& leader);
 
 }  // namespace springlod

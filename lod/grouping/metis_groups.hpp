@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "lod/grouping/grouping.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
@@ -11,5 +12,7 @@ namespace springlod {
 /// (Karypis & Kumar 1998, multilevel recursive bisection): graph partitioning as a baseline for
 /// groupings that look at places. Throws InputError for a count of 0 or of more than the nodes.
 Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint64_t seed);
+/// The same as a grouping.
+Groups metis_groups(const GroupingTask& task);
 
 }  // namespace springlod
