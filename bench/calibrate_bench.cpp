@@ -17,8 +17,8 @@ void calibrate_cube(benchmark::State& state, int side) {
   const MassSpringModel base = bench::lattice_cube(side);
   SimplifyOptions options{.keep = {0.45, 0.2},
                           .grouping = {.grouping = Grouping::compact},
-                          .calibration = Calibration::modes};
-  options.calibrate.threads = 2;
+                          .calibrate = Calibrate::modes};
+  options.calibration.threads = 2;
   if (!bench::reset_peak_memory()) state.SkipWithError("the peak of the memory cannot be reset");
   for (auto _ : state)
     benchmark::DoNotOptimize(simplify(base, options).levels[2].model.node_count());

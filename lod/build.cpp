@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "lod/calibration/rescale_moduli.hpp"
 #include "lod/grouping/exact_count.hpp"
+#include "lod/quality/certify.hpp"
 
 namespace springlod {
 namespace {
@@ -21,18 +22,6 @@ std::string told_from(const SimplifyOptions& options) {
   return fmt::format("{}, border {}, seed {}{}{}", grouping, to_string(g.border), g.seed,
                      options.mass == MassRule::proximity ? ", mass by proximity" : "",
                      options.guards ? "" : ", no guards");
-}
-
-std::string told_calibration(Calibration calibration) {
-  switch (calibration) {
-    case Calibration::none:
-      return "";
-    case Calibration::moduli:
-      return ", moduli rescaled";
-    case Calibration::modes:
-      return ", calibrated";
-  }
-  return "";
 }
 
 bool straight_from_base(const SimplifyOptions& options) {
@@ -133,7 +122,7 @@ Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uin
   return {merge(finer.model, step.groups, std::move(step.links)),
           compose(finer.of_base, step.groups),
           (options.made_by.empty() ? told_from(options) : options.made_by) +
-              told_calibration(options.calibration)};
+              choice_of(options.calibrate).remark};
 }
 
 void check(const SimplifyOptions& options) {
@@ -157,7 +146,7 @@ void check(const SimplifyOptions& options) {
     throw InputError(fmt::format(
         "simplify: grouping = \"{}\" knows no borders; leave border out or take compact",
         grouping.name));
-  if (options.calibration == Calibration::modes && options.mass == MassRule::proximity)
+  if (options.calibrate == Calibrate::modes && options.mass == MassRule::proximity)
     throw InputError(
         "simplify: calibrate = \"modes\" finds the masses itself; leave out mass = \"proximity\"");
 }
@@ -178,13 +167,18 @@ LodChain simplify(MassSpringModel base, const SimplifyOptions& options) {
       task.advance();
     }
   }
-  if (options.calibration == Calibration::moduli)
+  if (options.calibrate == Calibrate::moduli)
     for (std::uint32_t level = 1; level <= options.levels; ++level)
       rescale_moduli(chain.levels.front().model, chain.levels[level].model);
-  if (options.calibration == Calibration::modes) {
-    CalibrateOptions calibration = options.calibrate;
+  if (options.calibrate == Calibrate::modes) {
+    CalibrateOptions calibration = options.calibration;
     calibration.progress = options.progress;
     calibrate(chain, calibration);
+    certify(chain, {.modes = std::max(1U, mode_count(calibration.targets)),
+                    .anchored = calibration.targets.anchored,
+                    .tolerance = calibration.fit.tolerance,
+                    .threads = calibration.threads,
+                    .progress = options.progress});
   }
   return chain;
 }

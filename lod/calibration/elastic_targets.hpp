@@ -4,9 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "base/choice.hpp"
+#include "base/option.hpp"
 #include "base/progress.hpp"
 #include "elastic/elastic_body.hpp"
 #include "elastic/loads/static_loads.hpp"
+#include "model/anchors.hpp"
 #include "model/chain.hpp"
 
 namespace springlod {
@@ -44,11 +47,38 @@ struct TargetRegion {
   double weight = 1;                 ///< of each load, where a smooth one has 1
   std::uint32_t patches = 40;        ///< loads on patches within it
 };
+constexpr auto option_rows(const TargetRegion*) {
+  return std::tuple(
+      nodes_option("nodes", &TargetRegion::nodes,
+                   "of the base: their numbers, or a function of a Node that returns true for "
+                   "them; those on the border that are not anchored count"),
+      option("weight", &TargetRegion::weight, "of each load on it, where a smooth load has 1")
+          .weight(),
+      option("patches", &TargetRegion::patches,
+             "loads on patches within it: half of them pairs that are pulled apart, if there is "
+             "room, the others pushed against the body's inertia"));
+}
+
+/// What shall be as in the base.
+enum class TargetKinds {
+  both,
+  modes,
+  loads,
+};
+
+inline constexpr Choice<TargetKinds> kTargetKinds[] = {
+    {TargetKinds::both, "both", "the lowest modes and static loads"},
+    {TargetKinds::modes, "modes", "the lowest modes alone"},
+    {TargetKinds::loads, "loads", "static loads alone"}};
+constexpr ChoiceTable<Choice<TargetKinds>> choices(TargetKinds) {
+  return {"targets", kTargetKinds};
+}
 
 struct TargetOptions {
+  /// Loads are the nine of smooth_loads, piece_loads, and those on patches and regions.
+  TargetKinds kinds = TargetKinds::both;
   std::uint32_t modes = 20;
-  bool smooth_loads = true;   ///< the nine of smooth_loads, and piece_loads
-  double piece_weight = 0.3;  ///< of each of the latter, where one of the nine has 1
+  double piece_weight = 0.3;  ///< of each of piece_loads, where one of the nine has 1
   /// Pairs of opposed loads on patches of the surface, see patch_pairs: without them what is not
   /// fitted gets worse than it was.
   /// None named: see patch_count.
@@ -62,7 +92,30 @@ struct TargetOptions {
   std::uint32_t threads = 1;                 ///< up to two are used; the same bits for any number
   Progress* progress = nullptr;              ///< may be null
 };
+constexpr auto option_rows(const TargetOptions*) {
+  return std::tuple(
+      option("targets", &TargetOptions::kinds, "what shall be as in the base"),
+      option("modes", &TargetOptions::modes, "how many of the lowest frequencies"),
+      option("patches", &TargetOptions::patches,
+             "pairs of patches of the surface that are pulled apart, besides the nine smooth loads")
+          .by_default("150, down to 60 for a base of more than 2000 nodes"),
+      option("patch_weight", &TargetOptions::patch_weight,
+             "of each of them, where a smooth load has 1")
+          .weight(),
+      record_option("regions", &TargetOptions::regions, "Region",
+                    "parts of the surface that matter, with loads of their own", "none"),
+      option("mode_weight", &TargetOptions::mode_weight,
+             "how much modes count, over what they usually do")
+          .weight(),
+      option("load_weight", &TargetOptions::load_weight,
+             "how much static loads of every kind count, over what they usually do")
+          .weight(),
+      option("seed", &TargetOptions::seed, "of the patches"),
+      anchored_option(&TargetOptions::anchored));
+}
 
+/// Modes that are asked for: none if loads alone are.
+std::uint32_t mode_count(const TargetOptions& options);
 /// Pairs of patches for a base of so many nodes: 150, and fewer for more than 2000 nodes, which a
 /// fit does not bend for the loads of some patches as those of a small body, down to 60.
 std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes);

@@ -43,6 +43,22 @@ struct FitOptions {
   /// Called after each step, and once when the fit is finished. May throw to stop.
   std::function<void(const FitState&)> on_iteration{};
 };
+constexpr auto option_rows(const FitOptions*) {
+  return std::tuple(
+      option(
+          "tolerance", &FitOptions::tolerance,
+          "mean error of the ten lowest frequencies that is good enough; other modes may miss by "
+          "four times as much, smooth loads and regions by eight, patches by twenty")
+          .by_default("0.002 sqrt(N0 / N)"),
+      option("iterations", &FitOptions::iterations,
+             "steps at most; by itself fewer for levels of more than 500 nodes, down to 10")
+          .by_default("90"),
+      option("least_frequency", &FitOptions::least_frequency,
+             "where the largest frequency, which bounds the step, need not fall any further, over "
+             "that of a lattice of as many nodes"),
+      option("moments", &FitOptions::moments,
+             "masses shift between nodes; which mass, centre and second moments stay"));
+}
 
 /// Steps that are made at most for a level of so many nodes: each takes the square of them in time,
 /// and what the last ones of many still gain is little.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "base/option.hpp"
 #include "lod/grouping/grouping.hpp"
 #include "lod/merging/relink.hpp"
 #include "model/chain.hpp"
@@ -21,6 +22,14 @@ struct GuardOptions {
   double least_rigidity = 1e-3;
   BorderRule border = BorderRule::none;  ///< strong: only inner nodes are fused
 };
+constexpr auto option_rows(const GuardOptions*) {
+  return std::tuple(
+      option("coincident_fraction", &GuardOptions::coincident_fraction,
+             "joined nodes nearer than this part of the mean spring length are fused"),
+      option("least_springs", &GuardOptions::least_springs, "a node with fewer springs is floppy"),
+      option("least_rigidity", &GuardOptions::least_rigidity,
+             "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T is below"));
+}
 
 struct GuardedGroups {
   Groups groups;

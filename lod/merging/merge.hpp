@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/choice.hpp"
 #include "lod/merging/relink.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
@@ -13,6 +14,13 @@ enum class MassRule {
   /// not merge.
   proximity,
 };
+
+inline constexpr Choice<MassRule> kMassRules[] = {
+    {MassRule::proportional, "proportional", "a node has the masses of its group"},
+    {MassRule::proximity, "proximity", "each piece of the base goes to the nearest node"}};
+constexpr ChoiceTable<Choice<MassRule>> choices(MassRule) {
+  return {"mass", kMassRules};
+}
 
 /// Merges each group into one node (the paper, section 4.2): masses, volumes and contact areas add
 /// up, the node sits at the centre of mass, it is a border node if any was. A spring to another
