@@ -54,7 +54,7 @@ RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
   validate(scenario);
   validate(options);
   RunPlan plan{.limit = step_limit(model, scenario, options.integrator, options.skin.get())};
-  if (options.integrator == Integrator::symplectic_euler)
+  if (choice_of(options.integrator).traits.fast)
     plan.layout = make_fast_model(model, options.precision, options.layout);
   return plan;
 }
