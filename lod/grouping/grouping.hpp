@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "base/choice.hpp"
@@ -75,6 +77,11 @@ struct GroupingChoice : Choice<Grouping> {
   } traits = {};
 };
 ChoiceTable<GroupingChoice> choices(Grouping);
+/// What scripts may ask of a grouping.
+constexpr auto choice_traits(const GroupingChoice& row) {
+  return std::array{std::pair("from_base", row.traits.from_base),
+                    std::pair("follows_border", row.traits.follows_border)};
+}
 
 /// Groups of the maker that `options` name. Same options, same bits.
 Groups group_nodes(const MassSpringModel& model, const GroupingOptions& options);

@@ -3,11 +3,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/choice.hpp"
 #include "base/progress.hpp"
 
 namespace springlod {
 
 enum class SampleDistance { wasserstein, energy };
+
+inline constexpr Choice<SampleDistance> kSampleDistances[] = {
+    {SampleDistance::wasserstein, "wasserstein", "1-Wasserstein distance"},
+    {SampleDistance::energy, "energy", "energy distance, without a root"}};
+constexpr ChoiceTable<Choice<SampleDistance>> choices(SampleDistance) {
+  return {"distance", kSampleDistances};
+}
 
 /// wasserstein_distance or energy_distance.
 double distance_between(const std::vector<double>& base, const std::vector<double>& other,

@@ -2,17 +2,31 @@
 
 #include <optional>
 
+#include "base/choice.hpp"
 #include "report/stats/bootstrap.hpp"
 #include "report/stats/equivalence.hpp"
 
 namespace springlod {
+
+/// How means are tested for equivalence.
+enum class MeanTest {
+  student,    ///< test_equivalence
+  bootstrap,  ///< bootstrap_equivalence
+};
+
+inline constexpr Choice<MeanTest> kMeanTests[] = {
+    {MeanTest::student, "student", "Student's t"},
+    {MeanTest::bootstrap, "bootstrap", "for values far from normal"}};
+constexpr ChoiceTable<Choice<MeanTest>> choices(MeanTest) {
+  return {"test", kMeanTests};
+}
 
 struct SampleComparisonOptions {
   BootstrapOptions resampling = {};   ///< pairing and design hold for the test as well
   double confidence = 0.95;           ///< of the intervals; the test is at 1 - confidence
   std::optional<double> margin = {};  ///< of the equivalence test; none: no test
   std::optional<double> spread = {};  ///< see EquivalenceOptions
-  bool bootstrap_test = false;        ///< bootstrap_equivalence instead of test_equivalence
+  MeanTest test = MeanTest::student;
 };
 
 /// A number and the interval it is known to.

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/choice.hpp"
+
 namespace springlod {
 
 /// Values of one quantity by start, or by start and simplification seed:
@@ -20,6 +22,13 @@ enum class SeedDesign {
   crossed,  ///< the same seeds in every start: one chain a seed, run from every start
   nested    ///< other seeds in every start
 };
+
+inline constexpr Choice<SeedDesign> kSeedDesigns[] = {
+    {SeedDesign::crossed, "crossed", "the same seeds in every start: one chain a seed"},
+    {SeedDesign::nested, "nested", "other seeds in every start"}};
+constexpr ChoiceTable<Choice<SeedDesign>> choices(SeedDesign) {
+  return {"seeds", kSeedDesigns};
+}
 
 /// Of four starts there are but 35 different resamples, too few for the tail of anything.
 constexpr std::size_t kLeastStarts = 5;

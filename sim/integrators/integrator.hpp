@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "base/choice.hpp"
 #include "base/option.hpp"
@@ -44,6 +46,11 @@ struct IntegratorChoice : Choice<Integrator> {
   } traits;
 };
 ChoiceTable<IntegratorChoice> choices(Integrator);
+/// What scripts may ask of an integrator.
+constexpr auto choice_traits(const IntegratorChoice& row) {
+  return std::array{std::pair("implicit", row.traits.stable_step == nullptr),
+                    std::pair("swept", row.traits.swept), std::pair("fast", row.traits.fast)};
+}
 
 /// Whether the step is not bound by the model's highest frequency.
 bool is_implicit(Integrator integrator);
