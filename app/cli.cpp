@@ -7,7 +7,7 @@
 
 #include "scripting/engine/suggest.hpp"
 
-namespace springlod {
+namespace springlod::app {
 
 namespace {
 
@@ -22,16 +22,16 @@ struct Switches {
   bool verbose = false;
 };
 
-void add_settings(CLI::App& app, Settings& settings, Switches& switches) {
+void add_settings(CLI::App& app, scripting::Settings& settings, Switches& switches) {
   app.add_option("--seed", settings.seed, "seed of everything random (default 1)");
   app.add_option("--threads", settings.threads, "threads at most; 0, the default: all cores");
   app.add_flag("-q,--quiet", switches.quiet, "no talk on stderr but errors");
   app.add_flag("-v,--verbose", switches.verbose, "more talk; tracebacks of failed commands");
 }
 
-void settle(const Switches& switches, Settings& settings) {
-  if (switches.quiet) settings.verbosity = Verbosity::quiet;
-  if (switches.verbose) settings.verbosity = Verbosity::verbose;
+void settle(const Switches& switches, scripting::Settings& settings) {
+  if (switches.quiet) settings.verbosity = scripting::Verbosity::quiet;
+  if (switches.verbose) settings.verbosity = scripting::Verbosity::verbose;
 }
 
 std::vector<std::string> reversed(std::vector<std::string> words) {
@@ -39,7 +39,7 @@ std::vector<std::string> reversed(std::vector<std::string> words) {
   return words;
 }
 
-std::string usage_text(const std::vector<StockCommand>& commands) {
+std::string usage_text(const std::vector<scripting::StockCommand>& commands) {
   std::string text = fmt::format(
       "springlod {} - level-of-detail mass-spring models from meshes, scripted in Lua\n\n"
       "usage: springlod [FLAGS] COMMAND ARGUMENTS...   a stock command, see below\n"
@@ -47,13 +47,14 @@ std::string usage_text(const std::vector<StockCommand>& commands) {
       "       springlod [FLAGS] -e CODE\n"
       "       springlod [FLAGS]                        a prompt; or a script from a pipe\n\n"
       "commands (springlod COMMAND --help tells more):\n",
-      version());
+      scripting::version());
   std::size_t width = 3;
-  for (const StockCommand& command : commands) width = std::max(width, command.name.size());
+  for (const scripting::StockCommand& command : commands)
+    width = std::max(width, command.name.size());
   text += fmt::format("  {:<{}}  {}\n", "run", width, "Runs a script of yours.");
   for (const bool study : {false, true}) {
     if (study) text += "\nstudies, which measure the methods themselves:\n";
-    for (const StockCommand& command : commands)
+    for (const scripting::StockCommand& command : commands)
       if (command.study == study)
         text += fmt::format("  {:<{}}  {}\n", command.name, width, command.summary);
   }
@@ -74,23 +75,24 @@ Leave wrong_use(const std::string& message) {
 }
 
 Leave unknown_flag(const std::string& flag) {
-  return wrong_use(
-      fmt::format("unknown flag {}{}", flag, did_you_mean(flag.substr(0, flag.find('=')), kFlags)));
+  return wrong_use(fmt::format("unknown flag {}{}", flag,
+                               scripting::did_you_mean(flag.substr(0, flag.find('=')), kFlags)));
 }
 
-Leave unknown_command(const std::string& name, const std::vector<StockCommand>& commands) {
+Leave unknown_command(const std::string& name,
+                      const std::vector<scripting::StockCommand>& commands) {
   if (name.ends_with(".lua"))
     return wrong_use(fmt::format("unknown command '{0}'; did you mean: springlod run {0}?", name));
   std::vector<std::string> names{"run"};
-  for (const StockCommand& command : commands) names.push_back(command.name);
-  return wrong_use(
-      fmt::format("unknown command '{}'{}", name, name_hint(name, names, "commands are")));
+  for (const scripting::StockCommand& command : commands) names.push_back(command.name);
+  return wrong_use(fmt::format("unknown command '{}'{}", name,
+                               scripting::name_hint(name, names, "commands are")));
 }
 
 // The flags before the command; what follows stays in `rest`.
 std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
-                                 const std::vector<StockCommand>& commands, CommandLine& line,
-                                 std::vector<std::string>& rest) {
+                                 const std::vector<scripting::StockCommand>& commands,
+                                 CommandLine& line, std::vector<std::string>& rest) {
   CLI::App app;
   Switches switches;
   bool help = false;
@@ -110,7 +112,7 @@ std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
   settle(switches, line.settings);
   rest = app.remaining();
   if (help) return Leave{0, usage_text(commands)};
-  if (show_version) return Leave{0, fmt::format("springlod {}\n", version())};
+  if (show_version) return Leave{0, fmt::format("springlod {}\n", scripting::version())};
   if (app.count("-e") > 0) line.action = CommandLine::Action::code;
   return std::nullopt;
 }
@@ -149,8 +151,8 @@ std::optional<Leave> parse_run(const std::vector<std::string>& arguments, Comman
 }
 
 std::optional<Leave> parse_rest(const std::vector<std::string>& rest,
-                                const std::vector<StockCommand>& commands, bool stdin_is_terminal,
-                                CommandLine& line) {
+                                const std::vector<scripting::StockCommand>& commands,
+                                bool stdin_is_terminal, CommandLine& line) {
   if (line.action == CommandLine::Action::code) {
     line.arguments = rest;
     return std::nullopt;
@@ -176,7 +178,8 @@ std::optional<Leave> parse_rest(const std::vector<std::string>& rest,
 }  // namespace
 
 Parsed parse_command_line(const std::vector<std::string>& arguments,
-                          const std::vector<StockCommand>& commands, bool stdin_is_terminal) {
+                          const std::vector<scripting::StockCommand>& commands,
+                          bool stdin_is_terminal) {
   Parsed parsed;
   std::vector<std::string> rest;
   parsed.leave = parse_front(arguments, commands, parsed.line, rest);
@@ -184,4 +187,4 @@ Parsed parse_command_line(const std::vector<std::string>& arguments,
   return parsed;
 }
 
-}  // namespace springlod
+}  // namespace springlod::app

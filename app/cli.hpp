@@ -7,13 +7,13 @@
 #include "scripting/engine/paths.hpp"
 #include "scripting/engine/session.hpp"
 
-namespace springlod {
+namespace springlod::app {
 
 /// What the command line asks for.
 struct CommandLine {
   enum class Action { prompt, code, script, command, standard_input };
   Action action = Action::prompt;
-  Settings settings;
+  scripting::Settings settings;
   bool prompt_after = false;           ///< -i
   std::string code;                    ///< of -e
   std::string script;                  ///< of run
@@ -34,6 +34,7 @@ struct Parsed {
   std::optional<Leave> leave;
 };
 Parsed parse_command_line(const std::vector<std::string>& arguments,
-                          const std::vector<StockCommand>& commands, bool stdin_is_terminal);
+                          const std::vector<scripting::StockCommand>& commands,
+                          bool stdin_is_terminal);
 
-}  // namespace springlod
+}  // namespace springlod::app

@@ -17,9 +17,10 @@
 
 namespace {
 
-using springlod::CommandLine;
-using springlod::Outcome;
-using springlod::ScriptState;
+namespace scripting = springlod::scripting;
+using scripting::Outcome;
+using scripting::ScriptState;
+using springlod::app::CommandLine;
 
 constexpr int kFailed = 1;
 constexpr int kInterrupted = 130;  // as shells have it: 128 + SIGINT
@@ -40,14 +41,14 @@ Outcome run_action(ScriptState& state, const CommandLine& line) {
 }
 
 int run(const std::vector<std::string>& arguments) {
-  const springlod::Parsed parsed = springlod::parse_command_line(
-      arguments, springlod::stock_commands(), isatty(STDIN_FILENO) != 0);
+  const springlod::app::Parsed parsed = springlod::app::parse_command_line(
+      arguments, scripting::stock_commands(), isatty(STDIN_FILENO) != 0);
   if (parsed.leave) {
     std::fputs(parsed.leave->text.c_str(), parsed.leave->exit_code == 0 ? stdout : stderr);
     return parsed.leave->exit_code;
   }
   const CommandLine& line = parsed.line;
-  const springlod::InterruptHandler interrupts;
+  const scripting::InterruptHandler interrupts;
   ScriptState state(line.settings);
   const Outcome outcome = run_action(state, line);
   if (outcome.interrupted)
@@ -55,7 +56,7 @@ int run(const std::vector<std::string>& arguments) {
   else if (!outcome.done)
     fmt::print(stderr, "springlod: {}\n{}{}", outcome.message, outcome.traceback,
                outcome.traceback.empty() ? "" : "\n");
-  if (line.action == CommandLine::Action::prompt || line.prompt_after) springlod::run_prompt(state);
+  if (line.action == CommandLine::Action::prompt || line.prompt_after) scripting::run_prompt(state);
   if (outcome.interrupted) return kInterrupted;
   return outcome.done ? 0 : kFailed;
 }

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace springlod {
+namespace springlod::inline base {
 
 // Chance with the same bits on every machine and standard library: SplitMix64 (Steele, Lea and
 // Flood 2014, "Fast splittable pseudorandom number generators", with the constants of Vigna's
@@ -48,4 +48,4 @@ class ChanceStream {
   std::uint64_t state_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::inline base

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// One word that an option may take: the value it stands for, its name, what it means.
 template <class E>
@@ -68,4 +68,4 @@ std::vector<E> all_choices() {
   return values;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline base

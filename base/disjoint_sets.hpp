@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// Elements 0 .. count - 1 joined into sets (union-find; Tarjan and van Leeuwen 1984, path halving,
 /// linked by the lower number). A set is known by its lowest element.
@@ -53,4 +53,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::inline base

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// Base of every error that springlod throws on purpose. The message says what is wrong, where,
 /// and what to do next.
@@ -63,4 +63,4 @@ class InterruptedError : public Error {
   InterruptedError() : Error("interrupted") {}
 };
 
-}  // namespace springlod
+}  // namespace springlod::inline base

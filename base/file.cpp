@@ -12,7 +12,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline base {
 
 namespace fs = std::filesystem;
 
@@ -71,4 +71,4 @@ std::string content_hash(std::string_view bytes) {
   return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline base

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// Calls `write` with a temporary path beside `path`, then renames it over `path`: readers see the
 /// old file or the new one, never half of one. Makes missing folders. On an exception the
@@ -18,4 +18,4 @@ std::string read_file(const std::filesystem::path& path);
 /// 64-bit xxh3 hash as 16 hexadecimal digits.
 std::string content_hash(std::string_view bytes);
 
-}  // namespace springlod
+}  // namespace springlod::inline base

@@ -7,7 +7,7 @@
 
 #include "base/units.hpp"
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// One row of an options struct: a member under the name that scripts use. The default is the
 /// member's own, in a struct that nobody touched.
@@ -128,4 +128,4 @@ void for_each_option(S& object, Visit&& visit) {
              option_rows(static_cast<const S*>(nullptr)));
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline base

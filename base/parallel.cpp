@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline base {
 namespace {
 
 constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
@@ -72,4 +72,4 @@ void run_jobs(
   failure.rethrow();
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline base

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// Calls body(job, stopped) for every job below `count`, in rising order, each once, spread over
 /// `threads` threads (0: all cores). If jobs throw, the exception of the lowest one reaches the
@@ -14,4 +14,4 @@ void run_jobs(
     std::uint64_t count, std::uint32_t threads,
     const std::function<void(std::uint64_t job, const std::function<bool()>& stopped)>& body);
 
-}  // namespace springlod
+}  // namespace springlod::inline base

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// Asks for memory ahead of its use. A hint: any address is allowed.
 inline void prefetch(const void* address) {
@@ -20,4 +20,4 @@ void prefetch(const T* first, const T* last) {
     prefetch(line);
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline base

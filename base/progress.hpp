@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// Receives the progress of long work. The default implementation of every member does nothing.
 /// `advance` is called from several threads at once.
@@ -43,4 +43,4 @@ class Task {
   Progress* sink_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::inline base

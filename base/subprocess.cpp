@@ -16,7 +16,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline base {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,4 +137,4 @@ std::string shell_line(const std::string& program, const std::vector<std::string
   return line;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline base

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// Where PATH has the program; nothing if it is not installed.
 std::optional<std::filesystem::path> find_program(const std::string& name);
@@ -26,4 +26,4 @@ std::string shell_word(const std::string& word);
 /// Program and arguments as a line to paste into a shell.
 std::string shell_line(const std::string& program, const std::vector<std::string>& arguments);
 
-}  // namespace springlod
+}  // namespace springlod::inline base

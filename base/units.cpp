@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline base {
 namespace {
 
 struct Unit {
@@ -165,4 +165,4 @@ std::string format_quantity(double value, Dimension dimension) {
   return fmt::format("{:.4g} {}", value / best->in_si, best->name);
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline base

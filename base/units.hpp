@@ -6,7 +6,7 @@
 
 #include "base/choice.hpp"
 
-namespace springlod {
+namespace springlod::inline base {
 
 /// What a number measures. Everything inside is SI; scripts may write "5 mm" or "1 MPa".
 enum class Dimension {
@@ -48,4 +48,4 @@ double length_unit(std::string_view name);
 /// A short human form with an SI prefix, e.g. 0.002 -> "2 mm", 1e7 Pa -> "10 MPa"; 4 digits.
 std::string format_quantity(double value, Dimension dimension);
 
-}  // namespace springlod
+}  // namespace springlod::inline base

@@ -13,7 +13,7 @@ constexpr double kCell = 0.01;  // [m]
 }  // namespace
 
 MassSpringModel lattice_cube(int side) {
-  MaterialGrid grid;
+  voxelize::MaterialGrid grid;
   grid.cell = kCell;
   grid.origin = {0, 0, -0.1 * kCell};
   grid.materials = {Material{.name = "block"}};
@@ -21,13 +21,13 @@ MassSpringModel lattice_cube(int side) {
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) grid.cells.push_back({x, y, z});
   grid.material.assign(grid.cells.size(), 0);
-  return build_lattice(grid).model;
+  return voxelize::build_lattice(grid).model;
 }
 
 MassSpringModel merged_cube(std::uint32_t nodes) {
   // Standard merging leaves some 43 % of the nodes.
   const auto side = static_cast<int>(std::lround(std::cbrt(nodes / 0.43))) - 1;
-  return simplify(lattice_cube(side), {.levels = 1}).levels[1].model;
+  return lod::simplify(lattice_cube(side), {.levels = 1}).levels[1].model;
 }
 
 }  // namespace springlod::bench

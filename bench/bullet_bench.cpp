@@ -59,7 +59,7 @@ struct Stage {
 };
 
 /// The model's nodes, masses and springs as a soft body.
-std::unique_ptr<btSoftBody> soft_body(const MassSpringModel& model, const Scenario& scenario,
+std::unique_ptr<btSoftBody> soft_body(const MassSpringModel& model, const sim::Scenario& scenario,
                                       btSoftBodyWorldInfo& world) {
   world.m_gravity = to_bullet(scenario.gravity);
   world.m_sparsesdf.setDefaultVoxelsz(kDistanceCell);
@@ -90,7 +90,7 @@ class PositionBased {
   PositionBased(const MassSpringModel& model, const Sweeps& sweeps)
       : stage_(model),
         world_(&stage_.dispatcher, &stage_.broadphase, &solver_, &stage_.collisions) {
-    const Scenario scenario = rest_on_floor();
+    const sim::Scenario scenario = rest_on_floor();
     world_.setGravity(to_bullet(scenario.gravity));
     world_.addRigidBody(&stage_.floor);
     world_.getWorldInfo().m_dispatcher = &stage_.dispatcher;
@@ -128,7 +128,7 @@ class Explicit {
         world_(&stage_.dispatcher, &stage_.broadphase, &solver_, &stage_.collisions, &bodies_),
         springs_(mean(model.stiffness), damped ? mean(model.damping) : 0),
         gravity_(to_bullet(rest_on_floor().gravity)) {
-    const Scenario scenario = rest_on_floor();
+    const sim::Scenario scenario = rest_on_floor();
     solver_.setDeformableSolver(&bodies_);
     world_.setImplicit(false);
     world_.setUseProjection(true);  // the faster of its two ways to hold contacts

@@ -15,13 +15,13 @@ using namespace springlod;
 // Peak memory is that of the whole process, the base included.
 void calibrate_cube(benchmark::State& state, int side) {
   const MassSpringModel base = bench::lattice_cube(side);
-  SimplifyOptions options{.keep = {0.45, 0.2},
-                          .grouping = {.grouping = Grouping::compact},
-                          .calibrate = Calibrate::modes};
+  lod::SimplifyOptions options{.keep = {0.45, 0.2},
+                               .grouping = {.grouping = lod::Grouping::compact},
+                               .calibrate = lod::Calibrate::modes};
   options.calibration.threads = 2;
   if (!bench::reset_peak_memory()) state.SkipWithError("the peak of the memory cannot be reset");
   for (auto _ : state)
-    benchmark::DoNotOptimize(simplify(base, options).levels[2].model.node_count());
+    benchmark::DoNotOptimize(lod::simplify(base, options).levels[2].model.node_count());
   constexpr double kGigabyte = 1e9;
   state.counters["nodes"] = base.node_count();
   state.counters["peak_GB"] = static_cast<double>(bench::peak_memory()) / kGigabyte;

@@ -26,16 +26,17 @@ const MassSpringModel& million_nodes() {
 
 // The chain of base and level 1, guards on, from a base that is moved in. Peak memory is that of
 // the whole process: the base, another copy of it kept here, and all that is needed on the way.
-void merge_nodes(benchmark::State& state, Grouping grouping, BorderRule border) {
+void merge_nodes(benchmark::State& state, lod::Grouping grouping, lod::BorderRule border) {
   const MassSpringModel& base = million_nodes();
-  const SimplifyOptions options{.levels = 1, .grouping = {.grouping = grouping, .border = border}};
+  const lod::SimplifyOptions options{.levels = 1,
+                                     .grouping = {.grouping = grouping, .border = border}};
   std::uint32_t left = 0;
   if (!bench::reset_peak_memory()) state.SkipWithError("the peak of the memory cannot be reset");
   for (auto _ : state) {
     state.PauseTiming();
     MassSpringModel moved_in = base;
     state.ResumeTiming();
-    left = simplify(std::move(moved_in), options).levels[1].model.node_count();
+    left = lod::simplify(std::move(moved_in), options).levels[1].model.node_count();
   }
   state.SetItemsProcessed(state.iterations() * base.node_count());
   state.counters["left"] = static_cast<double>(left) / base.node_count();
@@ -47,20 +48,20 @@ void merge_nodes(benchmark::State& state, Grouping grouping, BorderRule border) 
 void copy_and_merge_nodes(benchmark::State& state) {
   const MassSpringModel& base = million_nodes();
   for (auto _ : state)
-    benchmark::DoNotOptimize(simplify(base, {.levels = 1}).levels[1].model.node_count());
+    benchmark::DoNotOptimize(lod::simplify(base, {.levels = 1}).levels[1].model.node_count());
   state.SetItemsProcessed(state.iterations() * base.node_count());
 }
 BENCHMARK(copy_and_merge_nodes)->Unit(benchmark::kMillisecond);
 
-BENCHMARK_CAPTURE(merge_nodes, standard, Grouping::standard, BorderRule::none)
+BENCHMARK_CAPTURE(merge_nodes, standard, lod::Grouping::standard, lod::BorderRule::none)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(merge_nodes, standard_weak, Grouping::standard, BorderRule::weak)
+BENCHMARK_CAPTURE(merge_nodes, standard_weak, lod::Grouping::standard, lod::BorderRule::weak)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(merge_nodes, standard_strong, Grouping::standard, BorderRule::strong)
+BENCHMARK_CAPTURE(merge_nodes, standard_strong, lod::Grouping::standard, lod::BorderRule::strong)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(merge_nodes, priority_soft, Grouping::priority_soft, BorderRule::none)
+BENCHMARK_CAPTURE(merge_nodes, priority_soft, lod::Grouping::priority_soft, lod::BorderRule::none)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(merge_nodes, priority_hard, Grouping::priority_hard, BorderRule::none)
+BENCHMARK_CAPTURE(merge_nodes, priority_hard, lod::Grouping::priority_hard, lod::BorderRule::none)
     ->Unit(benchmark::kMillisecond);
 
 struct HeightField {

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "elastic/elastic_body.hpp"
-#include "elastic/loads/static_loads.hpp"
+#include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
 #include "voxelize/lattice.hpp"
 
@@ -13,7 +13,7 @@ using namespace springlod;
 
 /// A block of three materials, layer upon layer, soft between stiff.
 MassSpringModel block(int nx, int ny, int nz) {
-  MaterialGrid grid;
+  voxelize::MaterialGrid grid;
   grid.cell = 0.01;
   grid.materials = {Material{.name = "steel", .young = 1e7, .density = 2000},
                     Material{.name = "rubber", .young = 2e5}, Material{.name = "wood"}};
@@ -24,7 +24,7 @@ MassSpringModel block(int nx, int ny, int nz) {
         grid.material.push_back(static_cast<std::uint16_t>(3 * z / nz));
       }
   grid.depth.assign(grid.cells.size(), 0);
-  return build_lattice(grid).model;
+  return voxelize::build_lattice(grid).model;
 }
 
 // A cube, which fills in most of all bodies, and a plate: 19,683 and 20,412 nodes.
@@ -36,19 +36,19 @@ MassSpringModel plate() {
 }
 
 void factorise(benchmark::State& state, const MassSpringModel& model) {
-  for (auto _ : state) benchmark::DoNotOptimize(elastic_body(model).parts.size());
+  for (auto _ : state) benchmark::DoNotOptimize(elastic::elastic_body(model).parts.size());
   state.counters["nodes"] = model.node_count();
 }
 
 void twenty_modes(benchmark::State& state, const MassSpringModel& model) {
-  for (auto _ : state) benchmark::DoNotOptimize(lowest_modes(model).modes.size());
+  for (auto _ : state) benchmark::DoNotOptimize(elastic::lowest_modes(model).modes.size());
   state.counters["nodes"] = model.node_count();
 }
 
 void nine_loads(benchmark::State& state, const MassSpringModel& model) {
-  const ElasticBody body = elastic_body(model);
-  const std::vector<StaticLoad> loads = smooth_loads(model);
-  for (auto _ : state) benchmark::DoNotOptimize(solve_static(body, loads).size());
+  const elastic::ElasticBody body = elastic::elastic_body(model);
+  const std::vector<elastic::StaticLoad> loads = elastic::smooth_loads(model);
+  for (auto _ : state) benchmark::DoNotOptimize(elastic::solve_static(body, loads).size());
   state.counters["nodes"] = model.node_count();
 }
 

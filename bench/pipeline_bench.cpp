@@ -21,8 +21,8 @@ namespace {
 
 using namespace springlod;
 
-MaterialGrid cube_grid(int side) {
-  MaterialGrid grid;
+voxelize::MaterialGrid cube_grid(int side) {
+  voxelize::MaterialGrid grid;
   grid.cell = 0.01;
   grid.materials = {Material{.name = "block"}};
   for (int z = 0; z < side; ++z)
@@ -37,24 +37,24 @@ MaterialGrid cube_grid(int side) {
 constexpr int kSide = 46;
 
 void build_lattice_100k(benchmark::State& state) {
-  const MaterialGrid grid = cube_grid(kSide);
-  for (auto _ : state) benchmark::DoNotOptimize(build_lattice(grid).model.node_count());
+  const voxelize::MaterialGrid grid = cube_grid(kSide);
+  for (auto _ : state) benchmark::DoNotOptimize(voxelize::build_lattice(grid).model.node_count());
 }
 BENCHMARK(build_lattice_100k)->Unit(benchmark::kMillisecond);
 
 void merge_two_levels_100k(benchmark::State& state) {
-  const MassSpringModel base = build_lattice(cube_grid(kSide)).model;
-  for (auto _ : state) benchmark::DoNotOptimize(simplify(base, {.levels = 2}).levels.size());
+  const MassSpringModel base = voxelize::build_lattice(cube_grid(kSide)).model;
+  for (auto _ : state) benchmark::DoNotOptimize(lod::simplify(base, {.levels = 2}).levels.size());
   state.SetItemsProcessed(state.iterations() * base.node_count());
 }
 BENCHMARK(merge_two_levels_100k)->Unit(benchmark::kMillisecond);
 
 void build_merge_and_save_100k(benchmark::State& state) {
   const auto path = std::filesystem::temp_directory_path() / "springlod_bench.glb";
-  const MaterialGrid grid = cube_grid(kSide);
+  const voxelize::MaterialGrid grid = cube_grid(kSide);
   for (auto _ : state) {
     LodAsset asset;
-    asset.chain = simplify(build_lattice(grid).model, {.levels = 2});
+    asset.chain = lod::simplify(voxelize::build_lattice(grid).model, {.levels = 2});
     save_asset(asset, path);
   }
   std::filesystem::remove(path);
@@ -88,16 +88,17 @@ TriangleMesh sphere_mesh(std::uint32_t rings, std::uint32_t sectors, double radi
 void animate_60_frames(benchmark::State& state) {
   const auto folder = std::filesystem::temp_directory_path() / "springlod_bench_frames";
   LodAsset asset;
-  asset.chain = simplify(build_lattice(cube_grid(8)).model, {.levels = 2});
+  asset.chain = lod::simplify(voxelize::build_lattice(cube_grid(8)).model, {.levels = 2});
   asset.surface = sphere_mesh(100, 100, 0.04, Vec3::Constant(0.04));
   asset.surface_of_base = bind_points(asset.surface.positions, asset.chain.levels[0].model);
-  Scenario scene;
+  sim::Scenario scene;
   scene.duration = 2;
-  scene.obstacles = {{.shape = Plane{.offset = -0.2}, .name = "floor", .stiffness = 1e7}};
-  const Comparison runs = compare(asset.chain, scene, {.run = {.frame_rate = 30}});
+  scene.obstacles = {{.shape = sim::Plane{.offset = -0.2}, .name = "floor", .stiffness = 1e7}};
+  const sim::Comparison runs = sim::compare(asset.chain, scene, {.run = {.frame_rate = 30}});
   for (auto _ : state) {
-    benchmark::DoNotOptimize(animate(asset, runs, folder, {.frame_rate = 30, .frames = 60}));
-    encode_video(folder, 30, folder / "bench.mp4");
+    benchmark::DoNotOptimize(
+        report::animate(asset, runs, folder, {.frame_rate = 30, .frames = 60}));
+    report::encode_video(folder, 30, folder / "bench.mp4");
   }
   std::filesystem::remove_all(folder);
 }
@@ -107,18 +108,18 @@ BENCHMARK(animate_60_frames)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTi
 // kept.
 void draw_still(benchmark::State& state) {
   const TriangleMesh surface = sphere_mesh(100, 100, 0.04, Vec3::Zero());
-  DrawnBody body;
+  render::DrawnBody body;
   body.surface = &surface;
-  Panel panel;
+  render::Panel panel;
   panel.bodies = {body};
-  panel.camera = frame_box(bounds(surface), -70, 15, 4. / 3);
-  const PanelGrid grid{.panel_width = 640, .panel_height = 480};
-  auto renderer = std::make_unique<Renderer>(grid);
+  panel.camera = render::frame_box(bounds(surface), -70, 15, 4. / 3);
+  const render::PanelGrid grid{.panel_width = 640, .panel_height = 480};
+  auto renderer = std::make_unique<render::Renderer>(grid);
   for (auto _ : state) {
     if (state.range(0) == 1)
       renderer->lay_out(grid);
     else
-      renderer = std::make_unique<Renderer>(grid);
+      renderer = std::make_unique<render::Renderer>(grid);
     benchmark::DoNotOptimize(renderer->draw({panel}));
   }
 }

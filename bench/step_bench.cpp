@@ -40,7 +40,7 @@ void step_naively(benchmark::State& state, Subjects& subjects, Shape shape, Size
 struct FastStep {
   Shape shape = Shape::merged;
   Size size = Size::small;
-  Precision precision = Precision::single_precision;
+  sim::Precision precision = sim::Precision::single_precision;
   Vectors vectors = Vectors::best;
   std::uint32_t threads = 1;
 };
@@ -48,12 +48,12 @@ struct FastStep {
 void step_fast(benchmark::State& state, Subjects& subjects, const FastStep& of) {
   const VectorLimit limit(of.vectors);
   const Subject& subject = subjects.subject(of.shape, of.size);
-  const Scenario scenario = rest_on_floor();
-  FastLeapfrog stepper(subject.model, scenario, at_rest(subject.model), subject.step,
-                       {.ledger = false,
-                        .precision = of.precision,
-                        .threads = of.threads,
-                        .layout = subjects.layout(of.shape, of.size, of.precision)});
+  const sim::Scenario scenario = rest_on_floor();
+  sim::FastLeapfrog stepper(subject.model, scenario, at_rest(subject.model), subject.step,
+                            {.ledger = false,
+                             .precision = of.precision,
+                             .threads = of.threads,
+                             .layout = subjects.layout(of.shape, of.size, of.precision)});
   stepper.prepare();
   for (auto _ : state) stepper.advance(kSteps);
   if (stepper.contacts().empty()) state.SkipWithError("the body left the floor");
@@ -61,25 +61,25 @@ void step_fast(benchmark::State& state, Subjects& subjects, const FastStep& of) 
   const Traffic traffic = subjects.traffic(of.shape, of.size, of.precision);
   state.counters["bytes_read"] = traffic.read;
   state.counters["bytes_changed"] = traffic.changed;
-  state.SetLabel(vector_target());
+  state.SetLabel(sim::vector_target());
 }
 
 // Eight starts of a small body, to the last state; times count what surrounds the steps too.
-void run_starts(benchmark::State& state, Subjects& subjects, Precision precision,
+void run_starts(benchmark::State& state, Subjects& subjects, sim::Precision precision,
                 std::uint32_t threads) {
   // Many times what planning takes, as in real use; still a fiftieth of the paper's scenes. [s]
   constexpr double kDuration = 0.1;
   const Subject& subject = subjects.subject(Shape::merged, Size::small);
-  Scenario scenario = rest_on_floor();
+  sim::Scenario scenario = rest_on_floor();
   scenario.duration = kDuration;
-  const EnsembleOptions options{
+  const sim::EnsembleOptions options{
       .starts = 8,
       .threads = threads,
       .run = {.sleep = 0, .frame_rate = 0, .ledger = false, .precision = precision}};
   double updates = 0;
   for (auto _ : state) {
     updates = 0;
-    for (const EnsembleRun& run : run_ensemble(subject.model, scenario, options))
+    for (const sim::EnsembleRun& run : sim::run_ensemble(subject.model, scenario, options))
       updates += static_cast<double>(run.spring_updates);
   }
   count_springs(state, subject.model, updates / subject.model.spring_count());
@@ -91,7 +91,8 @@ void register_size(Subjects& subjects, Shape shape, Size size) {
     keep_least(benchmark::RegisterBenchmark(title.c_str(), work));
   };
   add("naive", [=, &subjects](benchmark::State& s) { step_naively(s, subjects, shape, size); });
-  for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+  for (const sim::Precision precision :
+       {sim::Precision::single_precision, sim::Precision::double_precision}) {
     const FastStep best{shape, size, precision};
     add(name(precision), [=, &subjects](benchmark::State& s) { step_fast(s, subjects, best); });
     if (!has_more_than_avx2()) continue;
@@ -102,7 +103,7 @@ void register_size(Subjects& subjects, Shape shape, Size size) {
   }
 }
 
-void register_threads(Subjects& subjects, Precision precision, std::uint32_t threads) {
+void register_threads(Subjects& subjects, sim::Precision precision, std::uint32_t threads) {
   const auto add = [&](const std::string& work_name, auto work) {
     const std::string title = fmt::format("{}/{}/threads_{}", work_name, name(precision), threads);
     keep_least(benchmark::RegisterBenchmark(title.c_str(), work)->UseRealTime());
@@ -136,7 +137,8 @@ int main(int argc, char** argv) {
   for (const Size size : kSizes)
     for (const Shape shape : kShapes) register_size(subjects, shape, size);
   register_bullet(subjects);
-  for (const Precision precision : {Precision::single_precision, Precision::double_precision})
+  for (const sim::Precision precision :
+       {sim::Precision::single_precision, sim::Precision::double_precision})
     for (const std::uint32_t threads : {1U, 2U}) register_threads(subjects, precision, threads);
   std::vector<char*> arguments = with_defaults(argc, argv);
   argc = static_cast<int>(arguments.size());

@@ -46,8 +46,8 @@ void lay_on_floor(MassSpringModel& model) {
 template <class Real>
 Traffic traffic_of(const MassSpringModel& model, Shape shape) {
   const double springs = model.spring_count();
-  return shape == Shape::lattice ? step_traffic(make_row_layout<Real>(model), springs)
-                                 : step_traffic(make_quad_layout<Real>(model), springs);
+  return shape == Shape::lattice ? step_traffic(sim::make_row_layout<Real>(model), springs)
+                                 : step_traffic(sim::make_quad_layout<Real>(model), springs);
 }
 
 }  // namespace
@@ -58,15 +58,15 @@ std::string name(Shape shape) {
 std::string name(Size size) {
   return size == Size::small ? "4k" : size == Size::medium ? "40k" : "300k";
 }
-std::string name(Precision precision) {
-  return precision == Precision::single_precision ? "f32" : "f64";
+std::string name(sim::Precision precision) {
+  return precision == sim::Precision::single_precision ? "f32" : "f64";
 }
 
-Scenario rest_on_floor() {
+sim::Scenario rest_on_floor() {
   const Floor floor;
-  Scenario scenario;
+  sim::Scenario scenario;
   scenario.gravity = {0, 0, -floor.gravity};
-  scenario.obstacles = {{.shape = Plane{},
+  scenario.obstacles = {{.shape = sim::Plane{},
                          .name = "floor",
                          .stiffness = floor.stiffness,
                          .friction = floor.friction}};
@@ -79,24 +79,26 @@ const Subject& Subjects::subject(Shape shape, Size size) {
   if (is_new) {
     subject.model = shape == Shape::lattice ? lattice(size) : merged(size);
     lay_on_floor(subject.model);
-    subject.step =
-        kSafety * stable_step(frequency_bound(subject.model), largest_damping_time(subject.model));
+    subject.step = kSafety * stable_step(elastic::frequency_bound(subject.model),
+                                         elastic::largest_damping_time(subject.model));
   }
   return subject;
 }
 
-std::shared_ptr<const FastModel> Subjects::layout(Shape shape, Size size, Precision precision) {
+std::shared_ptr<const sim::FastModel> Subjects::layout(Shape shape, Size size,
+                                                       sim::Precision precision) {
   auto& layout = layouts_[{shape, size, precision}];
-  if (!layout) layout = make_fast_model(subject(shape, size).model, precision);
+  if (!layout) layout = sim::make_fast_model(subject(shape, size).model, precision);
   return layout;
 }
 
-Traffic Subjects::traffic(Shape shape, Size size, Precision precision) {
+Traffic Subjects::traffic(Shape shape, Size size, sim::Precision precision) {
   const auto [found, is_new] = traffic_.try_emplace({shape, size, precision});
   if (is_new) {
     const MassSpringModel& model = subject(shape, size).model;
-    found->second = precision == Precision::single_precision ? traffic_of<float>(model, shape)
-                                                             : traffic_of<double>(model, shape);
+    found->second = precision == sim::Precision::single_precision
+                        ? traffic_of<float>(model, shape)
+                        : traffic_of<double>(model, shape);
   }
   return found->second;
 }

@@ -18,9 +18,9 @@ enum class Size { small, medium, large };
 inline constexpr std::array kShapes{Shape::lattice, Shape::merged};
 inline constexpr std::array kSizes{Size::small, Size::medium, Size::large};
 
-std::string name(Shape shape);          ///< "lattice", "merged"
-std::string name(Size size);            ///< "4k", "40k", "300k": about so many nodes
-std::string name(Precision precision);  ///< "f32", "f64"
+std::string name(Shape shape);               ///< "lattice", "merged"
+std::string name(Size size);                 ///< "4k", "40k", "300k": about so many nodes
+std::string name(sim::Precision precision);  ///< "f32", "f64"
 
 /// A body to be stepped.
 struct Subject {
@@ -29,19 +29,19 @@ struct Subject {
 };
 
 /// Gravity, and a floor at z = 0 as the naive step has it.
-Scenario rest_on_floor();
+sim::Scenario rest_on_floor();
 
 /// The bodies that benchmarks step, each made when it is first asked for.
 class Subjects {
  public:
   const Subject& subject(Shape shape, Size size);
-  std::shared_ptr<const FastModel> layout(Shape shape, Size size, Precision precision);
-  Traffic traffic(Shape shape, Size size, Precision precision);
+  std::shared_ptr<const sim::FastModel> layout(Shape shape, Size size, sim::Precision precision);
+  Traffic traffic(Shape shape, Size size, sim::Precision precision);
 
  private:
   std::map<std::tuple<Shape, Size>, Subject> subjects_;
-  std::map<std::tuple<Shape, Size, Precision>, std::shared_ptr<const FastModel>> layouts_;
-  std::map<std::tuple<Shape, Size, Precision>, Traffic> traffic_;
+  std::map<std::tuple<Shape, Size, sim::Precision>, std::shared_ptr<const sim::FastModel>> layouts_;
+  std::map<std::tuple<Shape, Size, sim::Precision>, Traffic> traffic_;
 };
 
 }  // namespace springlod::bench

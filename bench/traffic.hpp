@@ -13,8 +13,8 @@ struct Traffic {
 };
 
 template <class Real>
-Traffic step_traffic(const QuadLayout<Real>& layout, double springs);
+Traffic step_traffic(const sim::QuadLayout<Real>& layout, double springs);
 template <class Real>
-Traffic step_traffic(const RowLayout<Real>& layout, double springs);
+Traffic step_traffic(const sim::RowLayout<Real>& layout, double springs);
 
 }  // namespace springlod::bench

@@ -87,7 +87,7 @@ struct BareInput {
   openvdb::math::Transform::Ptr transform;
 
   BareInput(const TriangleMesh& mesh, double cell) {
-    const CellFrame frame = frame_around(bounds(mesh), cell);
+    const voxelize::CellFrame frame = voxelize::frame_around(bounds(mesh), cell);
     for (const Vec3& position : mesh.positions) {
       const Vec3 p = frame.to_index(position);
       points.emplace_back(p.x(), p.y(), p.z());
@@ -132,7 +132,7 @@ void against_bare_call(benchmark::State& state, const TriangleMesh& mesh) {
   const auto threads = static_cast<std::size_t>(state.range(0));
   const global_control limit(global_control::max_allowed_parallelism, threads > 0 ? threads : all);
   openvdb::initialize();
-  VoxelizeOptions options;
+  voxelize::VoxelizeOptions options;
   options.cell = bounds(mesh).sizes().maxCoeff() / kCells;
   const BareInput bare(mesh, *options.cell);
   Shortest of_bare;
@@ -140,7 +140,8 @@ void against_bare_call(benchmark::State& state, const TriangleMesh& mesh) {
   std::size_t cells = 0;
   for (auto _ : state) {
     of_bare.time([&] { benchmark::DoNotOptimize(bare.level_set()); });
-    state.SetIterationTime(ours.time([&] { cells = voxelize(mesh, options).grid.cells.size(); }));
+    state.SetIterationTime(
+        ours.time([&] { cells = voxelize::voxelize(mesh, options).grid.cells.size(); }));
   }
   state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
   state.counters["cells"] = static_cast<double>(cells);

@@ -11,13 +11,14 @@
 #include "base/error.hpp"
 #include "elastic/solver/dense_kernels.hpp"
 #include "elastic/solver/random_block.hpp"
+#include "elastic/solver/sparse_cholesky.hpp"
 #include "elastic/stable_step.hpp"
 #include "elastic/stiffness.hpp"
 #include "elastic/zero_modes.hpp"
 #include "model/anchors.hpp"
 #include "model/parts.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Shift over the bound of the largest squared frequency: far above rounding in the factors (1e-15)
@@ -194,4 +195,4 @@ ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& opt
   return body;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -8,10 +8,11 @@
 #include <Eigen/SparseCore>
 
 #include "base/progress.hpp"
-#include "elastic/solver/sparse_cholesky.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
+
+class SparseCholesky;
 
 /// One connected part of a model, ready to be solved with: n nodes that can move, 3n unknowns
 /// y = M^1/2 u, in which the stiffness is D = M^-1/2 K M^-1/2 [1/s2] and modes are orthonormal.
@@ -64,4 +65,4 @@ struct ElasticOptions {
 /// are zero modes, which solve_static refuses to push at.
 ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -14,7 +14,7 @@
 #include "elastic/solver/dense_kernels.hpp"
 #include "elastic/solver/random_block.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Vectors that are iterated together: as many copies of a frequency are found for sure, and
@@ -232,4 +232,4 @@ Modes lowest_modes(const MassSpringModel& model, const ModeOptions& options) {
   return lowest_modes(elastic_body(model, {.progress = options.progress}), options);
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

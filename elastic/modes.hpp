@@ -8,7 +8,7 @@
 #include "elastic/elastic_body.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 struct ModeOptions {
   std::uint32_t count = 20;  ///< modes wanted; fewer come back if the model has fewer
@@ -58,4 +58,4 @@ Modes lowest_modes(const MassSpringModel& model, const ModeOptions& options = {}
 /// Of a model that is factorised already; so are those with anchored nodes.
 Modes lowest_modes(const ElasticBody& body, const ModeOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::elastic

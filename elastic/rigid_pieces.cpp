@@ -7,7 +7,7 @@
 
 #include <Eigen/LU>
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Three unit vectors whose determinant is smaller count as lying in a plane; so do directions
@@ -102,4 +102,4 @@ RigidPieces rigid_pieces(const MassSpringModel& model) {
   return Growth(model).run();
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -6,7 +6,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 inline constexpr std::uint32_t kNoPiece = std::numeric_limits<std::uint32_t>::max();
 
@@ -18,4 +18,4 @@ struct RigidPieces {
 };
 RigidPieces rigid_pieces(const MassSpringModel& model);
 
-}  // namespace springlod
+}  // namespace springlod::elastic

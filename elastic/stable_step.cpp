@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "elastic/solver/random_block.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Below this many unknowns a dense eigenvalue solver is quicker than Lanczos, and certain.
@@ -197,4 +197,4 @@ double stable_step(const MassSpringModel& model) {
   return stable_step(largest_frequency(model), largest_damping_time(model));
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -5,7 +5,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 struct FrequencyOptions {
   /// Extra stiffness to ground of each node (contact) [N/m]; empty or N.
@@ -43,4 +43,4 @@ double largest_damping_time(const MassSpringModel& model);
 double stable_step(double omega_max, double damping_time);
 double stable_step(const MassSpringModel& model);
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 namespace {
 
@@ -72,4 +72,4 @@ void apply_stiffness(const MassSpringModel& model, const std::vector<Vec3>& u,
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -7,7 +7,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 /// Stiffness matrix at rest, 3N x 3N, node i at rows 3i..3i+2 [N/m]; symmetric, both halves stored.
 Eigen::SparseMatrix<double> stiffness_matrix(const MassSpringModel& model);
@@ -44,4 +44,4 @@ struct StretchOptions {
 /// along the axis, and should the iteration not converge.
 StretchResult stretch_test(const MassSpringModel& model, const StretchOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -13,7 +13,7 @@
 #include "elastic/solver/random_block.hpp"
 #include "model/anchors.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Eigenvalues of the stiffness of unit springs below this are zero: far above rounding (1e-15),
@@ -273,4 +273,4 @@ std::vector<PartModes> zero_modes(const MassSpringModel& model,
   return ZeroModes(model, anchored).run();
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

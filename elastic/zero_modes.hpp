@@ -5,7 +5,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 /// Motions of one connected part that no spring resists.
 struct PartModes {
@@ -32,4 +32,4 @@ struct PartModes {
 std::vector<PartModes> zero_modes(const MassSpringModel& model,
                                   const std::vector<std::uint32_t>& anchored = {});
 
-}  // namespace springlod
+}  // namespace springlod::elastic

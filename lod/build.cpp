@@ -7,11 +7,15 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "lod/calibration/calibrate.hpp"
 #include "lod/calibration/rescale_moduli.hpp"
 #include "lod/grouping/exact_count.hpp"
+#include "lod/grouping/grouping.hpp"
+#include "lod/merging/guard.hpp"
+#include "lod/merging/merge.hpp"
 #include "lod/quality/certify.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 std::string told_from(const SimplifyOptions& options) {
@@ -183,4 +187,4 @@ LodChain simplify(MassSpringModel base, const SimplifyOptions& options) {
   return chain;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

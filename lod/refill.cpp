@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "model/point_bins.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// Every node of the base to the nearest of `nodes`.
@@ -61,4 +61,4 @@ LodChain refill(const MassSpringModel& base, std::vector<Level> levels) {
   return chain;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

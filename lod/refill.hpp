@@ -5,7 +5,7 @@
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// Global rescaling (the paper, section 4.1): a chain whose coarser levels are models of their own,
 /// made anew in the volume of the base (refill_levels of voxelize/refill.hpp). No nodes are merged:
@@ -14,4 +14,4 @@ namespace springlod {
 /// no coarser than the one before.
 LodChain refill(const MassSpringModel& base, std::vector<Level> levels);
 
-}  // namespace springlod
+}  // namespace springlod::lod

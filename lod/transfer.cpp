@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 // Enough for smooth weights; more neighbours only blur and cost time.
@@ -57,4 +57,4 @@ Binding base_from_level(const LodChain& chain, std::uint32_t level) {
   return binding;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

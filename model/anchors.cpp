@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 std::vector<std::uint8_t> anchor_flags(const MassSpringModel& model,
                                        const std::vector<std::uint32_t>& anchored) {
@@ -18,4 +18,4 @@ std::vector<std::uint8_t> anchor_flags(const MassSpringModel& model,
   return flags;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

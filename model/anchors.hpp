@@ -6,7 +6,7 @@
 #include "base/option.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Anchored nodes are held where they are. Everything that takes them takes a list of their
 /// numbers, in any order; a number that comes twice counts once.
@@ -24,4 +24,4 @@ constexpr NodesOption<S> anchored_option(std::vector<std::uint32_t> S::*member) 
                       "none");
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

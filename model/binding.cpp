@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 /// A point nearer to a node than this part of the candidates' reach lies on it.
@@ -264,4 +264,4 @@ std::vector<Vec3> carry(const Binding& binding, const std::vector<Vec3>& nodes) 
   return points;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

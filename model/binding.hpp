@@ -6,7 +6,7 @@
 #include "model/mass_spring.hpp"
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// A linear map from node positions (or velocities) to points: point p = sum over its entries of
 /// weight * node. Weights of a point add up to 1 and reproduce the point's rest position, so rigid
@@ -53,4 +53,4 @@ Binding compose(const Binding& outer, const Binding& inner);
 /// Positions (or velocities) of the points, carried by the nodes.
 std::vector<Vec3> carry(const Binding& binding, const std::vector<Vec3>& nodes);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

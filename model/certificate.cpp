@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 void check_finite(std::initializer_list<double> numbers, const std::string& owner) {
@@ -62,4 +62,4 @@ double mean_load_error(const Certificate& certificate, bool held_out) {
   return count > 0 ? sum / count : 0;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// What a level is measured to be beside its base: kept with it in the asset. Relative errors are
 /// level over base minus 1, all at rest and to first order.
@@ -55,4 +55,4 @@ double mean_frequency_error(const Certificate& certificate, std::uint32_t first,
 /// Mean |error| of the loads that were, or were not, held out.
 double mean_load_error(const Certificate& certificate, bool held_out);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 Groups identity_groups(std::uint32_t node_count) {
   Groups groups{std::vector<std::uint32_t>(node_count), node_count};
@@ -83,4 +83,4 @@ void validate(const LodAsset& asset) {
   validate(asset.surface_of_base, base);
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

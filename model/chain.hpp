@@ -11,7 +11,7 @@
 #include "model/mass_spring.hpp"
 #include "model/mesh.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Which coarse node each fine node went into. Every number below `count` occurs.
 struct Groups {
@@ -61,4 +61,4 @@ struct LodAsset {
 /// Throws InputError naming the level and the rule that is broken.
 void validate(const LodAsset& asset);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -8,7 +8,7 @@
 
 #include "base/disjoint_sets.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 // A corner is vertex `corner % 3` of triangle `corner / 3`.
@@ -159,4 +159,4 @@ std::vector<Eigen::Vector3f> vertex_normals(const SplitSurface& surface,
   return normals;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -5,7 +5,7 @@
 
 #include "model/mesh.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// A surface as it is drawn: mesh vertices are split where the rest mesh has a crease or the part
 /// changes, so that rims stay crisp and the rest is smooth. Made once; positions then move.
@@ -31,4 +31,4 @@ SplitSurface split_at_creases(const TriangleMesh& mesh, double crease_degrees = 
 std::vector<Eigen::Vector3f> vertex_normals(const SplitSurface& surface,
                                             const std::vector<Vec3>& positions);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -9,7 +9,7 @@
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 void require_sizes(const MassSpringModel& m) {
@@ -137,4 +137,4 @@ double estimated_young(const MassSpringModel& model) {
   return spring_work(model) / (6 * mass_properties(model).volume);
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -7,7 +7,7 @@
 #include "model/material.hpp"
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// A mass-spring model: N nodes and S springs, struct of arrays. Treat it as immutable once
 /// `validate` has passed; what moves is a State.
@@ -87,4 +87,4 @@ double spring_work(const MassSpringModel& model);
 /// Young's modulus by the paper's eq. 2, W / (6 V) [Pa]; an affine upper bound.
 double estimated_young(const MassSpringModel& model);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

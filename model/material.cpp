@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 void validate(const Material& material) {
   if (material.name.empty()) throw InputError("a material has no name; give it one");
@@ -37,4 +37,4 @@ Colour palette_colour(std::size_t index) {
   return kPalette[index % kPalette.size()];
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Linear RGB would be overkill for a legend: these are display (sRGB) components in 0..1.
 struct Colour {
@@ -33,4 +33,4 @@ void validate(const Material& material);
 /// A colour that tells material number `index` from its neighbours; repeats after 8.
 Colour palette_colour(std::size_t index);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

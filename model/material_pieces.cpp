@@ -2,7 +2,7 @@
 
 #include "base/disjoint_sets.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 std::vector<std::vector<std::uint32_t>> material_pieces(const MassSpringModel& model) {
   DisjointSets sets(model.node_count());
@@ -15,4 +15,4 @@ std::vector<std::vector<std::uint32_t>> material_pieces(const MassSpringModel& m
   return pieces;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

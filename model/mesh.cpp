@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 Box3 bounds(const TriangleMesh& mesh) {
   return bounds(mesh.positions);
@@ -53,4 +53,4 @@ void validate(const TriangleMesh& mesh) {
         fmt::format("mesh: the parts cover {} of {} triangles", next, mesh.triangles.size()));
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

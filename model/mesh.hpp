@@ -7,7 +7,7 @@
 
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -36,4 +36,4 @@ double surface_area(const TriangleMesh& mesh);
 /// not cover the triangles.
 void validate(const TriangleMesh& mesh);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -1,6 +1,6 @@
 #include "model/parts.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 std::vector<ModelPart> split_parts(const MassSpringModel& model, const Components& components) {
   std::vector<ModelPart> parts(components.count);
@@ -29,4 +29,4 @@ std::vector<ModelPart> split_parts(const MassSpringModel& model, const Component
   return parts;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

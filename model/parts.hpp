@@ -5,7 +5,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// One connected part of a model as a model of its own.
 struct ModelPart {
@@ -18,4 +18,4 @@ struct ModelPart {
 /// lowest node.
 std::vector<ModelPart> split_parts(const MassSpringModel& model, const Components& components);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

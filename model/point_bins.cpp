@@ -3,7 +3,7 @@
 #include <limits>
 #include <numeric>
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 // Bodies that fill little of their box get larger bins rather than a table of empty ones.
@@ -103,4 +103,4 @@ PointBins::Near PointBins::nearest(const Vec3& place) const {
   return best;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

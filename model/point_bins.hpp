@@ -9,7 +9,7 @@
 
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Points sorted into the bins of a box, to find those near a place. Refers to the points, which
 /// must outlive it and lie in the box. A periodic box repeats itself along every axis; offsets are
@@ -76,4 +76,4 @@ class PointBins {
   std::vector<std::uint32_t> sorted_;  // points by bin, rising within each
 };
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -1,6 +1,6 @@
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 SpringRows::SpringRows(std::uint32_t node_count, const std::vector<std::uint32_t>& a,
                        const std::vector<std::uint32_t>& b)
@@ -22,4 +22,4 @@ SpringRows::SpringRows(std::uint32_t node_count, const std::vector<std::uint32_t
   for (std::uint32_t s = spring_count(); s-- > 0;) lower_[--start_[b[s]].lower] = {a[s], s};
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -7,7 +7,7 @@
 #include "base/prefetch.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// The springs of each node, as Adjacency tells them and in the same order, in half the memory: a
 /// node's springs to higher nodes stand side by side, sorted as they are, so that only those to
@@ -61,4 +61,4 @@ class SpringRows {
   std::unique_ptr<Lower[]> lower_;  // S
 };
 
-}  // namespace springlod
+}  // namespace springlod::inline model

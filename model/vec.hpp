@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Position [m], velocity [m/s] or force [N]. Default construction leaves it uninitialised.
 using Vec3 = Eigen::Vector3d;
@@ -20,4 +20,4 @@ inline Box3 bounds(const std::vector<Vec3>& points) {
   return box;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -137,4 +137,4 @@ Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
   return camera;
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

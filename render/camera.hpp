@@ -2,7 +2,7 @@
 
 #include "render/scene.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 using Mat4f = Eigen::Matrix4f;
 using Vec3f = Eigen::Vector3f;
@@ -23,4 +23,4 @@ double view_radius(const Camera& camera);
 /// single precision fine however far from the origin the action is.
 Mat4f view_projection(const Camera& camera, double aspect);
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "render/gl.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 /// OSMesa's largest side [px]; beyond it OSMesaMakeCurrent succeeds and draws nonsense.
@@ -141,4 +141,4 @@ Image OffscreenContext::finish() {
   return image;
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

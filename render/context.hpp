@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-namespace springlod {
+namespace springlod::render {
 
 /// 8-bit RGB, rows from the top, no padding.
 struct Image {
@@ -34,4 +34,4 @@ class OffscreenContext {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -9,7 +9,7 @@
 #include "render/node_values.hpp"
 #include "render/strain_colour.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 // Sizes as a part of the mean spring length: balls stand clear of each other and rods show what is
@@ -214,4 +214,4 @@ void validate(const DrawnBody& body) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

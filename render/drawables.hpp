@@ -6,7 +6,7 @@
 #include "model/creases.hpp"
 #include "render/scene.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 // What the graphics pipeline eats: plain floats, positions relative to an origin [m].
 
@@ -44,4 +44,4 @@ Box3 drawn_bounds(const DrawnBody& body);
 /// Throws InputError naming what does not fit (counts, positions that are not finite).
 void validate(const DrawnBody& body);
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -16,7 +16,7 @@ extern const unsigned char springlod_font_begin[];
 extern const unsigned char springlod_font_end[];
 }
 
-namespace springlod {
+namespace springlod::render {
 
 const unsigned char* font_file() {
   return springlod_font_begin;
@@ -25,4 +25,4 @@ std::size_t font_file_size() {
   return static_cast<std::size_t>(springlod_font_end - springlod_font_begin);
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -2,10 +2,10 @@
 
 #include <cstddef>
 
-namespace springlod {
+namespace springlod::render {
 
 /// DejaVu Sans as a TrueType file in memory, put in at build time.
 const unsigned char* font_file();
 std::size_t font_file_size();
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace springlod {
+namespace springlod::render {
 
 FrameWriter::FrameWriter(Save save) : save_(std::move(save)), thread_([this] { work(); }) {}
 
@@ -58,4 +58,4 @@ void FrameWriter::work() {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

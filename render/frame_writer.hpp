@@ -11,7 +11,7 @@
 
 #include "render/frames.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 /// Encodes and writes pictures, in order, on a thread of its own while the caller draws the next.
 class FrameWriter {
@@ -53,4 +53,4 @@ class FrameWriter {
   std::thread thread_;  // last: it uses all of the above
 };
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -13,7 +13,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,4 +118,4 @@ ImageDifference difference(const Image& a, const Image& b, int tolerance) {
   return result;
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

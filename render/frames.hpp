@@ -5,7 +5,7 @@
 
 #include "render/context.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 /// PNG at zlib level 1 with the SUB filter, written aside and renamed. Throws IoError.
 void save_png(const Image& image, const std::filesystem::path& path);
@@ -23,4 +23,4 @@ struct ImageDifference {
 };
 ImageDifference difference(const Image& a, const Image& b, int tolerance = 3);
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 void delete_buffer(GLuint name) {
   glDeleteBuffers(1, &name);
@@ -99,4 +99,4 @@ void float_attribute(GLuint index, GLint count, std::size_t stride, std::size_t 
   glVertexAttribDivisor(index, per_instance ? 1 : 0);
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -9,7 +9,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-namespace springlod {
+namespace springlod::render {
 
 /// Owns one GL object; the context that made it must be current when it dies.
 template <void (*kDelete)(GLuint)>
@@ -71,4 +71,4 @@ void upload(GLenum target, const GlBuffer& buffer, const std::vector<T>& data) {
 void float_attribute(GLuint index, GLint count, std::size_t stride, std::size_t offset,
                      bool per_instance);
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 // From the upper left, a little from the front: shadows fall to the right, in view, and short
@@ -56,4 +56,4 @@ KeyLight key_light(const Camera& camera, const Box3& casters) {
   return light;
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

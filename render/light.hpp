@@ -2,7 +2,7 @@
 
 #include "render/camera.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 /// The one light that casts shadows: parallel rays, fixed to the camera's horizontal direction so
 /// that the viewer's side is always lit.
@@ -17,4 +17,4 @@ struct KeyLight {
 /// `casters`: box around what throws shadows, relative to the camera's target; may be empty.
 KeyLight key_light(const Camera& camera, const Box3& casters);
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "elastic/moduli/estimate.hpp"
+#include "elastic/moduli.hpp"
 #include "render/value_colour.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 using Range = std::pair<double, double>;
@@ -39,9 +39,9 @@ std::vector<double> values_of(const DrawnBody& body) {
   if (body.node_values != nullptr) return *body.node_values;
   switch (body.style.node_colour) {
     case NodeColour::young:
-      return estimate(*body.model).young;
+      return elastic::estimate(*body.model).young;
     case NodeColour::density:
-      return estimate(*body.model).density;
+      return elastic::estimate(*body.model).density;
     case NodeColour::mass:
       return body.model->mass;
     case NodeColour::material:
@@ -158,4 +158,4 @@ std::vector<std::optional<ValueScale>> colour_by_values(std::vector<Panel>& pane
   return scales;
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -6,7 +6,7 @@
 
 #include "render/scene.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 /// From numbers to parts of the colour scale, and what is written beside it.
 struct ValueScale {
@@ -30,4 +30,4 @@ std::vector<std::optional<ValueScale>> colour_by_values(std::vector<Panel>& pane
 /// Whether the balls of the body tell a number and not a material.
 bool shows_values(const DrawnBody& body);
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 constexpr Colour kInk{0.13F, 0.15F, 0.18F};
@@ -216,4 +216,4 @@ void Overlay::draw_title(Image& image, const std::string& title, int panel_heigh
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

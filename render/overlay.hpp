@@ -6,7 +6,7 @@
 
 #include "render/text.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 /// A bar of colours with numbers below it.
 struct ColourScale {
@@ -55,4 +55,4 @@ class Overlay {
   TextPainter text_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::render

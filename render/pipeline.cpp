@@ -15,7 +15,7 @@
 #include "render/shaders.hpp"
 #include "render/shadow_map.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 using Vec4f = Eigen::Vector4f;
@@ -373,4 +373,4 @@ void Pipeline::draw(const Panel& panel) {
   impl_->draw(panel);
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -4,7 +4,7 @@
 
 #include "render/scene.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 /// Draws one panel into the current target of `context`: shadow map, backdrop, planes, boxes,
 /// opaque bodies, then what is transparent. Keeps shaders, buffers and split surfaces.
@@ -21,4 +21,4 @@ class Pipeline {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 // A patch reaches this many view radii around the foot of the target; it has faded out by then.
@@ -58,4 +58,4 @@ PlanePatch plane_patch(const DrawnPlane& plane, const Camera& camera, double asp
   return patch;
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -4,7 +4,7 @@
 
 #include "render/camera.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 /// Spacing of the grid lines [m]: 1, or a power of ten that suits the size of the view.
 double grid_spacing(double view_radius);
@@ -23,4 +23,4 @@ struct PlanePatch {
 
 PlanePatch plane_patch(const DrawnPlane& plane, const Camera& camera, double aspect);
 
-}  // namespace springlod
+}  // namespace springlod::render

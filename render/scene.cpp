@@ -16,7 +16,7 @@
 #include "render/strain_colour.hpp"
 #include "render/value_colour.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 void validate(const Camera& camera) {
@@ -176,7 +176,7 @@ Image Renderer::draw(std::vector<Panel> panels, const PictureText& text) {
                                  grid.panel_count));
   for (const Panel& panel : panels) {
     validate(panel.camera);
-    for (const DrawnBody& body : panel.bodies) springlod::validate(body);
+    for (const DrawnBody& body : panel.bodies) render::validate(body);
   }
   const std::vector<PanelLabels> labels = labels_of(panels, colour_by_values(panels));
   Layout layout = im.layout;
@@ -196,4 +196,4 @@ Image Renderer::draw(std::vector<Panel> panels, const PictureText& text) {
   return picture;
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

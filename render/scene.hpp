@@ -13,7 +13,7 @@
 #include "model/vec.hpp"
 #include "render/context.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 enum class SpringColour { material, strain };
 
@@ -183,4 +183,4 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -1,6 +1,6 @@
 #include "render/shaders.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 const std::string kHeader = R"(#version 330 core
@@ -338,4 +338,4 @@ void main() {
 )"};
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

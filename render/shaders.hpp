@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace springlod {
+namespace springlod::render {
 
 /// GLSL 3.30 sources. All share the uniform block `Frame` (render/pipeline.cpp) and work in metres
 /// relative to the camera's target.
@@ -22,4 +22,4 @@ ShaderSource surface_depth_shader();
 ShaderSource spring_depth_shader();
 ShaderSource node_depth_shader();
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -1,6 +1,6 @@
 #include "render/shadow_map.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 void set_sampler(const GlSampler& sampler, GLint filter, GLint compare_mode) {
@@ -46,4 +46,4 @@ void ShadowMap::bind() const {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

@@ -2,7 +2,7 @@
 
 #include "render/gl.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 /// A depth texture seen from the key light.
 class ShadowMap {
@@ -21,4 +21,4 @@ class ShadowMap {
   GlSampler plain_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::render

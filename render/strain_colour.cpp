@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace springlod {
+namespace springlod::render {
 
 Colour strain_colour(double strain_over_range) {
   // Lightness falls evenly from the middle to both ends (about 85, 60, 35 in CIELAB).
@@ -22,4 +22,4 @@ Colour strain_colour(double strain_over_range) {
   return {a.r + f * (b.r - a.r), a.g + f * (b.g - a.g), a.b + f * (b.b - a.b)};
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

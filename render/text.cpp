@@ -14,7 +14,7 @@
 #include "base/error.hpp"
 #include "render/font_data.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
@@ -169,4 +169,4 @@ void fill_rounded(Image& image, const PixelRect& rect, double corner_radius, con
     }
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

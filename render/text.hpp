@@ -7,7 +7,7 @@
 #include "model/material.hpp"
 #include "render/context.hpp"
 
-namespace springlod {
+namespace springlod::render {
 
 /// Part of a picture [px], from the top left.
 struct PixelRect {
@@ -45,4 +45,4 @@ void fill_rounded(Image& image, const PixelRect& rect, double corner_radius, con
 /// One pixel mixed towards `colour`.
 void blend_pixel(Image& image, int x, int y, const Colour& colour, double alpha);
 
-}  // namespace springlod
+}  // namespace springlod::render

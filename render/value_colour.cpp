@@ -6,7 +6,7 @@
 
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::render {
 namespace {
 
 // CIELAB (L, a, b): L in equal steps; a and b turn from violet to yellow by the way of blue and
@@ -48,4 +48,4 @@ Colour value_colour(double part) {
   return screen_colour(kStops[low] + f * (kStops[low + 1] - kStops[low]));
 }
 
-}  // namespace springlod
+}  // namespace springlod::render

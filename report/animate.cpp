@@ -15,25 +15,25 @@
 #include "render/frames.hpp"
 #include "report/playback.hpp"
 
-namespace springlod {
+namespace springlod::report {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr double kPi = 3.14159265358979323846;
 
-void require_matching(const LodAsset& asset, const Comparison& comparison) {
+void require_matching(const LodAsset& asset, const sim::Comparison& comparison) {
   if (comparison.levels.empty()) throw InputError("animation: the comparison has no runs");
   const std::vector<Level>& levels = asset.chain.levels;
-  for (const LevelRuns& runs : comparison.levels) {
+  for (const sim::LevelRuns& runs : comparison.levels) {
     if (runs.level >= levels.size())
       throw InputError(fmt::format("animation: \"{}\" is of level {}, but the asset has {} levels",
                                    runs.label, runs.level, levels.size()));
-    const auto require_frames = [&](const std::vector<Frame>& frames, std::uint32_t nodes) {
+    const auto require_frames = [&](const std::vector<sim::Frame>& frames, std::uint32_t nodes) {
       if (frames.empty())
         throw InputError(
             fmt::format("animation: \"{}\" kept no frames; run it with a frame rate", runs.label));
-      for (const Frame& frame : frames)
+      for (const sim::Frame& frame : frames)
         if (frame.x.size() != nodes)
           throw InputError(
               fmt::format("animation: \"{}\" has {} positions a frame where the asset "
@@ -53,9 +53,10 @@ void require_sane(const AnimateOptions& options) {
 }
 
 /// The times of the pictures [s].
-std::vector<double> picture_times(const Comparison& comparison, const AnimateOptions& options) {
+std::vector<double> picture_times(const sim::Comparison& comparison,
+                                  const AnimateOptions& options) {
   double end = 0;
-  for (const LevelRuns& runs : comparison.levels)
+  for (const sim::LevelRuns& runs : comparison.levels)
     end = std::max({end, runs.first.frames.back().time, runs.base_frames.back().time});
   const double apart = 1 / (options.frame_rate * options.slow);
   // Rounding in the sum of the time steps must not lose the last picture.
@@ -92,15 +93,16 @@ std::vector<Colour> part_colours(const LodAsset& asset) {
         for (std::uint32_t e = binding.start[v]; e < binding.start[v + 1]; ++e)
           share[base.material[binding.node[e]]] += std::abs(binding.weight[e]);
     const auto most = std::max_element(share.begin(), share.end()) - share.begin();
-    colours.push_back(drawn_colour(base, static_cast<std::uint32_t>(most)));
+    colours.push_back(render::drawn_colour(base, static_cast<std::uint32_t>(most)));
   }
   return colours;
 }
 
 /// What every picture of one panel has in common.
-Panel panel_frame(const LodAsset& asset, const Comparison& comparison, const LevelRuns& runs) {
+render::Panel panel_frame(const LodAsset& asset, const sim::Comparison& comparison,
+                          const sim::LevelRuns& runs) {
   const MassSpringModel& model = asset.chain.levels[runs.level].model;
-  Panel panel;
+  render::Panel panel;
   panel.title =
       fmt::format("{}: {} nodes, {} springs", runs.label, model.node_count(), model.spring_count());
   const auto updates = static_cast<double>(runs.first.spring_updates);
@@ -116,10 +118,10 @@ Panel panel_frame(const LodAsset& asset, const Comparison& comparison, const Lev
         "mean error " +
         format_quantity(std::stod(fmt::format("{:.2g}", runs.starts[0].surface_error)),
                         Dimension::length));
-  for (const Obstacle& obstacle : comparison.scenario.obstacles) {
-    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
+  for (const sim::Obstacle& obstacle : comparison.scenario.obstacles) {
+    if (const auto* plane = std::get_if<sim::Plane>(&obstacle.shape))
       panel.planes.push_back({plane->normal, plane->offset});
-    else if (const auto* box = std::get_if<SolidBox>(&obstacle.shape))
+    else if (const auto* box = std::get_if<sim::SolidBox>(&obstacle.shape))
       panel.boxes.push_back({box->center, box->half_size, box->rotation});
   }
   return panel;
@@ -136,10 +138,10 @@ double surface_margin(const LodAsset& asset) {
 
 /// Everything that is shown, with the floor under it and walls and boxes beside it if they are
 /// near.
-Box3 action_bounds(const LodAsset& asset, const Comparison& comparison,
+Box3 action_bounds(const LodAsset& asset, const sim::Comparison& comparison,
                    const std::vector<double>& times) {
   Box3 box;
-  for (const LevelRuns& runs : comparison.levels)
+  for (const sim::LevelRuns& runs : comparison.levels)
     for (const double t : times) box.extend(bounds(positions_at(runs.base_frames, t)));
   const Vec3 margin = Vec3::Constant(surface_margin(asset));
   box.min() -= margin;
@@ -147,12 +149,12 @@ Box3 action_bounds(const LodAsset& asset, const Comparison& comparison,
   constexpr double kNear = 0.5;  // of the size of the action
   const double near = kNear * box.diagonal().norm();
   const Box3 action = box;
-  for (const Obstacle& obstacle : comparison.scenario.obstacles) {
-    if (const auto* plane = std::get_if<Plane>(&obstacle.shape)) {
+  for (const sim::Obstacle& obstacle : comparison.scenario.obstacles) {
+    if (const auto* plane = std::get_if<sim::Plane>(&obstacle.shape)) {
       const double height = plane->normal.dot(action.center()) - plane->offset;
       const Vec3 foot = action.center() - height * plane->normal;
       if (action.exteriorDistance(foot) <= near) box.extend(foot);
-    } else if (const auto* solid = std::get_if<SolidBox>(&obstacle.shape)) {
+    } else if (const auto* solid = std::get_if<sim::SolidBox>(&obstacle.shape)) {
       Box3 around;
       for (int i = 0; i < 8; ++i) {
         const Vec3 sign((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
@@ -167,8 +169,8 @@ Box3 action_bounds(const LodAsset& asset, const Comparison& comparison,
   return box;
 }
 
-double facing(const Obstacle& obstacle, double azimuth) {
-  const auto* plane = std::get_if<Plane>(&obstacle.shape);
+double facing(const sim::Obstacle& obstacle, double azimuth) {
+  const auto* plane = std::get_if<sim::Plane>(&obstacle.shape);
   if (plane == nullptr) return 1;
   const Vec3 across(plane->normal.x(), plane->normal.y(), 0);
   constexpr double kWall = 0.7;  // floors and ramps are seen from above anyway
@@ -178,14 +180,14 @@ double facing(const Obstacle& obstacle, double azimuth) {
 }
 
 /// The azimuth, or one of its mirror images, from which every wall is seen from its free side.
-double azimuth_of(const Scenario& scenario, const AnimateOptions& options) {
+double azimuth_of(const sim::Scenario& scenario, const AnimateOptions& options) {
   if (!options.avoid_walls) return options.azimuth;
   const double az = options.azimuth;
   double best = az;
   double best_facing = -2;
   for (const double candidate : {az, -180 - az, -az, 180 + az}) {
     double worst = 1;
-    for (const Obstacle& obstacle : scenario.obstacles)
+    for (const sim::Obstacle& obstacle : scenario.obstacles)
       worst = std::min(worst, facing(obstacle, candidate));
     constexpr double kEnough = 0.15;  // not quite edge on
     if (worst >= kEnough) return candidate;
@@ -198,14 +200,15 @@ double azimuth_of(const Scenario& scenario, const AnimateOptions& options) {
 }
 
 /// The cameras of one panel, one a picture.
-std::vector<Camera> cameras_of(const LodAsset& asset, const Comparison& comparison,
-                               const LevelRuns& runs, const std::vector<double>& times,
-                               const AnimateOptions& options) {
+std::vector<render::Camera> cameras_of(const LodAsset& asset, const sim::Comparison& comparison,
+                                       const sim::LevelRuns& runs, const std::vector<double>& times,
+                                       const AnimateOptions& options) {
   const double aspect = static_cast<double>(options.width) / options.height;
   const double azimuth = azimuth_of(comparison.scenario, options);
   if (options.camera == CameraMode::fixed)
-    return std::vector<Camera>(times.size(), frame_box(action_bounds(asset, comparison, times),
-                                                       azimuth, options.elevation, aspect));
+    return std::vector<render::Camera>(
+        times.size(), render::frame_box(action_bounds(asset, comparison, times), azimuth,
+                                        options.elevation, aspect));
   const MassSpringModel& base = asset.chain.levels[0].model;
   std::vector<Vec3> path;
   for (const double t : times)
@@ -219,13 +222,14 @@ std::vector<Camera> cameras_of(const LodAsset& asset, const Comparison& comparis
   for (const Vec3& p : base.rest) radius = std::max(radius, (p - center).norm());
   constexpr double kRoom = 1.9;
   const Vec3 half = Vec3::Constant(kRoom * (radius + surface_margin(asset)) / std::sqrt(3.));
-  std::vector<Camera> cameras;
+  std::vector<render::Camera> cameras;
   for (const Vec3& p : path)
-    cameras.push_back(frame_box(Box3(p - half, p + half), azimuth, options.elevation, aspect));
+    cameras.push_back(
+        render::frame_box(Box3(p - half, p + half), azimuth, options.elevation, aspect));
   return cameras;
 }
 
-DrawStyle style_for(const LodAsset& asset, DrawStyle style) {
+render::DrawStyle style_for(const LodAsset& asset, render::DrawStyle style) {
   if (asset.surface.triangles.empty()) style.surface = false;
   if (!style.surface && !style.nodes && !style.springs && !style.bold_inner_nodes)
     style.nodes = style.springs = true;
@@ -235,7 +239,7 @@ DrawStyle style_for(const LodAsset& asset, DrawStyle style) {
 /// One panel through the film; keeps what the drawn body points to.
 class PanelPlayer {
  public:
-  PanelPlayer(const LodAsset& asset, const Comparison& comparison, const LevelRuns& runs,
+  PanelPlayer(const LodAsset& asset, const sim::Comparison& comparison, const sim::LevelRuns& runs,
               const std::vector<double>& times, const AnimateOptions& options)
       : asset_(asset),
         runs_(runs),
@@ -248,14 +252,14 @@ class PanelPlayer {
     body_.part_colours = part_colours(asset);
   }
 
-  Panel at(std::size_t picture, double t) {
+  render::Panel at(std::size_t picture, double t) {
     nodes_ = positions_at(runs_.first.frames, t);
     body_.node_positions = &nodes_;
     if (body_.surface != nullptr) {
       surface_ = carry(asset_.surface_of_base, positions_at(runs_.base_frames, t));
       body_.surface_positions = &surface_;
     }
-    Panel panel = panel_;
+    render::Panel panel = panel_;
     panel.camera = cameras_[picture];
     panel.bodies = {body_};
     return panel;
@@ -263,10 +267,10 @@ class PanelPlayer {
 
  private:
   const LodAsset& asset_;
-  const LevelRuns& runs_;
-  Panel panel_;
-  std::vector<Camera> cameras_;
-  DrawnBody body_;
+  const sim::LevelRuns& runs_;
+  render::Panel panel_;
+  std::vector<render::Camera> cameras_;
+  render::DrawnBody body_;
   std::vector<Vec3> nodes_;
   std::vector<Vec3> surface_;
 };
@@ -293,26 +297,26 @@ void remove_stale_frames(const fs::path& folder, std::size_t count) {
 
 }  // namespace
 
-Animation animate(const LodAsset& asset, const Comparison& comparison, const fs::path& folder,
+Animation animate(const LodAsset& asset, const sim::Comparison& comparison, const fs::path& folder,
                   const AnimateOptions& options) {
   require_matching(asset, comparison);
   require_sane(options);
   const std::vector<double> times = picture_times(comparison, options);
-  Renderer renderer({.panel_width = options.width,
-                     .panel_height = options.height,
-                     .panel_count = static_cast<std::uint32_t>(comparison.levels.size())});
+  render::Renderer renderer({.panel_width = options.width,
+                             .panel_height = options.height,
+                             .panel_count = static_cast<std::uint32_t>(comparison.levels.size())});
   std::vector<PanelPlayer> players;
-  for (const LevelRuns& runs : comparison.levels)
+  for (const sim::LevelRuns& runs : comparison.levels)
     players.emplace_back(asset, comparison, runs, times, options);
 
   Task task(options.progress, "drawing frames", times.size());
-  FrameWriter writer;
+  render::FrameWriter writer;
   for (std::size_t k = 0; k < times.size(); ++k) {
-    std::vector<Panel> panels;
+    std::vector<render::Panel> panels;
     for (PanelPlayer& player : players) panels.push_back(player.at(k, times[k]));
     writer.write(
         renderer.draw(std::move(panels), {.footer = fmt::format("t = {:.3f} s", times[k])}),
-        frame_path(folder, static_cast<std::uint32_t>(k)));
+        render::frame_path(folder, static_cast<std::uint32_t>(k)));
     task.advance();
   }
   writer.finish();
@@ -320,4 +324,4 @@ Animation animate(const LodAsset& asset, const Comparison& comparison, const fs:
   return {static_cast<std::uint32_t>(times.size()), folder};
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

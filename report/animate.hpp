@@ -12,7 +12,7 @@
 #include "render/scene.hpp"
 #include "sim/study/compare.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 enum class CameraMode { fixed, follow };
 
@@ -36,7 +36,7 @@ struct AnimateOptions {
   double elevation = 15;
   /// Mirror the azimuth where a wall would else stand between the camera and the action.
   bool avoid_walls = true;
-  DrawStyle style = {};
+  render::DrawStyle style = {};
   Progress* progress = nullptr;
 };
 constexpr auto option_rows(const AnimateOptions*) {
@@ -65,7 +65,7 @@ struct Animation {
 /// there (a surface where the asset has none) draws nodes and springs. frame_*.png of an earlier,
 /// longer animation are removed. Throws InputError (no runs, asset and runs that do not belong
 /// together), IoError.
-Animation animate(const LodAsset& asset, const Comparison& comparison,
+Animation animate(const LodAsset& asset, const sim::Comparison& comparison,
                   const std::filesystem::path& folder, const AnimateOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::report

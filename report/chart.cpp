@@ -11,7 +11,7 @@
 #include "report/csv.hpp"
 #include "report/gnuplot.hpp"
 
-namespace springlod {
+namespace springlod::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -304,4 +304,4 @@ ChartFiles draw_chart(const std::vector<ChartSeries>& series, const ChartOptions
   return files;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

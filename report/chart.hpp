@@ -7,7 +7,7 @@
 
 #include "base/choice.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 struct ChartPoint {
   double x = 0;
@@ -83,4 +83,4 @@ struct ChartFiles {
 ChartFiles draw_chart(const std::vector<ChartSeries>& series, const ChartOptions& options,
                       const std::filesystem::path& path);
 
-}  // namespace springlod
+}  // namespace springlod::report

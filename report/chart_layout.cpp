@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace springlod {
+namespace springlod::report {
 namespace {
 
 constexpr double kRoom = 0.07;  // free space at the ends of an axis, as a part of it
@@ -257,4 +257,4 @@ std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, co
   return labels;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

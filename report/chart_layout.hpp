@@ -5,7 +5,7 @@
 
 #include "report/chart.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 /// Size of a chart and place of its plot box [px], y downwards.
 struct ChartFrame {
@@ -68,4 +68,4 @@ constexpr double kLabelFont = 0.9;
 /// Rough width of a text in a sans-serif font [px].
 double text_width(const std::string& text, double font_size);
 
-}  // namespace springlod
+}  // namespace springlod::report

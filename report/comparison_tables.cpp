@@ -1,38 +1,37 @@
-#include "report/comparison_tables.hpp"
-
 #include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "report/stats/statistics.hpp"
+#include "report/stats.hpp"
+#include "report/tables.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 namespace {
 
 template <class Get>
-double mean_over(const LevelRuns& runs, Get get) {
+double mean_over(const sim::LevelRuns& runs, Get get) {
   double sum = 0;
-  for (const StartResult& start : runs.starts) sum += static_cast<double>(get(start));
+  for (const sim::StartResult& start : runs.starts) sum += static_cast<double>(get(start));
   return runs.starts.empty() ? 0 : sum / static_cast<double>(runs.starts.size());
 }
 
-double distance_spread(const LevelRuns& runs) {
+double distance_spread(const sim::LevelRuns& runs) {
   if (runs.starts.size() < 2) return 0;
   std::vector<double> distances;
-  for (const StartResult& start : runs.starts) distances.push_back(start.distance);
+  for (const sim::StartResult& start : runs.starts) distances.push_back(start.distance);
   return standard_deviation(distances);
 }
 
-double largest_ledger_error(const LevelRuns& runs) {
+double largest_ledger_error(const sim::LevelRuns& runs) {
   double largest = 0;
-  for (const StartResult& start : runs.starts) largest = std::max(largest, start.ledger_error);
+  for (const sim::StartResult& start : runs.starts) largest = std::max(largest, start.ledger_error);
   return largest;
 }
 
-double cost_per_second(const LevelRuns& runs) {
-  return mean_over(runs, [](const StartResult& s) {
+double cost_per_second(const sim::LevelRuns& runs) {
+  return mean_over(runs, [](const sim::StartResult& s) {
     return s.simulated > 0 ? static_cast<double>(s.spring_updates) / s.simulated : 0;
   });
 }
@@ -52,7 +51,7 @@ std::string comparison_columns_help() {
          "energy)";
 }
 
-Table comparison_table(const Comparison& comparison, const LodChain& chain) {
+Table comparison_table(const sim::Comparison& comparison, const LodChain& chain) {
   Table table;
   table.columns = {"level",
                    "label",
@@ -73,14 +72,16 @@ Table comparison_table(const Comparison& comparison, const LodChain& chain) {
                    "ledger_error"};
   const auto& levels = comparison.levels;
   const double diagonal = base_diagonal(chain);
-  for (const LevelRuns& runs : levels) {
+  for (const sim::LevelRuns& runs : levels) {
     const MassSpringModel& model = chain.levels.at(runs.level).model;
     const double cost = cost_per_second(runs);
-    const double surface = mean_over(runs, [](const StartResult& s) { return s.surface_error; });
-    const double shape = mean_over(runs, [](const StartResult& s) { return s.shape_error; });
-    const double distance = mean_over(runs, [](const StartResult& s) { return s.distance; });
-    const double energy = mean_over(runs, [](const StartResult& s) { return s.energy_difference; });
-    const double simulated = mean_over(runs, [](const StartResult& s) { return s.simulated; });
+    const double surface =
+        mean_over(runs, [](const sim::StartResult& s) { return s.surface_error; });
+    const double shape = mean_over(runs, [](const sim::StartResult& s) { return s.shape_error; });
+    const double distance = mean_over(runs, [](const sim::StartResult& s) { return s.distance; });
+    const double energy =
+        mean_over(runs, [](const sim::StartResult& s) { return s.energy_difference; });
+    const double simulated = mean_over(runs, [](const sim::StartResult& s) { return s.simulated; });
     table.rows.push_back(
         {fmt::format("{}", runs.level), runs.label, fmt::format("{}", model.node_count()),
          fmt::format("{}", model.spring_count()), fmt::format("{}", model.end_count()),
@@ -94,7 +95,7 @@ Table comparison_table(const Comparison& comparison, const LodChain& chain) {
   return table;
 }
 
-Table starts_table(const Comparison& comparison) {
+Table starts_table(const sim::Comparison& comparison) {
   Table table;
   table.columns = {"level",
                    "label",
@@ -108,9 +109,9 @@ Table starts_table(const Comparison& comparison) {
                    "ledger_error",
                    "unconverged_steps",
                    "first_crossing"};
-  for (const LevelRuns& runs : comparison.levels)
+  for (const sim::LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
-      const StartResult& start = runs.starts[i];
+      const sim::StartResult& start = runs.starts[i];
       table.rows.push_back({fmt::format("{}", runs.level), runs.label, fmt::format("{}", i + 1),
                             number_text(start.distance), number_text(start.surface_error),
                             number_text(start.shape_error), number_text(start.energy_difference),
@@ -122,7 +123,7 @@ Table starts_table(const Comparison& comparison) {
   return table;
 }
 
-Table timings_table(const Comparison& comparison) {
+Table timings_table(const sim::Comparison& comparison) {
   Table table;
   table.columns = {"level",
                    "label",
@@ -132,9 +133,9 @@ Table timings_table(const Comparison& comparison) {
                    "spring_updates",
                    "spring_updates_per_wall_second",
                    "real_time_factor"};
-  for (const LevelRuns& runs : comparison.levels)
+  for (const sim::LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
-      const StartResult& start = runs.starts[i];
+      const sim::StartResult& start = runs.starts[i];
       const double wall = std::max(start.wall_seconds, 1e-9);  // a clock may stand still
       table.rows.push_back({fmt::format("{}", runs.level), runs.label, fmt::format("{}", i + 1),
                             number_text(wall), number_text(start.simulated),
@@ -145,4 +146,4 @@ Table timings_table(const Comparison& comparison) {
   return table;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

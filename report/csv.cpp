@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 
-namespace springlod {
+namespace springlod::report {
 namespace {
 
 void require_even(const Table& table) {
@@ -119,4 +119,4 @@ std::string format_table(const Table& table) {
   return text;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

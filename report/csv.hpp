@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace springlod {
+namespace springlod::report {
 
 /// Column names and rows of cells, all as text.
 struct Table {
@@ -20,4 +20,4 @@ void save_csv(const Table& table, const std::filesystem::path& path);
 /// Columns aligned for a terminal; numbers to the right.
 std::string format_table(const Table& table);
 
-}  // namespace springlod
+}  // namespace springlod::report

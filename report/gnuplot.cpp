@@ -6,7 +6,7 @@
 #include "base/file.hpp"
 #include "base/subprocess.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 namespace fs = std::filesystem;
 
@@ -73,4 +73,4 @@ Drawing draw_with_gnuplot(const std::string& script, const fs::path& picture) {
   return drawing;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace springlod {
+namespace springlod::report {
 
 /// What came of drawing a picture through gnuplot.
 struct Drawing {
@@ -32,4 +32,4 @@ std::string gnuplot_terminal(const std::filesystem::path& picture, double width,
 /// data and picture can be moved together. Throws IoError.
 Drawing draw_with_gnuplot(const std::string& script, const std::filesystem::path& picture);
 
-}  // namespace springlod
+}  // namespace springlod::report

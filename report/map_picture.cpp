@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "report/chart_layout.hpp"
 
-namespace springlod {
+namespace springlod::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,17 +42,17 @@ constexpr int kMechanismPattern = 2;  // crossed lines
 constexpr double kLoneCell = 1.4;
 
 struct Scheme {
-  Integrator integrator;
+  sim::Integrator integrator;
   std::uint32_t iterations;
   bool operator==(const Scheme&) const = default;
 };
 
-Scheme scheme_of(const StabilityPoint& point) {
+Scheme scheme_of(const sim::StabilityPoint& point) {
   return {point.integrator, point.iterations};
 }
 
 std::pair<std::string, std::string> heading(const Scheme& scheme) {
-  const IntegratorChoice::Traits& traits = choice_of(scheme.integrator).traits;
+  const sim::IntegratorChoice::Traits& traits = choice_of(scheme.integrator).traits;
   const auto& [first, second] = traits.heading;
   if (!traits.swept) return {first, second};
   return {first,
@@ -118,21 +118,21 @@ const char* colour_of(double error) {
 }
 
 /// What is written into a cell whose colour does not say it all.
-const char* mark_of(Verdict verdict) {
+const char* mark_of(sim::Verdict verdict) {
   switch (verdict) {
-    case Verdict::drifting:
+    case sim::Verdict::drifting:
       return "~";
-    case Verdict::off_design:
+    case sim::Verdict::off_design:
       return "o";
-    case Verdict::crossed:
+    case sim::Verdict::crossed:
       return "x";
-    case Verdict::unconverged:
+    case sim::Verdict::unconverged:
       return "!";
-    case Verdict::stable:
-    case Verdict::inaccurate:
-    case Verdict::runaway:
-    case Verdict::diverged:
-    case Verdict::mechanism:
+    case sim::Verdict::stable:
+    case sim::Verdict::inaccurate:
+    case sim::Verdict::runaway:
+    case sim::Verdict::diverged:
+    case sim::Verdict::mechanism:
       break;
   }
   return "";
@@ -141,12 +141,12 @@ const char* mark_of(Verdict verdict) {
 /// One picture of one map.
 class Picture {
  public:
-  Picture(const StabilityMap& map, double font_unit) : map_(map), sheet_(font_unit) {
-    for (const StabilityBody& body : map.bodies) {
+  Picture(const sim::StabilityMap& map, double font_unit) : map_(map), sheet_(font_unit) {
+    for (const sim::StabilityBody& body : map.bodies) {
       add_once(levels_, body.level);
       add_once(ratios_, body.ratio);
     }
-    for (const StabilityPoint& point : map.points) add_once(schemes_, scheme_of(point));
+    for (const sim::StabilityPoint& point : map.points) add_once(schemes_, scheme_of(point));
     constexpr double kWidest = 160;
     constexpr double kNarrowest = 116;
     constexpr double kSheet = 1120;  // room for panels
@@ -184,7 +184,7 @@ class Picture {
 
  private:
   struct Cell {
-    const StabilityPoint* point;
+    const sim::StabilityPoint* point;
     double low, high;  // steps between which it is drawn [s]
   };
 
@@ -206,8 +206,8 @@ class Picture {
   // Cells reach halfway to their neighbours.
   std::vector<Cell> cells_of(const Scheme& scheme, std::uint32_t level, double ratio) const {
     std::vector<Cell> cells;
-    for (const StabilityPoint& point : map_.points) {
-      const StabilityBody& body = map_.bodies[point.body];
+    for (const sim::StabilityPoint& point : map_.points) {
+      const sim::StabilityBody& body = map_.bodies[point.body];
       if (scheme_of(point) == scheme && body.level == level && body.ratio == ratio)
         cells.push_back({&point, 0, 0});
     }
@@ -229,7 +229,7 @@ class Picture {
   void find_steps() {
     low_ = high_ = map_.points.front().step;
     for (const Scheme& scheme : schemes_)
-      for (const StabilityBody& body : map_.bodies)
+      for (const sim::StabilityBody& body : map_.bodies)
         for (const Cell& cell : cells_of(scheme, body.level, body.ratio)) {
           low_ = std::min({low_, cell.low, cell.point->limit});
           high_ = std::max({high_, cell.high, std::min(cell.point->limit, 10 * high_)});
@@ -262,7 +262,8 @@ class Picture {
     constexpr double kSeam = 0.5;
     const Rect place{strip.left + kSeam, y_of(strip, cell.high) + kSeam, strip.right - kSeam,
                      y_of(strip, cell.low) - kSeam};
-    if (cell.point->verdict == Verdict::mechanism) return sheet_.hatch(place, kMechanismPattern);
+    if (cell.point->verdict == sim::Verdict::mechanism)
+      return sheet_.hatch(place, kMechanismPattern);
     if (!cell.point->stable) return sheet_.hatch(place, kDivergedPattern);
     sheet_.colour(place, colour_of(cell.point->error));
     const char* mark = mark_of(cell.point->verdict);
@@ -281,7 +282,7 @@ class Picture {
     const double middle = (place.top + place.bottom) / 2;
     const auto level = levels_[row];
     const auto body = std::find_if(map_.bodies.begin(), map_.bodies.end(),
-                                   [&](const StabilityBody& b) { return b.level == level; });
+                                   [&](const sim::StabilityBody& b) { return b.level == level; });
     sheet_.write(22, middle, fmt::format("level {}: {} nodes", level, body->nodes), "center", kFont,
                  kInk, "rotate by 90");
     sheet_.write(48, middle, "step [s]", "center", kFont * 0.9, kSoftInk, "rotate by 90");
@@ -342,7 +343,7 @@ class Picture {
                  kFont * 0.85);
   }
 
-  const StabilityMap& map_;
+  const sim::StabilityMap& map_;
   Sheet sheet_;
   std::vector<std::uint32_t> levels_;
   std::vector<double> ratios_;
@@ -354,7 +355,8 @@ class Picture {
 
 }  // namespace
 
-Drawing draw_map(const StabilityMap& map, const MapPictureOptions& options, const fs::path& path) {
+Drawing draw_map(const sim::StabilityMap& map, const MapPictureOptions& options,
+                 const fs::path& path) {
   require_picture_name(path);
   if (map.points.empty()) throw InputError("chart: the stability map has no points to draw");
   Picture picture(map, gnuplot_font_unit(path));
@@ -369,4 +371,4 @@ Drawing draw_map(const StabilityMap& map, const MapPictureOptions& options, cons
   return draw_with_gnuplot(script, path);
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

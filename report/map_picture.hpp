@@ -6,7 +6,7 @@
 #include "report/gnuplot.hpp"
 #include "sim/study/stability_map.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 struct MapPictureOptions {
   std::string title;
@@ -16,7 +16,7 @@ struct MapPictureOptions {
 /// right, steps upwards, the error as colour, hatched where a run diverged, the predicted limit as
 /// a line. Through gnuplot, whose script stays beside the picture. Throws InputError (no points;
 /// not .svg or .png), IoError.
-Drawing draw_map(const StabilityMap& map, const MapPictureOptions& options,
+Drawing draw_map(const sim::StabilityMap& map, const MapPictureOptions& options,
                  const std::filesystem::path& path);
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace springlod {
+namespace springlod::report {
 
-std::vector<Vec3> positions_at(const std::vector<Frame>& frames, double t) {
-  const auto after = std::upper_bound(frames.begin(), frames.end(), t,
-                                      [](double time, const Frame& f) { return time < f.time; });
+std::vector<Vec3> positions_at(const std::vector<sim::Frame>& frames, double t) {
+  const auto after =
+      std::upper_bound(frames.begin(), frames.end(), t,
+                       [](double time, const sim::Frame& f) { return time < f.time; });
   if (after == frames.begin()) return frames.front().x;
   if (after == frames.end()) return frames.back().x;
-  const Frame& a = *(after - 1);
-  const Frame& b = *after;
+  const sim::Frame& a = *(after - 1);
+  const sim::Frame& b = *after;
   const double share = (t - a.time) / (b.time - a.time);
   std::vector<Vec3> x(a.x.size());
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = a.x[i] + share * (b.x[i] - a.x[i]);
@@ -41,4 +42,4 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& path, std::uint32_t reach) {
   return out;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -5,11 +5,11 @@
 
 #include "sim/run.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 /// Positions at time `t`, linear between frames; before the first and after the last they hold.
 /// `frames` is not empty and in rising order of time.
-std::vector<Vec3> positions_at(const std::vector<Frame>& frames, double t);
+std::vector<Vec3> positions_at(const std::vector<sim::Frame>& frames, double t);
 
 /// Mass-weighted centre of the positions.
 Vec3 center_of_mass(const std::vector<Vec3>& positions, const std::vector<double>& mass);
@@ -18,4 +18,4 @@ Vec3 center_of_mass(const std::vector<Vec3>& positions, const std::vector<double
 /// neither lags nor jerks at an impact.
 std::vector<Vec3> smoothed(const std::vector<Vec3>& path, std::uint32_t reach);
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -1,8 +1,8 @@
-#include "report/stability_tables.hpp"
-
 #include <fmt/format.h>
 
-namespace springlod {
+#include "report/tables.hpp"
+
+namespace springlod::report {
 namespace {
 
 std::string whole(std::uint64_t value) {
@@ -23,14 +23,14 @@ std::string stability_columns_help() {
          "what does not apply is an empty string";
 }
 
-Table stability_table(const StabilityMap& map) {
+Table stability_table(const sim::StabilityMap& map) {
   Table table;
   table.columns = {
       "level", "nodes",        "springs",         "integrator", "iterations",       "ratio",
       "step",  "limit",        "step_over_limit", "stable",     "verdict",          "diverged_at",
       "node",  "energy_drift", "error",           "cost",       "unconverged_steps"};
-  for (const StabilityPoint& point : map.points) {
-    const StabilityBody& body = map.bodies[point.body];
+  for (const sim::StabilityPoint& point : map.points) {
+    const sim::StabilityBody& body = map.bodies[point.body];
     const auto if_finished = [&](double value) {
       return point.finished ? number_text(value) : std::string();
     };
@@ -54,12 +54,12 @@ std::string stability_bodies_columns_help() {
          "(how many)";
 }
 
-Table stability_bodies_table(const StabilityMap& map) {
+Table stability_bodies_table(const sim::StabilityMap& map) {
   Table table;
   table.columns = {"level",           "ratio",           "nodes",      "springs",
                    "limit",           "limited_by",      "period",     "duration",
                    "frequency_error", "reference_error", "loose_nodes"};
-  for (const StabilityBody& body : map.bodies)
+  for (const sim::StabilityBody& body : map.bodies)
     table.rows.push_back({whole(body.level), number_text(body.ratio), whole(body.nodes),
                           whole(body.springs), number_text(body.limit),
                           body.limited_by_damping ? "damping" : "springs", number_text(body.period),
@@ -68,7 +68,7 @@ Table stability_bodies_table(const StabilityMap& map) {
   return table;
 }
 
-Table stability_timings_table(const StabilityMap& map) {
+Table stability_timings_table(const sim::StabilityMap& map) {
   Table table;
   table.columns = {"level",
                    "integrator",
@@ -77,9 +77,9 @@ Table stability_timings_table(const StabilityMap& map) {
                    "step",
                    "wall_seconds",
                    "wall_seconds_per_second"};
-  for (const StabilityPoint& point : map.points) {
+  for (const sim::StabilityPoint& point : map.points) {
     if (!point.finished) continue;
-    const StabilityBody& body = map.bodies[point.body];
+    const sim::StabilityBody& body = map.bodies[point.body];
     table.rows.push_back({whole(body.level), to_string(point.integrator), whole(point.iterations),
                           number_text(body.ratio), number_text(point.step),
                           number_text(point.wall_seconds),
@@ -88,4 +88,4 @@ Table stability_timings_table(const StabilityMap& map) {
   return table;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -11,7 +11,7 @@
 #include "render/frames.hpp"
 #include "report/csv.hpp"
 
-namespace springlod {
+namespace springlod::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,9 +76,9 @@ VideoResult encode_video(const fs::path& folder, double frame_rate, const fs::pa
     throw InputError(fmt::format("video: {} must end in .mp4 or .gif", path.string()));
   if (!(frame_rate > 0) || !std::isfinite(frame_rate))
     throw InputError(fmt::format("video: a frame rate of {} must be above 0", frame_rate));
-  if (!fs::exists(frame_path(folder, 0)))
+  if (!fs::exists(render::frame_path(folder, 0)))
     throw InputError(fmt::format("video: there is no {}; draw the frames first",
-                                 frame_path(folder, 0).string()));
+                                 render::frame_path(folder, 0).string()));
   VideoResult result;
   result.command = shell_line("ffmpeg", ffmpeg_arguments(folder, frame_rate, path));
   const auto ffmpeg = find_program("ffmpeg");
@@ -93,4 +93,4 @@ VideoResult encode_video(const fs::path& folder, double frame_rate, const fs::pa
   return result;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

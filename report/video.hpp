@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-namespace springlod {
+namespace springlod::report {
 
 struct VideoResult {
   bool made = false;    ///< false: ffmpeg is not installed
@@ -15,4 +15,4 @@ struct VideoResult {
 VideoResult encode_video(const std::filesystem::path& folder, double frame_rate,
                          const std::filesystem::path& path);
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -9,7 +9,7 @@
 #include "sim/integrators/runge_kutta.hpp"
 #include "sim/integrators/xpbd.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 constexpr std::uint32_t kNewtonIterations = 20;  // Newton rarely wants more than 5
@@ -24,13 +24,13 @@ std::unique_ptr<Stepper> make(const MassSpringModel& model, const Scenario& scen
 
 /// See Leapfrog.
 double verlet_stable_step(double omega_max, double damping_time) {
-  return stable_step(omega_max, 2 * damping_time);
+  return elastic::stable_step(omega_max, 2 * damping_time);
 }
 
 constexpr IntegratorChoice kIntegrators[] = {
     {{Integrator::symplectic_euler, "symplectic_euler", "explicit; first order in damping"},
      make<FastLeapfrog>,
-     {.stable_step = stable_step, .fast = true, .heading = {"symplectic", "Euler"}}},
+     {.stable_step = elastic::stable_step, .fast = true, .heading = {"symplectic", "Euler"}}},
     {{Integrator::velocity_verlet, "velocity_verlet",
       "explicit; second order, stable step of twice the damping time"},
      make<Leapfrog>,
@@ -69,4 +69,4 @@ std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenar
   return choice_of(options.integrator).make(model, scenario, start, step, options);
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

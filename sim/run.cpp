@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "sim/fast/fast_model.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/run/integration.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // A step is not longer than this part of the duration [1], so that a body without any stiffness has
@@ -53,7 +55,8 @@ RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
   validate(model);
   validate(scenario);
   validate(options);
-  RunPlan plan{.limit = step_limit(model, scenario, options.integrator, options.skin.get())};
+  RunPlan plan{.limit = std::make_shared<const StepLimit>(
+                   step_limit(model, scenario, options.integrator, options.skin.get()))};
   if (choice_of(options.integrator).traits.fast)
     plan.layout = make_fast_model(model, options.precision, options.layout);
   return plan;
@@ -80,9 +83,9 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Sta
                                  start.x.size(), start.v.size(), model.node_count()));
   const auto begin = std::chrono::steady_clock::now();
   Trajectory trajectory;
-  trajectory.predicted_step = plan.limit.step;
+  trajectory.predicted_step = plan.limit->step;
   trajectory.step =
-      options.step.value_or(default_step(options, plan.limit.step, scenario.duration));
+      options.step.value_or(default_step(options, plan.limit->step, scenario.duration));
   integrate(model, scenario, start, options, plan, trajectory);
   trajectory.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -111,4 +114,4 @@ Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x) {
   return moment / mass;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

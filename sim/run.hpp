@@ -9,13 +9,15 @@
 #include "base/progress.hpp"
 #include "model/mass_spring.hpp"
 #include "sim/contact/contact_skin.hpp"
-#include "sim/fast/fast_model.hpp"
+#include "sim/fast/layout.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/ledger.hpp"
-#include "sim/integrators/step_limit.hpp"
 #include "sim/scenario.hpp"
 
-namespace springlod {
+namespace springlod::sim {
+
+class FastModel;
+struct StepLimit;
 
 struct RunOptions {
   Integrator integrator = Integrator::symplectic_euler;
@@ -102,7 +104,7 @@ struct Trajectory {
 
 /// What runs of one model have in common, whatever their start: may be shared between threads.
 struct RunPlan {
-  StepLimit limit;
+  std::shared_ptr<const StepLimit> limit;             ///< never null
   std::shared_ptr<const FastModel> layout = nullptr;  ///< for symplectic Euler
 };
 /// For all runs with these options and obstacles. Throws InputError for a wrong model, scenario or
@@ -132,4 +134,4 @@ double measured_distance(const Scenario& scenario, const Vec3& first_center,
 /// Centre of mass of the nodes at positions x [m].
 Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // How far a unit vector or a rotation may be off [1]: what a script loses by writing 6 digits.
@@ -121,4 +121,4 @@ SurfaceDistance surface_distance(const Obstacle& obstacle, const Vec3& point) {
                     obstacle.shape);
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

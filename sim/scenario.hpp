@@ -9,7 +9,7 @@
 #include "model/mass_spring.hpp"
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Half-space obstacle: material is where normal . x < offset.
 struct Plane {
@@ -76,4 +76,4 @@ struct SurfaceDistance {
 };
 SurfaceDistance surface_distance(const Obstacle& obstacle, const Vec3& point);
 
-}  // namespace springlod
+}  // namespace springlod::sim

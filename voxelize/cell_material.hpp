@@ -7,7 +7,7 @@
 #include "voxelize/grid.hpp"
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// The material that most of `cells` (a handful; kNoIndex is passed over) have; of equals the
 /// lower number. At least one cell must be there.
@@ -29,4 +29,4 @@ inline std::uint16_t commonest_material(const MaterialGrid& grid,
   return best;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

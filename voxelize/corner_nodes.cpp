@@ -4,7 +4,7 @@
 
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 CellIndex corner_of(const CellIndex& cell, unsigned corner) {
@@ -118,4 +118,4 @@ CornerNodes separate_clusters(const CornerNodes& nodes) {
   return apart;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -6,7 +6,7 @@
 
 #include "voxelize/grid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// The corners of the filled cells as nodes, sorted by (z, y, x). An octant or corner number has
 /// bit 0 set on the +x side, bit 1 on +y, bit 2 on +z; seen from the cell in octant o of a node,
@@ -33,4 +33,4 @@ const OctantClusters& octant_clusters(std::uint8_t mask);
 /// Gives each cluster around a node a node of its own (lowest octant first, one after the other).
 CornerNodes separate_clusters(const CornerNodes& nodes);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

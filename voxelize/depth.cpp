@@ -5,7 +5,7 @@
 #include "voxelize/frame.hpp"
 #include "voxelize/nearest_surface.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 CellFrame frame_of(const MaterialGrid& grid) {
@@ -32,4 +32,4 @@ std::vector<float> measure_depth(const MaterialGrid& grid, const TriangleMesh& m
   return depth;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

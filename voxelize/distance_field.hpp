@@ -3,7 +3,7 @@
 // Includes OpenVDB: for inside.cpp and vdb_file.cpp only.
 #include <openvdb/Grid.h>
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// A level set [m], negative inside; its index (i, j, k) is the centre of cell (i, j, k).
 class DistanceField {
@@ -15,4 +15,4 @@ class DistanceField {
 /// Registers OpenVDB's types, once. Call it before anything else of OpenVDB.
 void start_openvdb();
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

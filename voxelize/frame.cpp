@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Cells in the bounding box: at some 20 bytes a cell 2 GB, and their lattice would have as many
@@ -63,4 +63,4 @@ CellFrame frame_around(const Box3& box, double cell) {
   return frame;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

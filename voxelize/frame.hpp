@@ -6,7 +6,7 @@
 #include "model/mesh.hpp"
 #include "voxelize/grid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// A box of cells (0, 0, 0) .. size - 1 in space.
 struct CellFrame {
@@ -46,4 +46,4 @@ struct CellFrame {
 /// the smallest cell that does).
 CellFrame frame_around(const Box3& box, double cell);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Neighbours and corners of a cell must be numbers of 32 bits too.
@@ -50,4 +50,4 @@ void validate(const MaterialGrid& grid) {
   for (std::size_t n = 0; n < grid.cells.size(); ++n) validate_cell(grid, n);
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -13,7 +13,7 @@
 #include "model/material.hpp"
 #include "model/mesh.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 using CellIndex = std::array<std::int32_t, 3>;
 
@@ -85,4 +85,4 @@ struct VoxelizedMesh {
 /// materials that clash.
 VoxelizedMesh voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -5,7 +5,7 @@
 #include "voxelize/cell_material.hpp"
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // A hinge at a node, or along the edge that leaves it in the positive direction `axis`.
@@ -170,4 +170,4 @@ std::uint32_t fill_hinges(MaterialGrid& grid) {
   return static_cast<std::uint32_t>(grid.cells.size() - before);
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

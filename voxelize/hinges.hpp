@@ -6,7 +6,7 @@
 #include "voxelize/corner_nodes.hpp"
 #include "voxelize/lattice.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// Places where filled cells touch only along an edge or at a corner, by the cells around them
 /// alone. An edge is a hinge if of its four cells two opposite ones are filled and the two are not
@@ -18,4 +18,4 @@ std::vector<Hinge> find_hinges(const MaterialGrid& grid, const CornerNodes& node
 /// have and depth 0. Returns how many were filled.
 std::uint32_t fill_hinges(MaterialGrid& grid);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -20,7 +20,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 namespace fs = std::filesystem;
@@ -358,4 +358,4 @@ std::string describe(const ImportReport& report) {
   return text;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

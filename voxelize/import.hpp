@@ -7,7 +7,7 @@
 #include "base/choice.hpp"
 #include "model/mesh.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 enum class UpAxis { x, y, z };
 
@@ -45,4 +45,4 @@ ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions&
 /// "assumed 1 unit = 1 m (OBJ does not say; the option unit changes it)", ... one line each.
 std::string describe(const ImportReport& report);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // A dense table may take 32 * 4 bytes for each entry of the list, or 4 MB, whichever is more: a
@@ -50,4 +50,4 @@ std::uint32_t IndexLookup::find(const CellIndex& index) const {
   return table_[static_cast<std::size_t>((r[2] * size_[1] + r[1]) * size_[0] + r[0])];
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

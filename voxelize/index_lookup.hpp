@@ -6,7 +6,7 @@
 
 #include "voxelize/grid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// No cell or node at this place.
 inline constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
@@ -33,4 +33,4 @@ class IndexLookup {
   std::vector<std::uint32_t> table_;  // empty: search
 };
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -12,7 +12,7 @@
 
 #include "voxelize/distance_field.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Half width of the narrow band in cells: the least that level set tools of OpenVDB expect.
@@ -145,4 +145,4 @@ std::size_t claim_cells(const DistanceField& field, const CellFrame& frame, std:
          sum_over(boxes, [&](const openvdb::CoordBBox& box) { return claim.claim_box(box); });
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

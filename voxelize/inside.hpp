@@ -7,7 +7,7 @@
 #include "model/mesh.hpp"
 #include "voxelize/frame.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// Level set of the volume enclosed by the triangles, which must be closed (OpenVDB meshToVolume:
 /// orientation does not matter, what lies within another shell is filled). `positions` are in cells
@@ -26,4 +26,4 @@ void subtract(DistanceField& a, DistanceField& b);
 std::size_t claim_cells(const DistanceField& field, const CellFrame& frame, std::uint16_t claimant,
                         std::vector<std::uint16_t>& owner);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

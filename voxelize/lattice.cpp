@@ -11,7 +11,7 @@
 #include "voxelize/hinges.hpp"
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Cubic lattice of 6 + 12 neighbours with one constant k: E = 2.5 k / a (Ladd & Kinney 1997).
@@ -236,4 +236,4 @@ LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& optio
   return lattice;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -9,7 +9,7 @@
 #include "model/mass_spring.hpp"
 #include "voxelize/grid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// Where the nodes of the cubic lattice sit (Ladd & Kinney 1997; 6 + 12 neighbours, k = E a / 2.5).
 enum class LatticeStyle {
@@ -73,4 +73,4 @@ struct LatticeModel {
 /// Throws InputError for an empty grid.
 LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

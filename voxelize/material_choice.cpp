@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 MaterialChoice::MaterialChoice(const VoxelizeOptions& options)
     : by_key_(options.materials), fallback_(options.fallback) {
@@ -89,4 +89,4 @@ std::vector<Material> MaterialChoice::finish(std::vector<std::uint16_t>& materia
   return kept;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -8,7 +8,7 @@
 #include "model/mesh.hpp"
 #include "voxelize/grid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// The materials of a grid in the making: one entry a name, numbered in the order of first use.
 class MaterialChoice {
@@ -39,4 +39,4 @@ class MaterialChoice {
   std::set<std::string> asked_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -7,7 +7,7 @@
 
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // The surface passes between a cell and an empty one of its 26 neighbours, so it is at most
@@ -224,4 +224,4 @@ std::vector<NearestPoint> nearest_surface(const CellFrame& frame,
   return search.take();
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -6,7 +6,7 @@
 #include "model/mesh.hpp"
 #include "voxelize/frame.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// What is known of the surface nearest to a cell's centre.
 struct NearestPoint {
@@ -26,4 +26,4 @@ std::vector<NearestPoint> nearest_surface(const CellFrame& frame,
                                           const std::vector<Triangle>& triangles,
                                           const std::vector<std::uint32_t>& labels);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -9,14 +9,14 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "elastic/moduli/surface_stretch.hpp"
+#include "elastic/moduli.hpp"
 #include "elastic/stiffness.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/random_nodes.hpp"
 #include "voxelize/random_springs.hpp"
 #include "voxelize/random_stiffness.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 /// Places a node for placing it: Lloyd's middles are then known to a tenth of the spacing and less.
@@ -134,12 +134,12 @@ bool is_box(const MaterialGrid& grid) {
 Measured measure(const MaterialGrid& grid, const MassSpringModel& model,
                  const std::vector<Vec3>& surface) {
   if (!is_box(grid)) {
-    const SurfaceStretchResult result = surface_stretch(model, surface);
+    const elastic::SurfaceStretchResult result = elastic::surface_stretch(model, surface);
     return {result.young, result.poisson};
   }
   Measured mean;
   for (int axis = 0; axis < 3; ++axis) {
-    const StretchResult result = stretch_test(model, {.axis = axis});
+    const elastic::StretchResult result = elastic::stretch_test(model, {.axis = axis});
     mean.young += result.young / 3;
     mean.poisson += result.poisson / 3;
   }
@@ -219,4 +219,4 @@ RandomModel build_random(const MaterialGrid& grid, const RandomOptions& options)
   return random;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -8,7 +8,7 @@
 #include "model/mass_spring.hpp"
 #include "voxelize/grid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// Ends of springs that every node of a random model has at least (spec 2.5).
 inline constexpr std::uint32_t kLeastRandomEnds = 14;
@@ -73,4 +73,4 @@ struct RandomModel {
 /// grid, fewer than 15 nodes or more than the cells have room for, fewer than 14 ends.
 RandomModel build_random(const MaterialGrid& grid, const RandomOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

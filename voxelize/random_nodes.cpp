@@ -12,7 +12,7 @@
 #include "model/point_bins.hpp"
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Radius of a dart's disk in spacings. A maximal set of disks of radius r holds about 0.73 / r^3
@@ -323,4 +323,4 @@ RandomNodes place_nodes(const MaterialGrid& grid, const GridSamples& samples, st
   return Placing(grid, samples, nodes, seed).run(progress);
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

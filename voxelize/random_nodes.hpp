@@ -6,7 +6,7 @@
 #include "base/progress.hpp"
 #include "voxelize/grid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// Places evenly spread over a grid: the volume and the surface of its filled cells in small equal
 /// pieces.
@@ -43,4 +43,4 @@ struct RandomNodes {
 RandomNodes place_nodes(const MaterialGrid& grid, const GridSamples& samples, std::uint32_t nodes,
                         std::uint64_t seed, Progress* progress);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -10,7 +10,7 @@
 #include "voxelize/random_springs.hpp"
 #include "voxelize/random_stiffness.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 constexpr std::uint32_t kLeastNodes = 100;
@@ -87,12 +87,12 @@ class UnitBox {
 
 }  // namespace
 
-PeriodicNetwork build_periodic_random(const PeriodicRandomOptions& options) {
+elastic::PeriodicNetwork build_periodic_random(const PeriodicRandomOptions& options) {
   if (options.nodes < kLeastNodes)
     throw InputError(fmt::format("periodic random network: {} nodes; there must be at least {}",
                                  options.nodes, kLeastNodes));
   const UnitBox box(options.nodes);
-  PeriodicNetwork network;
+  elastic::PeriodicNetwork network;
   network.rest = best_candidates(options.nodes, options.seed);
   for (std::uint32_t i = 0; i < options.relaxations; ++i) box.relax(network.rest);
   std::vector<Vec3> next = network.rest;
@@ -116,4 +116,4 @@ PeriodicNetwork build_periodic_random(const PeriodicRandomOptions& options) {
   return network;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

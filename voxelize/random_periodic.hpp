@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "elastic/moduli/periodic.hpp"
+#include "elastic/moduli.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 struct PeriodicRandomOptions {
   std::uint32_t nodes = 1000;
@@ -18,6 +18,6 @@ struct PeriodicRandomOptions {
 /// by best candidates (Mitchell 1991) and Lloyd's relaxation, springs and their k as in
 /// build_random. What periodic_stretch says of it tells how far a random model is below eq. 2.
 /// Throws InputError for fewer than 100 nodes, whose springs would meet their own images.
-PeriodicNetwork build_periodic_random(const PeriodicRandomOptions& options = {});
+elastic::PeriodicNetwork build_periodic_random(const PeriodicRandomOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -7,7 +7,7 @@
 #include "model/point_bins.hpp"
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Within this many spacings a node of an even packing has some 44 neighbours, twice as many as it
@@ -232,4 +232,4 @@ std::vector<NodePair> choose_pairs(const MaterialGrid& grid, const RandomNodes& 
                       static_cast<std::uint32_t>(nodes.at.size()), mean, least);
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -6,7 +6,7 @@
 #include "voxelize/grid.hpp"
 #include "voxelize/random_nodes.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// Two nodes, a < b.
 struct NodePair {
@@ -29,4 +29,4 @@ std::vector<NodePair> select_pairs(std::vector<NodePair> candidates, std::uint32
 std::vector<NodePair> choose_pairs(const MaterialGrid& grid, const RandomNodes& nodes,
                                    const Box3& box, double mean, std::uint32_t least);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -4,7 +4,7 @@
 
 #include <Eigen/QR>
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // No spring gets less or more than this part of an even share: A cannot make up for springs that
@@ -73,4 +73,4 @@ std::vector<double> unit_stiffness(const std::vector<NodePair>& pairs,
   return stiffness;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -4,7 +4,7 @@
 
 #include "voxelize/random_springs.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// Stiffness [N/m] of a spring for each pair so that the network has E = 1 Pa by eq. 2 of the
 /// paper; `volume` [m3] is of each node. Eq. 2, W = 6 V E, is made to hold for each node by itself:
@@ -19,4 +19,4 @@ namespace springlod {
 std::vector<double> unit_stiffness(const std::vector<NodePair>& pairs,
                                    const std::vector<double>& volume);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

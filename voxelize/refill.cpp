@@ -11,7 +11,7 @@
 #include "voxelize/index_lookup.hpp"
 #include "voxelize/random.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Cells tried, as parts of the edge of the cube that a node would stand for: `corners` has more
@@ -151,4 +151,4 @@ std::vector<Level> refill_levels(const MaterialGrid& grid, const RefillOptions& 
   return levels;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -11,7 +11,7 @@
 #include "voxelize/lattice.hpp"
 #include "voxelize/random.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// What the volume is refilled with.
 enum class RefillStyle { lattice, random };
@@ -54,4 +54,4 @@ std::vector<Level> refill_levels(const MaterialGrid& grid, const RefillOptions& 
 /// The lattice whose number of nodes comes nearest to `nodes`.
 MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes, LatticeStyle style);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

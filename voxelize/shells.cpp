@@ -7,7 +7,7 @@
 
 #include "base/disjoint_sets.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 struct Shell {
@@ -85,4 +85,4 @@ std::vector<Shells> sort_shells(const TriangleMesh& mesh, const std::vector<Soli
   return sorted;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -6,7 +6,7 @@
 #include "model/mesh.hpp"
 #include "voxelize/solid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// The connected surfaces of one solid, sorted by what they do.
 struct Shells {
@@ -22,4 +22,4 @@ struct Shells {
 std::vector<Shells> sort_shells(const TriangleMesh& mesh, const std::vector<SolidReport>& solids,
                                 const std::vector<std::uint32_t>& welded);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

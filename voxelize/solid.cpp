@@ -11,7 +11,7 @@
 
 #include "voxelize/weld.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // A solid's triangle runs along an edge.
@@ -190,4 +190,4 @@ std::vector<SolidReport> check_solid(const TriangleMesh& mesh,
   return reports;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

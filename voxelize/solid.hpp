@@ -6,7 +6,7 @@
 
 #include "model/mesh.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// One solid and whether it bounds a volume. Parts of one name are one solid (an object with two
 /// materials comes as two open parts); so are open parts whose boundaries meet (a file that names
@@ -27,4 +27,4 @@ std::vector<SolidReport> check_solid(const TriangleMesh& mesh);
 std::vector<SolidReport> check_solid(const TriangleMesh& mesh,
                                      const std::vector<std::uint32_t>& welded);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -13,7 +13,7 @@
 #include "voxelize/distance_field.hpp"
 #include "voxelize/index_lookup.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 namespace fs = std::filesystem;
@@ -233,4 +233,4 @@ MaterialGrid load_vdb(const fs::path& path) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -4,7 +4,7 @@
 
 #include "voxelize/grid.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// Grids "distance" (float level set, of the cells themselves if the grid has none), "material"
 /// (int32 number, -1 outside), "young", "density" and, if known, "depth" (float), all with cell
@@ -14,4 +14,4 @@ void save_vdb(const MaterialGrid& grid, const std::filesystem::path& path);
 /// Throws IoError: no such file, not a .vdb file, or one without our grids.
 MaterialGrid load_vdb(const std::filesystem::path& path);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -17,7 +17,7 @@
 #include "voxelize/solid.hpp"
 #include "voxelize/weld.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Cells along the longest side where no cell is asked for: some thousands of nodes.
@@ -311,4 +311,4 @@ VoxelizedMesh voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options)
   return Voxelizer(mesh, options).run();
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 // Part of the bounding diagonal below which two vertices are one: some 10 times the rounding of
@@ -117,4 +117,4 @@ std::vector<std::uint32_t> weld_vertices(const TriangleMesh& mesh) {
   return welded;
 }
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

@@ -5,10 +5,10 @@
 
 #include "model/mesh.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 
 /// For each vertex the lowest vertex that it is welded to. Vertices nearer than 1e-6 of the
 /// diagonal of the bounding box are one (files in single precision round).
 std::vector<std::uint32_t> weld_vertices(const TriangleMesh& mesh);
 
-}  // namespace springlod
+}  // namespace springlod::voxelize

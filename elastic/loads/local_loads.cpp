@@ -1,13 +1,12 @@
-#include "elastic/loads/local_loads.hpp"
-
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
+#include "elastic/loads.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Where patches can be, and how wide they are.
@@ -167,4 +166,4 @@ std::vector<StaticLoad> pushes(const MassSpringModel& model, const LocalLoadOpti
   });
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -1,13 +1,12 @@
-#include "elastic/loads/piece_loads.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "elastic/loads.hpp"
 #include "model/material_pieces.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 using Nodes = std::vector<std::uint32_t>;
@@ -44,4 +43,4 @@ std::vector<StaticLoad> piece_loads(const MassSpringModel& model, const PieceOpt
   return loads;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -1,5 +1,3 @@
-#include "elastic/loads/static_loads.hpp"
-
 #include <array>
 #include <cmath>
 #include <utility>
@@ -7,8 +5,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/loads.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// The shifted factors precondition conjugate gradients so well (eigenvalues lambda / (lambda +
@@ -193,4 +192,4 @@ std::vector<StaticSolution> solve_static(const ElasticBody& body,
   return solutions;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -1,6 +1,6 @@
-#include "elastic/moduli/estimate.hpp"
+#include "elastic/moduli.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 void finish(Eq2Estimate& e) {
@@ -40,4 +40,4 @@ ModelEstimate estimate(const MassSpringModel& model) {
   return result;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -1,5 +1,3 @@
-#include "elastic/moduli/measured_moduli.hpp"
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -8,8 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Springs around a node lie in a plane if their spread out of it, over that in it, is less (both
@@ -171,4 +170,4 @@ std::vector<MaterialModuli> measured_moduli(const MassSpringModel& model,
   return all;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

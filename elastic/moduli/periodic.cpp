@@ -1,12 +1,11 @@
-#include "elastic/moduli/periodic.hpp"
-
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Relative residual of the solution; the moduli come out to twice as many digits.
@@ -89,4 +88,4 @@ PeriodicModuli periodic_stretch(const PeriodicNetwork& network) {
           work / (6 * volume)};
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "elastic/stiffness.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Relative residual of the solution; the moduli come out to about as many digits.
@@ -165,4 +165,4 @@ StretchResult stretch_test(const MassSpringModel& model, const StretchOptions& o
   return result;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

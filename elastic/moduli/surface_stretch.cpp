@@ -1,5 +1,3 @@
-#include "elastic/moduli/surface_stretch.hpp"
-
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -8,9 +6,10 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 #include "elastic/stiffness.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Relative residual of the solution; the moduli come out to more digits than that.
@@ -110,4 +109,4 @@ SurfaceStretchResult surface_stretch(const MassSpringModel& model,
   return {3 / stretch, contraction / 2 / stretch};
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <cblas.h>
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Up to so many rows Eigen's kernels lose nothing to wider vectors.
@@ -106,4 +106,4 @@ void subtract_product(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c
               size(a.cols()), -1, a.data(), stride(a), b.data(), stride(b), 1, c.data(), stride(c));
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace springlod {
+namespace springlod::elastic {
 
 /// The dense kernels in which factorising and solving spend their time, with the widest vectors of
 /// the machine (BLAS). Matrices are stored by columns. One thread; the same bits every time on
@@ -27,4 +27,4 @@ void multiply_transposed(const ConstDenseRef& a, const ConstDenseRef& b, DenseRe
 /// c -= a b.
 void subtract_product(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c);
 
-}  // namespace springlod
+}  // namespace springlod::elastic

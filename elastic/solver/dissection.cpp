@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Regions of at most so many nodes are not cut any further: smaller ones make the dense blocks too
@@ -147,4 +147,4 @@ Dissection dissect(const std::vector<Vec3>& points, const NodeGraph& graph) {
   return Dissector(points, graph).run();
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -5,7 +5,7 @@
 
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 /// Which nodes are coupled, compressed rows: the neighbours of node i are entries
 /// start[i] .. start[i+1]-1. A node is no neighbour of itself.
@@ -34,4 +34,4 @@ struct Dissection {
 /// best there is; it needs no random numbers and no tuning.
 Dissection dissect(const std::vector<Vec3>& points, const NodeGraph& graph);
 
-}  // namespace springlod
+}  // namespace springlod::elastic

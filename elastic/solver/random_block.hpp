@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace springlod {
+namespace springlod::elastic {
 
 /// Uniform numbers in [-0.5, 0.5), the same with every standard library: starts of iterations.
 inline Eigen::MatrixXd random_block(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
@@ -17,4 +17,4 @@ inline Eigen::MatrixXd random_block(Eigen::Index rows, Eigen::Index columns, std
   return block;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -5,7 +5,7 @@
 
 #include "elastic/solver/dense_kernels.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 NodeGraph node_graph(const Eigen::SparseMatrix<double>& matrix) {
   const Eigen::Index nodes = matrix.cols() / 3;
@@ -190,4 +190,4 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& b) const {
   return result;
 }
 
-}  // namespace springlod
+}  // namespace springlod::elastic

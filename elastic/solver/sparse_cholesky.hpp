@@ -9,7 +9,7 @@
 #include "base/progress.hpp"
 #include "elastic/solver/dissection.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 
 /// Which nodes a 3N x 3N matrix couples (rows 3i..3i+2 belong to node i).
 NodeGraph node_graph(const Eigen::SparseMatrix<double>& matrix);
@@ -51,4 +51,4 @@ class SparseCholesky {
   bool positive_ = true;
 };
 
-}  // namespace springlod
+}  // namespace springlod::elastic

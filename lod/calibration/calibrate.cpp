@@ -16,7 +16,7 @@
 #include "model/anchors.hpp"
 #include "model/parts.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// A part of the base with its targets.
@@ -198,10 +198,11 @@ class Calibrator {
     FitOptions options = options_.fit;
     options.iterations = steps_of(level);
     options.threads = options_.threads;
+    FitProgress progress;
     std::optional<FitKeeper> keeper;
     if (store_) {
       keeper.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options));
-      options.from = keeper->kept();
+      progress.from = keeper->kept();
     }
     std::uint32_t told = 0;  // steps that the task knows of
     const auto tell = [&](const FitState& state) {
@@ -210,12 +211,12 @@ class Calibrator {
       const std::uint32_t done = state.finished ? options.iterations : state.iteration;
       task.advance(done - std::exchange(told, done));
     };
-    if (options.from) {
+    if (progress.from) {
       if (!resumed_.exchange(true))
         say(fmt::format("calibration: goes on from what is kept in {}", store_->folder().string()));
-      tell(*options.from);
+      tell(*progress.from);
     }
-    options.on_iteration = [&](const FitState& state) {
+    progress.on_iteration = [&](const FitState& state) {
       try {
         tell(state);
       } catch (const InterruptedError&) {
@@ -224,7 +225,7 @@ class Calibrator {
       }
       if (keeper && keeper->offer(state) && !state.finished && !said_.exchange(true)) say_where();
     };
-    return fit_part(start, groups, targets, options);
+    return fit_part(start, groups, targets, options, progress);
   }
 
   /// At most, of each part.
@@ -255,4 +256,4 @@ void calibrate(LodChain& chain, const CalibrateOptions& options) {
   Calibrator(chain, options).run();
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

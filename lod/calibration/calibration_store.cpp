@@ -11,7 +11,7 @@
 #include "base/file.hpp"
 #include "lod/calibration/packed.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 namespace fs = std::filesystem;
 
@@ -239,4 +239,4 @@ void CalibrationStore::write(const std::string& name, const std::string& fingerp
   write_text_file(place(name), file.bytes() + content_hash(file.bytes()));
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -11,7 +11,7 @@
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// A folder that keeps what a calibration has found so far, so that one that was stopped goes on
 /// where it was: what was measured of each part of the base, and for each level and part the state
@@ -51,4 +51,4 @@ std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions
 std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel& level_part,
                            const Groups& of_base, const FitOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::lod

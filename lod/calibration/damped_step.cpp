@@ -7,7 +7,7 @@
 
 #include "elastic/solver/dense_kernels.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// How often limits that a step would break are added; what then still breaks is left to the next
@@ -53,7 +53,7 @@ class ActiveStep {
     const Eigen::LLT<Eigen::MatrixXd> dense(normal);
     if (over_.size() == 0) return problem_.slopes * dense.solve(problem_.miss);
     Eigen::MatrixXd along = coupling_;  // w H J L^-T, L L^T = J^T J + a I
-    solve_right_transposed(dense.matrixLLT(), along);
+    elastic::solve_right_transposed(dense.matrixLLT(), along);
     const Eigen::VectorXd z =
         solve_limits(along, damping, over_ - along * dense.matrixL().solve(problem_.miss));
     const Eigen::VectorXd y = dense.solve(problem_.miss - coupling_.transpose() * z);
@@ -119,4 +119,4 @@ Eigen::VectorXd damped_step(const StepProblem& problem, double& damping) {
   return d;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-namespace springlod {
+namespace springlod::lod {
 
 /// The step d of least |d| that makes up for misses, damped (Levenberg 1944):
 ///   min |J^T d - miss|^2 + sum over the active limits of w^2 (H d + excess)^2 + damping |d|^2.
@@ -22,4 +22,4 @@ struct StepProblem {
 /// `damping` is relative to the mean of J's columns' squared norms; it comes back as it was raised.
 Eigen::VectorXd damped_step(const StepProblem& problem, double& damping);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -7,7 +7,7 @@
 #include "elastic/modes.hpp"
 #include "lod/calibration/tolerance.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// Squared frequencies of the base nearer than this count as one.
@@ -40,9 +40,10 @@ Eigen::VectorXd dots(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
 }
 
 /// As which the load accelerates the nodes if nothing deforms [m/s2].
-std::vector<Vec3> rigid_acceleration(const ElasticBody& body, const StaticLoad& load) {
+std::vector<Vec3> rigid_acceleration(const elastic::ElasticBody& body,
+                                     const elastic::StaticLoad& load) {
   std::vector<Vec3> acceleration(body.node_count, Vec3::Zero());
-  for (const ElasticPart& part : body.parts) {
+  for (const elastic::ElasticPart& part : body.parts) {
     const Eigen::VectorXd force = part.gather(load.force).cwiseQuotient(part.root_mass);
     const Eigen::VectorXd rigid = part.zero_modes * (part.zero_modes.transpose() * force);
     part.scatter(rigid.cwiseQuotient(part.root_mass), acceleration);
@@ -82,7 +83,7 @@ std::vector<std::pair<std::size_t, std::size_t>> ElasticFit::mode_pairs() const 
 }
 
 ElasticMisses ElasticFit::misses(const MassSpringModel& level) const {
-  const ElasticBody body = held_body(level, anchored_);
+  const elastic::ElasticBody body = held_body(level, anchored_);
   const auto of_modes = static_cast<Eigen::Index>(mode_pairs().size());
   const Eigen::Index rows = of_modes + static_cast<Eigen::Index>(loads_.size());
   ElasticMisses all;
@@ -95,12 +96,12 @@ ElasticMisses ElasticFit::misses(const MassSpringModel& level) const {
   return all;
 }
 
-void ElasticFit::add_modes(const MassSpringModel& level, const ElasticBody& body,
+void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticBody& body,
                            Eigen::Index first, ElasticMisses& all) const {
   const std::vector<double>& wanted = targets_.squared_frequency;
-  const std::vector<Mode> found =
-      lowest_modes(body,
-                   {.count = static_cast<std::uint32_t>(wanted.size()), .accuracy = kAccuracy})
+  const std::vector<elastic::Mode> found =
+      elastic::lowest_modes(
+          body, {.count = static_cast<std::uint32_t>(wanted.size()), .accuracy = kAccuracy})
           .modes;
   std::vector<Eigen::VectorXd> stretch;
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -121,9 +122,10 @@ void ElasticFit::add_modes(const MassSpringModel& level, const ElasticBody& body
   }
 }
 
-void ElasticFit::add_loads(const MassSpringModel& level, const ElasticBody& body,
+void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticBody& body,
                            Eigen::Index first, ElasticMisses& all) const {
-  const std::vector<StaticSolution> solved = solve_static(body, loads_, {.balance = kLoadBalance});
+  const std::vector<elastic::StaticSolution> solved =
+      elastic::solve_static(body, loads_, {.balance = kLoadBalance});
   const auto k = as_vector(level.stiffness).array();
   const auto m = as_vector(level.mass).array();
   for (std::size_t l = 0; l < loads_.size(); ++l) {
@@ -140,4 +142,4 @@ void ElasticFit::add_loads(const MassSpringModel& level, const ElasticBody& body
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -12,7 +12,7 @@
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// How a level misses its targets: weighted misses r and their slopes by ln k of each spring and
 /// ln m of each node.
@@ -44,16 +44,16 @@ class ElasticFit {
   /// Pairs of modes, each with itself and those of its own frequency.
   std::vector<std::pair<std::size_t, std::size_t>> mode_pairs() const;
   /// Fill the rows from `first` on.
-  void add_modes(const MassSpringModel& level, const ElasticBody& body, Eigen::Index first,
+  void add_modes(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
                  ElasticMisses& all) const;
-  void add_loads(const MassSpringModel& level, const ElasticBody& body, Eigen::Index first,
+  void add_loads(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
                  ElasticMisses& all) const;
 
   const ElasticTargets& targets_;
   std::uint32_t threads_;
   std::vector<std::uint32_t> anchored_;
-  std::vector<StaticLoad> loads_;
+  std::vector<elastic::StaticLoad> loads_;
   Eigen::SparseMatrix<double, Eigen::RowMajor> stretch_;  // S x 3N: b of each spring
 };
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -10,13 +10,12 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "elastic/loads/local_loads.hpp"
-#include "elastic/loads/piece_loads.hpp"
+#include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
 #include "elastic/stable_step.hpp"
 #include "model/anchors.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// Loads solved for together: enough for the factors to be read seldom, few enough for a large
@@ -46,29 +45,32 @@ void check(const TargetOptions& options) {
         "calibration: nothing is left to be fitted; ask for modes or loads, with a weight above 0");
 }
 
-std::vector<StaticLoad> region_loads(const MassSpringModel& base, const TargetRegion& region,
-                                     const TargetOptions& options, std::size_t number) {
-  LocalLoadOptions local{.count = region.patches / 2,
-                         .seed = options.seed + number,
-                         .within = movable_nodes(base, region, options.anchored)};
+std::vector<elastic::StaticLoad> region_loads(const MassSpringModel& base,
+                                              const TargetRegion& region,
+                                              const TargetOptions& options, std::size_t number) {
+  elastic::LocalLoadOptions local{.count = region.patches / 2,
+                                  .seed = options.seed + number,
+                                  .within = movable_nodes(base, region, options.anchored)};
   if (local.within.empty()) return {};
-  std::vector<StaticLoad> loads = patch_pairs(base, local);
+  std::vector<elastic::StaticLoad> loads = elastic::patch_pairs(base, local);
   local.count = region.patches - static_cast<std::uint32_t>(loads.size());
-  std::vector<StaticLoad> single = pushes(base, local);
+  std::vector<elastic::StaticLoad> single = elastic::pushes(base, local);
   std::move(single.begin(), single.end(), std::back_inserter(loads));
-  for (StaticLoad& load : loads) load.name += fmt::format(" of region {}", number);
+  for (elastic::StaticLoad& load : loads) load.name += fmt::format(" of region {}", number);
   return loads;
 }
 
-std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadTarget>& asked,
+std::vector<double> compliances(const elastic::ElasticBody& body,
+                                const std::vector<LoadTarget>& asked,
                                 const std::function<bool()>& stopped) {
   std::vector<double> all;
   for (std::size_t first = 0; first < asked.size(); first += kTogether) {
     if (stopped()) throw InterruptedError();
     const std::size_t last = std::min(asked.size(), first + kTogether);
-    std::vector<StaticLoad> loads;
+    std::vector<elastic::StaticLoad> loads;
     for (std::size_t l = first; l < last; ++l) loads.push_back(asked[l].load);
-    for (const StaticSolution& solution : solve_static(body, loads, {.balance = kLoadBalance}))
+    for (const elastic::StaticSolution& solution :
+         elastic::solve_static(body, loads, {.balance = kLoadBalance}))
       all.push_back(solution.compliance);
   }
   return all;
@@ -76,15 +78,16 @@ std::vector<double> compliances(const ElasticBody& body, const std::vector<LoadT
 
 }  // namespace
 
-ElasticBody held_body(const MassSpringModel& model, const std::vector<std::uint32_t>& anchored,
-                      Progress* progress) {
-  ElasticBody body = elastic_body(model, {.anchored = anchored, .progress = progress});
+elastic::ElasticBody held_body(const MassSpringModel& model,
+                               const std::vector<std::uint32_t>& anchored, Progress* progress) {
+  elastic::ElasticBody body =
+      elastic::elastic_body(model, {.anchored = anchored, .progress = progress});
   body.anchored.clear();  // solve_static refuses to push at free motions only if there are any
   return body;
 }
 
-StaticLoad carried(const Groups& of_base, const StaticLoad& load) {
-  StaticLoad coarse{load.name, std::vector<Vec3>(of_base.count, Vec3::Zero())};
+elastic::StaticLoad carried(const Groups& of_base, const elastic::StaticLoad& load) {
+  elastic::StaticLoad coarse{load.name, std::vector<Vec3>(of_base.count, Vec3::Zero())};
   for (std::size_t i = 0; i < load.force.size(); ++i) coarse.force[of_base.of[i]] += load.force[i];
   return coarse;
 }
@@ -112,18 +115,18 @@ std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes) {
 std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOptions& options) {
   check(options);
   std::vector<LoadTarget> asked;
-  const auto ask = [&](LoadKind kind, double weight, std::vector<StaticLoad> loads) {
-    for (StaticLoad& load : loads)
+  const auto ask = [&](LoadKind kind, double weight, std::vector<elastic::StaticLoad> loads) {
+    for (elastic::StaticLoad& load : loads)
       asked.push_back({kind, std::move(load), 0, weight * options.load_weight});
   };
   if (options.kinds != TargetKinds::modes) {
-    ask(LoadKind::smooth, 1, smooth_loads(base));
-    ask(LoadKind::piece, options.piece_weight, piece_loads(base));
+    ask(LoadKind::smooth, 1, elastic::smooth_loads(base));
+    ask(LoadKind::piece, options.piece_weight, elastic::piece_loads(base));
   }
   const std::uint32_t patches = patch_count(options, base.node_count());
   if (patches > 0 && border_count(base) > 0)
     ask(LoadKind::patch, options.patch_weight,
-        patch_pairs(base, {.count = patches, .seed = options.seed}));
+        elastic::patch_pairs(base, {.count = patches, .seed = options.seed}));
   for (std::size_t r = 0; r < options.regions.size(); ++r)
     ask(LoadKind::region, options.regions[r].weight,
         region_loads(base, options.regions[r], options, r + 1));
@@ -132,17 +135,17 @@ std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOpt
 
 BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options,
                          const std::vector<LoadTarget>& asked) {
-  const ElasticBody body = held_body(base, options.anchored, options.progress);
+  const elastic::ElasticBody body = held_body(base, options.anchored, options.progress);
   BaseAnswers answers;
   run_jobs(2, options.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
     const std::uint32_t modes = mode_count(options);
     if (job == 0 && modes > 0)
-      for (const Mode& mode :
-           lowest_modes(body, {.count = modes, .progress = options.progress}).modes)
+      for (const elastic::Mode& mode :
+           elastic::lowest_modes(body, {.count = modes, .progress = options.progress}).modes)
         answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
     if (job == 1) answers.compliance = compliances(body, asked, stopped);
   });
-  answers.highest_frequency = largest_frequency(base);
+  answers.highest_frequency = elastic::largest_frequency(base);
   return answers;
 }
 
@@ -168,4 +171,4 @@ ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions&
   return targets_of(base, options, std::move(asked), answers);
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -14,7 +14,7 @@
 #include "lod/calibration/frequency_cap.hpp"
 #include "lod/calibration/tolerance.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// Bounds of the unknowns: of one step, its root mean square, and of all steps together.
@@ -53,10 +53,11 @@ double mean(const std::vector<double>& values, std::size_t begin, std::size_t en
 class PartFit {
  public:
   PartFit(const MassSpringModel& level, const Groups& of_base, const ElasticTargets& targets,
-          const FitOptions& options)
+          const FitOptions& options, const FitProgress& progress)
       : start_(level),
         targets_(targets),
         options_(options),
+        progress_(progress),
         steps_(fit_steps(options, level.node_count())),
         tolerance_(frequency_tolerance(options.tolerance, targets.nodes, level.node_count())),
         least_frequency_(options.least_frequency * targets.highest_frequency *
@@ -66,8 +67,8 @@ class PartFit {
         fit_(level, of_base, targets, options.threads) {}
 
   MassSpringModel run() {
-    if (options_.from)
-      restore(*options_.from);
+    if (progress_.from)
+      restore(*progress_.from);
     else
       begin();
     for (; !finished_ && iteration_ < steps_; tell()) {
@@ -140,13 +141,13 @@ class PartFit {
   }
 
   void tell() const {
-    if (options_.on_iteration) options_.on_iteration(state());
+    if (progress_.on_iteration) progress_.on_iteration(state());
   }
 
   void measure(Point& point) const {
     point.misses = fit_.misses(point.model);
     variables_.turn_slopes(point.model.mass, point.misses.slopes);
-    point.normal = gram(point.misses.slopes);
+    point.normal = elastic::gram(point.misses.slopes);
   }
 
   Point at(Eigen::VectorXd theta) const {
@@ -240,13 +241,14 @@ class PartFit {
   }
 
   void keep_if_better() {
-    const double highest = largest_frequency(now_.model);
+    const double highest = elastic::largest_frequency(now_.model);
     if (!best_ || highest < best_->highest_frequency) best_ = Best{now_.theta, now_.model, highest};
   }
 
   const MassSpringModel& start_;
   const ElasticTargets& targets_;
   const FitOptions& options_;
+  const FitProgress& progress_;
   std::uint32_t steps_;
   double tolerance_, least_frequency_, limit_weight_;
   LevelVariables variables_;
@@ -270,8 +272,9 @@ std::uint32_t fit_steps(const FitOptions& options, std::uint32_t nodes) {
 }
 
 MassSpringModel fit_part(const MassSpringModel& level, const Groups& of_base,
-                         const ElasticTargets& targets, const FitOptions& options) {
-  return PartFit(level, of_base, targets, options).run();
+                         const ElasticTargets& targets, const FitOptions& options,
+                         const FitProgress& progress) {
+  return PartFit(level, of_base, targets, options, progress).run();
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -6,10 +6,11 @@
 
 #include "lod/calibration/elastic_targets.hpp"
 #include "lod/calibration/level_variables.hpp"
+#include "lod/options.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// All that a fit goes on from: the same state leads to the same bits.
 struct FitState {
@@ -25,40 +26,12 @@ struct FitState {
   double frequency_error = 0;    ///< of now: mean of the ten lowest [1]; only to be shown
 };
 
-struct FitOptions {
-  /// Steps at most; 0: 90 for up to 500 nodes, down to 10 for large levels, see fit_steps.
-  std::uint32_t iterations = 0;
-  /// Mean error of the ten lowest frequencies that is good enough [1], 0: see frequency_tolerance;
-  /// the other modes may miss by four times as much, smooth loads and those of regions by eight,
-  /// loads of patches and pieces by twenty times as much.
-  double tolerance = 0;
-  /// Where the largest frequency need not fall any further, over that of a lattice of as many
-  /// nodes, omega0 (N / N0)^(1/3): below it local loads are answered worse.
-  double least_frequency = 0.85;
-  /// Of pieces too: how a body moves when it is hit in one place then is more like its base, its
-  /// largest frequency less low, for the nodes that are stiff may not be given the others' mass.
-  KeptMoments moments = KeptMoments::body;
-  std::uint32_t threads = 1;       ///< up to two are used; the same bits for any number
+/// Where a fit begins, and who watches it.
+struct FitProgress {
   std::optional<FitState> from{};  ///< goes on from here, where a fit of the same things was
   /// Called after each step, and once when the fit is finished. May throw to stop.
   std::function<void(const FitState&)> on_iteration{};
 };
-constexpr auto option_rows(const FitOptions*) {
-  return std::tuple(
-      option(
-          "tolerance", &FitOptions::tolerance,
-          "mean error of the ten lowest frequencies that is good enough; other modes may miss by "
-          "four times as much, smooth loads and regions by eight, patches by twenty")
-          .by_default("0.002 sqrt(N0 / N)"),
-      option("iterations", &FitOptions::iterations,
-             "steps at most; by itself fewer for levels of more than 500 nodes, down to 10")
-          .by_default("90"),
-      option("least_frequency", &FitOptions::least_frequency,
-             "where the largest frequency, which bounds the step, need not fall any further, over "
-             "that of a lattice of as many nodes"),
-      option("moments", &FitOptions::moments,
-             "masses shift between nodes; which mass, centre and second moments stay"));
-}
 
 /// Steps that are made at most for a level of so many nodes: each takes the square of them in time,
 /// and what the last ones of many still gain is little.
@@ -73,6 +46,7 @@ std::uint32_t fit_steps(const FitOptions& options, std::uint32_t nodes);
 ///
 /// `level` must be one connected part and have springs.
 MassSpringModel fit_part(const MassSpringModel& level, const Groups& of_base,
-                         const ElasticTargets& targets, const FitOptions& options = {});
+                         const ElasticTargets& targets, const FitOptions& options = {},
+                         const FitProgress& progress = {});
 
-}  // namespace springlod
+}  // namespace springlod::lod

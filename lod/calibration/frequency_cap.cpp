@@ -9,7 +9,7 @@
 #include "elastic/stable_step.hpp"
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 constexpr double kPower = 32;
@@ -37,7 +37,7 @@ double bound_of(const Norm& norm, double mass) {
 }
 
 std::vector<double> node_bounds(const MassSpringModel& model) {
-  const std::vector<Mat3> held = node_stiffness(model);
+  const std::vector<Mat3> held = elastic::node_stiffness(model);
   std::vector<double> bounds;
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     bounds.push_back(bound_of(norm_of(held[i]), model.mass[i]));
@@ -48,7 +48,7 @@ std::vector<double> node_bounds(const MassSpringModel& model) {
 
 CapRows cap_rows(const MassSpringModel& model, double tau, double margin) {
   const SpringRows springs(model);
-  const std::vector<Mat3> held = node_stiffness(model);
+  const std::vector<Mat3> held = elastic::node_stiffness(model);
   std::vector<double> excess;
   std::vector<Eigen::Triplet<double>> slopes;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
@@ -85,4 +85,4 @@ double squared_excess(const MassSpringModel& model, double tau) {
   return sum;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -5,7 +5,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// By how much nodes are stiffer than a limit allows, b_i = ln(2 |A_i| / (m_i tau)),
 /// A_i = sum_j k_ij u u^T, and the slopes of b by ln k and ln m: for each node only those of its
@@ -27,4 +27,4 @@ double largest_node_bound(const MassSpringModel& model);
 /// Sum of the squares of the b above 0.
 double squared_excess(const MassSpringModel& model, double tau);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// What ln m changes for each unit of an unknown, where ln k changes by 1 (spec 4.1).
@@ -52,4 +52,4 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> LevelVariables::turned(
   return slopes * scale.asDiagonal();
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -8,7 +8,7 @@
 #include "lod/calibration/mass_moments.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// A level on its way, beside what it started from.
 struct FitPoint {
@@ -47,4 +47,4 @@ class LevelVariables {
   MassMoments moments_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::lod

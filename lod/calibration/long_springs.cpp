@@ -1,6 +1,6 @@
 #include "lod/calibration/long_springs.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 void favour_long_springs(MassSpringModel& model) {
   // sum k L^2 before over after, the mean length cancelled out.
@@ -15,4 +15,4 @@ void favour_long_springs(MassSpringModel& model) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

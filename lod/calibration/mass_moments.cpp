@@ -8,7 +8,7 @@
 
 #include "model/material_pieces.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// A mass never falls below this part of itself in one correction.
@@ -88,4 +88,4 @@ void MassMoments::restore(const Piece& piece, std::vector<double>& mass) const {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -5,25 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "base/choice.hpp"
+#include "lod/options.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
-
-/// Whose moments are kept while masses shift between nodes.
-enum class KeptMoments {
-  body,   ///< those of the whole
-  pieces  ///< also those of each piece: connected nodes of one material, 20 or more
-};
-
-inline constexpr Choice<KeptMoments> kKeptMoments[] = {
-    {KeptMoments::body, "body", "those of the whole body"},
-    {KeptMoments::pieces, "pieces",
-     "those of each of its pieces of one material too: more accurate in impacts, shorter stable "
-     "time step"}};
-constexpr ChoiceTable<Choice<KeptMoments>> choices(KeptMoments) {
-  return {"moments", kKeptMoments};
-}
+namespace springlod::lod {
 
 /// Total mass, centre of mass and second moments of a model, ten numbers, or of each of its pieces
 /// and of what is left, to be kept while masses shift between its nodes.
@@ -52,4 +37,4 @@ class MassMoments {
   std::vector<Piece> pieces_;       // every node is in one
 };
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// Numbers one after the other as bytes, as this machine has them: for hashing, and for files that
 /// only this machine reads again.
@@ -82,4 +82,4 @@ class Unpacker {
   std::string_view bytes_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 std::vector<double> work_by_material(const MassSpringModel& model) {
@@ -31,4 +31,4 @@ void rescale_moduli(const MassSpringModel& base, MassSpringModel& level) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// Moments below this part of the largest count as none.
@@ -76,4 +76,4 @@ void restore_second_moments(const MassSpringModel& base, const Groups& of_base,
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -3,7 +3,7 @@
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// Second moments of mass about the centre, sum m (x - c)(x - c)^T [kg m2].
 Mat3 second_moments(const MassSpringModel& model);
@@ -17,4 +17,4 @@ Mat3 second_moments(const MassSpringModel& model);
 void restore_second_moments(const MassSpringModel& base, const Groups& of_base,
                             MassSpringModel& level);
 
-}  // namespace springlod
+}  // namespace springlod::lod

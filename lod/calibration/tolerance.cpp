@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-namespace springlod {
+namespace springlod::lod {
 
 double frequency_tolerance(double asked, std::uint32_t base_nodes, std::uint32_t level_nodes) {
   constexpr double kOfBase = 0.002;
   return asked > 0 ? asked : kOfBase * std::sqrt(static_cast<double>(base_nodes) / level_nodes);
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace springlod {
+namespace springlod::lod {
 
 /// How many of the lowest frequencies are held to the tolerance itself.
 inline constexpr std::size_t kLowestModes = 10;
@@ -15,4 +15,4 @@ inline constexpr double kHigherModesTolerance = 4, kSmoothLoadsTolerance = 8;
 /// level can usually be fitted to, 0.002 sqrt(N0 / N).
 double frequency_tolerance(double asked, std::uint32_t base_nodes, std::uint32_t level_nodes);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -17,7 +17,7 @@
 #include "lod/grouping/graded_shares.hpp"
 #include "model/point_bins.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 using Nodes = std::vector<std::uint32_t>;
@@ -39,7 +39,7 @@ std::vector<Nodes> kinds_of(const MassSpringModel& model, BorderRule border) {
 /// With the median of what the nodes add to the bound of the largest squared frequency.
 std::vector<SharedNodes> frequencies_of(const MassSpringModel& model,
                                         const std::vector<Nodes>& kinds) {
-  const std::vector<double> bounds = node_frequency_bounds(model, model.rest, {});
+  const std::vector<double> bounds = elastic::node_frequency_bounds(model, model.rest, {});
   std::vector<SharedNodes> shared;
   for (const Nodes& kind : kinds) {
     std::vector<double> of_kind;
@@ -186,4 +186,4 @@ Groups compact_groups(const GroupingTask& task) {
                                      .seed = task.options.seed});
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

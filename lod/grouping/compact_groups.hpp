@@ -6,7 +6,7 @@
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 struct CompactOptions {
   std::uint32_t count = 0;  ///< groups wanted
@@ -31,4 +31,4 @@ Groups compact_groups(const MassSpringModel& model, const CompactOptions& option
 /// The same as a grouping.
 Groups compact_groups(const GroupingTask& task);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -7,7 +7,7 @@
 
 #include "base/disjoint_sets.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// The connected pieces of each group.
@@ -68,4 +68,4 @@ void mend_groups(const MassSpringModel& model, Groups& groups) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -12,7 +12,7 @@
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// The node of the group that a breadth-first walk within it, from its lowest node, comes to last:
@@ -134,4 +134,4 @@ void fuse_to_count(const MassSpringModel& model, BorderRule border, std::uint32_
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -7,7 +7,7 @@
 #include "model/mass_spring.hpp"
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// Takes single nodes out of the largest groups until there are `count` of them: always one far
 /// from where the group's springs meet, so that the rest of the group still holds together.
@@ -21,4 +21,4 @@ void split_to_count(const MassSpringModel& model, const SpringRows& springs, std
 void fuse_to_count(const MassSpringModel& model, BorderRule border, std::uint32_t count,
                    Groups& groups);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// Part of the even share that a kind keeps at least; it gets at most its inverse.
@@ -90,4 +90,4 @@ std::vector<std::uint32_t> graded_shares(const std::vector<SharedNodes>& kinds, 
   return share;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

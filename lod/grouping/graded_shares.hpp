@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace springlod {
+namespace springlod::lod {
 
 /// Nodes that share groups among each other only.
 struct SharedNodes {
@@ -22,4 +22,4 @@ struct SharedNodes {
 std::vector<std::uint32_t> graded_shares(const std::vector<SharedNodes>& kinds, std::uint32_t count,
                                          double grading);
 
-}  // namespace springlod
+}  // namespace springlod::lod

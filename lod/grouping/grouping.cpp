@@ -10,7 +10,7 @@
 #include "lod/grouping/grown_groups.hpp"
 #include "lod/grouping/metis_groups.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// Every grouping there is. A new one is a file with its maker, an enumerator and a row here.
@@ -100,4 +100,4 @@ ChoiceTable<GroupingChoice> choices(Grouping) {
   return {"grouping", kGroupings};
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

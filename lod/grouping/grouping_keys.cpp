@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 // Weight of the gradient against the length in the soft key; the prototype's choice (spec 3).
@@ -119,4 +119,4 @@ std::vector<double> visit_priority(const MassSpringModel& model, const GroupingO
   return node_gradients(model, gradient);
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

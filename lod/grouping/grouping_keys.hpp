@@ -8,7 +8,7 @@
 #include "base/prefetch.hpp"
 #include "lod/grouping/grouping.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 inline constexpr double kForbidden = std::numeric_limits<double>::infinity();
 
@@ -59,4 +59,4 @@ class PairKeys {
 std::vector<double> visit_priority(const MassSpringModel& model, const GroupingOptions& options,
                                    PairOrder order, const std::vector<double>& gradient);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -10,7 +10,7 @@
 #include "lod/grouping/grouping_keys.hpp"
 #include "lod/grouping/radix_sort.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 constexpr std::uint32_t kUngrouped = std::numeric_limits<std::uint32_t>::max();
@@ -155,4 +155,4 @@ Groups hard_priority_groups(const GroupingTask& task) {
   return Grouper(task, PairOrder::gradient_first).run();
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -2,7 +2,7 @@
 
 #include "lod/grouping/grouping.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 // Groups of two or three nodes that springs join (each size drawn with probability 1/2), grown from
 // one node after the other; what is left over stays single (the paper, section 5). How many groups
@@ -15,4 +15,4 @@ Groups priority_groups(const GroupingTask& task);
 /// Gradient first, distance second: the paper's words (5.2).
 Groups hard_priority_groups(const GroupingTask& task);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -12,7 +12,7 @@
 #include "lod/grouping/exact_count.hpp"
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// METIS weighs edges by whole numbers: what the largest spring work becomes.
@@ -70,4 +70,4 @@ Groups metis_groups(const GroupingTask& task) {
   return metis_groups(task.model, task.count, task.options.seed);
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

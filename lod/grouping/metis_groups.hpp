@@ -6,7 +6,7 @@
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// `count` connected groups of about equal size that cut as little sum k L^2 as METIS finds
 /// (Karypis & Kumar 1998, multilevel recursive bisection): graph partitioning as a baseline for
@@ -15,4 +15,4 @@ Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint
 /// The same as a grouping.
 Groups metis_groups(const GroupingTask& task);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstddef>
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 // 6 passes for 64 bits; the counters of a pass stay in the first-level cache.
@@ -51,4 +51,4 @@ std::uint64_t radix_key(double number) {
   return (bits & kSign) != 0 ? ~bits : bits | kSign;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

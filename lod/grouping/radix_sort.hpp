@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace springlod {
+namespace springlod::lod {
 
 struct KeyedNode {
   std::uint64_t key;
@@ -17,4 +17,4 @@ void radix_sort(std::vector<KeyedNode>& nodes);
 /// A key that orders as the number does; -0 is 0. Not for NaN.
 std::uint64_t radix_key(double number);
 
-}  // namespace springlod
+}  // namespace springlod::lod

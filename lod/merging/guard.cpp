@@ -8,7 +8,7 @@
 #include "lod/merging/relink.hpp"
 #include "lod/merging/rigidity.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -269,4 +269,4 @@ GuardedGroups guard_groups(const MassSpringModel& fine, const Groups& groups,
   return guard_groups(fine, SpringRows(fine), groups, options);
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

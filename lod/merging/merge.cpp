@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "lod/merging/relink.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 std::vector<std::uint32_t> group_sizes(const Groups& groups) {
@@ -109,4 +109,4 @@ MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinki
   return coarse;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

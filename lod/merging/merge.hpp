@@ -1,26 +1,11 @@
 #pragma once
 
-#include "base/choice.hpp"
 #include "lod/merging/relink.hpp"
+#include "lod/options.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
-
-/// Where the mass of a body goes when its nodes merge (the paper, section 4.2 and figure 2).
-enum class MassRule {
-  proportional,  ///< a node has the masses of its group
-  /// Each piece of the body goes to the nearest node, so masses also shift to neighbours that did
-  /// not merge.
-  proximity,
-};
-
-inline constexpr Choice<MassRule> kMassRules[] = {
-    {MassRule::proportional, "proportional", "a node has the masses of its group"},
-    {MassRule::proximity, "proximity", "each piece of the base goes to the nearest node"}};
-constexpr ChoiceTable<Choice<MassRule>> choices(MassRule) {
-  return {"mass", kMassRules};
-}
+namespace springlod::lod {
 
 /// Merges each group into one node (the paper, section 4.2): masses, volumes and contact areas add
 /// up, the node sits at the centre of mass, it is a border node if any was. A spring to another
@@ -40,4 +25,4 @@ MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinki
 /// volume stay, the centre of mass does not. Contact areas and springs stay too.
 void share_by_proximity(const MassSpringModel& base, MassSpringModel& coarse);
 
-}  // namespace springlod
+}  // namespace springlod::lod

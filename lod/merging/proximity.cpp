@@ -5,7 +5,7 @@
 #include "lod/merging/merge.hpp"
 #include "model/point_bins.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 // Of a node's cube: a piece lies a quarter of the edge off its middle along each axis.
@@ -70,4 +70,4 @@ void share_by_proximity(const MassSpringModel& base, MassSpringModel& coarse) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 // The nodes of each group, rising.
@@ -105,4 +105,4 @@ Relinking compose(Relinking finer, Relinking coarser) {
   return {std::move(coarser.a), std::move(coarser.b), std::move(finer.into)};
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -7,7 +7,7 @@
 #include "model/chain.hpp"
 #include "model/spring_rows.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// What becomes of springs when their ends go into groups.
 struct Relinking {
@@ -25,4 +25,4 @@ Relinking relink(const SpringRows& springs, const Groups& groups);
 /// `finer` first, then `coarser`, which relinked the pairs of `finer`.
 Relinking compose(Relinking finer, Relinking coarser);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 // The closed form of the eigenvalues is off by up to some 1e-8 of the trace (a root of the
@@ -30,4 +30,4 @@ bool Rigidity::at_least(double ratio) const {
   return solver.eigenvalues()[0] >= ratio * solver.eigenvalues()[2];
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

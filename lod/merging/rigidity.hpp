@@ -4,7 +4,7 @@
 
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// How a node is held by its springs: their number and sum k u u^T, a symmetric tensor [N/m].
 class Rigidity {
@@ -33,4 +33,4 @@ class Rigidity {
   std::uint32_t springs_ = 0;
 };
 
-}  // namespace springlod
+}  // namespace springlod::lod

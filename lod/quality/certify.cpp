@@ -8,9 +8,9 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "elastic/loads/static_loads.hpp"
+#include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
-#include "elastic/moduli/measured_moduli.hpp"
+#include "elastic/moduli.hpp"
 #include "elastic/stable_step.hpp"
 #include "elastic/zero_modes.hpp"
 #include "lod/calibration/elastic_targets.hpp"
@@ -19,7 +19,7 @@
 #include "lod/quality/compared_loads.hpp"
 #include "lod/quality/group_means.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// Frequencies of the base nearer than this belong to one mode of several shapes, as a sphere has
@@ -32,24 +32,25 @@ constexpr double kExact = 1e-9;
 
 /// What is measured of the base and of each level in the same way.
 struct Measured {
-  std::vector<Mode> modes;
-  std::vector<StaticSolution> solutions;
-  std::vector<MaterialModuli> moduli;
+  std::vector<elastic::Mode> modes;
+  std::vector<elastic::StaticSolution> solutions;
+  std::vector<elastic::MaterialModuli> moduli;
   double highest_frequency = 0, stable_step = 0, cost = 0;
 };
 
-Measured measure(const MassSpringModel& model, const std::vector<StaticLoad>& loads,
+Measured measure(const MassSpringModel& model, const std::vector<elastic::StaticLoad>& loads,
                  std::size_t smooth, const std::vector<std::uint32_t>& anchored,
                  std::uint32_t modes) {
-  const ElasticBody body = held_body(model, anchored);
+  const elastic::ElasticBody body = held_body(model, anchored);
   Measured measured;
-  measured.modes = lowest_modes(body, {.count = modes}).modes;
-  measured.solutions = solve_static(body, loads);
-  measured.moduli =
-      measured_moduli(model, {measured.solutions.begin(),
-                              measured.solutions.begin() + static_cast<std::ptrdiff_t>(smooth)});
-  measured.highest_frequency = largest_frequency(model);
-  measured.stable_step = stable_step(measured.highest_frequency, largest_damping_time(model));
+  measured.modes = elastic::lowest_modes(body, {.count = modes}).modes;
+  measured.solutions = elastic::solve_static(body, loads);
+  measured.moduli = elastic::measured_moduli(
+      model, {measured.solutions.begin(),
+              measured.solutions.begin() + static_cast<std::ptrdiff_t>(smooth)});
+  measured.highest_frequency = elastic::largest_frequency(model);
+  measured.stable_step =
+      elastic::stable_step(measured.highest_frequency, elastic::largest_damping_time(model));
   measured.cost = model.spring_count() / measured.stable_step;
   return measured;
 }
@@ -60,10 +61,11 @@ double dot(const MassSpringModel& model, const std::vector<Vec3>& x, const std::
   return sum;
 }
 
-void compare_modes(const LodChain& chain, const Level& level, const std::vector<Mode>& base,
-                   const std::vector<Mode>& found, Certificate& certificate) {
+void compare_modes(const LodChain& chain, const Level& level,
+                   const std::vector<elastic::Mode>& base, const std::vector<elastic::Mode>& found,
+                   Certificate& certificate) {
   std::vector<std::vector<Vec3>> shapes;
-  for (const Mode& mode : base)
+  for (const elastic::Mode& mode : base)
     shapes.push_back(group_means(mode.shape, chain.levels.front().model.mass, level.of_base));
   for (std::size_t i = 0; i < std::min(base.size(), found.size()); ++i) {
     Certificate::Frequency& frequency = certificate.frequencies.emplace_back();
@@ -91,8 +93,8 @@ void compare_loads(const ComparedLoads& loads, const Measured& base, const Measu
 
 void compare_moduli(const MassSpringModel& model, const Measured& base, const Measured& found,
                     Certificate& certificate) {
-  for (const MaterialModuli& of_base : base.moduli)
-    for (const MaterialModuli& of_level : found.moduli)
+  for (const elastic::MaterialModuli& of_base : base.moduli)
+    for (const elastic::MaterialModuli& of_level : found.moduli)
       if (of_level.material == of_base.material)
         certificate.moduli.push_back({model.materials[of_base.material].name, of_level.young,
                                       of_base.young, of_level.poisson, of_base.poisson});
@@ -148,8 +150,8 @@ void certify(LodChain& chain, const CertifyOptions& options) {
              Level& level = chain.levels[job + 1];
              if (stopped()) throw InterruptedError();
              if (level.model.spring_count() == 0) return;  // a point: nothing to measure
-             std::vector<StaticLoad> summed;
-             for (const StaticLoad& load : loads.all)
+             std::vector<elastic::StaticLoad> summed;
+             for (const elastic::StaticLoad& load : loads.all)
                summed.push_back(carried(level.of_base, load));
              const Measured found =
                  measure(level.model, summed, loads.smooth,
@@ -165,7 +167,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
              c.base_stable_step = of_base.stable_step;
              c.cost = found.cost;
              c.base_cost = of_base.cost;
-             for (const PartModes& part : zero_modes(level.model)) {
+             for (const elastic::PartModes& part : elastic::zero_modes(level.model)) {
                c.zero_modes += part.zero_modes;
                c.expected_zero_modes += part.expected;
              }
@@ -175,4 +177,4 @@ void certify(LodChain& chain, const CertifyOptions& options) {
            });
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -8,7 +8,7 @@
 #include "model/anchors.hpp"
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 struct CertifyOptions {
   std::uint32_t modes = 20;
@@ -47,4 +47,4 @@ constexpr auto option_rows(const CertifyOptions*) {
 /// no node of `within` lies on the surface.
 void certify(LodChain& chain, const CertifyOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -2,23 +2,23 @@
 
 #include <iterator>
 
-#include "elastic/loads/local_loads.hpp"
+#include "elastic/loads.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 ComparedLoads compared_loads(const MassSpringModel& base, const ComparedLoadOptions& options) {
-  ComparedLoads loads{smooth_loads(base), 0};
+  ComparedLoads loads{elastic::smooth_loads(base), 0};
   loads.smooth = loads.all.size();
   if (options.count == 0 || (options.within.empty() && border_count(base) == 0)) return loads;
   // The other bits of the seed: patches that are fitted have the seed itself.
-  const LocalLoadOptions local{
+  const elastic::LocalLoadOptions local{
       .count = options.count, .seed = ~options.seed, .within = options.within};
-  for (auto kind : {pinches(base, local), pushes(base, local)}) {
+  for (auto kind : {elastic::pinches(base, local), elastic::pushes(base, local)}) {
     if (!options.within.empty())
-      for (StaticLoad& load : kind) load.name += " within the chosen nodes";
+      for (elastic::StaticLoad& load : kind) load.name += " within the chosen nodes";
     std::move(kind.begin(), kind.end(), std::back_inserter(loads.all));
   }
   return loads;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "elastic/loads/static_loads.hpp"
+#include "elastic/loads.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 struct ComparedLoadOptions {
   std::uint32_t count = 40;  ///< of each kind of local loads: pinches and pushes
@@ -20,7 +20,7 @@ struct ComparedLoadOptions {
 /// which calibration is fitted to, then local ones on other patches than it is fitted to, whatever
 /// the seeds.
 struct ComparedLoads {
-  std::vector<StaticLoad> all;
+  std::vector<elastic::StaticLoad> all;
   std::size_t smooth = 0;  ///< how many of them, the first ones
 
   bool held_out(std::size_t load) const { return load >= smooth; }
@@ -30,4 +30,4 @@ struct ComparedLoads {
 /// none of them is a border node.
 ComparedLoads compared_loads(const MassSpringModel& base, const ComparedLoadOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -7,7 +7,7 @@
 #include "lod/quality/group_means.hpp"
 #include "lod/transfer.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 Binding fine_from_coarse(const MergedPair& pair) {
@@ -42,10 +42,10 @@ class Parts {
     for (std::uint32_t s = 0; s < pair_.coarse.spring_count(); ++s)
       share(pair_.coarse.a[s], pair_.coarse.b[s], -work(pair_.coarse, s, w, coarse_u), part);
     std::vector<Vec3> force;
-    apply_stiffness(pair_.fine, u, force);
+    elastic::apply_stiffness(pair_.fine, u, force);
     for (std::uint32_t i = 0; i < pair_.fine.node_count(); ++i)
       part[pair_.groups.of[i]] -= force[i].dot(u[i] + v[i]);
-    apply_stiffness(pair_.coarse, coarse_u, force);
+    elastic::apply_stiffness(pair_.coarse, coarse_u, force);
     for (std::uint32_t g = 0; g < pair_.groups.count; ++g)
       part[g] += force[g].dot(coarse_u[g] + w[g]);
     return part;
@@ -88,4 +88,4 @@ std::vector<std::vector<double>> compliance_changes(const MergedPair& pair,
   return changes;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

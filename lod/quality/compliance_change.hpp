@@ -5,7 +5,7 @@
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// Two models of one body and the map between their nodes.
 struct MergedPair {
@@ -31,4 +31,4 @@ std::vector<std::vector<double>> compliance_changes(const MergedPair& pair,
                                                     const std::vector<std::vector<Vec3>>& fine,
                                                     const std::vector<std::vector<Vec3>>& coarse);
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -1,6 +1,6 @@
 #include "lod/quality/group_means.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<double>& mass,
                               const Groups& groups) {
@@ -14,4 +14,4 @@ std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<
   return sum;
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

@@ -4,10 +4,10 @@
 
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// A field on the fine nodes, N, as the mean over each group, weighted by `mass`, N.
 std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<double>& mass,
                               const Groups& groups);
 
-}  // namespace springlod
+}  // namespace springlod::lod

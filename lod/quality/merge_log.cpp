@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "elastic/loads/static_loads.hpp"
+#include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
 #include "lod/calibration/elastic_targets.hpp"
 #include "lod/quality/compared_loads.hpp"
@@ -19,7 +19,7 @@
 #include "lod/quality/group_means.hpp"
 #include "lod/transfer.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 namespace {
 
 /// A level that gives way less than this part of the base is rigid [1], as where all that a load
@@ -28,9 +28,9 @@ constexpr double kRigid = 1e-3;
 
 /// What the base is asked.
 struct Questions {
-  std::vector<Mode> modes;
-  std::vector<StaticLoad> loads;  // on the base's nodes
-  std::vector<Answer> answers;    // to the modes, then to the loads
+  std::vector<elastic::Mode> modes;
+  std::vector<elastic::StaticLoad> loads;  // on the base's nodes
+  std::vector<Answer> answers;             // to the modes, then to the loads
 };
 
 /// How a level answers, question by question.
@@ -42,12 +42,12 @@ struct Answers {
 };
 
 /// Static loads that find something to pull at: not the width of a flat model.
-Questions loads_of(const MassSpringModel& base, const ElasticBody& body,
+Questions loads_of(const MassSpringModel& base, const elastic::ElasticBody& body,
                    const MergeLogOptions& options) {
   // Those that certify asks for.
   ComparedLoads loads = compared_loads(base, {.count = options.local_loads, .seed = options.seed});
   Questions kept;
-  const std::vector<StaticSolution> solved = solve_static(body, loads.all);
+  const std::vector<elastic::StaticSolution> solved = elastic::solve_static(body, loads.all);
   for (std::size_t l = 0; l < loads.all.size(); ++l) {
     if (!(solved[l].compliance > 0)) continue;
     kept.answers.push_back(
@@ -58,10 +58,10 @@ Questions loads_of(const MassSpringModel& base, const ElasticBody& body,
 }
 
 /// The loads, and how the level swings.
-Questions questions_of(const LodChain& chain, std::uint32_t level, const ElasticBody& body,
+Questions questions_of(const LodChain& chain, std::uint32_t level, const elastic::ElasticBody& body,
                        const Questions& loads, std::uint32_t modes) {
   Questions questions;
-  if (modes > 0) questions.modes = lowest_modes(body, {.count = modes}).modes;
+  if (modes > 0) questions.modes = elastic::lowest_modes(body, {.count = modes}).modes;
   const Binding from_level = base_from_level(chain, level);
   for (std::size_t i = 0; i < questions.modes.size(); ++i) {
     questions.modes[i].shape = carry(from_level, questions.modes[i].shape);
@@ -72,14 +72,14 @@ Questions questions_of(const LodChain& chain, std::uint32_t level, const Elastic
   return questions;
 }
 
-Answers answer(const MassSpringModel& base, const Level& level, const ElasticBody& body,
+Answers answer(const MassSpringModel& base, const Level& level, const elastic::ElasticBody& body,
                const Questions& questions) {
   const MassSpringModel& model = level.model;
   Answers answers;
-  std::vector<StaticLoad> loads;
-  for (const Mode& mode : questions.modes) {
+  std::vector<elastic::StaticLoad> loads;
+  for (const elastic::Mode& mode : questions.modes) {
     // omega^2 M phi holds a body in the shape phi.
-    StaticLoad inertia{"inertia", group_means(mode.shape, base.mass, level.of_base)};
+    elastic::StaticLoad inertia{"inertia", group_means(mode.shape, base.mass, level.of_base)};
     std::vector<double>& work = answers.work.emplace_back();
     const double squared = mode.angular_frequency * mode.angular_frequency;
     for (std::uint32_t i = 0; i < model.node_count(); ++i) {
@@ -88,8 +88,9 @@ Answers answer(const MassSpringModel& base, const Level& level, const ElasticBod
     }
     loads.push_back(std::move(inertia));
   }
-  for (const StaticLoad& load : questions.loads) loads.push_back(carried(level.of_base, load));
-  for (StaticSolution& solution : solve_static(body, loads)) {
+  for (const elastic::StaticLoad& load : questions.loads)
+    loads.push_back(carried(level.of_base, load));
+  for (elastic::StaticSolution& solution : elastic::solve_static(body, loads)) {
     answers.compliance.push_back(solution.compliance);
     answers.displacement.push_back(std::move(solution.displacement));
   }
@@ -228,7 +229,7 @@ class Log {
 
   const LodChain& chain_;
   const MergeLogOptions& options_;
-  std::vector<ElasticBody> bodies_;  // by level
+  std::vector<elastic::ElasticBody> bodies_;  // by level
   Questions loads_;
 };
 
@@ -251,4 +252,4 @@ double mean_error(const MergeStep& step, Answer::Kind kind) {
   return part_of(step.answers, kind, step.error, step.error);
 }
 
-}  // namespace springlod
+}  // namespace springlod::lod

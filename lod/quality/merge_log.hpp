@@ -10,7 +10,7 @@
 #include "model/anchors.hpp"
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::lod {
 
 /// One way in which a level may be off its base. Changes are natural logarithms: of frequencies for
 /// modes, of the compliance for loads.
@@ -94,4 +94,4 @@ MergeLog log_merges(const LodChain& chain, const MergeLogOptions& options = {});
 /// Mean |error| of the answers of a kind at a step's level [1]; 0 if there are none.
 double mean_error(const MergeStep& step, Answer::Kind kind);
 
-}  // namespace springlod
+}  // namespace springlod::lod

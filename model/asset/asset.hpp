@@ -4,7 +4,7 @@
 
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Writes a chain as one binary glTF 2.0 file: per level a node with a POINTS and a LINES
 /// primitive that any viewer shows (single precision; _MASS and the like as custom attributes),
@@ -18,4 +18,4 @@ void save_asset(const LodAsset& asset, const std::filesystem::path& path);
 /// asset, damaged: the checksum differs, newer version).
 LodAsset load_asset(const std::filesystem::path& path);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

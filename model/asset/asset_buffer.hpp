@@ -7,7 +7,7 @@
 
 #include <tiny_gltf.h>
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// The one buffer of a .glb file in the making: arrays go in, numbers of buffer views come out.
 class AssetBuffer {
@@ -40,4 +40,4 @@ class AssetBuffer {
   tinygltf::Model& gltf_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "model/asset/asset_json.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 using nlohmann::json;
@@ -142,4 +142,4 @@ Certificate read_certificate(const json& object, const std::string& owner) {
   return certificate;
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -6,7 +6,7 @@
 
 #include "model/certificate.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// What the asset's JSON says of a level's certificate (docs/asset-format.md); empty lists are left
 /// out.
@@ -15,4 +15,4 @@ nlohmann::json certificate_json(const Certificate& certificate);
 /// ("the certificate of level 1").
 Certificate read_certificate(const nlohmann::json& object, const std::string& owner);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -10,7 +10,7 @@
 
 #include "model/creases.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 using Float3 = std::array<float, 3>;
@@ -221,4 +221,4 @@ void add_display(const LodAsset& asset, const std::vector<int>& spring_ends, tin
   Display(gltf, buffer).add(asset, spring_ends);
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

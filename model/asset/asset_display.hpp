@@ -7,7 +7,7 @@
 #include "model/asset/asset_buffer.hpp"
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Adds what any glTF viewer shows: the surface and, side by side along x, the nodes and springs of
 /// each level, in single precision under a root node that turns z up into glTF's y up.
@@ -16,4 +16,4 @@ namespace springlod {
 void add_display(const LodAsset& asset, const std::vector<int>& spring_ends, tinygltf::Model& gltf,
                  AssetBuffer& buffer);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

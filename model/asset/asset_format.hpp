@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-namespace springlod::asset_format {
+namespace springlod::inline model::asset_format {
 
 static_assert(std::endian::native == std::endian::little,
               "arrays are written as they lie in memory, and glTF is little-endian");
@@ -37,4 +37,4 @@ class Checksum {
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
-}  // namespace springlod::asset_format
+}  // namespace springlod::inline model::asset_format

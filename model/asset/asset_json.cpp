@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 
 using nlohmann::json;
 
@@ -39,4 +39,4 @@ int whole_number(std::size_t count) {
   return static_cast<int>(count);
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

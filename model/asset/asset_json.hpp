@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 
-namespace springlod {
+namespace springlod::inline model {
 
 /// Mesh files may hold names in any encoding, JSON only UTF-8: bytes that are none become U+FFFD.
 std::string utf8(const std::string& text);
@@ -19,4 +19,4 @@ tinygltf::Value gltf_value(const nlohmann::json& value);
 /// tinygltf writes no integers above those of int. Throws IoError for more.
 int whole_number(std::size_t count);
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -15,7 +15,7 @@
 // The extension is read with a JSON parser and range checks alone: a general glTF reader would
 // look at everything that a damaged file says.
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 using nlohmann::json;
@@ -210,4 +210,4 @@ LodAsset load_asset(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -16,7 +16,7 @@
 #include "model/asset/asset_format.hpp"
 #include "model/asset/asset_json.hpp"
 
-namespace springlod {
+namespace springlod::inline model {
 namespace {
 
 using nlohmann::json;
@@ -149,4 +149,4 @@ void save_asset(const LodAsset& asset, const std::filesystem::path& path) {
   });
 }
 
-}  // namespace springlod
+}  // namespace springlod::inline model

@@ -1,5 +1,3 @@
-#include "report/stats/bootstrap.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,10 +7,10 @@
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
+#include "report/stats.hpp"
 #include "report/stats/probability.hpp"
-#include "report/stats/statistics.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 namespace {
 
@@ -251,4 +249,4 @@ double confidence_below(const Bootstrap& result, double value) {
   return normal_below(shifted / stretch - result.bias);
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -1,5 +1,3 @@
-#include "report/stats/equivalence.hpp"
-
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -7,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "report/stats.hpp"
 #include "report/stats/probability.hpp"
-#include "report/stats/statistics.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 namespace {
 
@@ -143,4 +141,4 @@ Equivalence bootstrap_equivalence(const StartSample& base, const StartSample& ot
   return result;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -1,5 +1,3 @@
-#include "report/stats/noise_floor.hpp"
-
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -8,9 +6,9 @@
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
-#include "report/stats/statistics.hpp"
+#include "report/stats.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 namespace {
 
@@ -178,4 +176,4 @@ FloorVerdict inside_noise_floor(const NoiseFloor& floor, const std::vector<doubl
   return verdict;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace springlod {
+namespace springlod::report {
 
 namespace {
 
@@ -98,4 +98,4 @@ double student_quantile(double part, double degrees) {
   return solve(-kFarthest, 0, part, [&](double t) { return student_above(-t, degrees); });
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

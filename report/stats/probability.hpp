@@ -1,6 +1,6 @@
 #pragma once
 
-namespace springlod {
+namespace springlod::report {
 
 // Distribution functions that intervals and tests need. Accurate to 1e-12 or better.
 
@@ -15,4 +15,4 @@ double student_above(double t, double degrees);
 /// The t with P(T <= t) = part, 0 < part < 1.
 double student_quantile(double part, double degrees);
 
-}  // namespace springlod
+}  // namespace springlod::report

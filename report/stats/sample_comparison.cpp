@@ -1,10 +1,8 @@
-#include "report/stats/sample_comparison.hpp"
-
 #include <vector>
 
-#include "report/stats/statistics.hpp"
+#include "report/stats.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 SampleComparison compare_samples(const StartSample& base, const StartSample& other,
                                  const SampleComparisonOptions& options) {
@@ -19,7 +17,7 @@ SampleComparison compare_samples(const StartSample& base, const StartSample& oth
   result.difference_over_spread = measured(
       [&](const Values& b, const Values& o) {
         return options.spread ? (mean(o) - mean(b)) / *options.spread
-                              : springlod::difference_over_spread(b, o);
+                              : report::difference_over_spread(b, o);
       },
       IntervalMethod::bca);
   result.wasserstein = measured(wasserstein_distance, IntervalMethod::percentile);
@@ -36,4 +34,4 @@ SampleComparison compare_samples(const StartSample& base, const StartSample& oth
   return result;
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

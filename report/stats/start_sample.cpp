@@ -1,11 +1,9 @@
-#include "report/stats/start_sample.hpp"
-
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "report/stats/statistics.hpp"
+#include "report/stats.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 void require_starts(const StartSample& sample, std::string_view what) {
   if (sample.seeds == 0 || sample.values.size() % sample.seeds != 0)
@@ -24,4 +22,4 @@ void require_pairs(const StartSample& base, const StartSample& other) {
                     base.starts(), other.starts()));
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

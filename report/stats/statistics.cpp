@@ -1,5 +1,3 @@
-#include "report/stats/statistics.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,8 +5,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "report/stats.hpp"
 
-namespace springlod {
+namespace springlod::report {
 
 namespace {
 
@@ -103,4 +102,4 @@ double energy_distance(std::vector<double> base, std::vector<double> other) {
                           [](double gap) { return 2 * gap * gap; });
 }
 
-}  // namespace springlod
+}  // namespace springlod::report

@@ -12,13 +12,13 @@
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
-TargetRegion read_region(Call& call, int table, const std::string& owner,
-                         const MassSpringModel& base) {
-  TargetRegion region;
+lod::TargetRegion read_region(Call& call, int table, const std::string& owner,
+                              const MassSpringModel& base) {
+  lod::TargetRegion region;
   TableReader reader = call.record(table, "Region", owner);
   region.nodes = read_nodes(reader, "nodes", base);
   if (region.nodes.empty())
@@ -29,9 +29,9 @@ TargetRegion read_region(Call& call, int table, const std::string& owner,
   return region;
 }
 
-std::vector<TargetRegion> read_regions(Call& call, TableReader& reader,
-                                       const MassSpringModel& base) {
-  std::vector<TargetRegion> regions;
+std::vector<lod::TargetRegion> read_regions(Call& call, TableReader& reader,
+                                            const MassSpringModel& base) {
+  std::vector<lod::TargetRegion> regions;
   const int list = reader.raw("regions");
   if (list == 0) return regions;
   lua_State* L = call.lua();
@@ -47,7 +47,7 @@ std::vector<TargetRegion> read_regions(Call& call, TableReader& reader,
 
 int certify_binding(Call& call) {
   const auto asset = std::make_shared<LodAsset>(*call.value<LodAsset>(1));
-  CertifyOptions options;
+  lod::CertifyOptions options;
   options.threads = call.session().settings().threads;
   options.progress = call.progress();
   TableReader reader = call.options(2);
@@ -58,12 +58,12 @@ int certify_binding(Call& call) {
   options.within = read_nodes(reader, "within", asset->chain.levels.front().model);
   options.anchored = read_anchored(reader, asset->chain.levels.front().model);
   reader.finish();
-  certify(asset->chain, options);
+  lod::certify(asset->chain, options);
   return call.give(std::shared_ptr<const LodAsset>(asset));
 }
 
 void describe_regions(Api& api) {
-  const TargetRegion usual;
+  const lod::TargetRegion usual;
   api.add(RecordEntry{
       .name = "Region",
       .summary = "Where a calibrated level shall give way as the base does: a contact patch, the "
@@ -85,7 +85,7 @@ void describe_regions(Api& api) {
 }
 
 void describe_record(Api& api) {
-  const CalibrateOptions calibrate;
+  const lod::CalibrateOptions calibrate;
   api.add(RecordEntry{
       .name = "Calibration",
       .summary = "What simplify with calibrate = \"modes\" aims at.",
@@ -158,7 +158,7 @@ void describe_record(Api& api) {
 }
 
 void describe_certify(Api& api) {
-  const CertifyOptions certify;
+  const lod::CertifyOptions certify;
   api.add(FunctionEntry{
       .name = "certify",
       .group = "Levels of detail",
@@ -201,17 +201,17 @@ void describe_certify(Api& api) {
 }  // namespace
 
 void read_calibration(Call& call, TableReader& reader, const MassSpringModel& base,
-                      SimplifyOptions& options) {
+                      lod::SimplifyOptions& options) {
   options.calibrate.threads = call.session().settings().threads;
   reader.choose("calibrate", options.calibration,
-                {{"none", Calibration::none},
-                 {"moduli", Calibration::moduli},
-                 {"modes", Calibration::modes}});
+                {{"none", lod::Calibration::none},
+                 {"moduli", lod::Calibration::moduli},
+                 {"modes", lod::Calibration::modes}});
   const int table = reader.raw("calibration");
   if (table == 0) return;
   TableReader record = call.record(table, "Calibration", "simplify: calibration");
-  TargetOptions& targets = options.calibrate.targets;
-  FitOptions& fit = options.calibrate.fit;
+  lod::TargetOptions& targets = options.calibrate.targets;
+  lod::FitOptions& fit = options.calibrate.fit;
   enum class Kinds { both, modes, loads };
   Kinds kinds = Kinds::both;
   record.choose("targets", kinds,
@@ -227,7 +227,7 @@ void read_calibration(Call& call, TableReader& reader, const MassSpringModel& ba
   record.read("iterations", fit.iterations);
   record.read("least_frequency", fit.least_frequency);
   record.choose("moments", fit.moments,
-                {{"body", KeptMoments::body}, {"pieces", KeptMoments::pieces}});
+                {{"body", lod::KeptMoments::body}, {"pieces", lod::KeptMoments::pieces}});
   targets.anchored = read_anchored(record, base);
   std::string store;
   record.read("store", store);
@@ -248,4 +248,4 @@ void describe_calibrate(Api& api) {
   describe_certify(api);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

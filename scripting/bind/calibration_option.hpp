@@ -3,10 +3,10 @@
 #include "lod/build.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// The options `calibrate` and `calibration` of simplify, of levels of `base`.
 void read_calibration(Call& call, TableReader& reader, const MassSpringModel& base,
-                      SimplifyOptions& options);
+                      lod::SimplifyOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -6,7 +6,7 @@
 
 #include "scripting/engine/result_table.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 namespace {
 
 template <class Entry, class Fill>
@@ -108,4 +108,4 @@ void describe_certificate(Api& api) {
       .example = "s.info(chain).levels[2].certificate.f1_10_error"});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -4,10 +4,10 @@
 #include "scripting/engine/api.hpp"
 #include "scripting/engine/value.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// A certificate as the plain table that `info` shows. Means of nothing are left out.
 void push_certificate(lua_State* L, const Certificate& certificate);
 void describe_certificate(Api& api);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

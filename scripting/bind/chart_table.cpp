@@ -6,9 +6,9 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
-#include "report/comparison_tables.hpp"
+#include "report/tables.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -19,11 +19,11 @@ constexpr double kLeastChart = 300;
 constexpr double kLargestChart = 8000;
 
 // {x, y, label = ..., low = ..., high = ..., x_low = ..., x_high = ...}
-ChartPoint read_point(Call& call, int table, const std::string& owner) {
+report::ChartPoint read_point(Call& call, int table, const std::string& owner) {
   lua_State* L = call.lua();
   if (!lua_istable(L, table) || lua_rawlen(L, table) != 2)
     throw InputError(fmt::format("{} must be {{x, y}}", owner));
-  ChartPoint point;
+  report::ChartPoint point;
   lua_rawgeti(L, table, 1);
   point.x = quantity_at(L, -1, Dimension::number, owner + "[1]");
   lua_rawgeti(L, table, 2);
@@ -45,33 +45,33 @@ ChartPoint read_point(Call& call, int table, const std::string& owner) {
   return point;
 }
 
-ChartSeries read_series(Call& call, int table, const std::string& owner) {
+report::ChartSeries read_series(Call& call, int table, const std::string& owner) {
   lua_State* L = call.lua();
   TableReader reader = call.record(table, "Series", owner);
-  ChartSeries series;
+  report::ChartSeries series;
   reader.read("name", series.name);
   reader.read("joined", series.joined);
   reader.read("dashed", series.dashed);
   if (reader.has("colour"))
     reader.choose("colour", series.colour.emplace(),
-                  {{"blue", ChartColour::blue},
-                   {"orange", ChartColour::orange},
-                   {"green", ChartColour::green},
-                   {"pink", ChartColour::pink},
-                   {"amber", ChartColour::amber},
-                   {"sky", ChartColour::sky},
-                   {"grey", ChartColour::grey},
-                   {"black", ChartColour::black}});
+                  {{"blue", report::ChartColour::blue},
+                   {"orange", report::ChartColour::orange},
+                   {"green", report::ChartColour::green},
+                   {"pink", report::ChartColour::pink},
+                   {"amber", report::ChartColour::amber},
+                   {"sky", report::ChartColour::sky},
+                   {"grey", report::ChartColour::grey},
+                   {"black", report::ChartColour::black}});
   if (reader.has("symbol"))
     reader.choose("symbol", series.symbol.emplace(),
-                  {{"disc", ChartSymbol::disc},
-                   {"square", ChartSymbol::square},
-                   {"triangle", ChartSymbol::triangle},
-                   {"diamond", ChartSymbol::diamond},
-                   {"triangle_down", ChartSymbol::triangle_down},
-                   {"pentagon", ChartSymbol::pentagon},
-                   {"ring", ChartSymbol::ring},
-                   {"none", ChartSymbol::none}});
+                  {{"disc", report::ChartSymbol::disc},
+                   {"square", report::ChartSymbol::square},
+                   {"triangle", report::ChartSymbol::triangle},
+                   {"diamond", report::ChartSymbol::diamond},
+                   {"triangle_down", report::ChartSymbol::triangle_down},
+                   {"pentagon", report::ChartSymbol::pentagon},
+                   {"ring", report::ChartSymbol::ring},
+                   {"none", report::ChartSymbol::none}});
   const int points = reader.raw("points");
   if (points == 0 || !lua_istable(L, points)) reader.refuse("points", "a list of {x, y}");
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, points)); ++i) {
@@ -89,7 +89,7 @@ std::string cell_text(lua_State* L, int index, NumberStyle numbers) {
   switch (lua_type(L, index)) {
     case LUA_TNUMBER:
       if (lua_isinteger(L, index) != 0) return fmt::format("{}", lua_tointeger(L, index));
-      return numbers == NumberStyle::exact ? number_text(lua_tonumber(L, index))
+      return numbers == NumberStyle::exact ? report::number_text(lua_tonumber(L, index))
                                            : fmt::format("{:.4g}", lua_tonumber(L, index));
     case LUA_TNIL:
       return "";
@@ -114,10 +114,11 @@ std::vector<std::string> sorted_keys(lua_State* L, int table) {
 
 }  // namespace
 
-ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader) {
+report::ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader) {
   ErrorKind kind = ErrorKind::surface;
   reader.choose("error", kind, {{"surface", ErrorKind::surface}, {"shape", ErrorKind::shape}});
-  const Table table = comparison_table(comparison.comparison, comparison.chain->chain);
+  const report::Table table =
+      report::comparison_table(comparison.comparison, comparison.chain->chain);
   const auto column = [&](const char* name) {
     return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
                                     table.columns.begin());
@@ -125,7 +126,7 @@ ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& re
   const std::size_t ratio = column("cost_ratio");
   const std::size_t error =
       column(kind == ErrorKind::surface ? "surface_error_percent" : "shape_error_percent");
-  ChartSeries series;
+  report::ChartSeries series;
   // The title names the scenario; the legend tells which way of merging this is.
   series.name = comparison.chain->chain.levels.back().made_by;
   for (const auto& row : table.rows)
@@ -135,14 +136,14 @@ ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& re
   return series;
 }
 
-ChartOptions cost_error_chart(const ComparisonValue& comparison) {
+report::ChartOptions cost_error_chart(const ComparisonValue& comparison) {
   return {.title = comparison.comparison.scenario.name,
           .x_label = "cost per simulated second (spring updates, base = 1)",
           .y_label = "error (% of the bounding diagonal)",
           .log_x = true};
 }
 
-std::vector<ChartSeries> series_from_table(Call& call, int index) {
+std::vector<report::ChartSeries> series_from_table(Call& call, int index) {
   lua_State* L = call.lua();
   if (!lua_istable(L, index)) call.refuse(2, "a Comparison or a list of Series");
   if (lua_getfield(L, index, "series") == LUA_TTABLE) {
@@ -150,7 +151,7 @@ std::vector<ChartSeries> series_from_table(Call& call, int index) {
   } else {
     lua_pop(L, 1);
   }
-  std::vector<ChartSeries> series;
+  std::vector<report::ChartSeries> series;
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, index)); ++i) {
     lua_rawgeti(L, index, i);
     series.push_back(read_series(call, lua_gettop(L), fmt::format("chart: series[{}]", i)));
@@ -159,7 +160,7 @@ std::vector<ChartSeries> series_from_table(Call& call, int index) {
   return series;
 }
 
-void read_chart_options(TableReader& reader, ChartOptions& options) {
+void read_chart_options(TableReader& reader, report::ChartOptions& options) {
   reader.read("title", options.title);
   reader.read("x_label", options.x_label);
   reader.read("y_label", options.y_label);
@@ -200,11 +201,11 @@ std::vector<Parameter> chart_parameters() {
        .help = "points of a logarithmic axis that are not above it sit on its lower end, hollow"},
       {.name = "width",
        .type = "number",
-       .fallback = fmt::format("{:g}", ChartOptions{}.width),
+       .fallback = fmt::format("{:g}", report::ChartOptions{}.width),
        .help = "in pixels"},
       {.name = "height",
        .type = "number",
-       .fallback = fmt::format("{:g}", ChartOptions{}.height),
+       .fallback = fmt::format("{:g}", report::ChartOptions{}.height),
        .help = "in pixels"},
       {.name = "error",
        .type = "one of",
@@ -261,10 +262,10 @@ void describe_series(Api& api) {
       .example = "{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}"});
 }
 
-Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers) {
+report::Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers) {
   lua_State* L = call.lua();
   if (!lua_istable(L, index)) throw InputError(reader.owner() + ": rows must be a list of tables");
-  Table table;
+  report::Table table;
   reader.read("columns", table.columns);
   const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
   for (lua_Integer i = 1; i <= count; ++i) {
@@ -289,7 +290,7 @@ Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle nu
   return table;
 }
 
-void push_rows(lua_State* L, const Table& table) {
+void push_rows(lua_State* L, const report::Table& table) {
   begin_list(L, table.rows.size());
   std::size_t number = 0;
   for (const auto& row : table.rows) {
@@ -303,4 +304,4 @@ void push_rows(lua_State* L, const Table& table) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -7,16 +7,16 @@
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// One point a level: cost per simulated second, relative to the base, against error in percent of
 /// the base's bounding diagonal. `reader` says which error.
-ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader);
-ChartOptions cost_error_chart(const ComparisonValue& comparison);
+report::ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader);
+report::ChartOptions cost_error_chart(const ComparisonValue& comparison);
 
 /// {{name = ..., points = {{x, y}, ...}}, ...} at `index`; {series = {...}} will do too.
-std::vector<ChartSeries> series_from_table(Call& call, int index);
-void read_chart_options(TableReader& reader, ChartOptions& options);
+std::vector<report::ChartSeries> series_from_table(Call& call, int index);
+void read_chart_options(TableReader& reader, report::ChartOptions& options);
 std::vector<Parameter> chart_parameters();
 /// The records Series and Point.
 void describe_series(Api& api);
@@ -25,9 +25,9 @@ void describe_series(Api& api);
 enum class NumberStyle { exact, four_digits };
 
 /// A list of rows, each a table with the columns as keys; cells that are numbers become numbers.
-void push_rows(lua_State* L, const Table& table);
+void push_rows(lua_State* L, const report::Table& table);
 
 /// Rows at `index` with the option `columns`.
-Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers);
+report::Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

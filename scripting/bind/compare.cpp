@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "report/comparison_tables.hpp"
+#include "report/tables.hpp"
 #include "scripting/bind/chart_table.hpp"
 #include "scripting/bind/run_options.hpp"
 #include "scripting/bind/scenario_table.hpp"
@@ -17,18 +17,18 @@
 #include "scripting/engine/call.hpp"
 #include "sim/study/ensemble.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
 constexpr const char* kGroup = "Simulation";
 
 /// Says what runs went on with although it should be known.
-void warn(Console& console, const std::vector<RunSummary>& runs) {
+void warn(Console& console, const std::vector<sim::RunSummary>& runs) {
   std::size_t unconverged = 0;
   std::size_t crossed = 0;
   double first = std::numeric_limits<double>::infinity();
-  for (const RunSummary& run : runs) {
+  for (const sim::RunSummary& run : runs) {
     if (run.unconverged_steps > 0) ++unconverged;
     if (!run.first_crossing) continue;
     ++crossed;
@@ -64,16 +64,16 @@ int compare_binding(Call& call) {
   auto value = std::make_shared<ComparisonValue>();
   value->chain = call.value<LodAsset>(1);
   const auto scenario = scenario_argument(call, 2);
-  CompareOptions options;
+  sim::CompareOptions options;
   TableReader reader = call.options(3);
   read_start_options(call, reader, options);
   options.contact = read_contact(reader);
   reader.read("error_window", options.error_window);
   reader.read("variant", options.variant);
   reader.finish();
-  value->comparison = compare(value->chain->chain, *scenario, options);
-  std::vector<RunSummary> all;
-  for (const LevelRuns& level : value->comparison.levels)
+  value->comparison = sim::compare(value->chain->chain, *scenario, options);
+  std::vector<sim::RunSummary> all;
+  for (const sim::LevelRuns& level : value->comparison.levels)
     all.insert(all.end(), level.starts.begin(), level.starts.end());
   warn(call.session().console(), all);
   return call.give(std::shared_ptr<const ComparisonValue>(value));
@@ -82,7 +82,7 @@ int compare_binding(Call& call) {
 int ensemble_binding(Call& call) {
   const auto model = call.value<ModelValue>(1);
   const auto scenario = scenario_argument(call, 2);
-  EnsembleOptions options;
+  sim::EnsembleOptions options;
   TableReader reader = call.options(3);
   std::uint32_t first = options.first_start + 1;
   reader.read("first", first);
@@ -91,11 +91,11 @@ int ensemble_binding(Call& call) {
   read_start_options(call, reader, options);
   options.run.skin = skin_of(*model, read_contact(reader));
   reader.finish();
-  const std::vector<EnsembleRun> runs = run_ensemble(*model->model, *scenario, options);
+  const std::vector<sim::EnsembleRun> runs = sim::run_ensemble(*model->model, *scenario, options);
   lua_State* L = call.lua();
   begin_list(L, runs.size());
   std::size_t number = 0;
-  for (const EnsembleRun& run : runs) {
+  for (const sim::EnsembleRun& run : runs) {
     begin_table(L);
     set_field(L, "start", run.start + 1);
     set_field(L, "distance", run.distance);
@@ -111,7 +111,7 @@ int ensemble_binding(Call& call) {
 
 int table_method(Call& call) {
   const auto self = call.self<ComparisonValue>();
-  const Table table = comparison_table(self->comparison, self->chain->chain);
+  const report::Table table = report::comparison_table(self->comparison, self->chain->chain);
   push_rows(call.lua(), table);
   push(call.lua(), table.columns);
   return 2;
@@ -119,7 +119,7 @@ int table_method(Call& call) {
 
 int timings_method(Call& call) {
   const auto self = call.self<ComparisonValue>();
-  const Table table = timings_table(self->comparison);
+  const report::Table table = report::timings_table(self->comparison);
   push_rows(call.lua(), table);
   push(call.lua(), table.columns);
   return 2;
@@ -127,7 +127,7 @@ int timings_method(Call& call) {
 
 int starts_method(Call& call) {
   const auto self = call.self<ComparisonValue>();
-  const Table table = starts_table(self->comparison);
+  const report::Table table = report::starts_table(self->comparison);
   push_rows(call.lua(), table);
   push(call.lua(), table.columns);
   return 2;
@@ -135,7 +135,7 @@ int starts_method(Call& call) {
 
 std::string comparison_text(const ComparisonValue& value) {
   std::vector<std::string> labels;
-  for (const LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
+  for (const sim::LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
   const std::size_t starts =
       value.comparison.levels.empty() ? 0 : value.comparison.levels.front().starts.size();
   return fmt::format("Comparison of {} in {}, {} start{}", fmt::join(labels, ", "),
@@ -147,13 +147,14 @@ void describe_comparison(Api& api) {
                                     comparison_text);
   type.field("labels", "list of strings", "names of the levels", [](const ComparisonValue& value) {
     std::vector<std::string> labels;
-    for (const LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
+    for (const sim::LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
     return labels;
   });
-  type.method({.name = "table",
-               .summary = "Cost and error of every level, means over the starts.",
-               .returns = "list of tables, list of their keys: " + comparison_columns_help(),
-               .call = table_method});
+  type.method(
+      {.name = "table",
+       .summary = "Cost and error of every level, means over the starts.",
+       .returns = "list of tables, list of their keys: " + report::comparison_columns_help(),
+       .call = table_method});
   type.method({.name = "starts",
                .summary = "What every level did in every start.",
                .returns = "list of tables, list of their keys: level, label, start, distance [m], "
@@ -171,7 +172,7 @@ void describe_comparison(Api& api) {
 }
 
 std::vector<Parameter> start_parameters(std::uint32_t starts) {
-  const CompareOptions usual;
+  const sim::CompareOptions usual;
   return {{.name = "starts",
            .type = "integer",
            .fallback = fmt::format("{}", starts),
@@ -188,7 +189,7 @@ std::vector<Parameter> start_parameters(std::uint32_t starts) {
 }
 
 std::vector<Parameter> compare_parameters() {
-  const CompareOptions usual;
+  const sim::CompareOptions usual;
   std::vector<Parameter> parameters = start_parameters(usual.starts);
   parameters.push_back(
       {.name = "error_window",
@@ -200,13 +201,13 @@ std::vector<Parameter> compare_parameters() {
                         .type = "string",
                         .fallback = "none",
                         .help = "goes into the labels: \"hb\" makes \"LOD-hb-1\""});
-  const std::vector<Parameter> run = run_parameters(RunOptions{});
+  const std::vector<Parameter> run = run_parameters(sim::RunOptions{});
   parameters.insert(parameters.end(), run.begin(), run.end());
   return parameters;
 }
 
 std::vector<Parameter> ensemble_parameters() {
-  const EnsembleOptions usual;
+  const sim::EnsembleOptions usual;
   std::vector<Parameter> parameters = start_parameters(usual.starts);
   parameters.push_back(
       {.name = "first",
@@ -253,4 +254,4 @@ void describe_compare(Api& api) {
       .call = ensemble_binding});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

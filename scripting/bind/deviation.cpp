@@ -15,16 +15,16 @@
 #include "scripting/engine/call.hpp"
 #include "sim/study/compare.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
 constexpr const char* kGroup = "Simulation";
 
 int jittered_binding(Call& call) {
-  auto scenario = std::make_shared<Scenario>(*scenario_argument(call, 1));
+  auto scenario = std::make_shared<sim::Scenario>(*scenario_argument(call, 1));
   const MassSpringModel& model = *call.value<ModelValue>(2)->model;
-  CompareOptions options;
+  sim::CompareOptions options;
   options.seed = call.session().settings().seed;
   std::uint32_t number = 1;
   TableReader reader = call.options(3);
@@ -34,18 +34,18 @@ int jittered_binding(Call& call) {
   if (!(options.jitter >= 0 && options.jitter < 1)) reader.refuse("jitter", "in [0, 1)");
   reader.read("seed", options.seed);
   reader.finish();
-  scenario->start = jittered(scenario->start, center_of_mass(model, model.rest), options.jitter,
-                             options.seed, number - 1);
-  return call.give(std::shared_ptr<const Scenario>(scenario));
+  scenario->start = sim::jittered(scenario->start, sim::center_of_mass(model, model.rest),
+                                  options.jitter, options.seed, number - 1);
+  return call.give(std::shared_ptr<const sim::Scenario>(scenario));
 }
 
 /// The run's frames as those of the base of its chain.
-std::vector<Frame> brought_back(const TrajectoryValue& run) {
+std::vector<sim::Frame> brought_back(const TrajectoryValue& run) {
   if (run.model->level == 0) return run.trajectory.frames;
-  const Binding binding = base_from_level(run.model->chain->chain, run.model->level);
-  std::vector<Frame> frames;
+  const Binding binding = lod::base_from_level(run.model->chain->chain, run.model->level);
+  std::vector<sim::Frame> frames;
   frames.reserve(run.trajectory.frames.size());
-  for (const Frame& frame : run.trajectory.frames)
+  for (const sim::Frame& frame : run.trajectory.frames)
     frames.push_back({frame.time, carry(binding, frame.x)});
   return frames;
 }
@@ -62,12 +62,12 @@ int deviation_binding(Call& call) {
         fmt::format("deviation: the first run stands for {} nodes at level 0, the second has {}; "
                     "give a run of a level and one of the base that it was made from",
                     nodes, reference.node_count()));
-  const std::vector<Deviation> deviations =
-      deviation_over_time(brought_back(*run), base->trajectory.frames, reference.mass);
+  const std::vector<sim::Deviation> deviations =
+      sim::deviation_over_time(brought_back(*run), base->trajectory.frames, reference.mass);
   lua_State* L = call.lua();
   begin_list(L, deviations.size());
   std::size_t number = 0;
-  for (const Deviation& deviation : deviations) {
+  for (const sim::Deviation& deviation : deviations) {
     begin_table(L);
     set_field(L, "time", deviation.time);
     set_field(L, "surface", deviation.surface);
@@ -80,7 +80,7 @@ int deviation_binding(Call& call) {
 }  // namespace
 
 void describe_deviation(Api& api) {
-  const CompareOptions usual;
+  const sim::CompareOptions usual;
   api.add(FunctionEntry{
       .name = "jittered",
       .group = kGroup,
@@ -122,4 +122,4 @@ void describe_deviation(Api& api) {
       .call = deviation_binding});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

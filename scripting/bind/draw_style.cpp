@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -29,7 +29,7 @@ std::pair<double, double> read_range(TableReader& reader, const char* name) {
 }
 
 // {nx, ny, nz, offset}
-DrawnPlane read_cut(TableReader& reader, const char* name) {
+render::DrawnPlane read_cut(TableReader& reader, const char* name) {
   lua_State* L = reader.lua();
   const int table = reader.raw(name);
   if (!lua_istable(L, table) || lua_rawlen(L, table) != 4)
@@ -42,46 +42,48 @@ DrawnPlane read_cut(TableReader& reader, const char* name) {
     lua_pop(L, 1);
   }
   lua_pop(L, 1);
-  DrawnPlane cut{Vec3(numbers[0], numbers[1], numbers[2]), numbers[3]};
+  render::DrawnPlane cut{Vec3(numbers[0], numbers[1], numbers[2]), numbers[3]};
   if (!(cut.normal.norm() > 0)) reader.refuse(name, "a plane with a normal other than zero");
   return cut;
 }
 
 }  // namespace
 
-void show_node_values(TableReader& reader, DrawStyle& style) {
+void show_node_values(TableReader& reader, render::DrawStyle& style) {
   if (!reader.has("nodes")) style.nodes = true;
   if (!reader.has("surface")) style.surface = false;
 }
 
-void read_style(TableReader& reader, DrawStyle& style) {
+void read_style(TableReader& reader, render::DrawStyle& style) {
   reader.choose("node_colour", style.node_colour,
-                {{"material", NodeColour::material},
-                 {"young", NodeColour::young},
-                 {"density", NodeColour::density},
-                 {"mass", NodeColour::mass}});
-  if (reader.has("node_colour") && style.node_colour != NodeColour::material)
+                {{"material", render::NodeColour::material},
+                 {"young", render::NodeColour::young},
+                 {"density", render::NodeColour::density},
+                 {"mass", render::NodeColour::mass}});
+  if (reader.has("node_colour") && style.node_colour != render::NodeColour::material)
     show_node_values(reader, style);
   reader.read("value_label", style.values.label);
   if (reader.has("value_range")) style.values.range = read_range(reader, "value_range");
   reader.choose("value_scale", style.values.scaling,
-                {{"automatic", ValueScaling::automatic},
-                 {"linear", ValueScaling::linear},
-                 {"logarithmic", ValueScaling::logarithmic}});
-  reader.choose("node_size", style.node_size, {{"even", NodeSize::even}, {"mass", NodeSize::mass}});
+                {{"automatic", render::ValueScaling::automatic},
+                 {"linear", render::ValueScaling::linear},
+                 {"logarithmic", render::ValueScaling::logarithmic}});
+  reader.choose("node_size", style.node_size,
+                {{"even", render::NodeSize::even}, {"mass", render::NodeSize::mass}});
   if (reader.has("cut")) style.cut = read_cut(reader, "cut");
   reader.read("surface", style.surface);
   reader.read("nodes", style.nodes);
   reader.read("springs", style.springs);
-  reader.choose("spring_colour", style.spring_colour,
-                {{"material", SpringColour::material}, {"strain", SpringColour::strain}});
+  reader.choose(
+      "spring_colour", style.spring_colour,
+      {{"material", render::SpringColour::material}, {"strain", render::SpringColour::strain}});
   reader.read("strain_range", style.strain_range);
   reader.read("node_radius", style.node_radius);
   reader.read("surface_opacity", style.surface_opacity);
   reader.read("bold_inner_nodes", style.bold_inner_nodes);
 }
 
-std::vector<Parameter> style_parameters(const DrawStyle& usual) {
+std::vector<Parameter> style_parameters(const render::DrawStyle& usual) {
   const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
   return {
       {.name = "surface",
@@ -151,4 +153,4 @@ std::vector<Parameter> style_parameters(const DrawStyle& usual) {
        .help = "nodes off the border in bold red"}};
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "elastic/loads/static_loads.hpp"
+#include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
 #include "elastic/stiffness.hpp"
 #include "elastic/zero_modes.hpp"
@@ -15,7 +15,7 @@
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -23,12 +23,12 @@ constexpr const char* kGroup = "Models";
 
 int stretch_binding(Call& call) {
   const auto value = call.value<ModelValue>(1);
-  StretchOptions options;
+  elastic::StretchOptions options;
   TableReader reader = call.options(2);
   reader.choose("axis", options.axis, {{"x", 0}, {"y", 1}, {"z", 2}});
   reader.read("cross_section", options.cross_section);
   reader.finish();
-  const StretchResult result = stretch_test(*value->model, options);
+  const elastic::StretchResult result = elastic::stretch_test(*value->model, options);
   begin_table(call.lua());
   set_field(call.lua(), "young", result.young);
   set_field(call.lua(), "poisson", result.poisson);
@@ -42,7 +42,7 @@ int zero_modes_binding(Call& call) {
   TableReader reader = call.options(2);
   const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
   reader.finish();
-  const std::vector<PartModes> parts = zero_modes(model, anchored);
+  const std::vector<elastic::PartModes> parts = elastic::zero_modes(model, anchored);
   lua_State* L = call.lua();
   begin_list(L, parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -62,7 +62,7 @@ int zero_modes_binding(Call& call) {
 
 int modes_binding(Call& call) {
   const MassSpringModel& model = *call.value<ModelValue>(1)->model;
-  ModeOptions options;
+  elastic::ModeOptions options;
   options.progress = call.progress();
   TableReader reader = call.options(2);
   reader.read("count", options.count);
@@ -70,8 +70,8 @@ int modes_binding(Call& call) {
   reader.read("seed", options.seed);
   const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
   reader.finish();
-  const Modes found = lowest_modes(
-      elastic_body(model, {.anchored = anchored, .progress = call.progress()}), options);
+  const elastic::Modes found = elastic::lowest_modes(
+      elastic::elastic_body(model, {.anchored = anchored, .progress = call.progress()}), options);
   if (!anchored.empty() && found.zero_modes_skipped > 0)
     call.session().console().say(
         fmt::format("modes: the anchors leave {} motions that nothing resists, which are left out; "
@@ -89,7 +89,7 @@ int modes_binding(Call& call) {
   return 1;
 }
 
-void push_solution(lua_State* L, const StaticSolution& solution) {
+void push_solution(lua_State* L, const elastic::StaticSolution& solution) {
   begin_table(L);
   set_field(L, "compliance", solution.compliance);
   set_field(L, "residual", solution.residual);
@@ -101,9 +101,9 @@ int static_loads_binding(Call& call) {
   TableReader reader = call.options(2);
   const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
   reader.finish();
-  const std::vector<StaticLoad> loads = smooth_loads(model);
-  const std::vector<StaticSolution> solutions =
-      solve_static(elastic_body(model, {.anchored = anchored, .progress = call.progress()}), loads);
+  const std::vector<elastic::StaticLoad> loads = elastic::smooth_loads(model);
+  const std::vector<elastic::StaticSolution> solutions = elastic::solve_static(
+      elastic::elastic_body(model, {.anchored = anchored, .progress = call.progress()}), loads);
   lua_State* L = call.lua();
   begin_list(L, loads.size());
   for (std::size_t i = 0; i < loads.size(); ++i) {
@@ -120,11 +120,12 @@ int deflect_binding(Call& call) {
   TableReader reader = call.options(2);
   if (!reader.has("force")) reader.refuse("force", "given: which forces pull at the nodes");
   const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
-  const StaticLoad load{"of deflect", read_forces(reader, model)};
+  const elastic::StaticLoad load{"of deflect", read_forces(reader, model)};
   reader.finish();
   push_solution(
       call.lua(),
-      solve_static(elastic_body(model, {.anchored = anchored, .progress = call.progress()}), {load})
+      elastic::solve_static(
+          elastic::elastic_body(model, {.anchored = anchored, .progress = call.progress()}), {load})
           .front());
   return 1;
 }
@@ -165,7 +166,7 @@ void describe_measurements(Api& api, const Parameter& model) {
 }
 
 void describe_modes(Api& api, const Parameter& model) {
-  const ModeOptions usual;
+  const elastic::ModeOptions usual;
   api.add(FunctionEntry{
       .name = "modes",
       .group = kGroup,
@@ -243,4 +244,4 @@ void describe_elastic(Api& api) {
   describe_statics(api, model);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -21,15 +21,15 @@
 #include "scripting/engine/call.hpp"
 #include "voxelize/vdb_file.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
 constexpr const char* kGroup = "From mesh to model";
 
-Box3 grid_box(const MaterialGrid& grid) {
+Box3 grid_box(const voxelize::MaterialGrid& grid) {
   Box3 box;
-  for (const CellIndex& cell : grid.cells) {
+  for (const voxelize::CellIndex& cell : grid.cells) {
     const Vec3 corner = grid.origin + grid.cell * Vec3(cell[0], cell[1], cell[2]);
     box.extend(corner);
     box.extend(corner + Vec3::Constant(grid.cell));
@@ -62,12 +62,12 @@ std::optional<std::uint16_t> filling(lua_State* L, int fill, const Vec3& center,
   return found->second;
 }
 
-CellIndex read_size(TableReader& reader) {
+voxelize::CellIndex read_size(TableReader& reader) {
   // More cells along an axis than any grid that could be filled cell by cell from a script.
   constexpr lua_Integer kMost = 4096;
   const int given = reader.raw("size");
   lua_State* L = reader.lua();
-  CellIndex size{};
+  voxelize::CellIndex size{};
   for (int axis = 0; axis < 3; ++axis) {
     const bool here =
         given != 0 && lua_istable(L, given) && lua_rawgeti(L, given, axis + 1) == LUA_TNUMBER;
@@ -80,9 +80,9 @@ CellIndex read_size(TableReader& reader) {
   return size;
 }
 
-void fill_cells(lua_State* L, int fill, const CellIndex& size, const MaterialNumbers& numbers,
-                MaterialGrid& grid) {
-  CellIndex cell{};
+void fill_cells(lua_State* L, int fill, const voxelize::CellIndex& size,
+                const MaterialNumbers& numbers, voxelize::MaterialGrid& grid) {
+  voxelize::CellIndex cell{};
   for (cell[2] = 0; cell[2] < size[2]; ++cell[2])
     for (cell[1] = 0; cell[1] < size[1]; ++cell[1])
       for (cell[0] = 0; cell[0] < size[0]; ++cell[0]) {
@@ -100,11 +100,11 @@ void fill_cells(lua_State* L, int fill, const CellIndex& size, const MaterialNum
 
 int grid_binding(Call& call) {
   auto value = std::make_shared<GridValue>();
-  MaterialGrid& grid = value->grid;
+  voxelize::MaterialGrid& grid = value->grid;
   TableReader reader = call.options(1);
   reader.read("cell", grid.cell);
   if (!reader.has("cell") || !(grid.cell > 0)) reader.refuse("cell", "given, and above 0");
-  const CellIndex size = read_size(reader);
+  const voxelize::CellIndex size = read_size(reader);
   reader.read("origin", grid.origin);
   const int materials = reader.raw("materials");
   if (materials == 0) reader.refuse("materials", "given: a table name = Material");
@@ -132,13 +132,13 @@ int grid_binding(Call& call) {
 }
 
 int save_vdb_binding(Call& call) {
-  save_vdb(with_depth(*call.value<GridValue>(2)), call.path(1));
+  voxelize::save_vdb(with_depth(*call.value<GridValue>(2)), call.path(1));
   return 0;
 }
 
 int load_vdb_binding(Call& call) {
   auto value = std::make_shared<GridValue>();
-  value->grid = load_vdb(call.path(1));
+  value->grid = voxelize::load_vdb(call.path(1));
   value->provenance.set("springlod", version());
   value->provenance.set("grid", call.path(1).filename().string());
   return call.give(std::shared_ptr<const GridValue>(value));
@@ -174,10 +174,10 @@ void describe_grid_type(Api& api) {
   type.table_field("cells", "list of {x, y, z, depth=, material=}",
                    "centre [m], depth under the surface [m] and material's name of every cell",
                    [](lua_State* L, const GridValue& value) {
-                     const MaterialGrid grid = with_depth(value);
+                     const voxelize::MaterialGrid grid = with_depth(value);
                      begin_list(L, grid.cells.size());
                      for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-                       const CellIndex& cell = grid.cells[i];
+                       const voxelize::CellIndex& cell = grid.cells[i];
                        push(L, Vec3(grid.origin +
                                     grid.cell * Vec3(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5)));
                        if (i < grid.depth.size())
@@ -243,4 +243,4 @@ void describe_grid(Api& api) {
                         .call = load_vdb_binding});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -10,7 +10,7 @@
 #include "lod/grouping/grouping.hpp"
 #include "scripting/bind/model_table.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -35,12 +35,12 @@ double number_result(lua_State* L, const char* what) {
   return value;
 }
 
-GroupMaker function_groups(lua_State* L, const GroupingOptions& usual, int node_priority,
-                           int pair_cost) {
+lod::GroupMaker function_groups(lua_State* L, const lod::GroupingOptions& usual, int node_priority,
+                                int pair_cost) {
   return [=](const MassSpringModel& fine, const Groups& /*of_base*/, std::uint32_t /*level*/) {
     lua_newtable(L);
     const int cache = lua_gettop(L);
-    GroupingOptions grouping = usual;
+    lod::GroupingOptions grouping = usual;
     if (node_priority != 0)
       grouping.node_priority = [&fine, L, cache, node_priority](std::uint32_t node) {
         lua_pushvalue(L, node_priority);
@@ -56,7 +56,7 @@ GroupMaker function_groups(lua_State* L, const GroupingOptions& usual, int node_
         lua_call(L, 2, 1);
         return number_result(L, "pair_cost");
       };
-    Groups groups = group_nodes(fine, grouping);
+    Groups groups = lod::group_nodes(fine, grouping);
     lua_settop(L, cache - 1);
     return groups;
   };
@@ -95,7 +95,7 @@ bool one_level(lua_State* L, int list) {
   return !deeper;
 }
 
-void read_hand_groups(TableReader& reader, int list, SimplifyOptions& options) {
+void read_hand_groups(TableReader& reader, int list, lod::SimplifyOptions& options) {
   lua_State* L = reader.lua();
   std::vector<NodeSets> by_level;
   if (one_level(L, list)) {
@@ -114,7 +114,7 @@ void read_hand_groups(TableReader& reader, int list, SimplifyOptions& options) {
   options.levels = levels;
   options.groups = [by_level](const MassSpringModel& fine, const Groups& /*of_base*/,
                               std::uint32_t level) {
-    return groups_from_sets(fine, by_level.at(level - 1));
+    return lod::groups_from_sets(fine, by_level.at(level - 1));
   };
   options.made_by = "groups by hand";
 }
@@ -134,7 +134,7 @@ int function_option(TableReader& reader, const char* name) {
 
 }  // namespace
 
-void read_grouping(TableReader& reader, SimplifyOptions& options) {
+void read_grouping(TableReader& reader, lod::SimplifyOptions& options) {
   lua_State* L = reader.lua();
   int node_priority = function_option(reader, "node_priority");
   int pair_cost = function_option(reader, "pair_cost");
@@ -154,11 +154,11 @@ void read_grouping(TableReader& reader, SimplifyOptions& options) {
     (parameters == 1 ? node_priority : pair_cost) = given;
   } else {
     reader.choose("grouping", options.grouping.grouping,
-                  {{"standard", Grouping::standard},
-                   {"priority", Grouping::priority_soft},
-                   {"priority_hard", Grouping::priority_hard},
-                   {"compact", Grouping::compact},
-                   {"metis", Grouping::metis}});
+                  {{"standard", lod::Grouping::standard},
+                   {"priority", lod::Grouping::priority_soft},
+                   {"priority_hard", lod::Grouping::priority_hard},
+                   {"compact", lod::Grouping::compact},
+                   {"metis", lod::Grouping::metis}});
   }
   if (node_priority == 0 && pair_cost == 0) return;
   options.groups = function_groups(L, options.grouping, node_priority, pair_cost);
@@ -169,4 +169,4 @@ void read_grouping(TableReader& reader, SimplifyOptions& options) {
                                 to_string(options.grouping.border), options.grouping.seed);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

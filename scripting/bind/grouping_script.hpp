@@ -3,11 +3,11 @@
 #include "lod/build.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// Reads how a script wants nodes grouped (the options grouping, node_priority and pair_cost of
 /// `simplify`) into `options`. Lua functions become callbacks that call back into `L`, so the
 /// options are good for the duration of the call only.
-void read_grouping(TableReader& reader, SimplifyOptions& options);
+void read_grouping(TableReader& reader, lod::SimplifyOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -6,26 +6,28 @@
 
 #include "scripting/engine/suggest.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 std::vector<std::string> integrator_words() {
   std::vector<std::string> words;
-  for (const Integrator integrator : kIntegrators) words.emplace_back(to_string(integrator));
+  for (const sim::Integrator integrator : sim::kIntegrators)
+    words.emplace_back(to_string(integrator));
   return words;
 }
 
-void read_integrator(TableReader& reader, std::string_view name, Integrator& into) {
+void read_integrator(TableReader& reader, std::string_view name, sim::Integrator& into) {
   reader.choose(name, into,
-                {{"symplectic_euler", Integrator::symplectic_euler},
-                 {"velocity_verlet", Integrator::velocity_verlet},
-                 {"runge_kutta_4", Integrator::runge_kutta_4},
-                 {"backward_euler_cg", Integrator::backward_euler_cg},
-                 {"backward_euler_direct", Integrator::backward_euler_direct},
-                 {"xpbd", Integrator::xpbd},
-                 {"projective_dynamics", Integrator::projective_dynamics}});
+                {{"symplectic_euler", sim::Integrator::symplectic_euler},
+                 {"velocity_verlet", sim::Integrator::velocity_verlet},
+                 {"runge_kutta_4", sim::Integrator::runge_kutta_4},
+                 {"backward_euler_cg", sim::Integrator::backward_euler_cg},
+                 {"backward_euler_direct", sim::Integrator::backward_euler_direct},
+                 {"xpbd", sim::Integrator::xpbd},
+                 {"projective_dynamics", sim::Integrator::projective_dynamics}});
 }
 
-void read_integrators(TableReader& reader, std::string_view name, std::vector<Integrator>& into) {
+void read_integrators(TableReader& reader, std::string_view name,
+                      std::vector<sim::Integrator>& into) {
   if (!reader.has(name)) return;
   std::vector<std::string> names;
   reader.read(name, names);
@@ -36,8 +38,8 @@ void read_integrators(TableReader& reader, std::string_view name, std::vector<In
     if (found == words.end())
       reader.refuse(name, fmt::format("a list of {}; got '{}'{}", comma_list(words), word,
                                       did_you_mean(word, words)));
-    into.push_back(kIntegrators[static_cast<std::size_t>(found - words.begin())]);
+    into.push_back(sim::kIntegrators[static_cast<std::size_t>(found - words.begin())]);
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

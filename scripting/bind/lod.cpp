@@ -15,13 +15,13 @@
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
 constexpr const char* kGroup = "Levels of detail";
 
-void read_guard(Call& call, TableReader& reader, GuardOptions& guard) {
+void read_guard(Call& call, TableReader& reader, lod::GuardOptions& guard) {
   const int table = reader.raw("guard");
   if (table == 0) return;
   TableReader limits = call.record(table, "Guard", "simplify: guard");
@@ -35,20 +35,22 @@ int simplify_binding(Call& call) {
   const auto base = call.value<ModelValue>(1);
   if (base->chain && base->level != 0)
     call.refuse(1, "a base model (level 0); a coarser level cannot be the base of a chain");
-  SimplifyOptions options;
+  lod::SimplifyOptions options;
   TableReader reader = call.options(2);
   reader.read("keep", options.keep);
   if (!options.keep.empty()) options.levels = static_cast<std::uint32_t>(options.keep.size());
   reader.read("levels", options.levels);
-  reader.choose(
-      "border", options.grouping.border,
-      {{"none", BorderRule::none}, {"weak", BorderRule::weak}, {"strong", BorderRule::strong}});
+  reader.choose("border", options.grouping.border,
+                {{"none", lod::BorderRule::none},
+                 {"weak", lod::BorderRule::weak},
+                 {"strong", lod::BorderRule::strong}});
   reader.read("straight", options.straight);
   options.grouping.seed = call.session().settings().seed;
   reader.read("seed", options.grouping.seed);
   reader.read("grading", options.grouping.grading);
-  reader.choose("mass", options.mass,
-                {{"proportional", MassRule::proportional}, {"proximity", MassRule::proximity}});
+  reader.choose(
+      "mass", options.mass,
+      {{"proportional", lod::MassRule::proportional}, {"proximity", lod::MassRule::proximity}});
   reader.read("guards", options.guards);
   read_guard(call, reader, options.guard);
   read_grouping(reader, options);
@@ -57,13 +59,13 @@ int simplify_binding(Call& call) {
   options.progress = call.progress();
 
   auto asset = std::make_shared<LodAsset>();
-  asset->chain = simplify(*base->model, options);
-  if (options.calibration == Calibration::modes)
-    certify(asset->chain, {.modes = std::max(1U, options.calibrate.targets.modes),
-                           .anchored = options.calibrate.targets.anchored,
-                           .tolerance = options.calibrate.fit.tolerance,
-                           .threads = options.calibrate.threads,
-                           .progress = call.progress()});
+  asset->chain = lod::simplify(*base->model, options);
+  if (options.calibration == lod::Calibration::modes)
+    lod::certify(asset->chain, {.modes = std::max(1U, options.calibrate.targets.modes),
+                                .anchored = options.calibrate.targets.anchored,
+                                .tolerance = options.calibrate.fit.tolerance,
+                                .threads = options.calibrate.threads,
+                                .progress = call.progress()});
   if (base->surface) {
     asset->surface = *base->surface;
     asset->surface_of_base = *base->surface_of_base;
@@ -172,7 +174,7 @@ void describe_chain(Api& api) {
 }
 
 std::vector<Parameter> simplify_options() {
-  const SimplifyOptions usual;
+  const lod::SimplifyOptions usual;
   return {{.name = "levels",
            .type = "integer",
            .fallback = fmt::format("{}", usual.levels),
@@ -208,7 +210,7 @@ std::vector<Parameter> simplify_options() {
            .help = "of the random order; the same seed gives the same bits"},
           {.name = "grading",
            .type = "number",
-           .fallback = fmt::format("{}", GroupingOptions{}.grading),
+           .fallback = fmt::format("{}", lod::GroupingOptions{}.grading),
            .help = "of compact: 0 .. 1, by how much stiff materials get larger groups than soft "
                    "ones, for a longer step"},
           {.name = "node_priority",
@@ -251,7 +253,7 @@ std::vector<Parameter> simplify_options() {
 
 void describe_lod(Api& api) {
   describe_chain(api);
-  const GuardOptions guard;
+  const lod::GuardOptions guard;
   api.add(RecordEntry{
       .name = "Guard",
       .summary = "Limits of the guards of simplify.",
@@ -287,4 +289,4 @@ void describe_lod(Api& api) {
   describe_refill(api);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -14,22 +14,22 @@
 #include "scripting/engine/call.hpp"
 #include "scripting/engine/result_table.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 namespace {
 
-std::string kind_name(Answer::Kind kind) {
+std::string kind_name(lod::Answer::Kind kind) {
   switch (kind) {
-    case Answer::Kind::mode:
+    case lod::Answer::Kind::mode:
       return "mode";
-    case Answer::Kind::smooth:
+    case lod::Answer::Kind::smooth:
       return "smooth";
-    case Answer::Kind::local:
+    case lod::Answer::Kind::local:
       return "local";
   }
   return "";
 }
 
-void push_answers(lua_State* L, const MergeStep& step) {
+void push_answers(lua_State* L, const lod::MergeStep& step) {
   begin_list(L, step.answers.size());
   for (std::size_t i = 0; i < step.answers.size(); ++i) {
     begin_table(L);
@@ -41,7 +41,7 @@ void push_answers(lua_State* L, const MergeStep& step) {
   }
 }
 
-void set_merge(lua_State* L, const MassSpringModel& model, const Merge& merge,
+void set_merge(lua_State* L, const MassSpringModel& model, const lod::Merge& merge,
                std::uint32_t base_nodes) {
   set_field(L, "node", merge.node + 1);
   set_field(L, "pieces", merge.pieces);
@@ -55,7 +55,7 @@ void set_merge(lua_State* L, const MassSpringModel& model, const Merge& merge,
   set_field(L, "change", merge.change);
 }
 
-void push_merges(lua_State* L, const Level& level, const MergeStep& step) {
+void push_merges(lua_State* L, const Level& level, const lod::MergeStep& step) {
   std::vector<std::uint32_t> base_nodes(level.of_base.count, 0);
   for (const std::uint32_t node : level.of_base.of) ++base_nodes[node];
   std::vector<std::uint32_t> order(step.merges.size());
@@ -70,7 +70,7 @@ void push_merges(lua_State* L, const Level& level, const MergeStep& step) {
 
 int merge_log_binding(Call& call) {
   const auto asset = call.value<LodAsset>(1);
-  MergeLogOptions options;
+  lod::MergeLogOptions options;
   options.threads = call.session().settings().threads;
   options.progress = call.progress();
   TableReader reader = call.options(2);
@@ -80,14 +80,14 @@ int merge_log_binding(Call& call) {
   reader.read("from_base", options.from_base);
   options.anchored = read_anchored(reader, asset->chain.levels.front().model);
   reader.finish();
-  const MergeLog log = log_merges(asset->chain, options);
+  const lod::MergeLog log = lod::log_merges(asset->chain, options);
   lua_State* L = call.lua();
-  push_tables(L, log.steps, [&](const MergeStep& step) {
+  push_tables(L, log.steps, [&](const lod::MergeStep& step) {
     set_field(L, "from", step.from);
     set_field(L, "level", step.level);
-    set_field(L, "frequency_error", mean_error(step, Answer::Kind::mode));
-    set_field(L, "smooth_load_error", mean_error(step, Answer::Kind::smooth));
-    set_field(L, "local_load_error", mean_error(step, Answer::Kind::local));
+    set_field(L, "frequency_error", lod::mean_error(step, lod::Answer::Kind::mode));
+    set_field(L, "smooth_load_error", lod::mean_error(step, lod::Answer::Kind::smooth));
+    set_field(L, "local_load_error", lod::mean_error(step, lod::Answer::Kind::local));
     push_answers(L, step);
     end_field(L, "answers");
     push_merges(L, asset->chain.levels[step.level], step);
@@ -143,7 +143,7 @@ void describe_records(Api& api) {
 
 void describe_merge_log(Api& api) {
   describe_records(api);
-  const MergeLogOptions usual;
+  const lod::MergeLogOptions usual;
   api.add(FunctionEntry{
       .name = "merge_log",
       .group = "Levels of detail",
@@ -179,4 +179,4 @@ void describe_merge_log(Api& api) {
       .call = merge_log_binding});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

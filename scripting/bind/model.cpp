@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/units.hpp"
-#include "elastic/moduli/estimate.hpp"
+#include "elastic/moduli.hpp"
 #include "elastic/stable_step.hpp"
 #include "model/asset/asset.hpp"
 #include "scripting/bind/certificate_table.hpp"
@@ -16,7 +16,7 @@
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -70,7 +70,7 @@ int springs_method(Call& call) {
   return 1;
 }
 
-void push_estimate(lua_State* L, const Eq2Estimate& e) {
+void push_estimate(lua_State* L, const elastic::Eq2Estimate& e) {
   begin_table(L);
   set_field(L, "nodes", e.nodes);
   set_field(L, "mass", e.mass);
@@ -83,7 +83,7 @@ void push_estimate(lua_State* L, const Eq2Estimate& e) {
 
 int estimate_binding(Call& call) {
   const auto value = call.value<ModelValue>(1);
-  const ModelEstimate result = estimate(*value->model);
+  const elastic::ModelEstimate result = elastic::estimate(*value->model);
   lua_State* L = call.lua();
   push_estimate(L, result.whole);
   begin_list(L, result.materials.size());
@@ -99,7 +99,7 @@ int estimate_binding(Call& call) {
 }
 
 int stable_step_binding(Call& call) {
-  return call.give(stable_step(*call.value<ModelValue>(1)->model));
+  return call.give(elastic::stable_step(*call.value<ModelValue>(1)->model));
 }
 
 int save_binding(Call& call) {
@@ -129,7 +129,7 @@ void push_level_info(lua_State* L, const Level& level, std::size_t number) {
   set_field(L, "mass", properties.mass);
   set_field(L, "center_of_mass", properties.center);
   set_field(L, "inertia", properties.inertia);
-  set_field(L, "stable_dt", stable_step(model));
+  set_field(L, "stable_dt", elastic::stable_step(model));
   set_field(L, "made_by", level.made_by);
   push_materials(L, model.materials);
   end_field(L, "materials");
@@ -340,4 +340,4 @@ void describe_model(Api& api) {
   describe_assets(api);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

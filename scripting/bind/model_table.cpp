@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "scripting/bind/records.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -253,4 +253,4 @@ void describe_model_tables(Api& api) {
       .example = "{1, 2, k = 100}"});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

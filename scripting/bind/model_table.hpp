@@ -3,7 +3,7 @@
 #include "model/mass_spring.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// A model from plain tables: nodes, springs, materials (the options of `s.model`). Springs may
 /// come in any order and direction. Throws InputError naming the entry.
@@ -17,4 +17,4 @@ void push_spring(lua_State* L, const MassSpringModel& model, std::uint32_t numbe
 /// The records Node and Spring.
 void describe_model_tables(Api& api);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

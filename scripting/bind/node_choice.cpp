@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "scripting/bind/model_table.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::vector<Vec3> read_forces(TableReader& reader, const MassSpringModel& model)
   return forces;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

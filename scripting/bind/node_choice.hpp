@@ -7,7 +7,7 @@
 #include "model/mass_spring.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// How scripts choose nodes: a list of node numbers (counted from 1), or a function of a Node that
 /// returns true for those it means. Reads what is at `index`; messages call it `what`.
@@ -24,4 +24,4 @@ Parameter anchored_parameter();
 /// returns it; nothing means none. N forces, all zero if it is not given.
 std::vector<Vec3> read_forces(TableReader& reader, const MassSpringModel& model);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -5,7 +5,7 @@
 
 #include <lua.hpp>
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace option_detail {
 
@@ -40,4 +40,4 @@ void use_session_defaults(std::vector<Parameter>& parameters) {
       parameter.fallback = "s." + parameter.name;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

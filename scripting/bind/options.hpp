@@ -18,7 +18,7 @@
 // Options structs as scripts see them: what help lists and what a table sets, both from the rows of
 // base/option.hpp.
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace option_detail {
 
@@ -185,4 +185,4 @@ Parameter& find_parameter(std::vector<Parameter>& parameters, std::string_view n
 /// `seed` and `threads` are by default those of the session: "s.seed".
 void use_session_defaults(std::vector<Parameter>& parameters);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -13,7 +13,7 @@
 #include "render/overlay.hpp"
 #include "report/playback.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -22,14 +22,14 @@ std::shared_ptr<const T> value_at(lua_State* L, int index) {
   return std::static_pointer_cast<const T>(boxed_at(L, index, &kValueName<T>));
 }
 
-const Frame& frame_of(const Trajectory& trajectory, std::uint32_t number) {
+const sim::Frame& frame_of(const sim::Trajectory& trajectory, std::uint32_t number) {
   const auto& frames = trajectory.frames;
   if (frames.empty() || number > frames.size())
     throw InputError(fmt::format("render: frame must be 1 to {}, got {}", frames.size(), number));
   return number == 0 ? frames.back() : frames[number - 1];
 }
 
-void require_instant(const Trajectory& trajectory, double time) {
+void require_instant(const sim::Trajectory& trajectory, double time) {
   const auto& frames = trajectory.frames;
   // A run ends on a whole step, so a script may ask for a little more.
   constexpr double kSlack = 1e-3;
@@ -49,7 +49,7 @@ void require_one_value_a_node(const PanelOptions& options, const ModelValue* mod
         fmt::format("render: node_values must be one number a node: {} numbers for a "
                     "model of {} nodes",
                     options.node_values.size(), model->model->node_count()));
-  if (options.style.node_colour != NodeColour::material)
+  if (options.style.node_colour != render::NodeColour::material)
     throw InputError(
         "render: node_values and node_colour both set the colours of the nodes; give "
         "one of them");
@@ -101,10 +101,10 @@ void Picture::set_instant(const TrajectoryValue& run) {
   if (options.time) {
     require_instant(run.trajectory, *options.time);
     time = *options.time;
-    const std::vector<Vec3> positions = positions_at(run.trajectory.frames, time);
+    const std::vector<Vec3> positions = report::positions_at(run.trajectory.frames, time);
     set_model(run.model, &positions);
   } else {
-    const Frame& frame = frame_of(run.trajectory, options.frame);
+    const sim::Frame& frame = frame_of(run.trajectory, options.frame);
     time = frame.time;
     set_model(run.model, &frame.x);
   }
@@ -119,17 +119,17 @@ void Picture::set_model(std::shared_ptr<const ModelValue> model,
   if (model_->surface) surface_positions_ = carry(surface_binding(*model_), positions_);
 }
 
-void Picture::add_obstacles(const Scenario& scenario) {
-  for (const Obstacle& obstacle : scenario.obstacles) {
-    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
+void Picture::add_obstacles(const sim::Scenario& scenario) {
+  for (const sim::Obstacle& obstacle : scenario.obstacles) {
+    if (const auto* plane = std::get_if<sim::Plane>(&obstacle.shape))
       planes_.push_back({plane->normal, plane->offset});
-    if (const auto* box = std::get_if<SolidBox>(&obstacle.shape))
+    if (const auto* box = std::get_if<sim::SolidBox>(&obstacle.shape))
       boxes_.push_back({box->center, box->half_size, box->rotation});
   }
 }
 
 std::vector<Vec3> Picture::points() const {
-  return outline(panel(Camera{}).bodies.front());
+  return render::outline(panel(render::Camera{}).bodies.front());
 }
 
 std::vector<std::string> Picture::heading() const {
@@ -142,17 +142,19 @@ std::vector<std::string> Picture::heading() const {
 
 double Picture::heading_share(int panel_height) const {
   const std::size_t lines = heading().size();
-  return lines == 0 ? 0 : springlod::heading_share(panel_height, lines - 1);
+  return lines == 0 ? 0 : render::heading_share(panel_height, lines - 1);
 }
 
 double Picture::scales_share(int panel_height) const {
-  const DrawnBody body = panel(Camera{}).bodies.front();
-  const bool strain = body.style.springs && body.style.spring_colour == SpringColour::strain;
-  return ((shows_values(body) ? 1 : 0) + (strain ? 1 : 0)) * scale_share(panel_height);
+  const render::DrawnBody body = panel(render::Camera{}).bodies.front();
+  const bool strain =
+      body.style.springs && body.style.spring_colour == render::SpringColour::strain;
+  return ((render::shows_values(body) ? 1 : 0) + (strain ? 1 : 0)) *
+         render::scale_share(panel_height);
 }
 
-Panel Picture::panel(const Camera& camera) const {
-  DrawnBody body;
+render::Panel Picture::panel(const render::Camera& camera) const {
+  render::DrawnBody body;
   body.style = options_.style;
   if (mesh_) {
     body.surface = &mesh_->mesh;
@@ -174,7 +176,7 @@ Panel Picture::panel(const Camera& camera) const {
       body.style.springs = true;
     }
   }
-  Panel panel;
+  render::Panel panel;
   panel.bodies.push_back(std::move(body));
   panel.planes = planes_;
   panel.boxes = boxes_;
@@ -187,4 +189,4 @@ Panel Picture::panel(const Camera& camera) const {
   return panel;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

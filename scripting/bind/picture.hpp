@@ -9,7 +9,7 @@
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// What one panel of a picture shows of its subject.
 struct PanelOptions {
@@ -19,7 +19,7 @@ struct PanelOptions {
   std::optional<double> time;  ///< of a trajectory [s]: this instant instead of a frame
   /// Numbers that the nodes show, one a node; empty: none.
   std::vector<double> node_values;
-  DrawStyle style;
+  render::DrawStyle style;
 };
 
 /// One subject of a picture with all that a Panel points into.
@@ -36,21 +36,21 @@ class Picture {
   /// All that the camera has to see.
   std::vector<Vec3> points() const;
   /// Good as long as this lives.
-  Panel panel(const Camera& camera) const;
+  render::Panel panel(const render::Camera& camera) const;
 
  private:
   void set_model(std::shared_ptr<const ModelValue> model, const std::vector<Vec3>* positions);
   std::vector<std::string> heading() const;
   void set_instant(const TrajectoryValue& run);
-  void add_obstacles(const Scenario& scenario);
+  void add_obstacles(const sim::Scenario& scenario);
 
   PanelOptions options_;
   std::shared_ptr<const MeshValue> mesh_;
   std::shared_ptr<const ModelValue> model_;
   std::vector<Vec3> positions_;
   std::vector<Vec3> surface_positions_;
-  std::vector<DrawnPlane> planes_;
-  std::vector<DrawnBox> boxes_;
+  std::vector<render::DrawnPlane> planes_;
+  std::vector<render::DrawnBox> boxes_;
   std::string instant_;  // "t = 0.300 s" of a trajectory
 };
 
@@ -59,4 +59,4 @@ class Picture {
 std::vector<Colour> part_colours(const TriangleMesh& surface,
                                  const std::vector<Material>& materials);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -13,13 +13,13 @@
 #include "scripting/engine/call.hpp"
 #include "voxelize/refill.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
 int random_binding(Call& call) {
   const auto grid = call.value<GridValue>(1);
-  RandomOptions options;
+  voxelize::RandomOptions options;
   options.seed = call.session().settings().seed;
   TableReader reader = call.options(2);
   reader.read("nodes", options.nodes);
@@ -30,7 +30,7 @@ int random_binding(Call& call) {
   reader.finish();
   options.progress = call.progress();
 
-  RandomModel random = build_random(grid->grid, options);
+  voxelize::RandomModel random = voxelize::build_random(grid->grid, options);
   if (random.parts > 1)
     call.session().console().say(fmt::format("{} parts that no spring joins", random.parts));
   auto value = std::make_shared<ModelValue>();
@@ -81,21 +81,23 @@ int refill_binding(Call& call) {
   if (base->chain && base->level != 0)
     call.refuse(1, "a base model (level 0); a coarser level cannot be the base of a chain");
   const auto grid = call.value<GridValue>(2);
-  RefillOptions options;
+  voxelize::RefillOptions options;
   options.seed = call.session().settings().seed;
   TableReader reader = call.options(3);
   options.nodes = read_counts(reader);
-  reader.choose("style", options.style,
-                {{"lattice", RefillStyle::lattice}, {"random", RefillStyle::random}});
-  reader.choose("lattice", options.lattice,
-                {{"corners", LatticeStyle::corners}, {"centers", LatticeStyle::centers}});
+  reader.choose(
+      "style", options.style,
+      {{"lattice", voxelize::RefillStyle::lattice}, {"random", voxelize::RefillStyle::random}});
+  reader.choose(
+      "lattice", options.lattice,
+      {{"corners", voxelize::LatticeStyle::corners}, {"centers", voxelize::LatticeStyle::centers}});
   reader.read("ends", options.ends);
   reader.read("seed", options.seed);
   reader.finish();
   options.progress = call.progress();
 
   auto asset = std::make_shared<LodAsset>();
-  asset->chain = refill(*base->model, grid->grid, options);
+  asset->chain = voxelize::refill(*base->model, grid->grid, options);
   for (std::size_t n = 0; n < options.nodes.size(); ++n) {
     const std::uint32_t reached = asset->chain.levels[n + 1].model.node_count();
     if (reached != options.nodes[n])
@@ -116,7 +118,7 @@ int refill_binding(Call& call) {
 Parameter ends_option() {
   return {.name = "ends",
           .type = "number",
-          .fallback = fmt::format("{}", RandomOptions{}.ends),
+          .fallback = fmt::format("{}", voxelize::RandomOptions{}.ends),
           .help =
               "ends of springs a node on average, at least 14; every node of a random model has "
               "14"};
@@ -132,7 +134,7 @@ Parameter seed_option() {
 }  // namespace
 
 void describe_random(Api& api) {
-  const RandomOptions usual;
+  const voxelize::RandomOptions usual;
   api.add(FunctionEntry{
       .name = "random",
       .group = "From mesh to model",
@@ -189,4 +191,4 @@ void describe_refill(Api& api) {
       .call = refill_binding});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

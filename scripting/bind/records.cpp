@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 Material read_material(Call& call, int index, const std::string& owner, const std::string& name) {
   Material material;
@@ -58,4 +58,4 @@ void push_materials(lua_State* L, const std::vector<Material>& materials) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

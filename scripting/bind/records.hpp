@@ -7,7 +7,7 @@
 #include "model/material.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// The Material table at `index`; `owner` is what messages call it, `name` its name if the table
 /// gives none.
@@ -17,4 +17,4 @@ std::map<std::string, Material> read_materials(Call& call, int table, const std:
 void push_material(lua_State* L, const Material& material);
 void push_materials(lua_State* L, const std::vector<Material>& materials);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -13,7 +13,7 @@
 #include "scripting/bind/still_pictures.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -30,7 +30,7 @@ struct PictureOptions {
   double azimuth = -70;  ///< [deg]
   double elevation = 15;
   std::vector<std::string> titles;
-  PictureText text;
+  render::PictureText text;
 };
 
 std::vector<double> numbers_of(TableReader& reader, const char* name) {
@@ -138,8 +138,8 @@ Vec3 middle(const std::vector<Vec3>& points) {
 
 /// The camera of each panel. All have one scale: a camera that sees every subject, wherever it is
 /// (fixed) or moved to one place and the camera with it (follow).
-std::vector<Camera> cameras_of(const std::vector<std::unique_ptr<Picture>>& panels,
-                               const PictureOptions& options) {
+std::vector<render::Camera> cameras_of(const std::vector<std::unique_ptr<Picture>>& panels,
+                                       const PictureOptions& options) {
   std::vector<Vec3> centers;
   std::vector<Vec3> all;
   for (const auto& panel : panels) {
@@ -157,15 +157,15 @@ std::vector<Camera> cameras_of(const std::vector<std::unique_ptr<Picture>>& pane
   // Of a panel of a few pixels labels would leave nothing.
   constexpr double kMostForLabels = 0.5;
   const double shrink = std::min(1., kMostForLabels / std::max(headings + scales, 1e-9));
-  const Camera common = frame_points(
+  const render::Camera common = render::frame_points(
       all, {.azimuth = options.azimuth,
             .elevation = options.elevation,
             .aspect = static_cast<double>(options.width) / static_cast<double>(options.height),
             .headroom = shrink * headings,
             .footroom = shrink * scales});
-  std::vector<Camera> cameras;
+  std::vector<render::Camera> cameras;
   for (const Vec3& center : centers) {
-    Camera& camera = cameras.emplace_back(common);
+    render::Camera& camera = cameras.emplace_back(common);
     camera.eye += center;
     camera.target += center;
   }
@@ -191,16 +191,16 @@ int render_binding(Call& call) {
   if (options.width == 0 || options.height == 0) reader.refuse("width", "1 or more, height too");
 
   const auto pictures = read_panels(call, options, usual);
-  const std::vector<Camera> cameras = cameras_of(pictures, options);
-  std::vector<Panel> panels;
+  const std::vector<render::Camera> cameras = cameras_of(pictures, options);
+  std::vector<render::Panel> panels;
   for (std::size_t i = 0; i < pictures.size(); ++i)
     panels.push_back(pictures[i]->panel(cameras[i]));
-  const PanelGrid grid{.panel_width = options.width,
-                       .panel_height = options.height,
-                       .panel_count = static_cast<std::uint32_t>(panels.size()),
-                       .columns = options.columns};
-  save_png(call.session().still_pictures().draw(grid, std::move(panels), options.text),
-           call.path(1));
+  const render::PanelGrid grid{.panel_width = options.width,
+                               .panel_height = options.height,
+                               .panel_count = static_cast<std::uint32_t>(panels.size()),
+                               .columns = options.columns};
+  render::save_png(call.session().still_pictures().draw(grid, std::move(panels), options.text),
+                   call.path(1));
   return 0;
 }
 
@@ -220,7 +220,7 @@ std::vector<Parameter> panel_parameters() {
        .type = "list of numbers",
        .fallback = "none",
        .help = "numbers, one a node, told by the colours of the nodes in place of node_colour"}};
-  const std::vector<Parameter> style = style_parameters(DrawStyle{});
+  const std::vector<Parameter> style = style_parameters(render::DrawStyle{});
   parameters.insert(parameters.end(), style.begin(), style.end());
   return parameters;
 }
@@ -307,4 +307,4 @@ void describe_render(Api& api) {
       .call = render_binding});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -18,7 +18,7 @@
 #include "scripting/engine/call.hpp"
 #include "sim/study/stability_map.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -26,7 +26,7 @@ constexpr const char* kGroup = "Pictures and reports";
 
 int animate_binding(Call& call) {
   const auto comparison = call.value<ComparisonValue>(2);
-  AnimateOptions options;
+  report::AnimateOptions options;
   TableReader reader = call.options(3);
   reader.read("width", options.width);
   reader.read("height", options.height);
@@ -34,31 +34,31 @@ int animate_binding(Call& call) {
   reader.read("slow", options.slow);
   reader.read("frames", options.frames);
   reader.choose("camera", options.camera,
-                {{"fixed", CameraMode::fixed}, {"follow", CameraMode::follow}});
+                {{"fixed", report::CameraMode::fixed}, {"follow", report::CameraMode::follow}});
   reader.read("azimuth", options.azimuth);
   reader.read("elevation", options.elevation);
   reader.read("avoid_walls", options.avoid_walls);
   read_style(reader, options.style);
   reader.finish();
   options.progress = call.progress();
-  const Animation animation =
-      animate(*comparison->chain, comparison->comparison, call.path(1), options);
+  const report::Animation animation =
+      report::animate(*comparison->chain, comparison->comparison, call.path(1), options);
   return call.give(animation.frames);
 }
 
 int video_binding(Call& call) {
-  double frame_rate = AnimateOptions{}.frame_rate;
+  double frame_rate = report::AnimateOptions{}.frame_rate;
   TableReader reader = call.options(3);
   reader.read("frame_rate", frame_rate);
   reader.finish();
-  const VideoResult video = encode_video(call.path(2), frame_rate, call.path(1));
+  const report::VideoResult video = report::encode_video(call.path(2), frame_rate, call.path(1));
   if (!video.made)
     call.session().console().say("no video: ffmpeg is not installed; with it, run\n  " +
                                  video.command);
   return call.give(video.made, video.command);
 }
 
-int give_drawn(Call& call, const Drawing& drawing) {
+int give_drawn(Call& call, const report::Drawing& drawing) {
   if (!drawing.drawn)
     call.session().console().say("no chart: gnuplot is not installed; with it, run\n  " +
                                  drawing.command);
@@ -66,17 +66,17 @@ int give_drawn(Call& call, const Drawing& drawing) {
 }
 
 int chart_binding(Call& call) {
-  ChartOptions options;
+  report::ChartOptions options;
   TableReader reader = call.options(3);
-  if (const auto map = call.try_value<StabilityMap>(2)) {
-    MapPictureOptions picture;
+  if (const auto map = call.try_value<sim::StabilityMap>(2)) {
+    report::MapPictureOptions picture;
     read_chart_options(reader, options);
     reader.finish();
     picture.title = options.title;
-    return give_drawn(call, draw_map(*map, picture, call.path(1)));
+    return give_drawn(call, report::draw_map(*map, picture, call.path(1)));
   }
   const auto comparison = call.try_value<ComparisonValue>(2);
-  std::vector<ChartSeries> series;
+  std::vector<report::ChartSeries> series;
   if (comparison) {
     series.push_back(cost_error_series(*comparison, reader));
     options = cost_error_chart(*comparison);
@@ -85,29 +85,30 @@ int chart_binding(Call& call) {
   }
   read_chart_options(reader, options);
   reader.finish();
-  const ChartFiles files = draw_chart(series, options, call.path(1));
+  const report::ChartFiles files = report::draw_chart(series, options, call.path(1));
   return give_drawn(call, {files.drawn, files.command});
 }
 
 int csv_binding(Call& call) {
   TableReader reader = call.options(3);
-  const Table table = table_from_rows(call, call.index(2), reader, NumberStyle::exact);
+  const report::Table table = table_from_rows(call, call.index(2), reader, NumberStyle::exact);
   reader.finish();
-  save_csv(table, call.path(1));
+  report::save_csv(table, call.path(1));
   return 0;
 }
 
 int format_table_binding(Call& call) {
   TableReader reader = call.options(2);
-  const Table table = table_from_rows(call, call.index(1), reader, NumberStyle::four_digits);
+  const report::Table table =
+      table_from_rows(call, call.index(1), reader, NumberStyle::four_digits);
   reader.finish();
-  std::string text = format_table(table);
+  std::string text = report::format_table(table);
   if (text.ends_with('\n')) text.pop_back();  // print adds one
   return call.give(text);
 }
 
 std::vector<Parameter> animate_parameters() {
-  const AnimateOptions usual;
+  const report::AnimateOptions usual;
   std::vector<Parameter> parameters{
       {.name = "width",
        .type = "integer",
@@ -168,7 +169,7 @@ void describe_film(Api& api) {
                     {.name = "folder", .type = "string", .help = "where animate put the frames"}},
       .options = {{.name = "frame_rate",
                    .type = "number",
-                   .fallback = fmt::format("{}", AnimateOptions{}.frame_rate),
+                   .fallback = fmt::format("{}", report::AnimateOptions{}.frame_rate),
                    .help = "pictures a second"}},
       .returns = "boolean, string: whether it was made, the command that makes it",
       .errors = "ffmpeg fails; another ending than .mp4 or .gif.",
@@ -234,4 +235,4 @@ void describe_report(Api& api) {
   describe_tables(api);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

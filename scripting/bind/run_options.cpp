@@ -4,9 +4,9 @@
 
 #include "scripting/bind/integrator_word.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
-std::vector<Parameter> run_parameters(const RunOptions& usual) {
+std::vector<Parameter> run_parameters(const sim::RunOptions& usual) {
   return {{.name = "integrator",
            .type = "one of",
            .fallback = "\"symplectic_euler\"",
@@ -66,32 +66,34 @@ std::vector<Parameter> run_parameters(const RunOptions& usual) {
            .help = "keep account of the energy"}};
 }
 
-void read_run_options(Call& call, TableReader& reader, RunOptions& options) {
+void read_run_options(Call& call, TableReader& reader, sim::RunOptions& options) {
   read_integrator(reader, "integrator", options.integrator);
   reader.read("iterations", options.solver.iterations);
   reader.read("tolerance", options.solver.tolerance);
   reader.read("linear_iterations", options.solver.linear_iterations);
   reader.read("step", options.step);
   reader.read("safety", options.safety);
-  reader.choose("precision", options.precision,
-                {{"double", Precision::double_precision}, {"single", Precision::single_precision}});
+  reader.choose(
+      "precision", options.precision,
+      {{"double", sim::Precision::double_precision}, {"single", sim::Precision::single_precision}});
   reader.choose("layout", options.layout,
-                {{"fastest", Layout::fastest}, {"any shape", Layout::any_shape}});
+                {{"fastest", sim::Layout::fastest}, {"any shape", sim::Layout::any_shape}});
   reader.read("sleep", options.sleep);
   reader.read("frame_rate", options.frame_rate);
   reader.read("ledger", options.ledger);
   options.progress = call.progress();
 }
 
-ContactAt read_contact(TableReader& reader) {
-  ContactAt contact = ContactAt::nodes;
-  reader.choose("contact", contact, {{"nodes", ContactAt::nodes}, {"surface", ContactAt::surface}});
+sim::ContactAt read_contact(TableReader& reader) {
+  sim::ContactAt contact = sim::ContactAt::nodes;
+  reader.choose("contact", contact,
+                {{"nodes", sim::ContactAt::nodes}, {"surface", sim::ContactAt::surface}});
   return contact;
 }
 
-std::shared_ptr<const ContactSkin> skin_of(const ModelValue& model, ContactAt contact) {
-  if (contact == ContactAt::nodes || !model.chain || model.level == 0) return nullptr;
-  return std::make_shared<ContactSkin>(contact_skin(model.chain->chain, model.level));
+std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::ContactAt contact) {
+  if (contact == sim::ContactAt::nodes || !model.chain || model.level == 0) return nullptr;
+  return std::make_shared<sim::ContactSkin>(sim::contact_skin(model.chain->chain, model.level));
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -8,15 +8,15 @@
 #include "scripting/engine/call.hpp"
 #include "sim/run.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// The options of every function that runs models; `usual` is what it does without them.
-std::vector<Parameter> run_parameters(const RunOptions& usual);
+std::vector<Parameter> run_parameters(const sim::RunOptions& usual);
 /// All but `contact`, which takes a level to make sense of.
-void read_run_options(Call& call, TableReader& reader, RunOptions& options);
+void read_run_options(Call& call, TableReader& reader, sim::RunOptions& options);
 
-ContactAt read_contact(TableReader& reader);
+sim::ContactAt read_contact(TableReader& reader);
 /// For RunOptions: where the model touches obstacles. A model of its own is its own base.
-std::shared_ptr<const ContactSkin> skin_of(const ModelValue& model, ContactAt contact);
+std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::ContactAt contact);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

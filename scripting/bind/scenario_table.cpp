@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "scripting/bind/values.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -27,7 +27,7 @@ Mat3 read_turn(Call& call, int table, const std::string& owner) {
 }
 
 // {nx, ny, nz, offset}
-Plane read_plane(lua_State* L, int table, const std::string& owner) {
+sim::Plane read_plane(lua_State* L, int table, const std::string& owner) {
   if (!lua_istable(L, table) || lua_rawlen(L, table) != 4)
     throw InputError(owner + " must be {nx, ny, nz, offset}: solid where n . x < offset");
   double value[4];
@@ -42,9 +42,9 @@ Plane read_plane(lua_State* L, int table, const std::string& owner) {
   return {normal.normalized(), value[3]};
 }
 
-SolidBox read_box(Call& call, int table, const std::string& owner) {
+sim::SolidBox read_box(Call& call, int table, const std::string& owner) {
   TableReader reader = call.record(table, "Box", owner);
-  SolidBox box;
+  sim::SolidBox box;
   Vec3 size = Vec3::Ones();
   reader.read("center", box.center);
   if (!reader.has("size")) reader.refuse("size", "given: {x, y, z}");
@@ -55,9 +55,9 @@ SolidBox read_box(Call& call, int table, const std::string& owner) {
   return box;
 }
 
-Obstacle read_obstacle(Call& call, int table, const std::string& owner) {
+sim::Obstacle read_obstacle(Call& call, int table, const std::string& owner) {
   TableReader reader = call.record(table, "Obstacle", owner);
-  Obstacle obstacle;
+  sim::Obstacle obstacle;
   const int plane = reader.raw("plane");
   const int box = reader.raw("box");
   if ((plane != 0) == (box != 0)) reader.refuse("plane", "given, or else box, but not both");
@@ -71,7 +71,7 @@ Obstacle read_obstacle(Call& call, int table, const std::string& owner) {
   return obstacle;
 }
 
-void read_obstacles(Call& call, TableReader& reader, std::vector<Obstacle>& into) {
+void read_obstacles(Call& call, TableReader& reader, std::vector<sim::Obstacle>& into) {
   const int list = reader.raw("obstacles");
   if (list == 0) return;
   lua_State* L = call.lua();
@@ -84,7 +84,7 @@ void read_obstacles(Call& call, TableReader& reader, std::vector<Obstacle>& into
   }
 }
 
-void read_throw(Call& call, TableReader& scenario, Throw& into) {
+void read_throw(Call& call, TableReader& scenario, sim::Throw& into) {
   const int table = scenario.raw("throw");
   if (table == 0) return;
   TableReader reader = call.record(table, "Throw", scenario.owner() + ": throw");
@@ -97,10 +97,10 @@ void read_throw(Call& call, TableReader& scenario, Throw& into) {
   reader.finish();
 }
 
-void read_stop(Call& call, TableReader& scenario, std::optional<StopRule>& into) {
+void read_stop(Call& call, TableReader& scenario, std::optional<sim::StopRule>& into) {
   const int table = scenario.raw("stop");
   if (table == 0) return;
-  StopRule rule;
+  sim::StopRule rule;
   TableReader reader = call.record(table, "Stop", scenario.owner() + ": stop");
   reader.read("speed", rule.speed);
   reader.read("hold", rule.hold);
@@ -110,11 +110,11 @@ void read_stop(Call& call, TableReader& scenario, std::optional<StopRule>& into)
 
 int scenario_binding(Call& call) {
   TableReader reader = call.options(1);
-  return call.give(std::make_shared<const Scenario>(scenario_from_table(call, reader)));
+  return call.give(std::make_shared<const sim::Scenario>(scenario_from_table(call, reader)));
 }
 
 void describe_obstacles(Api& api) {
-  const Obstacle usual;
+  const sim::Obstacle usual;
   api.add(RecordEntry{.name = "Turn",
                       .summary = "A rotation.",
                       .fields = {{.name = "axis",
@@ -171,7 +171,7 @@ void describe_obstacles(Api& api) {
 }
 
 void describe_throw(Api& api) {
-  const StopRule stop;
+  const sim::StopRule stop;
   api.add(RecordEntry{
       .name = "Throw",
       .summary = "How the body is placed and thrown: turned about its centre of mass, then moved.",
@@ -210,8 +210,8 @@ void describe_throw(Api& api) {
 
 }  // namespace
 
-Scenario scenario_from_table(Call& call, TableReader& reader) {
-  Scenario scenario;
+sim::Scenario scenario_from_table(Call& call, TableReader& reader) {
+  sim::Scenario scenario;
   reader.read("name", scenario.name);
   reader.read("gravity", scenario.gravity);
   reader.read("duration", scenario.duration);
@@ -224,13 +224,13 @@ Scenario scenario_from_table(Call& call, TableReader& reader) {
   return scenario;
 }
 
-std::shared_ptr<const Scenario> scenario_argument(Call& call, int number) {
-  if (auto scenario = call.try_value<Scenario>(number)) return scenario;
+std::shared_ptr<const sim::Scenario> scenario_argument(Call& call, int number) {
+  if (auto scenario = call.try_value<sim::Scenario>(number)) return scenario;
   if (!lua_istable(call.lua(), call.index(number)))
     call.refuse(number, "a Scenario or a table for s.scenario");
   const FunctionEntry* entry = call.session().api().find_function("scenario");
   TableReader reader(call.lua(), call.index(number), entry->options, "scenario");
-  return std::make_shared<const Scenario>(scenario_from_table(call, reader));
+  return std::make_shared<const sim::Scenario>(scenario_from_table(call, reader));
 }
 
 Parameter scenario_parameter() {
@@ -242,20 +242,21 @@ Parameter scenario_parameter() {
 void describe_scenario(Api& api) {
   describe_obstacles(api);
   describe_throw(api);
-  TypeBuilder<Scenario> type("What a body goes through: gravity, obstacles, a throw, a duration.",
-                             [](const Scenario& scenario) {
-                               return fmt::format("Scenario {}: {} s, {} obstacle{}", scenario.name,
-                                                  scenario.duration, scenario.obstacles.size(),
-                                                  scenario.obstacles.size() == 1 ? "" : "s");
-                             });
-  type.field("name", "string", "its name", [](const Scenario& value) { return value.name; });
+  TypeBuilder<sim::Scenario> type(
+      "What a body goes through: gravity, obstacles, a throw, a duration.",
+      [](const sim::Scenario& scenario) {
+        return fmt::format("Scenario {}: {} s, {} obstacle{}", scenario.name, scenario.duration,
+                           scenario.obstacles.size(), scenario.obstacles.size() == 1 ? "" : "s");
+      });
+  type.field("name", "string", "its name", [](const sim::Scenario& value) { return value.name; });
   type.field("duration", "number", "simulated time at most [s]",
-             [](const Scenario& value) { return value.duration; });
-  type.field("gravity", "{x, y, z}", "[m/s2]", [](const Scenario& value) { return value.gravity; });
+             [](const sim::Scenario& value) { return value.duration; });
+  type.field("gravity", "{x, y, z}", "[m/s2]",
+             [](const sim::Scenario& value) { return value.gravity; });
   type.field("obstacle_count", "integer", "number of obstacles",
-             [](const Scenario& value) { return value.obstacles.size(); });
+             [](const sim::Scenario& value) { return value.obstacles.size(); });
   type.field("measure_from", "string", "obstacle that the distance is measured from, or \"\"",
-             [](const Scenario& value) { return value.measure_from; });
+             [](const sim::Scenario& value) { return value.measure_from; });
   api.add(type.build());
   api.add(FunctionEntry{
       .name = "scenario",
@@ -279,7 +280,7 @@ void describe_scenario(Api& api) {
            {.name = "duration",
             .type = "quantity",
             .dimension = Dimension::time,
-            .fallback = fmt::format("{}", Scenario{}.duration),
+            .fallback = fmt::format("{}", sim::Scenario{}.duration),
             .help = "simulated time at most"},
            {.name = "stop", .type = "Stop", .fallback = "none", .help = "ends a run early"},
            {.name = "measure_from",
@@ -295,4 +296,4 @@ void describe_scenario(Api& api) {
       .call = scenario_binding});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -3,16 +3,16 @@
 #include "scripting/engine/call.hpp"
 #include "sim/scenario.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// A scenario from the options of `s.scenario`. Throws InputError naming the key.
-Scenario scenario_from_table(Call& call, TableReader& reader);
+sim::Scenario scenario_from_table(Call& call, TableReader& reader);
 /// Argument `number`: a Scenario, or a table that could be handed to s.scenario.
-std::shared_ptr<const Scenario> scenario_argument(Call& call, int number);
+std::shared_ptr<const sim::Scenario> scenario_argument(Call& call, int number);
 /// How such an argument is listed.
 Parameter scenario_parameter();
 
 /// The records Obstacle, Box, Throw, Turn, Stop and the function scenario.
 void describe_scenario(Api& api);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -18,7 +18,7 @@
 #include "scripting/engine/paths.hpp"
 #include "scripting/engine/suggest.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -273,4 +273,4 @@ void describe_session(Api& api) {
   describe_constants(api);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -14,14 +14,14 @@
 #include "scripting/engine/call.hpp"
 #include "sim/run.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
 constexpr const char* kGroup = "Simulation";
 
 /// What a run went on with although it should be known.
-void warn(Console& console, const Trajectory& run) {
+void warn(Console& console, const sim::Trajectory& run) {
   if (run.unconverged_steps > 0)
     console.say(
         fmt::format("run: in {} of {} steps the solver stopped short of its tolerance; give it "
@@ -38,7 +38,7 @@ int run_binding(Call& call) {
   auto value = std::make_shared<TrajectoryValue>();
   value->model = call.value<ModelValue>(1);
   value->scenario = scenario_argument(call, 2);
-  RunOptions options;
+  sim::RunOptions options;
   options.threads = call.session().settings().threads;
   TableReader reader = call.options(3);
   read_run_options(call, reader, options);
@@ -49,13 +49,13 @@ int run_binding(Call& call) {
   const MassSpringModel& model = *value->model->model;
   const std::optional<State> start = read_start(call, reader, model);
   reader.finish();
-  value->trajectory =
-      start ? run(model, *value->scenario, *start, options) : run(model, *value->scenario, options);
+  value->trajectory = start ? sim::run(model, *value->scenario, *start, options)
+                            : sim::run(model, *value->scenario, options);
   if (!quiet) warn(call.session().console(), value->trajectory);
   return call.give(std::shared_ptr<const TrajectoryValue>(value));
 }
 
-void push_frame(lua_State* L, const Frame& frame) {
+void push_frame(lua_State* L, const sim::Frame& frame) {
   begin_table(L);
   set_field(L, "time", frame.time);
   set_field(L, "x", frame.x);
@@ -72,7 +72,7 @@ int frame_method(Call& call) {
 void push_ledger(lua_State* L, const TrajectoryValue& value) {
   begin_list(L, value.trajectory.ledger.size());
   std::size_t number = 0;
-  for (const LedgerEntry& entry : value.trajectory.ledger) {
+  for (const sim::LedgerEntry& entry : value.trajectory.ledger) {
     begin_table(L);
     set_field(L, "time", entry.time);
     set_field(L, "kinetic", entry.kinetic);
@@ -112,7 +112,7 @@ void describe_trajectory(Api& api) {
   TypeBuilder<TrajectoryValue> type(
       "One run of one model; trajectory[i] is frame i, #trajectory their number.",
       [](const TrajectoryValue& value) {
-        const Trajectory& t = value.trajectory;
+        const sim::Trajectory& t = value.trajectory;
         return fmt::format("Trajectory: {:.4g} s in {} steps of {:.4g} s, {} frames", t.simulated,
                            t.steps, t.step, t.frames.size());
       });
@@ -120,17 +120,17 @@ void describe_trajectory(Api& api) {
     type.field(name, "number", help,
                [get](const TrajectoryValue& value) { return get(value.trajectory); });
   };
-  number("step", "time step, as at rest [s]", [](const Trajectory& t) { return t.step; });
+  number("step", "time step, as at rest [s]", [](const sim::Trajectory& t) { return t.step; });
   number("shortest_step", "time step where springs were strained hardest [s]",
-         [](const Trajectory& t) { return t.shortest_step; });
+         [](const sim::Trajectory& t) { return t.shortest_step; });
   number("predicted_step", "predicted stable step, contacts included [s]",
-         [](const Trajectory& t) { return t.predicted_step; });
-  number("simulated", "simulated time [s]", [](const Trajectory& t) { return t.simulated; });
+         [](const sim::Trajectory& t) { return t.predicted_step; });
+  number("simulated", "simulated time [s]", [](const sim::Trajectory& t) { return t.simulated; });
   number("wall_seconds", "measured time; never the same twice [s]",
-         [](const Trajectory& t) { return t.wall_seconds; });
+         [](const sim::Trajectory& t) { return t.wall_seconds; });
   number("planning_seconds",
          "the part of them that went into finding the step and laying out the springs [s]",
-         [](const Trajectory& t) { return t.planning_seconds; });
+         [](const sim::Trajectory& t) { return t.planning_seconds; });
   type.field("steps", "integer", "number of steps",
              [](const TrajectoryValue& value) { return value.trajectory.steps; });
   type.field("unconverged_steps", "integer",
@@ -180,7 +180,7 @@ void describe_trajectory(Api& api) {
 }
 
 std::vector<Parameter> single_run_parameters() {
-  std::vector<Parameter> parameters = run_parameters(RunOptions{});
+  std::vector<Parameter> parameters = run_parameters(sim::RunOptions{});
   parameters.push_back(start_parameter());
   parameters.push_back({.name = "threads",
                         .type = "integer",
@@ -220,4 +220,4 @@ void describe_sim(Api& api) {
   describe_deviation(api);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "report/stability_tables.hpp"
+#include "report/tables.hpp"
 #include "scripting/bind/chart_table.hpp"
 #include "scripting/bind/integrator_word.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/study/stability_map.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> read_whole_numbers(TableReader& reader, std::string_v
 
 int stability_binding(Call& call) {
   const auto chain = call.value<LodAsset>(1);
-  StabilityOptions options;
+  sim::StabilityOptions options;
   options.seed = call.session().settings().seed;
   options.threads = call.session().settings().threads;
   TableReader reader = call.options(2);
@@ -54,55 +54,57 @@ int stability_binding(Call& call) {
   reader.read("seed", options.seed);
   reader.finish();
   options.progress = call.progress();
-  return call.give(std::shared_ptr<const StabilityMap>(
-      std::make_shared<StabilityMap>(stability_map(chain->chain, options))));
+  return call.give(std::shared_ptr<const sim::StabilityMap>(
+      std::make_shared<sim::StabilityMap>(sim::stability_map(chain->chain, options))));
 }
 
-int give_table(Call& call, const Table& table) {
+int give_table(Call& call, const report::Table& table) {
   push_rows(call.lua(), table);
   push(call.lua(), table.columns);
   return 2;
 }
 
-void push_verdicts(lua_State* L, const StabilityMap& map) {
-  std::map<Verdict, std::size_t> counts;
-  for (const StabilityPoint& point : map.points) ++counts[point.verdict];
+void push_verdicts(lua_State* L, const sim::StabilityMap& map) {
+  std::map<sim::Verdict, std::size_t> counts;
+  for (const sim::StabilityPoint& point : map.points) ++counts[point.verdict];
   begin_table(L);
   for (const auto& [verdict, count] : counts) set_field(L, to_string(verdict), count);
 }
 
 void describe_map(Api& api) {
-  TypeBuilder<StabilityMap> type(
+  TypeBuilder<sim::StabilityMap> type(
       "How each integrator did with each level, stiffness ratio and step. s.chart draws it.",
-      [](const StabilityMap& map) {
+      [](const sim::StabilityMap& map) {
         std::size_t stable = 0;
-        for (const StabilityPoint& point : map.points) stable += point.stable ? 1 : 0;
+        for (const sim::StabilityPoint& point : map.points) stable += point.stable ? 1 : 0;
         return fmt::format("StabilityMap: {} points, {} of them stable; stiff part: {}",
                            map.points.size(), stable, map.stiff_part);
       });
   type.field("stiff_part", "string", "what the ratio makes stiff: a material, or one half",
-             [](const StabilityMap& map) { return map.stiff_part; });
+             [](const sim::StabilityMap& map) { return map.stiff_part; });
   type.table_field("verdicts", "table", "number of points of each verdict that occurs",
                    push_verdicts);
   type.method({.name = "table",
                .summary = "What came of every point.",
-               .returns = "list of tables, list of their keys: " + stability_columns_help(),
+               .returns = "list of tables, list of their keys: " + report::stability_columns_help(),
                .call = [](Call& call) {
-                 return give_table(call, stability_table(*call.self<StabilityMap>()));
+                 return give_table(call, report::stability_table(*call.self<sim::StabilityMap>()));
                }});
-  type.method({.name = "bodies",
-               .summary = "What the points of each level and ratio share.",
-               .returns = "list of tables, list of their keys: " + stability_bodies_columns_help(),
-               .call = [](Call& call) {
-                 return give_table(call, stability_bodies_table(*call.self<StabilityMap>()));
-               }});
+  type.method(
+      {.name = "bodies",
+       .summary = "What the points of each level and ratio share.",
+       .returns = "list of tables, list of their keys: " + report::stability_bodies_columns_help(),
+       .call = [](Call& call) {
+         return give_table(call, report::stability_bodies_table(*call.self<sim::StabilityMap>()));
+       }});
   type.method({.name = "timings",
                .summary = "Measured times, which are never the same twice.",
                .returns = "list of tables, list of their keys: level, integrator, iterations, "
                           "ratio, step [s], wall_seconds, wall_seconds_per_second (of simulated "
                           "time)",
                .call = [](Call& call) {
-                 return give_table(call, stability_timings_table(*call.self<StabilityMap>()));
+                 return give_table(
+                     call, report::stability_timings_table(*call.self<sim::StabilityMap>()));
                }});
   api.add(type.build());
 }
@@ -112,7 +114,7 @@ std::string list_text(const std::vector<double>& values) {
 }
 
 std::vector<Parameter> parameters() {
-  const StabilityOptions usual;
+  const sim::StabilityOptions usual;
   return {
       {.name = "levels", .type = "list of integers", .fallback = "all", .help = "0 is the base"},
       {.name = "ratios",
@@ -188,4 +190,4 @@ void describe_stability(Api& api) {
       .call = stability_binding});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -74,4 +74,4 @@ void describe_start(Api& api) {
       .example = "start = trajectory.final"});
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

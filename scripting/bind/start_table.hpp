@@ -5,7 +5,7 @@
 #include "model/mass_spring.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// The option `start`: positions and velocities of every node, as `trajectory.final` has them; its
 /// time is not read. None if it is not given. Throws InputError naming the entry.
@@ -15,4 +15,4 @@ Parameter start_parameter();
 /// The record State.
 void describe_start(Api& api);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -1,7 +1,5 @@
 // Samples of numbers: what they tell, how far apart they are, and whether that is noise.
 
-#include "report/stats/statistics.hpp"
-
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,12 +8,11 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
-#include "report/stats/noise_floor.hpp"
-#include "report/stats/sample_comparison.hpp"
+#include "report/stats.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -58,12 +55,12 @@ Lists lists_at(Call& call, int argument, const std::string& name, bool& several)
 }
 
 /// A list of one number a start, or of one list a start with one number a seed.
-StartSample sample_argument(Call& call, int argument, const std::string& name) {
+report::StartSample sample_argument(Call& call, int argument, const std::string& name) {
   bool by_seeds = false;
   Lists lists = lists_at(call, argument, name, by_seeds);
   if (!by_seeds) return {std::move(lists[0])};
   if (lists[0].empty()) throw InputError(name + "[1] is empty; give every start one value a seed");
-  StartSample sample{{}, static_cast<std::uint32_t>(lists[0].size())};
+  report::StartSample sample{{}, static_cast<std::uint32_t>(lists[0].size())};
   for (std::size_t i = 0; i < lists.size(); ++i) {
     if (lists[i].size() != lists[0].size())
       throw InputError(fmt::format(
@@ -74,44 +71,45 @@ StartSample sample_argument(Call& call, int argument, const std::string& name) {
   return sample;
 }
 
-void read_resampling(Call& call, TableReader& reader, BootstrapOptions& options) {
+void read_resampling(Call& call, TableReader& reader, report::BootstrapOptions& options) {
   options.seed = call.session().settings().seed;
   reader.read("resamples", options.resamples);
   reader.read("seed", options.seed);
   reader.choose("seeds", options.design,
-                {{"crossed", SeedDesign::crossed}, {"nested", SeedDesign::nested}});
+                {{"crossed", report::SeedDesign::crossed}, {"nested", report::SeedDesign::nested}});
   options.progress = call.progress();
 }
 
 int statistics_binding(Call& call) {
-  const StartSample sample = sample_argument(call, 1, "sample");
-  BootstrapOptions resampling;
-  double confidence = SampleComparisonOptions{}.confidence;
+  const report::StartSample sample = sample_argument(call, 1, "sample");
+  report::BootstrapOptions resampling;
+  double confidence = report::SampleComparisonOptions{}.confidence;
   TableReader reader = call.options(2);
   read_resampling(call, reader, resampling);
   reader.read("confidence", confidence);
   reader.finish();
-  const Interval of_mean = interval(bootstrap(sample, mean, resampling), confidence);
-  const Interval of_deviation =
-      interval(bootstrap(sample, standard_deviation, resampling), confidence);
+  const report::Interval of_mean =
+      report::interval(report::bootstrap(sample, report::mean, resampling), confidence);
+  const report::Interval of_deviation = report::interval(
+      report::bootstrap(sample, report::standard_deviation, resampling), confidence);
   lua_State* L = call.lua();
   begin_table(L);
   set_field(L, "count", sample.values.size());
-  set_field(L, "mean", mean(sample.values));
+  set_field(L, "mean", report::mean(sample.values));
   set_field(L, "mean_low", of_mean.low);
   set_field(L, "mean_high", of_mean.high);
-  set_field(L, "deviation", standard_deviation(sample.values));
+  set_field(L, "deviation", report::standard_deviation(sample.values));
   set_field(L, "deviation_low", of_deviation.low);
   set_field(L, "deviation_high", of_deviation.high);
-  set_field(L, "minimum", quantile(sample.values, 0));
-  set_field(L, "lower_quartile", quantile(sample.values, 0.25));
-  set_field(L, "median", quantile(sample.values, 0.5));
-  set_field(L, "upper_quartile", quantile(sample.values, 0.75));
-  set_field(L, "maximum", quantile(sample.values, 1));
+  set_field(L, "minimum", report::quantile(sample.values, 0));
+  set_field(L, "lower_quartile", report::quantile(sample.values, 0.25));
+  set_field(L, "median", report::quantile(sample.values, 0.5));
+  set_field(L, "upper_quartile", report::quantile(sample.values, 0.75));
+  set_field(L, "maximum", report::quantile(sample.values, 1));
   return 1;
 }
 
-void push_measured(lua_State* L, const char* name, const Measured& measured) {
+void push_measured(lua_State* L, const char* name, const report::Measured& measured) {
   begin_table(L);
   set_field(L, "value", measured.value);
   set_field(L, "low", measured.interval.low);
@@ -120,9 +118,9 @@ void push_measured(lua_State* L, const char* name, const Measured& measured) {
 }
 
 int compare_samples_binding(Call& call) {
-  const StartSample base = sample_argument(call, 1, "base");
-  const StartSample other = sample_argument(call, 2, "other");
-  SampleComparisonOptions options;
+  const report::StartSample base = sample_argument(call, 1, "base");
+  const report::StartSample other = sample_argument(call, 2, "other");
+  report::SampleComparisonOptions options;
   TableReader reader = call.options(3);
   read_resampling(call, reader, options.resampling);
   reader.read("paired", options.resampling.paired);
@@ -131,7 +129,7 @@ int compare_samples_binding(Call& call) {
   reader.read("spread", options.spread);
   reader.choose("test", options.bootstrap_test, {{"student", false}, {"bootstrap", true}});
   reader.finish();
-  const SampleComparison result = compare_samples(base, other, options);
+  const report::SampleComparison result = report::compare_samples(base, other, options);
   lua_State* L = call.lua();
   begin_table(L);
   push_measured(L, "difference", result.difference);
@@ -150,27 +148,28 @@ int compare_samples_binding(Call& call) {
 int noise_floor_binding(Call& call) {
   bool several = false;
   const Lists sources = lists_at(call, 1, "sources", several);
-  NoiseFloorOptions options;
+  report::NoiseFloorOptions options;
   options.seed = call.session().settings().seed;
   TableReader reader = call.options(2);
   reader.read("size", options.base_size);
   reader.read("other_size", options.other_size);
   reader.choose("distance", options.distance,
-                {{"wasserstein", SampleDistance::wasserstein}, {"energy", SampleDistance::energy}});
+                {{"wasserstein", report::SampleDistance::wasserstein},
+                 {"energy", report::SampleDistance::energy}});
   reader.read("quantile", options.part);
   reader.read("resamples", options.resamples);
   reader.read("seed", options.seed);
   reader.finish();
   options.progress = call.progress();
-  return call.give(std::shared_ptr<const NoiseFloor>(
-      std::make_shared<NoiseFloor>(noise_floor(sources, options))));
+  return call.give(std::shared_ptr<const report::NoiseFloor>(
+      std::make_shared<report::NoiseFloor>(report::noise_floor(sources, options))));
 }
 
 int judge_method(Call& call) {
-  const auto floor = call.self<NoiseFloor>();
-  const StartSample base = sample_argument(call, 1, "base");
-  const FloorVerdict verdict =
-      inside_noise_floor(*floor, base.values, sample_argument(call, 2, "other").values);
+  const auto floor = call.self<report::NoiseFloor>();
+  const report::StartSample base = sample_argument(call, 1, "base");
+  const report::FloorVerdict verdict =
+      report::inside_noise_floor(*floor, base.values, sample_argument(call, 2, "other").values);
   lua_State* L = call.lua();
   begin_table(L);
   set_field(L, "inside", verdict.inside);
@@ -179,8 +178,8 @@ int judge_method(Call& call) {
   return 1;
 }
 
-const char* name_of(SampleDistance distance) {
-  return distance == SampleDistance::wasserstein ? "wasserstein" : "energy";
+const char* name_of(report::SampleDistance distance) {
+  return distance == report::SampleDistance::wasserstein ? "wasserstein" : "energy";
 }
 
 Parameter sample_parameter(const char* name, const char* help) {
@@ -192,10 +191,10 @@ Parameter sample_parameter(const char* name, const char* help) {
 }
 
 std::vector<Parameter> resampling_parameters() {
-  const BootstrapOptions usual;
+  const report::BootstrapOptions usual;
   return {{.name = "confidence",
            .type = "number",
-           .fallback = fmt::format("{}", SampleComparisonOptions{}.confidence),
+           .fallback = fmt::format("{}", report::SampleComparisonOptions{}.confidence),
            .help = "of the intervals"},
           {.name = "resamples",
            .type = "integer",
@@ -268,8 +267,8 @@ void describe_samples(Api& api) {
 }
 
 void describe_noise_floor(Api& api) {
-  TypeBuilder<NoiseFloor> type(
-      "How far samples of the base are from each other.", [](const NoiseFloor& floor) {
+  TypeBuilder<report::NoiseFloor> type(
+      "How far samples of the base are from each other.", [](const report::NoiseFloor& floor) {
         return fmt::format(
             "NoiseFloor: {} distance {:.4g} ({:.4g} % of {} distances, {} against "
             "{} values{})",
@@ -278,20 +277,20 @@ void describe_noise_floor(Api& api) {
             floor.with_replacement ? ", drawn with replacement" : "");
       });
   type.field("level", "number", "the base is nearer to itself than this in `quantile` of all cases",
-             [](const NoiseFloor& floor) { return floor.level; });
+             [](const report::NoiseFloor& floor) { return floor.level; });
   type.field("distance", "string", "\"wasserstein\" or \"energy\"",
-             [](const NoiseFloor& floor) { return name_of(floor.distance); });
+             [](const report::NoiseFloor& floor) { return name_of(floor.distance); });
   type.field("quantile", "number", "part of the distances below the level",
-             [](const NoiseFloor& floor) { return floor.part; });
+             [](const report::NoiseFloor& floor) { return floor.part; });
   type.field("size", "integer", "values on the base's side",
-             [](const NoiseFloor& floor) { return floor.base_size; });
+             [](const report::NoiseFloor& floor) { return floor.base_size; });
   type.field("other_size", "integer", "values on the other side",
-             [](const NoiseFloor& floor) { return floor.other_size; });
+             [](const report::NoiseFloor& floor) { return floor.other_size; });
   type.field("distances", "list of numbers", "all of them, in rising order",
-             [](const NoiseFloor& floor) { return floor.distances; });
+             [](const report::NoiseFloor& floor) { return floor.distances; });
   type.field("with_replacement", "boolean",
              "whether the only source was too small to draw without replacement",
-             [](const NoiseFloor& floor) { return floor.with_replacement; });
+             [](const report::NoiseFloor& floor) { return floor.with_replacement; });
   type.method(
       {.name = "judge",
        .summary = "Whether two samples are no farther apart than the base is from itself.",
@@ -303,7 +302,7 @@ void describe_noise_floor(Api& api) {
        .errors = "Samples of other sizes than the floor's.",
        .call = judge_method});
   api.add(type.build());
-  const NoiseFloorOptions usual;
+  const report::NoiseFloorOptions usual;
   api.add(FunctionEntry{
       .name = "noise_floor",
       .group = kGroup,
@@ -350,4 +349,4 @@ void describe_statistics(Api& api) {
   describe_noise_floor(api);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

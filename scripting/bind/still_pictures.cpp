@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -12,15 +12,15 @@ constexpr std::uint64_t kMostPixels = 4'000'000;
 
 }  // namespace
 
-Image StillPictures::draw(const PanelGrid& grid, std::vector<Panel> panels,
-                          const PictureText& text) {
+render::Image StillPictures::draw(const render::PanelGrid& grid, std::vector<render::Panel> panels,
+                                  const render::PictureText& text) {
   if (renderer_)
     renderer_->lay_out(grid);
   else
-    renderer_ = std::make_unique<Renderer>(grid);
-  Image picture = renderer_->draw(std::move(panels), text);
+    renderer_ = std::make_unique<render::Renderer>(grid);
+  render::Image picture = renderer_->draw(std::move(panels), text);
   if (std::uint64_t{grid.panel_width} * grid.panel_height > kMostPixels) renderer_.reset();
   return picture;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -5,7 +5,7 @@
 #include "lod/transfer.hpp"
 #include "voxelize/depth.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const LodAsset>& chain,
                                               std::uint32_t level) {
@@ -23,20 +23,21 @@ std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const LodAss
   return value;
 }
 
-MaterialGrid with_depth(const GridValue& value) {
-  MaterialGrid grid = value.grid;
-  if (value.voxelized && grid.depth.empty()) grid.depth = measure_depth(grid, value.mesh->mesh);
+voxelize::MaterialGrid with_depth(const GridValue& value) {
+  voxelize::MaterialGrid grid = value.grid;
+  if (value.voxelized && grid.depth.empty())
+    grid.depth = voxelize::measure_depth(grid, value.mesh->mesh);
   return grid;
 }
 
 Binding surface_binding(const ModelValue& model) {
   if (!model.surface_of_base) return {};
   if (!model.chain || model.level == 0) return *model.surface_of_base;
-  return compose(*model.surface_of_base, base_from_level(model.chain->chain, model.level));
+  return compose(*model.surface_of_base, lod::base_from_level(model.chain->chain, model.level));
 }
 
 std::string spring_text(std::uint32_t springs) {
   return fmt::format("{} spring{}, {} ends", springs, springs == 1 ? "" : "s", 2ULL * springs);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -7,7 +7,7 @@
 #include "model/binding.hpp"
 #include "model/chain.hpp"
 #include "model/mesh.hpp"
-#include "report/stats/noise_floor.hpp"
+#include "report/stats.hpp"
 #include "scripting/engine/value.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
@@ -15,29 +15,31 @@
 #include "voxelize/grid.hpp"
 #include "voxelize/import.hpp"
 
-namespace springlod {
-
+namespace springlod::sim {
 struct StabilityMap;
+}
+
+namespace springlod::scripting {
 
 // What a script holds is a noun of springlod together with where it came from. All are shared and
 // never changed.
 
 struct MeshValue {
   TriangleMesh mesh;
-  ImportReport report;
+  voxelize::ImportReport report;
   Provenance provenance;
 };
 template <>
 inline constexpr const char* kValueName<MeshValue> = "Mesh";
 
 struct GridValue {
-  MaterialGrid grid;
+  voxelize::MaterialGrid grid;
   std::shared_ptr<const MeshValue> mesh;  ///< shown in its place; null for a loaded grid
   bool voxelized = false;                 ///< filled from `mesh`, so depths can be measured
   Provenance provenance;
 };
 /// The grid with the depths of its cells, if they are known or can be measured.
-MaterialGrid with_depth(const GridValue& value);
+voxelize::MaterialGrid with_depth(const GridValue& value);
 template <>
 inline constexpr const char* kValueName<GridValue> = "Grid";
 
@@ -57,28 +59,28 @@ inline constexpr const char* kValueName<ModelValue> = "Model";
 template <>
 inline constexpr const char* kValueName<LodAsset> = "LodChain";
 template <>
-inline constexpr const char* kValueName<Scenario> = "Scenario";
+inline constexpr const char* kValueName<sim::Scenario> = "Scenario";
 
 struct TrajectoryValue {
-  Trajectory trajectory;
+  sim::Trajectory trajectory;
   std::shared_ptr<const ModelValue> model;
-  std::shared_ptr<const Scenario> scenario;
+  std::shared_ptr<const sim::Scenario> scenario;
 };
 template <>
 inline constexpr const char* kValueName<TrajectoryValue> = "Trajectory";
 
 struct ComparisonValue {
-  Comparison comparison;
+  sim::Comparison comparison;
   std::shared_ptr<const LodAsset> chain;
 };
 template <>
 inline constexpr const char* kValueName<ComparisonValue> = "Comparison";
 
 template <>
-inline constexpr const char* kValueName<StabilityMap> = "StabilityMap";
+inline constexpr const char* kValueName<sim::StabilityMap> = "StabilityMap";
 
 template <>
-inline constexpr const char* kValueName<NoiseFloor> = "NoiseFloor";
+inline constexpr const char* kValueName<report::NoiseFloor> = "NoiseFloor";
 
 /// Level `level` of a chain as a model.
 std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const LodAsset>& chain,
@@ -90,4 +92,4 @@ Binding surface_binding(const ModelValue& model);
 /// "2374 springs, 4748 ends": the paper counts each spring at both ends.
 std::string spring_text(std::uint32_t springs);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -15,7 +15,7 @@
 #include "voxelize/import.hpp"
 #include "voxelize/lattice.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -29,36 +29,38 @@ std::string box_text(const Box3& box) {
 }
 
 int import_binding(Call& call) {
-  ImportOptions options;
+  voxelize::ImportOptions options;
   TableReader reader = call.options(2);
   std::string unit;
   reader.read("unit", unit);
   if (!unit.empty()) options.unit = length_unit(unit);
-  UpAxis up = UpAxis::z;
-  reader.choose("up", up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}});
+  voxelize::UpAxis up = voxelize::UpAxis::z;
+  reader.choose(
+      "up", up,
+      {{"x", voxelize::UpAxis::x}, {"y", voxelize::UpAxis::y}, {"z", voxelize::UpAxis::z}});
   if (reader.has("up")) options.up = up;
   reader.finish();
 
   const std::filesystem::path path = call.path(1);
   auto value = std::make_shared<MeshValue>();
-  ImportedMesh imported = import_mesh(path, options);
+  voxelize::ImportedMesh imported = voxelize::import_mesh(path, options);
   value->mesh = std::move(imported.mesh);
   value->report = imported.report;
   value->provenance.set("springlod", version());
   value->provenance.set("mesh", path.filename().string());
   value->provenance.set("mesh_hash", imported.report.content_hash);
   value->provenance.set("unit", fmt::format("{} m", imported.report.unit));
-  std::string remarks = describe(imported.report);
+  std::string remarks = voxelize::describe(imported.report);
   while (remarks.ends_with('\n')) remarks.pop_back();
   if (!remarks.empty()) call.session().console().say(remarks);
   return call.give(std::shared_ptr<const MeshValue>(value));
 }
 
-void read_core(Call& call, TableReader& reader, VoxelizeOptions& options) {
+void read_core(Call& call, TableReader& reader, voxelize::VoxelizeOptions& options) {
   const int table = reader.raw("core");
   if (table == 0) return;
   TableReader core = call.record(table, "Core", "voxelize: core");
-  VoxelizeOptions::CoreShell core_shell;
+  voxelize::VoxelizeOptions::CoreShell core_shell;
   core.read("depth", core_shell.core_depth);
   if (!core.has("depth")) core.refuse("depth", "given: how deep under the surface the core begins");
   const int material = core.raw("material");
@@ -68,7 +70,7 @@ void read_core(Call& call, TableReader& reader, VoxelizeOptions& options) {
   options.core_shell = core_shell;
 }
 
-PaintFunction paint_function(lua_State* L, int function) {
+voxelize::PaintFunction paint_function(lua_State* L, int function) {
   return [L, function](const Vec3& center, double depth, const std::string& material) {
     lua_pushvalue(L, function);
     for (int axis = 0; axis < 3; ++axis) push(L, center[axis]);
@@ -87,7 +89,7 @@ PaintFunction paint_function(lua_State* L, int function) {
 
 int voxelize_binding(Call& call) {
   const auto mesh = call.value<MeshValue>(1);
-  VoxelizeOptions options;
+  voxelize::VoxelizeOptions options;
   TableReader reader = call.options(2);
   reader.read("cell", options.cell);
   if (const int table = reader.raw("materials"))
@@ -104,7 +106,7 @@ int voxelize_binding(Call& call) {
   options.threads = call.session().settings().threads;
   options.progress = call.progress();
 
-  VoxelizedMesh result = voxelize(mesh->mesh, options);
+  voxelize::VoxelizedMesh result = voxelize::voxelize(mesh->mesh, options);
   for (const std::string& warning : result.report.warnings) call.session().console().say(warning);
   if (result.report.cell_chosen)
     call.session().console().say(
@@ -119,39 +121,41 @@ int voxelize_binding(Call& call) {
   return call.give(std::shared_ptr<const GridValue>(value));
 }
 
-void say_hinges(Call& call, const LatticeModel& lattice, HingePolicy policy) {
+void say_hinges(Call& call, const voxelize::LatticeModel& lattice, voxelize::HingePolicy policy) {
   if (lattice.hinges.empty()) return;
   const Vec3& at = lattice.hinges.front().position;
   const std::string what = fmt::format(
       "{} hinge{} where cells touch only along an edge or at a corner, the first at "
       "({:.4g}, {:.4g}, {:.4g}) m",
       lattice.hinges.size(), lattice.hinges.size() == 1 ? "" : "s", at.x(), at.y(), at.z());
-  if (policy == HingePolicy::report)
+  if (policy == voxelize::HingePolicy::report)
     call.session().console().say(what + "; hinges = \"fill\" or \"separate\" mends them");
-  if (policy == HingePolicy::fill)
+  if (policy == voxelize::HingePolicy::fill)
     call.session().console().say(fmt::format("{}: mended by {} more cell{}", what,
                                              lattice.filled_cells,
                                              lattice.filled_cells == 1 ? "" : "s"));
-  if (policy == HingePolicy::separate)
+  if (policy == voxelize::HingePolicy::separate)
     call.session().console().say(
         fmt::format("{}: the cells were taken apart, {} parts", what, lattice.parts));
 }
 
 int lattice_binding(Call& call) {
   const auto grid = call.value<GridValue>(1);
-  LatticeOptions options;
+  voxelize::LatticeOptions options;
   TableReader reader = call.options(2);
-  reader.choose("style", options.style,
-                {{"corners", LatticeStyle::corners}, {"centers", LatticeStyle::centers}});
+  reader.choose(
+      "style", options.style,
+      {{"corners", voxelize::LatticeStyle::corners}, {"centers", voxelize::LatticeStyle::centers}});
   reader.choose("hinges", options.hinges,
-                {{"report", HingePolicy::report},
-                 {"fill", HingePolicy::fill},
-                 {"separate", HingePolicy::separate}});
+                {{"report", voxelize::HingePolicy::report},
+                 {"fill", voxelize::HingePolicy::fill},
+                 {"separate", voxelize::HingePolicy::separate}});
   reader.finish();
 
-  LatticeModel lattice = build_lattice(grid->grid, options);
+  voxelize::LatticeModel lattice = voxelize::build_lattice(grid->grid, options);
   say_hinges(call, lattice, options.hinges);
-  const std::string style = options.style == LatticeStyle::corners ? "corners" : "centers";
+  const std::string style =
+      options.style == voxelize::LatticeStyle::corners ? "corners" : "centers";
   auto value = std::make_shared<ModelValue>();
   value->model = std::make_shared<const MassSpringModel>(std::move(lattice.model));
   value->made_by = "lattice " + style;
@@ -298,4 +302,4 @@ void describe_voxelize(Api& api) {
   describe_random(api);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

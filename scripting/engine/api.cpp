@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -134,4 +134,4 @@ std::vector<std::string> undocumented(const Api& api) {
   return missing;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

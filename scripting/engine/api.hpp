@@ -15,7 +15,7 @@
 
 struct lua_State;
 
-namespace springlod {
+namespace springlod::scripting {
 
 class Call;
 
@@ -167,4 +167,4 @@ void describe_render(Api& api);
 void describe_report(Api& api);
 void describe_statistics(Api& api);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

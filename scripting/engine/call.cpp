@@ -14,7 +14,7 @@
 #include "scripting/engine/script_error.hpp"
 #include "scripting/engine/suggest.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -382,4 +382,4 @@ const FunctionEntry* entry_of_function(lua_State* L, int index) {
   return entry;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

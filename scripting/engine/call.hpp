@@ -17,7 +17,7 @@
 
 struct lua_State;
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// Reads a table of options against the list in the registry. A key that is not listed is the
 /// script's error; an option that is read but not listed, or listed but never read, is ours
@@ -170,4 +170,4 @@ double quantity_at(lua_State* L, int index, Dimension dimension, std::string_vie
 /// {x, y, z} of quantities at `index`.
 Vec3 vector_at(lua_State* L, int index, Dimension dimension, std::string_view what);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

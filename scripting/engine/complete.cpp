@@ -10,7 +10,7 @@
 #include "scripting/engine/repl.hpp"
 #include "scripting/engine/value.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::vector<std::string> completions(ScriptState& state, std::string_view before
   return names;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "scripting/engine/interrupt.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -149,4 +149,4 @@ void Console::clear_bar() {
   bar_shown_ = false;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -10,7 +10,7 @@
 
 #include "base/progress.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 enum class Verbosity { quiet, normal, verbose };
 
@@ -61,4 +61,4 @@ class Console : public Progress {
 std::string progress_line(std::string_view task, std::uint64_t done, std::uint64_t total,
                           double seconds, bool bar);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

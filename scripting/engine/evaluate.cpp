@@ -10,7 +10,7 @@
 #include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/repl.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -67,4 +67,4 @@ Reply evaluate(ScriptState& state, const std::string& input) {
   return reply;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

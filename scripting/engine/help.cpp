@@ -9,7 +9,7 @@
 #include "scripting/engine/call.hpp"
 #include "scripting/engine/suggest.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -281,4 +281,4 @@ std::string api_markdown(const Api& api) {
   return text;
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

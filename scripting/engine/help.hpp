@@ -7,7 +7,7 @@
 
 struct lua_State;
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// What help() prints: all functions by group, all types.
 std::string overview(const Api& api);
@@ -33,4 +33,4 @@ std::string type_and_default(const Parameter& parameter);
 /// Names a word at the prompt may be completed to: "s.", "voxelize", "help" ...
 std::vector<std::string> help_topics(const Api& api);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -144,4 +144,4 @@ std::string inspect(lua_State* L, int index, const InspectOptions& options) {
   return Inspector(L, options).show(index, 0, false);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

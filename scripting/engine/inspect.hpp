@@ -4,7 +4,7 @@
 
 struct lua_State;
 
-namespace springlod {
+namespace springlod::scripting {
 
 struct InspectOptions {
   int depth = 4;        ///< tables within tables shown
@@ -16,4 +16,4 @@ struct InspectOptions {
 /// nested, cut off where they get long; values by their own tostring.
 std::string inspect(lua_State* L, int index, const InspectOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::scripting

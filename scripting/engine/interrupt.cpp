@@ -3,7 +3,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -37,4 +37,4 @@ void clear_interrupt() {
   interrupts.store(0);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

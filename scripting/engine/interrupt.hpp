@@ -1,6 +1,6 @@
 #pragma once
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// Ctrl-C. A signal handler can only set a flag, so the flag is one for the process.
 ///
@@ -17,4 +17,4 @@ class InterruptHandler {
 bool interrupt_requested();
 void clear_interrupt();
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace fs = std::filesystem;
 
@@ -65,4 +65,4 @@ fs::path history_file() {
   return {};
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

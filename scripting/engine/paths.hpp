@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// The folder of the stock scripts: ../share/springlod/scripts beside the running program if it is
 /// installed, else scripts/ of the source tree it was built from. Throws IoError if neither is
@@ -28,4 +28,4 @@ std::vector<StockCommand> stock_commands();
 /// $XDG_STATE_HOME/springlod/history, or ~/.local/state/springlod/history; empty without a home.
 std::filesystem::path history_file();
 
-}  // namespace springlod
+}  // namespace springlod::scripting

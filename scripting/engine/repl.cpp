@@ -20,7 +20,7 @@
 #include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/paths.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -227,4 +227,4 @@ void run_prompt(ScriptState& state) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -6,7 +6,7 @@
 
 #include "scripting/engine/state.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// The prompt: history, completion, input over several lines; an expression prints its value.
 /// Ctrl-C abandons the line or the running computation, Ctrl-D leaves. Returns when the user
@@ -25,4 +25,4 @@ Reply evaluate(ScriptState& state, const std::string& input);
 /// path (`s.vox` -> `voxelize`), from globals, fields, methods and keywords.
 std::vector<std::string> completions(ScriptState& state, std::string_view before_cursor);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -7,7 +7,7 @@
 
 struct lua_State;
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// Pushes a list with a table for each entry; fill(entry) sets the fields of the table on top.
 template <class Entries, class Fill>
@@ -26,4 +26,4 @@ inline Parameter result_field(const char* name, const char* type, const char* he
   return {.name = name, .type = type, .help = help};
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -104,4 +104,4 @@ void raise_interrupted(lua_State* L) {
   raise(L, std::move(error));
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -6,7 +6,7 @@
 
 #include "scripting/engine/value.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// What a failed call of the API leaves as the error value: prints as "script.lua:12: message",
 /// and a script that catches it can look at its parts.
@@ -47,4 +47,4 @@ int protect(lua_State* L, Work&& work) {
 /// Raised by Ctrl-C between two Lua instructions.
 [[noreturn]] void raise_interrupted(lua_State* L);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

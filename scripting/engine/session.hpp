@@ -10,7 +10,7 @@
 
 struct lua_State;
 
-namespace springlod {
+namespace springlod::scripting {
 
 class Api;
 class StillPictures;
@@ -50,4 +50,4 @@ void set_session(lua_State* L, Session* session);
 /// Version of springlod, "0.1.0".
 std::string version();
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -13,7 +13,7 @@
 #include "scripting/engine/script_error.hpp"
 #include "scripting/engine/suggest.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -187,4 +187,4 @@ Outcome ScriptState::run_text(std::string_view code, const std::string& name,
                     arguments);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

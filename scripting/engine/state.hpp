@@ -11,7 +11,7 @@
 
 struct lua_State;
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// How a script ended.
 struct Outcome {
@@ -57,4 +57,4 @@ class ScriptState {
 /// The registry of everything.
 std::unique_ptr<Api> make_api();
 
-}  // namespace springlod
+}  // namespace springlod::scripting

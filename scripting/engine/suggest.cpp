@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -61,4 +61,4 @@ std::string comma_list(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// The candidate that `name` was probably meant to be: the one with the least edits (insert, drop,
 /// change, swap), if those are few enough for its length; else "".
@@ -21,4 +21,4 @@ std::string name_hint(std::string_view name, const std::vector<std::string>& can
 /// "a, b, c"
 std::string comma_list(const std::vector<std::string>& words);
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -12,7 +12,7 @@
 #include "scripting/engine/script_error.hpp"
 #include "scripting/engine/suggest.hpp"
 
-namespace springlod {
+namespace springlod::scripting {
 
 namespace {
 
@@ -221,4 +221,4 @@ void end_field(lua_State* L, const char* name) {
   lua_setfield(L, -2, name);
 }
 
-}  // namespace springlod
+}  // namespace springlod::scripting

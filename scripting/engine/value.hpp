@@ -14,7 +14,7 @@
 
 struct lua_State;
 
-namespace springlod {
+namespace springlod::scripting {
 
 /// The name scripts see of a type of value; specialised beside the type. The address of the
 /// variable is the identity of the type.
@@ -142,4 +142,4 @@ class TypeBuilder {
   TypeEntry entry_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::scripting

@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 std::int8_t side_of(double coordinate) {
@@ -188,4 +188,4 @@ std::vector<double> contact_stiffness(const ContactPoints& points,
   return stiffness;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

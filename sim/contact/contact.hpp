@@ -8,7 +8,7 @@
 #include "sim/contact/contact_points.hpp"
 #include "sim/scenario.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// One point of the body pressed into one obstacle at this instant.
 struct Contact {
@@ -95,4 +95,4 @@ double contact_energy(const std::vector<Contact>& contacts);
 std::vector<double> contact_stiffness(const ContactPoints& points,
                                       const std::vector<Obstacle>& obstacles);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace springlod {
+namespace springlod::sim {
 
 void book_contact(const Contact& contact, double mass, double step, const Vec3& v,
                   double to_neighbour, LedgerEntry& losses) {
@@ -18,4 +18,4 @@ void book_contact(const Contact& contact, double mass, double step, const Vec3& 
   if (to_neighbour > 0) losses.lost_friction += contact.grip_energy();
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

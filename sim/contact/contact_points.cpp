@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 /// Of the springs of each node [s], N; 0 without any.
@@ -75,4 +75,4 @@ std::string ContactPoints::name(std::size_t point) const {
                      skin_ ? " of the base" : "");
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

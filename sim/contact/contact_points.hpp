@@ -8,7 +8,7 @@
 #include "model/mass_spring.hpp"
 #include "sim/contact/contact_skin.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Where a body touches obstacles: its nodes with an area, or the points of a skin. A point p lies
 /// at sum w_i x_i. A force f on it is w_i f on the nodes, which does the same work and, since the
@@ -81,4 +81,4 @@ class ContactPoints {
   std::vector<std::uint32_t> number_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -8,7 +8,7 @@
 #include "elastic/stable_step.hpp"
 #include "lod/transfer.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 /// Of each node, its neighbours held, along the mean of its springs, which point inwards [m/N]; 0
@@ -20,7 +20,7 @@ std::vector<double> own_give(const MassSpringModel& model) {
     inwards[model.a[s]] += pull;
     inwards[model.b[s]] -= pull;
   }
-  const std::vector<Mat3> stiffness = node_stiffness(model);
+  const std::vector<Mat3> stiffness = elastic::node_stiffness(model);
   std::vector<double> give;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     const Vec3 normal = inwards[i].normalized();
@@ -45,7 +45,7 @@ std::vector<double> lost_freedom(const MassSpringModel& base, const Groups& grou
 }  // namespace
 
 ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
-  const Binding of_nodes = base_from_level(chain, level);
+  const Binding of_nodes = lod::base_from_level(chain, level);
   const MassSpringModel& base = chain.levels[0].model;
   ContactSkin skin;
   skin.of_nodes.start.push_back(0);
@@ -84,4 +84,4 @@ void validate(const ContactSkin& skin, std::uint32_t node_count) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

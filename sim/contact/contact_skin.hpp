@@ -7,7 +7,7 @@
 #include "model/binding.hpp"
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// The surface of the base, on the nodes of one of its levels: P points at which the level touches
 /// obstacles as the base does, though its own nodes lie deeper. Each point is one of the base's
@@ -44,4 +44,4 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level);
 /// each hangs on nodes below `node_count`.
 void validate(const ContactSkin& skin, std::uint32_t node_count);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 std::int8_t face(Eigen::Index axis, bool positive) {
@@ -112,4 +112,4 @@ void TunnelWatch::throw_tunnelled(std::size_t wall, std::size_t point, const Vec
       points_->number(point), walls_[wall].name, time);
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -8,7 +8,7 @@
 #include "sim/contact/contact_points.hpp"
 #include "sim/scenario.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Follows the points of a body through the boxes of a scenario, step by step, whatever the
 /// scheme: a point that leaves a box by the face opposite to the one by which it came in, in one
@@ -53,4 +53,4 @@ class TunnelWatch {
   std::vector<Wall> walls_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

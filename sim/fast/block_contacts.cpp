@@ -6,7 +6,7 @@
 
 #include "sim/fast/regions.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Nodes without an area have no number.
@@ -75,7 +75,7 @@ void BlockContacts::rub(const MovingFrame& frame, double kick, double step) {
     const Place at = place(c.point);
     const double mass = points_->mass(c.point);
     const Vec3 kicked = velocity(c, frame) + kick / mass * body_->force(at);
-    springlod::rub(c, mass, step, kicked);
+    sim::rub(c, mass, step, kicked);
     body_->add_force(at, mass / kick * c.slip_change);
   }
 }
@@ -101,4 +101,4 @@ Vec3 BlockContacts::velocity(const Contact& contact, const MovingFrame& frame) c
   return frame.velocity + body_->v(place(contact.point));
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

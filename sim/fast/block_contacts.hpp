@@ -9,7 +9,7 @@
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/passage.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// What the nodes of one block touch. An obstacle costs nothing while the block's bounds are clear
 /// of it.
@@ -63,4 +63,4 @@ class BlockContacts {
   Box3 bounds_before_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Points that are left in the order they are in: a cache line or two of records.
@@ -71,4 +71,4 @@ BlockOrder order_in_blocks(const std::vector<Vec3>& points, std::uint32_t most) 
   return order;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -5,7 +5,7 @@
 
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Points in compact blocks of nearly equal size, neighbours in space near each other in the order.
 struct BlockOrder {
@@ -18,4 +18,4 @@ struct BlockOrder {
 /// order goes on halving. The same points give the same order.
 BlockOrder order_in_blocks(const std::vector<Vec3>& points, std::uint32_t most);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -9,7 +9,7 @@
 #include "sim/fast/moving_frame.hpp"
 #include "sim/fast/place.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Places and velocities of one body in a layout made for speed, measured in a frame that its owner
 /// keeps, moved block by block. Blocks may be worked on by several threads: which does what changes
@@ -67,4 +67,4 @@ class FastBody {
   FastBody() = default;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -8,7 +8,7 @@
 #include "sim/contact/contact_losses.hpp"
 #include "sim/integrators/kernel.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Steps between two new frames [steps]: meanwhile a body at rest falls by no more than a few
@@ -333,4 +333,4 @@ LedgerEntry FastLeapfrog::ledger_entry() const {
   return entry;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -12,7 +12,7 @@
 #include "sim/fast/step_team.hpp"
 #include "sim/integrators/stepper.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// The scheme of Leapfrog with symplectic Euler's damping, on a body laid out for speed: the same
 /// steps to rounding, in single or double precision, on one thread or several, which changes no
@@ -105,4 +105,4 @@ class FastLeapfrog final : public Stepper {
   std::vector<Vec3> v_minus_, v_plus_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -5,7 +5,7 @@
 #include "sim/fast/quad_body.hpp"
 #include "sim/fast/row_body.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Rows with fewer of their eight springs than this on the average cost more than quads [1]: a whole
@@ -42,4 +42,4 @@ std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precisi
                                                   : lay_out<double>(model, layout);
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

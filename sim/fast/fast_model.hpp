@@ -5,9 +5,8 @@
 #include "model/mass_spring.hpp"
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/layout.hpp"
-#include "sim/fast/precision.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// A model laid out for speed, made once and shared by its bodies.
 class FastModel {
@@ -31,4 +30,4 @@ std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precisi
 /// "AVX3", "AVX2", ...: the vectors that bodies move with on this processor.
 const char* vector_target();
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -9,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace springlod::HWY_NAMESPACE {
+namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -37,7 +37,7 @@ HWY_INLINE hn::Vec<D> inverse_root(D d, hn::Vec<D> square) {
   }
 }
 
-}  // namespace springlod::HWY_NAMESPACE
+}  // namespace springlod::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// What a layout does with vectors, block by block, as picked for the processor: see FastBody for
 /// what each does to a body.
@@ -19,4 +19,4 @@ struct FastKernels {
                      std::vector<std::uint32_t>& indices) = nullptr;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

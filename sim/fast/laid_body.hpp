@@ -5,7 +5,7 @@
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/kernels.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// A body moved by the kernels of its layout, which must outlive it.
 template <class Layout, class State>
@@ -48,4 +48,4 @@ Real rounding_of(double number) {
   return static_cast<Real>(number - static_cast<double>(static_cast<Real>(number)));
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

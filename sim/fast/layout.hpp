@@ -2,7 +2,7 @@
 
 #include "base/choice.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// How the springs of a model are laid out for speed.
 enum class Layout {
@@ -18,4 +18,15 @@ constexpr ChoiceTable<Choice<Layout>> choices(Layout) {
   return {"layout", kLayouts};
 }
 
-}  // namespace springlod
+/// Of the numbers that a run is made with: float or double.
+enum class Precision { single_precision, double_precision };
+
+inline constexpr Choice<Precision> kPrecisions[] = {
+    {Precision::double_precision, "double", "64 bits"},
+    {Precision::single_precision, "single",
+     "32 bits: a step takes some two thirds of the time, docs/precision.md tells what it costs"}};
+constexpr ChoiceTable<Choice<Precision>> choices(Precision) {
+  return {"precision", kPrecisions};
+}
+
+}  // namespace springlod::sim

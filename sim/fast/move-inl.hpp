@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace springlod::HWY_NAMESPACE {
+namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -51,7 +51,7 @@ HWY_INLINE void move_for(double kick, double drift, const Move& move) {
     move(std::false_type(), std::true_type());
 }
 
-}  // namespace springlod::HWY_NAMESPACE
+}  // namespace springlod::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -2,7 +2,7 @@
 
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Where a body's coordinates are measured from.
 struct MovingFrame {
@@ -10,4 +10,4 @@ struct MovingFrame {
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

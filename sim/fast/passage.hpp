@@ -5,7 +5,7 @@
 
 #include "model/vec.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// A point that went through a wall.
 struct Passage {
@@ -16,4 +16,4 @@ struct Passage {
   Vec3 to = Vec3::Zero();    ///< [m]
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

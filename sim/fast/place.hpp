@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Where a layout keeps a node.
 struct Place {
@@ -14,4 +14,4 @@ struct Place {
 /// are enough for the threads of models that are worth them.
 inline constexpr std::uint32_t kBlockNodes = 4096;
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -1,6 +1,6 @@
 #include "sim/fast/quad_body.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 template <class Real>
@@ -97,4 +97,4 @@ void QuadBody<Real>::add_force(Place at, const Vec3& force) {
 template class QuadBody<float>;
 template class QuadBody<double>;
 
-}  // namespace springlod
+}  // namespace springlod::sim

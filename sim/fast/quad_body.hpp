@@ -3,7 +3,7 @@
 #include "sim/fast/laid_body.hpp"
 #include "sim/fast/quad_state.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// A body laid out in quads. Blocks work on copies of each other's nodes: none moves before those
 /// with copies of its nodes have found their forces.
@@ -31,4 +31,4 @@ class QuadBody final : public LaidBody<QuadLayout<Real>, QuadState<Real>> {
   void add_force(Place at, const Vec3& force) override;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -17,7 +17,7 @@
 #include "sim/fast/quad_state.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace springlod::HWY_NAMESPACE {
+namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -262,7 +262,7 @@ void add_forces(const QuadBlock<Real>& block, Real damping_time, QuadBlockState<
   }
 }
 
-}  // namespace springlod::HWY_NAMESPACE
+}  // namespace springlod::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -14,7 +14,7 @@
 #include "sim/fast/quad_forces-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace springlod::HWY_NAMESPACE {
+namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -168,11 +168,11 @@ const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
-}  // namespace springlod::HWY_NAMESPACE
+}  // namespace springlod::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace springlod {
+namespace springlod::sim {
 
 HWY_EXPORT(quad_kernels_float);
 HWY_EXPORT(quad_kernels_double);
@@ -191,5 +191,5 @@ const char* vector_target() {
   return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim
 #endif

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "sim/fast/block_order.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Damping times this close count as one: c was c / k times k, rounded. [1]
@@ -185,4 +185,4 @@ QuadLayout<Real> make_quad_layout(const MassSpringModel& model) {
 template QuadLayout<float> make_quad_layout(const MassSpringModel&);
 template QuadLayout<double> make_quad_layout(const MassSpringModel&);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -7,7 +7,7 @@
 #include "model/mass_spring.hpp"
 #include "sim/fast/place.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Springs worked out side by side, all at one node.
 inline constexpr std::uint32_t kQuad = 4;
@@ -68,4 +68,4 @@ struct QuadLayout {
 template <class Real>
 QuadLayout<Real> make_quad_layout(const MassSpringModel& model);
 
-}  // namespace springlod
+}  // namespace springlod::sim

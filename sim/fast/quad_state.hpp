@@ -6,7 +6,7 @@
 #include "sim/fast/kernels.hpp"
 #include "sim/fast/quad_layout.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// What a step needs of one node, in one load: 32 bytes (float) or 64 (double). The numbers that
 /// fill it up stay 0.
@@ -43,4 +43,4 @@ using QuadKernels = FastKernels<QuadLayout<Real>, QuadState<Real>>;
 template <class Real>
 QuadKernels<Real> quad_kernels();
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Bounds of the part of the box that lies behind the plane.
@@ -39,4 +39,4 @@ Box3 moved(const Box3& box, const Vec3& way) {
   return {box.min() + way, box.max() + way};
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

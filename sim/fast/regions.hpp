@@ -3,7 +3,7 @@
 #include "model/vec.hpp"
 #include "sim/scenario.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 // Regions in world axes: what may touch an obstacle, seen without looking at a single node.
 
@@ -15,4 +15,4 @@ Box3 region_touching(const Obstacle& obstacle, const Box3& bounds);
 
 Box3 moved(const Box3& box, const Vec3& way);
 
-}  // namespace springlod
+}  // namespace springlod::sim

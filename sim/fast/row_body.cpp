@@ -1,6 +1,6 @@
 #include "sim/fast/row_body.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 template <class Real>
@@ -89,4 +89,4 @@ void RowBody<Real>::add_force(Place at, const Vec3& force) {
 template class RowBody<float>;
 template class RowBody<double>;
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -3,7 +3,7 @@
 #include "sim/fast/laid_body.hpp"
 #include "sim/fast/row_state.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// A body laid out in rows. Springs lead ahead only: a block moves as soon as those up to it have
 /// found their forces.
@@ -37,4 +37,4 @@ class RowBody final : public LaidBody<RowLayout<Real>, RowState<Real>> {
   }
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

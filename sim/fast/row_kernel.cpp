@@ -12,7 +12,7 @@
 #include "sim/fast/move-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace springlod::HWY_NAMESPACE {
+namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -265,11 +265,11 @@ RowKernels<double> row_kernels_double() {
   return kernels<double>();
 }
 
-}  // namespace springlod::HWY_NAMESPACE
+}  // namespace springlod::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace springlod {
+namespace springlod::sim {
 
 HWY_EXPORT(row_kernels_float);
 HWY_EXPORT(row_kernels_double);
@@ -283,5 +283,5 @@ RowKernels<double> row_kernels() {
   return HWY_DYNAMIC_DISPATCH(row_kernels_double)();
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim
 #endif

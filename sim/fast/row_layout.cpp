@@ -8,7 +8,7 @@
 
 #include <xxhash.h>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // A block has at least this many times the places that its longest spring leads ahead [1]: what it
@@ -163,4 +163,4 @@ RowLayout<Real> make_row_layout(const MassSpringModel& model) {
 template RowLayout<float> make_row_layout(const MassSpringModel&);
 template RowLayout<double> make_row_layout(const MassSpringModel&);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -6,7 +6,7 @@
 #include "model/mass_spring.hpp"
 #include "sim/fast/place.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Springs and nodes worked out side by side [lanes].
 inline constexpr std::uint32_t kRowLanes = 8;
@@ -62,4 +62,4 @@ struct RowLayout {
 template <class Real>
 RowLayout<Real> make_row_layout(const MassSpringModel& model);
 
-}  // namespace springlod
+}  // namespace springlod::sim

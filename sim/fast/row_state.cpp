@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 template <class Real>
@@ -31,4 +31,4 @@ RowState<Real>::RowState(const RowLayout<Real>& layout, bool with_damping)
 template struct RowState<float>;
 template struct RowState<double>;
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -9,7 +9,7 @@
 #include "sim/fast/kernels.hpp"
 #include "sim/fast/row_layout.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// What moves of a body laid out in rows, by place. One array a coordinate, long enough that a row
 /// may be loaded whole anywhere.
@@ -39,4 +39,4 @@ using RowKernels = FastKernels<RowLayout<Real>, RowState<Real>>;
 template <class Real>
 RowKernels<Real> row_kernels();
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -6,7 +6,7 @@
 
 #include "sim/fast/regions.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Bounds and ways are widened by this part [1], so that rounding to single precision leaves no
@@ -126,7 +126,7 @@ void SkinContacts::rub(const Step& step) {
   for (Contact& c : contacts_) {
     before_.push_back(points_->carried(c.point, v_));
     const double mass = points_->mass(c.point);
-    springlod::rub(c, mass, step.length, kicked_velocity(c, step));
+    sim::rub(c, mass, step.length, kicked_velocity(c, step));
     for (const ContactPoints::Share& share : points_->shares(c.point))
       body_->add_force(body_->place(share.node), share.weight * mass / step.kick * c.slip_change);
   }
@@ -143,4 +143,4 @@ Vec3 SkinContacts::kicked_velocity(const Contact& contact, const Step& step) con
   return sum;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -10,7 +10,7 @@
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/passage.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// What a body touches with points that several of its nodes carry, maybe of several blocks: one
 /// for the whole body, worked by one thread while the others wait. An obstacle costs nothing while
@@ -79,4 +79,4 @@ class SkinContacts {
   std::optional<Passage> passage_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -2,7 +2,7 @@
 
 #include <thread>
 
-namespace springlod {
+namespace springlod::sim {
 
 namespace {
 
@@ -49,4 +49,4 @@ void StepTeam::run(const std::function<void(const Member&)>& work) const {
   for (std::thread& thread : others) thread.join();
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace springlod {
+namespace springlod::sim {
 
 // Threads wait for each other a few microseconds at a time: waking a sleeping thread would take
 // longer than that, so they stay awake.
@@ -59,4 +59,4 @@ class StepTeam {
   std::uint32_t size_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -6,7 +6,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
@@ -204,4 +204,4 @@ bool BackwardEuler::minimise(double scale) {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -8,7 +8,7 @@
 #include "sim/integrators/implicit_springs.hpp"
 #include "sim/integrators/whole_step.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Backward Euler: x_{n+1} is the minimum of
 ///
@@ -67,4 +67,4 @@ class BackwardEuler final : public WholeStep {
   bool gave_up_ = false;  // on the step worked out last, which may yet be taken
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

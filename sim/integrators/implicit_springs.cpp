@@ -1,6 +1,6 @@
 #include "sim/integrators/implicit_springs.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 ImplicitSprings::ImplicitSprings(const MassSpringModel& model, double step)
     : model_(&model), step_(step), rest_length_(model.rest_length) {
@@ -44,4 +44,4 @@ SpringAxis spring_axis(const MassSpringModel& model, std::uint32_t spring,
   return {length > 0 ? Vec3(along / length) : Vec3(Vec3::UnitX()), length};
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -4,7 +4,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Springs as an implicit step of length dt sees them. With l the length at the end of the step and
 /// l_n that at its start, k (l - L) + c (l - l_n)/dt is the force of a spring without damping, of
@@ -38,4 +38,4 @@ struct SpringAxis {
 SpringAxis spring_axis(const MassSpringModel& model, std::uint32_t spring,
                        const std::vector<Vec3>& x);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -1,6 +1,6 @@
 #include "sim/integrators/integrator.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 bool is_implicit(Integrator integrator) {
   return choice_of(integrator).traits.stable_step == nullptr;
@@ -11,4 +11,4 @@ std::uint32_t iterations_of(Integrator integrator, const SolverOptions& options)
   return options.iterations > 0 ? options.iterations : choice_of(integrator).traits.iterations;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -9,7 +9,7 @@
 #include "base/option.hpp"
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 struct Scenario;
 class Stepper;
@@ -80,4 +80,4 @@ constexpr auto option_rows(const SolverOptions*) {
 /// schemes.
 std::uint32_t iterations_of(Integrator integrator, const SolverOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // A spring shorter than this part of its rest length has no direction left to push along: its force
@@ -61,4 +61,4 @@ double elastic_energy(const MassSpringModel& model, const std::vector<Vec3>& x) 
   return energy;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -4,7 +4,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// The plain reference kernel that faster ones are measured against: one spring after the other in
 /// the model's order, doubles, each spring scattered to both its ends.
@@ -27,4 +27,4 @@ extern template void add_spring_forces<false>(const MassSpringModel&, const std:
 /// Sum of k (l - L)^2 / 2 [J].
 double elastic_energy(const MassSpringModel& model, const std::vector<Vec3>& x);
 
-}  // namespace springlod
+}  // namespace springlod::sim

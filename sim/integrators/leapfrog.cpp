@@ -5,7 +5,7 @@
 #include "sim/contact/contact_losses.hpp"
 #include "sim/integrators/kernel.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
                    double step, const StepperOptions& options)
@@ -89,4 +89,4 @@ LedgerEntry Leapfrog::ledger_entry() const {
   return entry;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -5,7 +5,7 @@
 
 #include "sim/integrators/stepper.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// The moving part of a run, as leapfrog sees it: positions x_n at whole steps, velocities half a
 /// step before and after.
@@ -56,4 +56,4 @@ class Leapfrog final : public StepByStep {
   LedgerEntry losses_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace springlod {
+namespace springlod::sim {
 
 double closure_error(const std::vector<LedgerEntry>& ledger) {
   double largest_gap = 0;
@@ -15,4 +15,4 @@ double closure_error(const std::vector<LedgerEntry>& ledger) {
   return largest_kinetic > 0 ? largest_gap / largest_kinetic : 0;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

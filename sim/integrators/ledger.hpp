@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Where the energy is and where it went, at one time [J]. kinetic + elastic + gravity + contact +
 /// the losses = the initial sum. Gravity counts from the initial height.
@@ -44,4 +44,4 @@ struct LedgerEntry {
 /// without motion.
 double closure_error(const std::vector<LedgerEntry>& ledger);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace springlod {
+namespace springlod::sim {
 
 ProjectiveDynamics::ProjectiveDynamics(const MassSpringModel& model, const Scenario& scenario,
                                        const State& start, double step,
@@ -88,4 +88,4 @@ void ProjectiveDynamics::solve() {
   finish_implicit(springs_);
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

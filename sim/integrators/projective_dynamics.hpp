@@ -8,7 +8,7 @@
 #include "sim/integrators/implicit_springs.hpp"
 #include "sim/integrators/whole_step.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Projective dynamics (Bouaziz et al. 2014; Liu et al. 2013 for springs): backward Euler by turns
 /// of a local step, where every spring takes its wanted length in its present direction, and a
@@ -43,4 +43,4 @@ class ProjectiveDynamics final : public WholeStep {
   Columns right_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -8,7 +8,7 @@
 
 #include "sim/integrators/kernel.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 using Complex = std::complex<double>;
@@ -93,4 +93,4 @@ void RungeKutta::solve() {
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

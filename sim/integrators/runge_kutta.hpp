@@ -4,7 +4,7 @@
 
 #include "sim/integrators/whole_step.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// The classical Runge-Kutta scheme of fourth order on (x, v): elastic, damping and contact forces
 /// at four points a step. (Where nodes touch obstacles or come free, and for friction, which is
@@ -29,4 +29,4 @@ class RungeKutta final : public WholeStep {
 /// without damping. Infinite for omega_max = 0.
 double runge_kutta_stable_step(double omega_max, double damping_time);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -6,7 +6,7 @@
 #include "elastic/stable_step.hpp"
 #include "sim/contact/contact.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Damping that leaves less than this part of the step is what bounds it [1]. Symplectic Euler comes
@@ -23,12 +23,12 @@ StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario, Int
                      const ContactSkin* skin) {
   const auto limit = choice_of(integrator).traits.stable_step;
   if (limit == nullptr) return {};
-  FrequencyOptions contact;
+  elastic::FrequencyOptions contact;
   contact.ground_stiffness = contact_stiffness(
       skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model), scenario.obstacles);
-  const double omega = largest_frequency(model, contact);
+  const double omega = elastic::largest_frequency(model, contact);
   if (!(omega > 0)) return {};
-  double damping_time = largest_damping_time(model);
+  double damping_time = elastic::largest_damping_time(model);
   for (const Obstacle& obstacle : scenario.obstacles)
     damping_time = std::max(damping_time, obstacle.damping);
   return {.step = limit(omega, damping_time),
@@ -43,4 +43,4 @@ double predicted_step(const MassSpringModel& model, const Scenario& scenario, In
   return step_limit(model, scenario, integrator, skin).step;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

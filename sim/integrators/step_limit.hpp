@@ -8,7 +8,7 @@
 #include "sim/integrators/integrator.hpp"
 #include "sim/scenario.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// How long a step an explicit scheme can take. Infinite for the implicit schemes and if nothing is
 /// stiff.
@@ -38,4 +38,4 @@ double predicted_step(const MassSpringModel& model, const Scenario& scenario,
                       Integrator integrator = Integrator::symplectic_euler,
                       const ContactSkin* skin = nullptr);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-namespace springlod {
+namespace springlod::sim {
 
 Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start,
                  double step, const ContactSkin* skin)
@@ -58,4 +58,4 @@ double Stepper::kinetic_after(std::uint32_t* fastest) const {
   return sum;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

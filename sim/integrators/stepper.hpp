@@ -9,12 +9,14 @@
 #include "sim/contact/contact.hpp"
 #include "sim/contact/contact_points.hpp"
 #include "sim/contact/tunnel_watch.hpp"
-#include "sim/fast/fast_model.hpp"
+#include "sim/fast/layout.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/ledger.hpp"
 #include "sim/scenario.hpp"
 
-namespace springlod {
+namespace springlod::sim {
+
+class FastModel;
 
 /// One scheme at work on one body, step by step, as `run` drives it:
 ///
@@ -118,4 +120,4 @@ std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenar
                                       const State& start, double step,
                                       const StepperOptions& options);
 
-}  // namespace springlod
+}  // namespace springlod::sim

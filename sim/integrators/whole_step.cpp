@@ -4,7 +4,7 @@
 
 #include "sim/integrators/kernel.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, const State& start,
                      double step, const StepperOptions& options)
@@ -71,4 +71,4 @@ LedgerEntry WholeStep::ledger_entry() const {
   return entry;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -6,7 +6,7 @@
 #include "sim/integrators/implicit_springs.hpp"
 #include "sim/integrators/stepper.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Schemes that keep positions and velocities at the same instants. What a scheme does is solve();
 /// friction comes after it, as a cap on slip. In the implicit schemes, whose steps are long, it
@@ -53,4 +53,4 @@ class WholeStep : public StepByStep {
   LedgerEntry losses_, next_losses_;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

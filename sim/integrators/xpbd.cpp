@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace springlod {
+namespace springlod::sim {
 
 Xpbd::Xpbd(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
            const StepperOptions& options)
@@ -67,4 +67,4 @@ void Xpbd::solve() {
   finish_implicit(springs_);
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

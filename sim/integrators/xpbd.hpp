@@ -5,7 +5,7 @@
 #include "sim/integrators/implicit_springs.hpp"
 #include "sim/integrators/whole_step.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Extended position based dynamics (Macklin, Mueller, Chentanez 2016): springs as constraints
 /// l = L' of compliance 1/k', contacts as one-sided ones, solved one after the other in the model's
@@ -30,4 +30,4 @@ class Xpbd final : public WholeStep {
   std::vector<double> contact_multiplier_;  // [N s2] >= 0
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "sim/integrators/kernel.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // The kinetic energy of the half-step velocities may exceed what is there by
@@ -70,4 +70,4 @@ std::string EnergyWatch::advice() const {
                      limit_.step);
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

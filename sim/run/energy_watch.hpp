@@ -3,11 +3,11 @@
 #include <string>
 
 #include "model/mass_spring.hpp"
-#include "sim/fast/precision.hpp"
+#include "sim/fast/layout.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/integrators/stepper.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Compares the kinetic energy with all that could have become kinetic energy so far.
 class EnergyWatch {
@@ -32,4 +32,4 @@ class EnergyWatch {
   double most_gravity_work_ = 0;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -13,7 +13,7 @@
 #include "sim/run/spring_watch.hpp"
 #include "sim/run/step_watch.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Steps between two looks at the whole body [steps], which cost as much as some three of them. A
@@ -46,9 +46,9 @@ class Integration {
         sleep_(model, scenario, options.sleep),
         task_(options.progress, "simulate", steps_left()) {
     body_->prepare();
-    energy_.emplace(model, *body_, options.precision, trajectory.step, plan.limit);
+    energy_.emplace(model, *body_, options.precision, trajectory.step, *plan.limit);
     if (!options.step && choice_of(options.integrator).traits.fast)
-      step_.emplace(model, plan.limit, trajectory.step);
+      step_.emplace(model, *plan.limit, trajectory.step);
   }
 
   void go() {
@@ -141,4 +141,4 @@ void integrate(const MassSpringModel& model, const Scenario& scenario, const Sta
   Integration(model, scenario, start, options, plan, trajectory).go();
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

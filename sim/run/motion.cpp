@@ -4,7 +4,7 @@
 
 #include "sim/run.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 Vec3 angular_velocity(const MassSpringModel& model, const State& state) {
   const Vec3 center = center_of_mass(model, state.x);
@@ -18,4 +18,4 @@ Vec3 angular_velocity(const MassSpringModel& model, const State& state) {
   return inertia.completeOrthogonalDecomposition().solve(momentum);
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -2,10 +2,10 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Angular velocity of the rigid motion that has the angular momentum of `state` about its centre
 /// of mass [rad/s]; of a straight line of nodes, without the part about the line.
 Vec3 angular_velocity(const MassSpringModel& model, const State& state);
 
-}  // namespace springlod
+}  // namespace springlod::sim

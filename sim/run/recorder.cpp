@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace springlod {
+namespace springlod::sim {
 
 double Recorder::next_time() const {
   if (count_ == 0) return 0;
@@ -49,4 +49,4 @@ void Recorder::keep(double time, const Stepper& body, double position_time) {
   if (position_time != time) trajectory_->ledger.back().time = time;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -5,7 +5,7 @@
 #include "sim/integrators/stepper.hpp"
 #include "sim/run.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Keeps what is asked for at the frame times.
 class Recorder {
@@ -33,4 +33,4 @@ class Recorder {
   std::uint64_t count_ = 0;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

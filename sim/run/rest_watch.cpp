@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // A body sleeps after it has been at rest this long [s]: longer than a bounce stays at its top.
@@ -29,4 +29,4 @@ bool SleepWatch::look(const Stepper& body) {
   return body.time() - last_awake_ >= kRest;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -5,7 +5,7 @@
 #include "sim/integrators/stepper.hpp"
 #include "sim/scenario.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Whether the centre of mass has been slow for long enough.
 class StopWatch {
@@ -30,4 +30,4 @@ class SleepWatch {
   double last_awake_ = 0;  // [s]
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

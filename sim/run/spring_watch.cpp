@@ -6,7 +6,7 @@
 
 #include "sim/run/motion.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 void SpringWatch::look(State state) {
   const Vec3 spin = angular_velocity(*model_, before_);
@@ -31,4 +31,4 @@ void SpringWatch::look(State state) {
   before_ = std::move(state);
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -6,7 +6,7 @@
 #include "model/mass_spring.hpp"
 #include "sim/run.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Looks now and then at all springs.
 class SpringWatch {
@@ -29,4 +29,4 @@ class SpringWatch {
   double largest_strain_ = 0;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

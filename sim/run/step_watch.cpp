@@ -5,7 +5,7 @@
 
 #include "elastic/stable_step.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // A step is halved above this part of the limit, and doubled if twice of it is below the other; far
@@ -24,8 +24,9 @@ StepWatch::StepWatch(const MassSpringModel& model, const StepLimit& limit, doubl
 // for more than by how much it grew.
 double StepWatch::frequency(const std::vector<Vec3>& x) {
   if (at_rest_.empty())
-    at_rest_ = node_frequency_bounds(*model_, model_->rest, limit_.ground_stiffness);
-  const std::vector<double> now = node_frequency_bounds(*model_, x, limit_.ground_stiffness);
+    at_rest_ = elastic::node_frequency_bounds(*model_, model_->rest, limit_.ground_stiffness);
+  const std::vector<double> now =
+      elastic::node_frequency_bounds(*model_, x, limit_.ground_stiffness);
   const double square = limit_.omega * limit_.omega;
   double most = square;
   for (std::size_t i = 0; i < now.size(); ++i)
@@ -35,11 +36,11 @@ double StepWatch::frequency(const std::vector<Vec3>& x) {
 
 double StepWatch::step_for(const std::vector<Vec3>& x, double strain) {
   const double omega = strain > kSmallStrain ? frequency(x) : limit_.omega;
-  const double limit = stable_step(omega, limit_.damping_time);
+  const double limit = elastic::stable_step(omega, limit_.damping_time);
   const auto step = [&] { return std::ldexp(step_, -static_cast<int>(halvings_)); };
   while (halvings_ < kMostHalvings && step() > kTooLong * limit) ++halvings_;
   while (halvings_ > 0 && 2 * step() < kShortEnough * limit) --halvings_;
   return step();
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -6,7 +6,7 @@
 #include "model/mass_spring.hpp"
 #include "sim/integrators/step_limit.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Whether the step that is stable about rest still is where springs are stretched and compressed
 /// hard: stretched ones are stiff across their length too, and a flattened body's springs all point
@@ -36,4 +36,4 @@ class StepWatch {
   std::uint32_t halvings_ = 0;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

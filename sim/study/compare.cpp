@@ -12,10 +12,10 @@
 #include "base/parallel.hpp"
 #include "lod/transfer.hpp"
 #include "sim/study/deviation.hpp"
+#include "sim/study/ensemble.hpp"
 #include "sim/study/run_progress.hpp"
-#include "sim/study/starts.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // How much later than the end of the window a frame at it may seem to be [s].
@@ -93,7 +93,7 @@ class Comparing {
     result_.scenario = scenario;
     for (StartSlot& slot : slots_) slot.users = static_cast<std::uint32_t>(chain.levels.size());
     for (std::uint32_t level = 0; level < chain.levels.size(); ++level) {
-      bindings_.push_back(base_from_level(chain, level));
+      bindings_.push_back(lod::base_from_level(chain, level));
       RunOptions& run = run_options_.emplace_back(options.run);
       if (options.contact == ContactAt::surface && level > 0)
         run.skin = std::make_shared<ContactSkin>(contact_skin(chain, level));
@@ -209,4 +209,4 @@ Comparison compare(const LodChain& chain, const Scenario& scenario, const Compar
   return Comparing(chain, scenario, options).run_all();
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -8,9 +8,9 @@
 #include "model/chain.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
-#include "sim/study/starts.hpp"
+#include "sim/study/ensemble.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 struct CompareOptions {
   std::uint32_t starts = 1;  ///< paired starts: the same jitter for every level
@@ -75,4 +75,4 @@ struct Comparison {
 Comparison compare(const LodChain& chain, const Scenario& scenario,
                    const CompareOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -6,7 +6,7 @@
 
 #include <Eigen/SVD>
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Frames of two runs closer than this are the same instant [s]; frame times only differ by
@@ -62,4 +62,4 @@ std::vector<Deviation> deviation_over_time(const std::vector<Frame>& frames,
   return list;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -5,7 +5,7 @@
 #include "model/vec.hpp"
 #include "sim/run.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// sqrt(sum m |p - q|^2 / sum m) [m].
 double rms_distance(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
@@ -28,4 +28,4 @@ std::vector<Deviation> deviation_over_time(const std::vector<Frame>& frames,
                                            const std::vector<Frame>& base,
                                            const std::vector<double>& mass);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -9,7 +9,7 @@
 #include "base/parallel.hpp"
 #include "sim/study/run_progress.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 std::vector<EnsembleRun> run_ensemble(const MassSpringModel& model, const Scenario& scenario,
                                       const EnsembleOptions& options) {
@@ -38,4 +38,4 @@ std::vector<EnsembleRun> run_ensemble(const MassSpringModel& model, const Scenar
   return runs;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

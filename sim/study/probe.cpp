@@ -5,7 +5,7 @@
 
 #include "sim/run/motion.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // How far the ends would swing in the slowest mode, as part of the longest side [1].
@@ -56,4 +56,4 @@ State probe_state(const MassSpringModel& model, const ProbeMotion& motion) {
   return state;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -4,7 +4,7 @@
 
 #include "model/mass_spring.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// The motion by which schemes are probed: the body at rest in shape, with velocities that stretch
 /// it along its longest side, bend it across, and turn it slowly. Smooth, so that every model of
@@ -26,4 +26,4 @@ ProbeMotion probe_motion(const MassSpringModel& base, double omega, double durat
 /// The start of a model, of whatever level. Its centre of mass rests.
 State probe_state(const MassSpringModel& model, const ProbeMotion& motion);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/progress.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// One run of many: turns its steps into its share of the whole, and stops it when asked to.
 class RunProgress : public Progress {
@@ -38,4 +38,4 @@ class RunProgress : public Progress {
   std::uint64_t reported_ = 0;
 };
 
-}  // namespace springlod
+}  // namespace springlod::sim

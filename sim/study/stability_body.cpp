@@ -11,9 +11,10 @@
 #include "base/error.hpp"
 #include "elastic/modes.hpp"
 #include "elastic/zero_modes.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/study/stiffness_ratio.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 // Modes by which a level is judged.
@@ -29,7 +30,8 @@ constexpr double kOrderGain = 3;
 
 std::vector<double> lowest_frequencies(const MassSpringModel& model, std::uint64_t seed) {
   std::vector<double> frequencies;
-  for (const Mode& mode : lowest_modes(model, {.count = kModes, .seed = seed}).modes)
+  for (const elastic::Mode& mode :
+       elastic::lowest_modes(model, {.count = kModes, .seed = seed}).modes)
     frequencies.push_back(mode.angular_frequency);
   return frequencies;
 }
@@ -66,7 +68,7 @@ std::vector<Frame> fine_run(const MassSpringModel& model, const Specimen& specim
 
 std::vector<std::uint32_t> loose_nodes(const MassSpringModel& model) {
   std::vector<std::uint32_t> loose;
-  for (const PartModes& part : zero_modes(model))
+  for (const elastic::PartModes& part : elastic::zero_modes(model))
     loose.insert(loose.end(), part.mechanism_nodes.begin(), part.mechanism_nodes.end());
   return loose;
 }
@@ -134,4 +136,4 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
   return specimen;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

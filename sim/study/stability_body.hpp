@@ -9,7 +9,7 @@
 #include "sim/study/probe.hpp"
 #include "sim/study/stability_map.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// The chain at one ratio, and how its base swings.
 struct RescaledChain {
@@ -44,4 +44,4 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
 /// Nodes that springs leave loose, worst first, over all parts; empty for a sound model.
 std::vector<std::uint32_t> loose_nodes(const MassSpringModel& model);
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -10,11 +10,12 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/study/run_progress.hpp"
 #include "sim/study/stability_body.hpp"
 #include "sim/study/stiffness_ratio.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 void require_positive(const std::vector<double>& values, const char* name) {
@@ -240,4 +241,4 @@ StabilityMap stability_map(const LodChain& chain, const StabilityOptions& option
   return Mapping(chain, options).map();
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

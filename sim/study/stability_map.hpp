@@ -9,7 +9,7 @@
 #include "model/chain.hpp"
 #include "sim/integrators/integrator.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// What is said of one point of a stability map: the first of these that holds, from the bottom up.
 enum class Verdict {
@@ -162,4 +162,4 @@ struct StabilityMap {
 /// base has no mode, InterruptedError from `progress`.
 StabilityMap stability_map(const LodChain& chain, const StabilityOptions& options = {});
 
-}  // namespace springlod
+}  // namespace springlod::sim

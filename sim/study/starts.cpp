@@ -1,12 +1,11 @@
-#include "sim/study/starts.hpp"
-
 #include <random>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "sim/study/ensemble.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
                std::uint32_t index) {
@@ -49,4 +48,4 @@ Trajectory run_start(const MassSpringModel& model, const Scenario& scenario, con
   }
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

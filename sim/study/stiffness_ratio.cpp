@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 namespace {
 
 double harmonic_mean(double p, double q) {
@@ -146,4 +146,4 @@ LodChain with_stiffness_ratio(const LodChain& chain, const StiffPart& part, doub
   return rescaled;
 }
 
-}  // namespace springlod
+}  // namespace springlod::sim

@@ -6,7 +6,7 @@
 
 #include "model/chain.hpp"
 
-namespace springlod {
+namespace springlod::sim {
 
 /// Which nodes of a level-0 model are stiff: all but those of its softest material. Of a body of
 /// one material, those beyond the centre of mass along its longest side.
@@ -31,4 +31,4 @@ StiffPart stiff_part(const MassSpringModel& base);
 /// whatever a calibration did to the spring.
 LodChain with_stiffness_ratio(const LodChain& chain, const StiffPart& part, double ratio);
 
-}  // namespace springlod
+}  // namespace springlod::sim

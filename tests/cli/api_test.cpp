@@ -19,17 +19,17 @@ using springlod::test::slurp;
 using springlod::test::springlod_run;
 
 TEST_CASE("everything a script can reach is described") {
-  const auto api = make_api();
-  const std::vector<std::string> missing = undocumented(*api);
+  const auto api = scripting::make_api();
+  const std::vector<std::string> missing = scripting::undocumented(*api);
   CAPTURE(missing);
   CHECK(missing.empty());
   CHECK(api->functions().size() > 25);
 }
 
 TEST_CASE("the check of descriptions notices what is missing") {
-  Api api;
+  scripting::Api api;
   api.add(springlod::FunctionEntry{.name = "mute", .options = {{.name = "x", .type = "number"}}});
-  const std::vector<std::string> missing = undocumented(api);
+  const std::vector<std::string> missing = scripting::undocumented(api);
   for (const char* hole : {"mute: summary", "mute: returns", "mute: binding", "mute.x: help"})
     CHECK(std::count(missing.begin(), missing.end(), hole) == 1);
 }
@@ -52,7 +52,7 @@ TEST_CASE("every function of the module has help, and help knows no other") {
     end
     io.stderr:write(#names))"});
   CHECK(ran.exit_code == 0);
-  const auto api = make_api();
+  const auto api = scripting::make_api();
   CHECK(ran.err == std::to_string(api->functions().size()));
   for (const auto& entry : api->functions()) CHECK_THAT(ran.out, Contains("s." + entry.name + "("));
 }
@@ -72,9 +72,9 @@ TEST_CASE("help explains functions, values, types, tables and refuses the rest w
 }
 
 TEST_CASE("a binding that reads what is not listed, or not all that is, fails hard") {
-  ScriptState state({});
-  const std::vector<Parameter> listed{{.name = "size"}, {.name = "speed"}};
-  TableReader reader(state.lua(), 0, listed, "test");
+  scripting::ScriptState state({});
+  const std::vector<scripting::Parameter> listed{{.name = "size"}, {.name = "speed"}};
+  scripting::TableReader reader(state.lua(), 0, listed, "test");
   double value = 0;
   CHECK_THROWS_AS(reader.read("colour", value), std::logic_error);
   reader.read("size", value);

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "elastic/loads/static_loads.hpp"
+#include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
 #include "elastic/zero_modes.hpp"
 #include "model/chain.hpp"

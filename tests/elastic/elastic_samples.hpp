@@ -80,7 +80,7 @@ inline Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense_spectrum(const MassS
   Eigen::VectorXd weight(3 * static_cast<Eigen::Index>(m.node_count()));
   for (Eigen::Index i = 0; i < weight.size(); ++i)
     weight[i] = 1 / std::sqrt(m.mass[static_cast<std::size_t>(i / 3)]);
-  const Eigen::MatrixXd k = stiffness_matrix(m);
+  const Eigen::MatrixXd k = elastic::stiffness_matrix(m);
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(weight.asDiagonal() * k *
                                                         weight.asDiagonal());
 }

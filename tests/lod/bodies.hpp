@@ -12,8 +12,8 @@ namespace springlod::test {
 
 inline const double kCell = 0.1;
 
-inline MaterialGrid block_grid(int nx, int ny, int nz) {
-  MaterialGrid grid;
+inline voxelize::MaterialGrid block_grid(int nx, int ny, int nz) {
+  voxelize::MaterialGrid grid;
   grid.cell = kCell;
   grid.materials = {Material{.name = "block"}};
   for (int z = 0; z < nz; ++z)
@@ -26,18 +26,19 @@ inline MaterialGrid block_grid(int nx, int ny, int nz) {
   return grid;
 }
 
-inline MassSpringModel block(int nx, int ny, int nz, LatticeStyle style = LatticeStyle::centers) {
-  return build_lattice(block_grid(nx, ny, nz), {.style = style}).model;
+inline MassSpringModel block(int nx, int ny, int nz,
+                             voxelize::LatticeStyle style = voxelize::LatticeStyle::centers) {
+  return voxelize::build_lattice(block_grid(nx, ny, nz), {.style = style}).model;
 }
 
 /// Two stiff rods of 9 cells joined by 5 cells of rubber, 4 x 4 across: 368 nodes, 4748 ends.
 inline MassSpringModel rods() {
-  MaterialGrid grid = block_grid(4, 4, 23);
+  voxelize::MaterialGrid grid = block_grid(4, 4, 23);
   grid.materials = {Material{.name = "rod", .young = 1e7, .damping = 0.0005},
                     Material{.name = "rubber", .young = 2e5, .damping = 0.0005}};
   for (std::size_t c = 0; c < grid.cells.size(); ++c)
     grid.material[c] = grid.cells[c][2] >= 9 && grid.cells[c][2] < 14 ? 1 : 0;
-  return build_lattice(grid, {.style = LatticeStyle::centers}).model;
+  return voxelize::build_lattice(grid, {.style = voxelize::LatticeStyle::centers}).model;
 }
 
 /// The 281 lattice points nearest to (0.04, 0.02, 0.01) a, dense core within 2.3 a: 3856 ends.
@@ -45,7 +46,7 @@ inline MassSpringModel ball() {
   const Vec3 center(0.04, 0.02, 0.01);
   struct Point {
     double distance;
-    CellIndex cell;
+    voxelize::CellIndex cell;
   };
   std::vector<Point> points;
   for (int z = -6; z <= 6; ++z)
@@ -58,7 +59,7 @@ inline MassSpringModel ball() {
     return std::array{p.cell[2], p.cell[1], p.cell[0]} <
            std::array{q.cell[2], q.cell[1], q.cell[0]};
   });
-  MaterialGrid grid;
+  voxelize::MaterialGrid grid;
   grid.cell = kCell;
   grid.materials = {Material{.name = "core", .young = 1e6, .density = 1000, .damping = 0.004},
                     Material{.name = "shell", .young = 1e5, .density = 200, .damping = 0.004}};
@@ -67,7 +68,7 @@ inline MassSpringModel ball() {
     grid.material.push_back(p.distance <= 2.3 ? 0 : 1);
     grid.depth.push_back(0);
   }
-  return build_lattice(grid, {.style = LatticeStyle::centers}).model;
+  return voxelize::build_lattice(grid, {.style = voxelize::LatticeStyle::centers}).model;
 }
 
 }  // namespace springlod::test

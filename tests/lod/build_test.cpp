@@ -9,6 +9,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using springlod::test::ball;
 using springlod::test::block;
 using springlod::test::random_model;
@@ -42,7 +43,7 @@ TEST_CASE("Guarded chains of beams and rods have no floppy nodes and stay one pa
         const LodChain chain =
             simplify(base, {.levels = 3, .grouping = {.seed = seed}, .guards = guards});
         for (std::size_t n = 1; n < chain.levels.size(); ++n) {
-          const std::vector<PartModes> parts = zero_modes(chain.levels[n].model);
+          const std::vector<elastic::PartModes> parts = elastic::zero_modes(chain.levels[n].model);
           REQUIRE(parts.size() == 1);
           if (parts[0].zero_modes > parts[0].expected)
             ++(guards ? guarded_mechanisms : raw_mechanisms);

@@ -8,11 +8,14 @@
 #include "tests/voxelize/grids.hpp"
 #include "voxelize/refill.hpp"
 
-namespace springlod {
-namespace {
-
+using namespace springlod;
+using namespace springlod::elastic;
+using namespace springlod::lod;
+using namespace springlod::voxelize;
 using test::box_grid;
 using test::grid_of;
+
+namespace {
 
 MaterialGrid ball_grid(int radius) {
   std::vector<CellIndex> cells;
@@ -39,7 +42,8 @@ void check_chain(const LodChain& chain) {
     const MassProperties p = mass_properties(level.model);
     CHECK(p.mass == Approx(whole.mass).epsilon(1e-12));
     CHECK(p.volume == Approx(whole.volume).epsilon(1e-12));
-    for (const PartModes& part : zero_modes(level.model)) CHECK(part.zero_modes == part.expected);
+    for (const elastic::PartModes& part : elastic::zero_modes(level.model))
+      CHECK(part.zero_modes == part.expected);
   }
 }
 
@@ -59,7 +63,7 @@ TEST_CASE("The paper's figure 1: a cube refilled with lattices of 125, 64 and 27
   for (const Level& level : chain.levels)
     CHECK(mass_properties(level.model).center.isApprox(mass_properties(base).center));
   if (style == LatticeStyle::corners)
-    CHECK(stretch_test(chain.levels[2].model).young == Approx(1e6).epsilon(1e-6));
+    CHECK(elastic::stretch_test(chain.levels[2].model).young == Approx(1e6).epsilon(1e-6));
 }
 
 TEST_CASE("A ball of two materials is refilled with about as many nodes as asked for") {
@@ -102,4 +106,3 @@ TEST_CASE("A refill that gets no coarser is refused") {
 }
 
 }  // namespace
-}  // namespace springlod

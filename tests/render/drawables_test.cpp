@@ -8,6 +8,7 @@
 #include "tests/render/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::render;
 using namespace springlod::test;
 
 TEST_CASE("strain runs from blue over grey to red") {

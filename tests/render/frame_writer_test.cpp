@@ -14,6 +14,7 @@
 #include "tests/render/golden.hpp"
 
 using namespace springlod;
+using namespace springlod::render;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 

@@ -13,25 +13,25 @@ namespace springlod::test {
 /// Compares with tests/golden/<name>.png. SPRINGLOD_BLESS=1 makes the picture the new golden one.
 /// llvmpipe's last bits differ between processors: 3 of 255 are allowed, and 0.5 % of the pixels
 /// (along edges) may differ by more.
-inline void check_golden(const Image& picture, const std::string& name) {
+inline void check_golden(const render::Image& picture, const std::string& name) {
   const auto golden =
       std::filesystem::path(SPRINGLOD_SOURCE_DIR) / "tests" / "golden" / (name + ".png");
   const char* bless = std::getenv("SPRINGLOD_BLESS");
   if (bless != nullptr && std::string(bless) == "1") {
-    save_png(picture, golden);
+    render::save_png(picture, golden);
     WARN("blessed " << golden.string());
     return;
   }
   REQUIRE(std::filesystem::exists(golden));
-  const Image wanted = load_png(golden);
+  const render::Image wanted = render::load_png(golden);
   REQUIRE(picture.width == wanted.width);
   REQUIRE(picture.height == wanted.height);
-  const ImageDifference found = difference(picture, wanted);
+  const render::ImageDifference found = render::difference(picture, wanted);
   const bool same = found.share_beyond <= 0.005;
   if (!same) {
     const auto actual =
         std::filesystem::path(SPRINGLOD_BINARY_DIR) / "golden_failures" / (name + ".png");
-    save_png(picture, actual);
+    render::save_png(picture, actual);
     FAIL("the picture differs from " << golden.string() << " in " << 100 * found.share_beyond
                                      << " % of its pixels (by up to " << found.largest
                                      << "); it was written to " << actual.string()

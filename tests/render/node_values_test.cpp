@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "elastic/moduli/estimate.hpp"
+#include "elastic/moduli.hpp"
 #include "render/camera.hpp"
 #include "render/drawables.hpp"
 #include "render/value_colour.hpp"
@@ -17,6 +17,7 @@
 
 using Catch::Matchers::Contains;
 using namespace springlod;
+using namespace springlod::render;
 using namespace springlod::test;
 
 namespace {

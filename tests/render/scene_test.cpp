@@ -9,6 +9,7 @@
 #include "tests/render/golden.hpp"
 
 using namespace springlod;
+using namespace springlod::render;
 using namespace springlod::test;
 
 namespace {

@@ -11,6 +11,7 @@
 #include "tests/render/golden.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 using namespace springlod::test;
 
 namespace {
@@ -18,7 +19,7 @@ namespace {
 // A bar thrown at a wall as the animation gets it: no simulation, the bar just flies and bends.
 struct Film {
   LodAsset asset;
-  Comparison comparison;
+  sim::Comparison comparison;
 
   explicit Film(double duration = 0.5) {
     Level base{bar(), {}, "base"};
@@ -26,10 +27,10 @@ struct Film {
     asset.chain.levels = {base, base};
     asset.surface = dumbbell_mesh(16);
     asset.surface_of_base = bind_points(asset.surface.positions, base.model);
-    comparison.scenario.obstacles = {{Plane{Vec3::UnitZ(), 0}, "floor"},
-                                     {Plane{-Vec3::UnitX(), -1.2}, "wall"}};
+    comparison.scenario.obstacles = {{sim::Plane{Vec3::UnitZ(), 0}, "floor"},
+                                     {sim::Plane{-Vec3::UnitX(), -1.2}, "wall"}};
     for (std::uint32_t level = 0; level < 2; ++level) {
-      LevelRuns runs;
+      sim::LevelRuns runs;
       runs.label = level == 0 ? "base" : "LOD-1";
       runs.level = level;
       runs.first.spring_updates = level == 0 ? 18600 : 1000;
@@ -61,7 +62,8 @@ std::size_t files_in(const std::filesystem::path& folder) {
 }  // namespace
 
 TEST_CASE("positions are interpolated between frames and held outside") {
-  const std::vector<Frame> frames{{0, {Vec3(0, 0, 0)}}, {1, {Vec3(2, 0, 0)}}, {3, {Vec3(4, 0, 0)}}};
+  const std::vector<sim::Frame> frames{
+      {0, {Vec3(0, 0, 0)}}, {1, {Vec3(2, 0, 0)}}, {3, {Vec3(4, 0, 0)}}};
   CHECK(positions_at(frames, -1)[0].x() == 0);
   CHECK(positions_at(frames, 0.25)[0].x() == Approx(0.5));
   CHECK(positions_at(frames, 1)[0].x() == Approx(2));
@@ -84,11 +86,11 @@ TEST_CASE("base and level are drawn side by side on one clock") {
   const Animation animation = animate(film.asset, film.comparison, folder.path(), small());
   CHECK(animation.frames == 16);  // 0.5 s at 30 a second, first and last included
   CHECK(files_in(folder.path()) == 16);
-  const Image first = load_png(frame_path(folder.path(), 0));
+  const render::Image first = render::load_png(render::frame_path(folder.path(), 0));
   CHECK(first.width == 2 * 160);
   CHECK(first.height == 120);
-  const Image last = load_png(frame_path(folder.path(), 15));
-  CHECK(difference(first, last).share_beyond > 0.01);
+  const render::Image last = render::load_png(render::frame_path(folder.path(), 15));
+  CHECK(render::difference(first, last).share_beyond > 0.01);
 }
 
 TEST_CASE("a picture of an animation looks as it did") {
@@ -99,7 +101,7 @@ TEST_CASE("a picture of an animation looks as it did") {
   options.height = 180;
   options.frame_rate = 4;
   animate(film.asset, film.comparison, folder.path(), options);
-  check_golden(load_png(frame_path(folder.path(), 1)), "animation");
+  check_golden(render::load_png(render::frame_path(folder.path(), 1)), "animation");
 }
 
 TEST_CASE("slow motion makes more frames, a limit fewer, and stale frames go") {
@@ -110,12 +112,12 @@ TEST_CASE("slow motion makes more frames, a limit fewer, and stale frames go") {
   options.height = 24;
   options.slow = 2;
   CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 31);
-  save_png(Image{1, 1, {0, 0, 0}}, folder.path() / "frame_other.png");
+  render::save_png(render::Image{1, 1, {0, 0, 0}}, folder.path() / "frame_other.png");
   options.frames = 5;
   CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 5);
   CHECK(files_in(folder.path()) == 6);
   CHECK(std::filesystem::exists(folder.path() / "frame_other.png"));
-  CHECK_FALSE(std::filesystem::exists(frame_path(folder.path(), 5)));
+  CHECK_FALSE(std::filesystem::exists(render::frame_path(folder.path(), 5)));
 }
 
 TEST_CASE("a run that ended early holds its last frame") {
@@ -125,8 +127,8 @@ TEST_CASE("a run that ended early holds its last frame") {
   film.comparison.levels[1].base_frames.resize(3);
   AnimateOptions options = small();
   animate(film.asset, film.comparison, folder.path(), options);
-  const Image a = load_png(frame_path(folder.path(), 8));
-  const Image b = load_png(frame_path(folder.path(), 14));
+  const render::Image a = render::load_png(render::frame_path(folder.path(), 8));
+  const render::Image b = render::load_png(render::frame_path(folder.path(), 14));
   std::size_t left = 0;
   std::size_t right = 0;
   // The upper three quarters: the clock below runs on.
@@ -149,7 +151,7 @@ TEST_CASE("the following camera, nodes and springs and an asset without surface 
   options.camera = CameraMode::follow;
   options.frames = 2;
   CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 2);
-  options.style.spring_colour = SpringColour::strain;
+  options.style.spring_colour = render::SpringColour::strain;
   options.style.springs = true;
   CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 2);
 }
@@ -164,19 +166,19 @@ TEST_CASE("the camera steps round a wall that would hide the action") {
   animate(film.asset, film.comparison, folder.path() / "behind", options);
   options.azimuth = -110;
   animate(film.asset, film.comparison, folder.path() / "mirrored", options);
-  const Image round = load_png(frame_path(folder.path() / "round", 0));
-  CHECK(round.rgb == load_png(frame_path(folder.path() / "mirrored", 0)).rgb);
-  CHECK(round.rgb != load_png(frame_path(folder.path() / "behind", 0)).rgb);
+  const render::Image round = render::load_png(render::frame_path(folder.path() / "round", 0));
+  CHECK(round.rgb == render::load_png(render::frame_path(folder.path() / "mirrored", 0)).rgb);
+  CHECK(round.rgb != render::load_png(render::frame_path(folder.path() / "behind", 0)).rgb);
 }
 
 TEST_CASE("runs that do not fit the asset are refused") {
   const TemporaryFolder folder("animate");
   const Film film;
-  const auto refused = [&](const Comparison& comparison, const char* why) {
+  const auto refused = [&](const sim::Comparison& comparison, const char* why) {
     CHECK_THROWS_WITH(animate(film.asset, comparison, folder.path(), small()),
                       Catch::Contains(why));
   };
-  Comparison wrong = film.comparison;
+  sim::Comparison wrong = film.comparison;
   wrong.levels.clear();
   refused(wrong, "no runs");
   wrong = film.comparison;
@@ -200,10 +202,10 @@ TEST_CASE("a frame that cannot be written ends the animation with its name") {
   const TemporaryFolder folder("animate");
   const Film film;
   // A folder that is not empty cannot be replaced by a file.
-  std::filesystem::create_directories(frame_path(folder.path(), 3) / "in the way");
+  std::filesystem::create_directories(render::frame_path(folder.path(), 3) / "in the way");
   CHECK_THROWS_AS(animate(film.asset, film.comparison, folder.path(), small()), IoError);
   CHECK_THROWS_WITH(animate(film.asset, film.comparison, folder.path(), small()),
                     Catch::Matchers::Contains("frame_0003.png"));
-  CHECK(std::filesystem::exists(frame_path(folder.path(), 2)));
-  CHECK_FALSE(std::filesystem::exists(frame_path(folder.path(), 4)));
+  CHECK(std::filesystem::exists(render::frame_path(folder.path(), 2)));
+  CHECK_FALSE(std::filesystem::exists(render::frame_path(folder.path(), 4)));
 }

@@ -15,6 +15,7 @@
 #include "tests/report/programs.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 using namespace springlod::test;
 
 namespace {
@@ -63,7 +64,7 @@ TEST_CASE("a chart can be a PNG") {
   }
   const TemporaryFolder folder("chart");
   REQUIRE(draw_chart(some_series(), kOptions, folder.path() / "cost.png").drawn);
-  const Image image = load_png(folder.path() / "cost.png");
+  const render::Image image = render::load_png(folder.path() / "cost.png");
   CHECK(image.width == 900);
   CHECK(image.height == 600);
 }

@@ -1,13 +1,13 @@
-#include "report/comparison_tables.hpp"
-
 #include <cstdlib>
 #include <string>
 
 #include <catch2/catch.hpp>
 
+#include "report/tables.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 
 namespace {
 
@@ -23,14 +23,14 @@ LodChain two_levels() {
   return chain;
 }
 
-Comparison comparison() {
-  Comparison c;
+sim::Comparison comparison() {
+  sim::Comparison c;
   for (std::uint32_t level = 0; level < 2; ++level) {
-    LevelRuns runs;
+    sim::LevelRuns runs;
     runs.label = level == 0 ? "base" : "LOD-1";
     runs.level = level;
     for (const double distance : {1.0, 3.0}) {
-      StartResult start;
+      sim::StartResult start;
       start.distance = distance;
       start.surface_error = level * 0.05 * distance;
       start.shape_error = level * 0.5;

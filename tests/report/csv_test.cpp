@@ -12,6 +12,7 @@
 #include "tests/render/golden.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 using namespace springlod::test;
 
 TEST_CASE("numbers are written as short as they read back the same") {

@@ -14,7 +14,7 @@ using Values = std::vector<double>;
 
 inline double normal_draw(ChanceStream& chance) {
   // The middle of one of 2^53 cells of (0, 1): neither end can come up.
-  return normal_quantile(chance.unit() + 0x1p-54);
+  return report::normal_quantile(chance.unit() + 0x1p-54);
 }
 
 inline Values normal_sample(ChanceStream& chance, int size, double mean = 0, double deviation = 1) {

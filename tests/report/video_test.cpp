@@ -12,15 +12,16 @@
 #include "tests/report/programs.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 using namespace springlod::test;
 
 namespace {
 
 void write_frames(const std::filesystem::path& folder, std::uint32_t count) {
   for (std::uint32_t k = 0; k < count; ++k) {
-    Image image{33, 21, std::vector<std::uint8_t>(std::size_t{33} * 21 * 3, 200)};
+    render::Image image{33, 21, std::vector<std::uint8_t>(std::size_t{33} * 21 * 3, 200)};
     for (std::uint32_t x = 0; x < 3 * 10; ++x) image.rgb[k * 99 + x] = 20;
-    save_png(image, frame_path(folder, k));
+    render::save_png(image, render::frame_path(folder, k));
   }
 }
 
@@ -72,7 +73,7 @@ TEST_CASE("a video that cannot be made is refused with a reason") {
                     Catch::Contains(".mp4 or .gif"));
   CHECK_THROWS_AS(encode_video(folder.path(), 0, folder.path() / "a.mp4"), InputError);
   if (!find_program("ffmpeg")) return;
-  std::ofstream(frame_path(folder.path(), 0)) << "no picture";
+  std::ofstream(render::frame_path(folder.path(), 0)) << "no picture";
   CHECK_THROWS_AS(encode_video(folder.path(), 30, folder.path() / "a.mp4"), IoError);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "a.mp4"));
 }

@@ -9,6 +9,7 @@
 #include "tests/sim/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 
 TEST_CASE("The energy ledger closes within 1 % for the ball rolling on the floor") {
   const auto model = bodies::ball();
@@ -96,8 +97,8 @@ TEST_CASE("Frames lie at the frame times, first and last state included") {
 }
 
 TEST_CASE("A stop rule ends the run once the body has been slow for long enough") {
-  auto model =
-      bodies::block(6, 6, 2, 0.1, bodies::material("m", 1e6, 1000, 0.002), LatticeStyle::corners);
+  auto model = bodies::block(6, 6, 2, 0.1, bodies::material("m", 1e6, 1000, 0.002),
+                             voxelize::LatticeStyle::corners);
   Scenario scene;
   scene.gravity = {0, 0, -10};
   scene.obstacles = {bodies::floor(1e7, 0.5)};

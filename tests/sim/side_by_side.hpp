@@ -16,7 +16,7 @@ namespace springlod::bodies {
 
 /// A block of cells of two materials with a bite taken out of it.
 inline MassSpringModel two_material_block(int side) {
-  MaterialGrid grid;
+  voxelize::MaterialGrid grid;
   grid.cell = 0.01;
   grid.materials = {Material{.name = "soft", .young = 1e5, .damping = 0.002},
                     Material{.name = "hard", .young = 8e5, .damping = 0.001}};
@@ -27,23 +27,23 @@ inline MassSpringModel two_material_block(int side) {
         grid.cells.push_back({x, y, z});
         grid.material.push_back(x > side / 2 ? 1 : 0);
       }
-  return build_lattice(grid).model;
+  return voxelize::build_lattice(grid).model;
 }
 
 /// Falls onto a floor, slides into a turned block, spinning.
-inline Scenario rough_scene(const MassSpringModel& model) {
-  Scenario scene;
-  Obstacle ground = floor(2e6, 0.4);
+inline sim::Scenario rough_scene(const MassSpringModel& model) {
+  sim::Scenario scene;
+  sim::Obstacle ground = floor(2e6, 0.4);
   ground.damping = 1e-4;
-  Obstacle block;
+  sim::Obstacle block;
   block.name = "block";
   block.stiffness = 2e6;
   block.friction = 0.3;
   const Box3 box = bounds(model.rest);
-  std::get<Plane>(ground.shape).offset = box.min().z() - 1e-4;
-  block.shape = SolidBox{.center = box.center() + Vec3(0.55 * box.sizes().x() + 0.02, 0, 0),
-                         .half_size = {0.02, 0.2, 0.2},
-                         .rotation = Eigen::AngleAxisd(0.1, Vec3::UnitZ()).toRotationMatrix()};
+  std::get<sim::Plane>(ground.shape).offset = box.min().z() - 1e-4;
+  block.shape = sim::SolidBox{.center = box.center() + Vec3(0.55 * box.sizes().x() + 0.02, 0, 0),
+                              .half_size = {0.02, 0.2, 0.2},
+                              .rotation = Eigen::AngleAxisd(0.1, Vec3::UnitZ()).toRotationMatrix()};
   scene.obstacles = {ground, block};
   scene.start.velocity = {1.5, 0.2, -0.5};
   scene.start.spin = {1, 3, -2};
@@ -52,17 +52,17 @@ inline Scenario rough_scene(const MassSpringModel& model) {
 
 struct Outcome {
   State state;
-  LedgerEntry ledger;
+  sim::LedgerEntry ledger;
   std::size_t contacts = 0;
   std::optional<double> first_contact;
 };
 
 template <class Scheme>
-Outcome after(const MassSpringModel& model, const Scenario& scene, std::uint64_t steps,
-              const StepperOptions& options, std::uint64_t stride) {
-  const double step =
-      0.5 * predicted_step(model, scene, Integrator::symplectic_euler, options.skin.get());
-  Scheme body(model, scene, initial_state(model, scene.start), step, options);
+Outcome after(const MassSpringModel& model, const sim::Scenario& scene, std::uint64_t steps,
+              const sim::StepperOptions& options, std::uint64_t stride) {
+  const double step = 0.5 * sim::predicted_step(model, scene, sim::Integrator::symplectic_euler,
+                                                options.skin.get());
+  Scheme body(model, scene, sim::initial_state(model, scene.start), step, options);
   body.prepare();
   while (body.step_number() < steps) body.advance(std::min(stride, steps - body.step_number()));
   return {body.state(), body.ledger_entry(), body.contacts().size(), body.first_contact()};

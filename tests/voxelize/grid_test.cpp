@@ -8,6 +8,7 @@
 #include "tests/voxelize/grids.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 

@@ -10,11 +10,12 @@
 namespace springlod::test {
 
 /// A grid of the given cells, in any order, each with material 0 of two (soft, stiff).
-inline MaterialGrid grid_of(std::vector<CellIndex> cells, double cell = 1) {
-  std::sort(cells.begin(), cells.end(), [](const CellIndex& l, const CellIndex& r) {
-    return std::tie(l[2], l[1], l[0]) < std::tie(r[2], r[1], r[0]);
-  });
-  MaterialGrid grid;
+inline voxelize::MaterialGrid grid_of(std::vector<voxelize::CellIndex> cells, double cell = 1) {
+  std::sort(cells.begin(), cells.end(),
+            [](const voxelize::CellIndex& l, const voxelize::CellIndex& r) {
+              return std::tie(l[2], l[1], l[0]) < std::tie(r[2], r[1], r[0]);
+            });
+  voxelize::MaterialGrid grid;
   grid.cell = cell;
   grid.material.assign(cells.size(), 0);
   grid.depth.assign(cells.size(), 0.25F);
@@ -24,8 +25,9 @@ inline MaterialGrid grid_of(std::vector<CellIndex> cells, double cell = 1) {
   return grid;
 }
 
-inline MaterialGrid box_grid(std::int32_t nx, std::int32_t ny, std::int32_t nz, double cell = 1) {
-  std::vector<CellIndex> cells;
+inline voxelize::MaterialGrid box_grid(std::int32_t nx, std::int32_t ny, std::int32_t nz,
+                                       double cell = 1) {
+  std::vector<voxelize::CellIndex> cells;
   for (std::int32_t z = 0; z < nz; ++z)
     for (std::int32_t y = 0; y < ny; ++y)
       for (std::int32_t x = 0; x < nx; ++x) cells.push_back({x, y, z});

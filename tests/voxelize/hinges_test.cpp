@@ -8,6 +8,7 @@
 #include "voxelize/lattice.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using namespace springlod::test;
 
 namespace {

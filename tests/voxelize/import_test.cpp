@@ -14,6 +14,7 @@
 #include "voxelize/solid.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 

@@ -10,6 +10,7 @@
 #include "tests/voxelize/grids.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using namespace springlod::test;
 
 namespace {

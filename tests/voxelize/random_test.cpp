@@ -87,7 +87,7 @@ TEST_CASE("Any number of nodes makes a solid random model, fewer or more than th
   const RandomModel random = build_random(ball_grid(radius, 0.01), {.nodes = nodes});
   CHECK(random.model.node_count() == nodes);
   CHECK(random.least_ends >= 14);
-  const auto parts = zero_modes(random.model);
+  const auto parts = elastic::zero_modes(random.model);
   REQUIRE(parts.size() == 1);
   CHECK(parts[0].zero_modes == 6);
 }
@@ -101,14 +101,15 @@ TEST_CASE("The rescale makes a random model show its E, over ten seeds and along
   CHECK(random.rescaled * random.eq2_young == Approx(1));
   CHECK(random.eq2_young < 0.95);  // eq. 2 alone would not do
   CHECK(random.poisson == Approx(0.25).margin(0.02));
-  const StretchResult r = stretch_test(random.model, {.axis = static_cast<int>(seed % 3)});
+  const elastic::StretchResult r =
+      elastic::stretch_test(random.model, {.axis = static_cast<int>(seed % 3)});
   CHECK(r.young == Approx(1e6).epsilon(0.02));
   CHECK(r.poisson == Approx(0.25).margin(0.025));
 }
 
 TEST_CASE("A thin bar of a random model is no stiffer along than across") {
   const RandomModel random = build_random(box_grid(6, 6, 24, 0.01), {.nodes = 1000, .seed = 3});
-  CHECK(stretch_test(random.model, {.axis = 2}).young == Approx(1e6).epsilon(0.02));
+  CHECK(elastic::stretch_test(random.model, {.axis = 2}).young == Approx(1e6).epsilon(0.02));
 }
 
 TEST_CASE("Without the rescale a random model is what eq. 2 says, and too soft") {
@@ -139,7 +140,7 @@ TEST_CASE("No spring of a random model reaches across a slot") {
     if (apart) REQUIRE(std::min(p.z(), q.z()) < 0.035);
   }
   CHECK(random.parts == 1);
-  CHECK(zero_modes(m)[0].zero_modes == 6);
+  CHECK(elastic::zero_modes(m)[0].zero_modes == 6);
 }
 
 TEST_CASE("Two bodies apart make a random model of two parts") {
@@ -148,7 +149,8 @@ TEST_CASE("Two bodies apart make a random model of two parts") {
   for (const CellIndex& c : grid.cells) cells.push_back({c[0] + 5, c[1], c[2]});
   const RandomModel random = build_random(grid_of(cells, 0.01), {.nodes = 200});
   CHECK(random.parts == 2);
-  for (const PartModes& part : zero_modes(random.model)) CHECK(part.zero_modes == 6);
+  for (const elastic::PartModes& part : elastic::zero_modes(random.model))
+    CHECK(part.zero_modes == 6);
 }
 
 TEST_CASE("Springs between two materials are two halves in series") {
@@ -194,7 +196,7 @@ TEST_CASE("A random model that cannot be is an error that says why") {
 TEST_CASE("A periodic random network is below eq. 2 as the specification says, with nu near 1/4") {
   // Spec 2.3: 6 to 25 % below at 14 ends, 6 to 13 % at 24, by how the nodes are placed.
   const auto below = [](const PeriodicRandomOptions& options) {
-    const PeriodicModuli m = periodic_stretch(build_periodic_random(options));
+    const elastic::PeriodicModuli m = elastic::periodic_stretch(build_periodic_random(options));
     CHECK(m.eq2_young == Approx(1).epsilon(1e-12));
     return std::pair(1 - m.young / m.eq2_young, m.poisson);
   };

@@ -5,6 +5,7 @@
 #include "tests/voxelize/shapes.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using namespace springlod::test;
 
 namespace {

@@ -9,6 +9,7 @@
 #include "tests/voxelize/shapes.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;

@@ -10,6 +10,7 @@
 #include "voxelize/grid.hpp"
 
 using namespace springlod;
+using namespace springlod::voxelize;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 

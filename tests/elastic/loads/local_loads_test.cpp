@@ -1,8 +1,7 @@
-#include "elastic/loads/local_loads.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/loads.hpp"
 #include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"
 

@@ -1,8 +1,9 @@
-#include "elastic/loads/piece_loads.hpp"
-
 #include <catch2/catch.hpp>
 
+#include "elastic/loads.hpp"
+
 using namespace springlod;
+using namespace springlod::elastic;
 
 namespace {
 

@@ -1,10 +1,9 @@
-#include "elastic/loads/static_loads.hpp"
-
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
 #include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"

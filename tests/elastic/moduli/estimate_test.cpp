@@ -1,7 +1,6 @@
-#include "elastic/moduli/estimate.hpp"
-
 #include <catch2/catch.hpp>
 
+#include "elastic/moduli.hpp"
 #include "tests/support/models.hpp"
 
 namespace springlod {

@@ -1,8 +1,7 @@
-#include "elastic/moduli/measured_moduli.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 #include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"
 

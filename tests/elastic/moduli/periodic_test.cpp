@@ -1,8 +1,7 @@
-#include "elastic/moduli/periodic.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 
 namespace springlod {
 namespace {

@@ -1,8 +1,7 @@
-#include "elastic/moduli/surface_stretch.hpp"
-
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 #include "tests/support/models.hpp"
 
 namespace springlod {

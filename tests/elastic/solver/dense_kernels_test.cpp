@@ -9,6 +9,7 @@
 #include "elastic/solver/random_block.hpp"
 
 using namespace springlod;
+using namespace springlod::elastic;
 
 namespace {
 

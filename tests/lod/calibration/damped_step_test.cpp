@@ -6,6 +6,7 @@
 #include "elastic/solver/random_block.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 namespace {
@@ -25,8 +26,8 @@ Rows limits_of(Eigen::Index count, Eigen::Index unknowns) {
 
 TEST_CASE("A step is the dense least-squares solution over its rows and the active limits") {
   constexpr Eigen::Index n = 40, r = 6, l = 15;
-  const Eigen::MatrixXd slopes = random_block(n, r, 1);
-  const Eigen::VectorXd miss = 0.01 * random_block(r, 1, 2);
+  const Eigen::MatrixXd slopes = elastic::random_block(n, r, 1);
+  const Eigen::VectorXd miss = 0.01 * elastic::random_block(r, 1, 2);
   const Rows limits = limits_of(l, n);
   const Eigen::VectorXd excess = Eigen::VectorXd::Constant(l, 0.05);  // all active
   double damping = 1e-3;

@@ -8,6 +8,7 @@
 #include "tests/lod/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 
 namespace {
 

@@ -13,6 +13,7 @@
 #include "tests/lod/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using springlod::test::block;
 using springlod::test::kCell;
 

@@ -18,6 +18,7 @@
 #include "tests/model/sample_assets.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using Catch::Matchers::Contains;
 using springlod::test::block;
 using springlod::test::TemporaryFolder;
@@ -213,10 +214,10 @@ TEST_CASE("Steps of a fit whose misses are not finite are not taken") {
   const Level level = plain().levels[2];
   ElasticTargets targets = measure_targets(base, {.modes = 10, .patches = 4});
   targets.loads.front().compliance = std::numeric_limits<double>::infinity();
-  FitOptions options;
   FitState last;
-  options.on_iteration = [&](const FitState& state) { last = state; };
-  const MassSpringModel same = fit_part(level.model, level.of_base, targets, options);
+  FitProgress progress;
+  progress.on_iteration = [&](const FitState& state) { last = state; };
+  const MassSpringModel same = fit_part(level.model, level.of_base, targets, {}, progress);
   CHECK(last.finished);
   CHECK(last.iteration < 40);  // the damping grows out of bounds
   CHECK(same.stiffness == level.model.stiffness);

@@ -15,6 +15,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using springlod::test::ball;
 using springlod::test::block;
 using springlod::test::random_model;

@@ -10,6 +10,7 @@
 #include "tests/lod/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 
 TEST_CASE("Ungraded shares go by the numbers of nodes") {
   CHECK(graded_shares({{300, 1}, {100, 1e6}}, 100, 0) == std::vector<std::uint32_t>{75, 25});

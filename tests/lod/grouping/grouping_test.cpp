@@ -14,6 +14,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using springlod::test::ball;
 using springlod::test::block;
 using springlod::test::random_model;

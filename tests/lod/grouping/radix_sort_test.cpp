@@ -8,6 +8,7 @@
 #include "base/chance.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 
 TEST_CASE("A radix sort orders as a stable sort does") {
   for (const unsigned bits : {1U, 7U, 12U, 33U, 64U}) {

@@ -11,6 +11,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using springlod::test::random_model;
 using springlod::test::table_model;
 

@@ -7,6 +7,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using namespace springlod::test;
 
 namespace {

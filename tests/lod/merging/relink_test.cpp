@@ -10,6 +10,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 
 TEST_CASE("Relinking tells every joined pair of groups once and where each spring goes") {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {

@@ -9,6 +9,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 
 TEST_CASE("Rigidity compares the eigenvalues of sum k u u^T") {
   Rigidity node;

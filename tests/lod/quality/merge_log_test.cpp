@@ -17,6 +17,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::lod;
 using Catch::Contains;
 using springlod::test::ball;
 using springlod::test::block;
@@ -69,7 +70,7 @@ TEST_CASE("parts of a change of compliance add up, and are nothing where nothing
   };
   const auto energy = [](const MassSpringModel& model, const std::vector<Vec3>& u) {
     std::vector<Vec3> force;
-    apply_stiffness(model, u, force);
+    elastic::apply_stiffness(model, u, force);
     double sum = 0;
     for (std::size_t i = 0; i < u.size(); ++i) sum += u[i].dot(force[i]);
     return sum;
@@ -92,7 +93,7 @@ TEST_CASE("parts of a change of compliance add up, and are nothing where nothing
 
 TEST_CASE("one merge alone: the log gives it the whole change, and frequencies change as told") {
   const MassSpringModel base = block(3, 4, 9);
-  const std::vector<Mode> before = lowest_modes(base, {.count = 3}).modes;
+  const std::vector<elastic::Mode> before = elastic::lowest_modes(base, {.count = 3}).modes;
   for (const std::uint32_t spring : {100U, 300U, 500U}) {
     const LodChain chain = merged_by_hand(base, {{base.a[spring], base.b[spring]}});
     const MergeStep step = log_merges(chain, {.modes = 3, .local_loads = 3}).steps.at(0);
@@ -101,7 +102,8 @@ TEST_CASE("one merge alone: the log gives it the whole change, and frequencies c
                                      [](const Merge& merge) { return merge.pieces == 2; });
     REQUIRE(merged != step.merges.end());
     CHECK(merged->node == chain.levels[1].of_base.of[base.a[spring]]);
-    const std::vector<Mode> after = lowest_modes(chain.levels[1].model, {.count = 3}).modes;
+    const std::vector<elastic::Mode> after =
+        elastic::lowest_modes(chain.levels[1].model, {.count = 3}).modes;
     for (std::size_t l = 0; l < step.answers.size(); ++l) {
       CAPTURE(spring, step.answers[l].name, step.change[l]);
       CHECK(step.change[l] == step.error[l]);

@@ -1,16 +1,14 @@
-#include "report/stats/bootstrap.hpp"
-
 #include <cmath>
 #include <limits>
 
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "report/stats/sample_comparison.hpp"
-#include "report/stats/statistics.hpp"
+#include "report/stats.hpp"
 #include "tests/report/samples.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 

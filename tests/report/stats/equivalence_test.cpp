@@ -1,15 +1,14 @@
-#include "report/stats/equivalence.hpp"
-
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "report/stats.hpp"
 #include "report/stats/probability.hpp"
-#include "report/stats/statistics.hpp"
 #include "tests/report/samples.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 

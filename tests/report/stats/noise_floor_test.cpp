@@ -1,14 +1,13 @@
-#include "report/stats/noise_floor.hpp"
-
 #include <limits>
 
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "report/stats/statistics.hpp"
+#include "report/stats.hpp"
 #include "tests/report/samples.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 

@@ -1,5 +1,3 @@
-#include "report/stats/statistics.hpp"
-
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -8,10 +6,12 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "report/stats.hpp"
 #include "report/stats/probability.hpp"
 #include "tests/report/samples.hpp"
 
 using namespace springlod;
+using namespace springlod::report;
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 

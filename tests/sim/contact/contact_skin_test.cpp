@@ -17,6 +17,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 using namespace springlod::bodies;
 
 namespace {
@@ -68,13 +69,13 @@ double kinetic(const MassSpringModel& model, const std::vector<Vec3>& v) {
 }  // namespace
 
 TEST_CASE("A level's skin carries every affine motion to the base's surface, areas and all") {
-  const auto grouping = GENERATE(Grouping::standard, Grouping::compact);
+  const auto grouping = GENERATE(lod::Grouping::standard, lod::Grouping::compact);
   const auto seed = GENERATE(1, 2, 3);
   const auto level = GENERATE(1U, 2U);
-  SimplifyOptions options{.levels = 2};
+  lod::SimplifyOptions options{.levels = 2};
   options.grouping.grouping = grouping;
   options.grouping.seed = static_cast<std::uint64_t>(seed);
-  const LodChain chain = simplify(two_material_block(6), options);
+  const LodChain chain = lod::simplify(two_material_block(6), options);
   const MassSpringModel& base = chain.levels[0].model;
   const MassSpringModel& model = chain.levels[level].model;
   const ContactPoints points(model, contact_skin(chain, level));
@@ -213,7 +214,7 @@ TEST_CASE("A base with the skin of its own is the base without, to the bit") {
 }
 
 TEST_CASE("A level dropped flat comes to the floor when its base does, at the base's height") {
-  const LodChain chain = simplify(ball(), {.levels = 2});
+  const LodChain chain = lod::simplify(ball(), {.levels = 2});
   Scenario scene;
   scene.obstacles = {floor(1e6, 0.5)};
   scene.start.placed = true;
@@ -343,7 +344,7 @@ TEST_CASE("A skin of another model or of no level is refused") {
 
 TEST_CASE("Fast steps with a skin are those of the plain kernel, whatever the layout") {
   const auto precision = GENERATE(Precision::double_precision, Precision::single_precision);
-  const LodChain chain = simplify(two_material_block(9), {.levels = 1});
+  const LodChain chain = lod::simplify(two_material_block(9), {.levels = 1});
   const MassSpringModel& model = chain.levels[1].model;
   const Scenario scene = rough_scene(chain.levels[0].model);
   const auto skin = skin_of(chain, 1);
@@ -367,7 +368,7 @@ TEST_CASE("Fast steps with a skin are those of the plain kernel, whatever the la
 }
 
 TEST_CASE("Fast steps with a skin give the same bits at any stride, on any number of threads") {
-  const LodChain chain = simplify(two_material_block(33), {.levels = 1});
+  const LodChain chain = lod::simplify(two_material_block(33), {.levels = 1});
   const MassSpringModel& model = chain.levels[1].model;
   REQUIRE(model.node_count() > 16'000);  // worth two threads
   const Scenario scene = rough_scene(chain.levels[0].model);

@@ -5,6 +5,7 @@
 #include "tests/sim/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 
 namespace {
 
@@ -29,13 +30,13 @@ Scenario slide(const MassSpringModel& model) {
 TEST_CASE("A sliding block stops after 1.5 m on every level of a chain") {
   // Long and low, so that friction at the foot does not tip it over; stiff, so that its swing after
   // the stop is small.
-  const auto style = GENERATE(LatticeStyle::corners, LatticeStyle::centers);
+  const auto style = GENERATE(voxelize::LatticeStyle::corners, voxelize::LatticeStyle::centers);
   const auto base =
       bodies::block(12, 8, 4, 0.1, bodies::material("block", 1e7, 1000, 0.001), style);
-  const auto border = GENERATE(BorderRule::none, BorderRule::weak);
-  SimplifyOptions options;
+  const auto border = GENERATE(lod::BorderRule::none, lod::BorderRule::weak);
+  lod::SimplifyOptions options;
   options.grouping.border = border;
-  const LodChain chain = simplify(base, options);
+  const LodChain chain = lod::simplify(base, options);
   REQUIRE(chain.levels.size() == 3);
   const bool at_surface = GENERATE(false, true);
   for (std::size_t level = 0; level < chain.levels.size(); ++level) {

@@ -18,6 +18,7 @@
 #include "tests/sim/side_by_side.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 using namespace springlod::bodies;
 
 namespace {
@@ -29,7 +30,8 @@ constexpr std::uint64_t kSteps = 300;
 TEST_CASE("Fast steps are those of the plain kernel, to rounding, whatever the layout") {
   const MassSpringModel lattice = two_material_block(9);
   const bool merged = GENERATE(false, true);
-  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  const MassSpringModel model =
+      merged ? lod::simplify(lattice, {.levels = 1}).levels[1].model : lattice;
   const Scenario scene = rough_scene(model);
   const Outcome plain = after<Leapfrog>(model, scene, kSteps, {}, 1);
   REQUIRE(plain.contacts > 0);
@@ -60,7 +62,8 @@ TEST_CASE("Fast steps of bodies of many blocks are those of the plain kernel") {
   const int side = GENERATE(25, 33);  // blocks that are no multiple of a line, nor of a layer
   const bool merged = GENERATE(false, true);
   const MassSpringModel lattice = two_material_block(side);
-  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  const MassSpringModel model =
+      merged ? lod::simplify(lattice, {.levels = 1}).levels[1].model : lattice;
   const Scenario scene = rough_scene(model);
   constexpr std::uint64_t kFew = 20;
   const Outcome plain = after<Leapfrog>(model, scene, kFew, {}, 1);
@@ -74,7 +77,8 @@ TEST_CASE("Fast steps are those of the plain kernel on every kind of vectors") {
   const bool merged = GENERATE(false, true);
   const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
   const MassSpringModel lattice = two_material_block(9);
-  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  const MassSpringModel model =
+      merged ? lod::simplify(lattice, {.levels = 1}).levels[1].model : lattice;
   const Scenario scene = rough_scene(model);
   constexpr std::uint64_t kFew = 50;
   const Outcome plain = after<Leapfrog>(model, scene, kFew, {}, 1);
@@ -95,7 +99,8 @@ TEST_CASE("Fast steps give the same bits, however many are taken at once, with a
   const MassSpringModel lattice = two_material_block(7);
   const bool merged = GENERATE(false, true);
   const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
-  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  const MassSpringModel model =
+      merged ? lod::simplify(lattice, {.levels = 1}).levels[1].model : lattice;
   const Scenario scene = rough_scene(model);
   const StepperOptions with_ledger{.precision = precision};
   const Outcome one = after<FastLeapfrog>(model, scene, kSteps, with_ledger, 1);
@@ -111,7 +116,8 @@ TEST_CASE("Fast steps give the same bits on any number of threads") {
   const bool merged = GENERATE(false, true);
   const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
   const MassSpringModel lattice = two_material_block(merged ? 38 : 31);
-  const MassSpringModel model = merged ? simplify(lattice, {.levels = 1}).levels[1].model : lattice;
+  const MassSpringModel model =
+      merged ? lod::simplify(lattice, {.levels = 1}).levels[1].model : lattice;
   REQUIRE(model.node_count() > 24'000);  // worth three threads
   const Scenario scene = rough_scene(model);
   constexpr std::uint64_t kFew = 70;  // beyond a change of the frame

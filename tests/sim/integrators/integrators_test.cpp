@@ -12,6 +12,7 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 
 namespace {
 
@@ -185,7 +186,7 @@ TEST_CASE("Runge-Kutta closes the ledger of the rods thrown at the wall") {
 
 TEST_CASE("A sliding block stops after 1.5 m under every scheme") {
   const auto model = bodies::block(6, 4, 2, 0.2, bodies::material("block", 1e7, 1000, 0.001),
-                                   LatticeStyle::corners);
+                                   voxelize::LatticeStyle::corners);
   Scenario scene;
   scene.gravity = {0, 0, -10};
   scene.obstacles = {bodies::floor(2e7, 0.3)};

@@ -10,6 +10,7 @@
 #include "tests/sim/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 
 namespace {
 
@@ -162,8 +163,8 @@ TEST_CASE("A spring that shrinks to a point stays finite") {
 }
 
 TEST_CASE("Forces are the gradient of the elastic energy") {
-  MassSpringModel model =
-      bodies::block(2, 2, 2, 0.1, bodies::material("m", 1e6, 1000, 0), LatticeStyle::corners);
+  MassSpringModel model = bodies::block(2, 2, 2, 0.1, bodies::material("m", 1e6, 1000, 0),
+                                        voxelize::LatticeStyle::corners);
   std::vector<Vec3> x = model.rest;
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     x[i] += 0.02 * Vec3(std::sin(3.0 * i), std::cos(5.0 * i), std::sin(7.0 * i + 1));

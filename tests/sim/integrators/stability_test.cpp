@@ -7,6 +7,7 @@
 #include "tests/sim/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 
 namespace {
 
@@ -16,12 +17,12 @@ constexpr double kManySteps = 1e5;
 
 /// Level 0 or 1 of a small block of two materials.
 MassSpringModel small_body(bool merged, double damping) {
-  auto model =
-      bodies::block(4, 3, 3, 0.1, bodies::material("m", 1e6, 1000, damping), LatticeStyle::centers);
+  auto model = bodies::block(4, 3, 3, 0.1, bodies::material("m", 1e6, 1000, damping),
+                             voxelize::LatticeStyle::centers);
   if (!merged) return model;
-  SimplifyOptions options;
+  lod::SimplifyOptions options;
   options.levels = 1;
-  return simplify(model, options).levels[1].model;
+  return lod::simplify(model, options).levels[1].model;
 }
 
 /// Turns at a rate that stretches springs by about 1e-9: linear, but far above rounding.

@@ -12,12 +12,13 @@
 #include "tests/support/models.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 
 namespace {
 
 MassSpringModel cube(double damping = 0) {
   return bodies::block(3, 3, 3, 0.1, bodies::material("m", 1e5, 1000, damping),
-                       LatticeStyle::corners);
+                       voxelize::LatticeStyle::corners);
 }
 
 /// A block thrown along x at a wall of the given thickness.

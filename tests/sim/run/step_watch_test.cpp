@@ -11,11 +11,13 @@
 #include "tests/sim/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 
 namespace {
 
 MassSpringModel soft_block() {
-  return bodies::block(5, 5, 5, 0.1, bodies::material("m", 1e5, 1000, 0), LatticeStyle::corners);
+  return bodies::block(5, 5, 5, 0.1, bodies::material("m", 1e5, 1000, 0),
+                       voxelize::LatticeStyle::corners);
 }
 
 std::vector<Vec3> scaled(const MassSpringModel& model, const Vec3& by) {
@@ -45,19 +47,19 @@ TEST_CASE("A node's frequency bound grows as springs are stretched or pressed fl
   pair.rest_length = {1};
   pair.stiffness = {8};
   const auto bounds_at = [](const MassSpringModel& model, const std::vector<Vec3>& x) {
-    return node_frequency_bounds(model, x, {});
+    return elastic::node_frequency_bounds(model, x, {});
   };
   // Stretched or not, it is stiffest along itself: 2 k / m.
   CHECK(bounds_at(pair, pair.rest)[0] == Approx(8));
   CHECK(bounds_at(pair, {Vec3::Zero(), 3 * Vec3::UnitX()})[1] == Approx(8));
-  CHECK(node_frequency_bounds(pair, pair.rest, {2, 0})[0] == Approx(9));
+  CHECK(elastic::node_frequency_bounds(pair, pair.rest, {2, 0})[0] == Approx(9));
 
   const MassSpringModel model = soft_block();
   const auto rest = bounds_at(model, model.rest);
   // Light corners lead; their bound is not exact.
   const double most = std::sqrt(*std::max_element(rest.begin(), rest.end()));
-  CHECK(most > (1 - 1e-12) * frequency_bound(model));
-  CHECK(most < 1.1 * frequency_bound(model));
+  CHECK(most > (1 - 1e-12) * elastic::frequency_bound(model));
+  CHECK(most < 1.1 * elastic::frequency_bound(model));
   // Inside, springs to all sides sum up to the same whatever the direction. Stretched to twice the
   // length, each counts 1 + 2 (1 - 1/2) times.
   const std::size_t inside = inner_node(model);
@@ -97,8 +99,8 @@ TEST_CASE("A body let go stretched to twice its size only holds with the step ad
 }
 
 TEST_CASE("A body at rest sleeps at no cost; one that falls, floats or is told not to does not") {
-  const MassSpringModel model =
-      bodies::block(3, 3, 3, 0.1, bodies::material("m", 1e6, 1000, 0.01), LatticeStyle::corners);
+  const MassSpringModel model = bodies::block(3, 3, 3, 0.1, bodies::material("m", 1e6, 1000, 0.01),
+                                              voxelize::LatticeStyle::corners);
   Scenario scene;
   scene.obstacles = {bodies::floor(1e6, 0.5)};
   scene.obstacles[0].damping = 0.01;

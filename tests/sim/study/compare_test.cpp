@@ -8,10 +8,11 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "sim/study/deviation.hpp"
-#include "sim/study/starts.hpp"
+#include "sim/study/ensemble.hpp"
 #include "tests/sim/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 
 namespace {
 

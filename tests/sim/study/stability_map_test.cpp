@@ -15,17 +15,18 @@
 #include "tests/sim/bodies.hpp"
 
 using namespace springlod;
+using namespace springlod::sim;
 
 namespace {
 
 LodChain chain_of(const MassSpringModel& base, std::uint32_t levels = 0) {
-  if (levels > 0) return simplify(base, {.levels = levels});
+  if (levels > 0) return lod::simplify(base, {.levels = levels});
   return {.levels = {Level{base, identity_groups(base.node_count()), "base"}}};
 }
 
 /// A bar of 2 x 2 x 6 cells, its lower half rod, its upper half rubber a thousandth as stiff.
-MassSpringModel two_halves(LatticeStyle style) {
-  std::vector<std::pair<CellIndex, std::uint16_t>> cells;
+MassSpringModel two_halves(voxelize::LatticeStyle style) {
+  std::vector<std::pair<voxelize::CellIndex, std::uint16_t>> cells;
   for (int z = 0; z < 6; ++z)
     for (int y = 0; y < 2; ++y)
       for (int x = 0; x < 2; ++x)
@@ -33,12 +34,12 @@ MassSpringModel two_halves(LatticeStyle style) {
   const auto grid = bodies::grid_of(
       cells, 0.1,
       {bodies::material("rod", 1e8, 1000, 0.0005), bodies::material("rubber", 1e5, 1000, 0.0005)});
-  return build_lattice(grid, {.style = style}).model;
+  return voxelize::build_lattice(grid, {.style = style}).model;
 }
 
 MassSpringModel one_material() {
   return bodies::block(2, 2, 4, 0.1, bodies::material("m", 1e5, 1000, 0.0005),
-                       LatticeStyle::corners);
+                       voxelize::LatticeStyle::corners);
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -51,7 +52,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 }  // namespace
 
 TEST_CASE("At the ratio it has a body of two materials keeps its springs") {
-  const auto style = GENERATE(LatticeStyle::centers, LatticeStyle::corners);
+  const auto style = GENERATE(voxelize::LatticeStyle::centers, voxelize::LatticeStyle::corners);
   const LodChain chain = chain_of(two_halves(style), 1);
   const LodChain same = with_stiffness_ratio(chain, stiff_part(chain.levels[0].model), 1000);
   for (std::size_t level = 0; level < 2; ++level) {
@@ -63,7 +64,7 @@ TEST_CASE("At the ratio it has a body of two materials keeps its springs") {
 }
 
 TEST_CASE("A ratio scales the stiff part, leaves the soft one and meets in the harmonic mean") {
-  const MassSpringModel base = two_halves(LatticeStyle::centers);
+  const MassSpringModel base = two_halves(voxelize::LatticeStyle::centers);
   const StiffPart part = stiff_part(base);
   CHECK(part.name == "rod");
   const LodChain chain = with_stiffness_ratio(chain_of(base), part, 10);
@@ -93,7 +94,8 @@ TEST_CASE("A level of a rescaled chain is the rescaled base merged by the same g
   const LodChain chain = chain_of(base, 2);
   const LodChain rescaled = with_stiffness_ratio(chain, stiff_part(base), 1e4);
   for (const std::size_t level : {1U, 2U}) {
-    const MassSpringModel merged = merge(rescaled.levels[0].model, rescaled.levels[level].of_base);
+    const MassSpringModel merged =
+        lod::merge(rescaled.levels[0].model, rescaled.levels[level].of_base);
     CHECK(largest_difference(rescaled.levels[level].model.stiffness, merged.stiffness) < 1e-9);
   }
 }
@@ -180,7 +182,7 @@ TEST_CASE("An over-merged level with a mechanism is named and not run") {
   LodChain chain;
   // Raw merges, without guards, of the rods have mechanisms at level 3 for some seeds.
   for (std::uint64_t seed = 1; seed < 30; ++seed) {
-    chain = simplify(base, {.levels = 3, .grouping = {.seed = seed}, .guards = false});
+    chain = lod::simplify(base, {.levels = 3, .grouping = {.seed = seed}, .guards = false});
     StabilityOptions options;
     options.levels = {3};
     options.ratios = {50};
@@ -199,22 +201,22 @@ TEST_CASE("An over-merged level with a mechanism is named and not run") {
 }
 
 TEST_CASE("A bar one cell thick is a mechanism on centers and sound on corners") {
-  const auto bar = [](LatticeStyle style) {
+  const auto bar = [](voxelize::LatticeStyle style) {
     return bodies::block(1, 1, 6, 0.1, bodies::material("m", 1e5, 1000, 0), style);
   };
   StabilityOptions options;
   options.ratios = {1};
   options.integrators = {Integrator::symplectic_euler};
   options.steps = {0.9};
-  const StabilityMap loose = stability_map(chain_of(bar(LatticeStyle::centers)), options);
+  const StabilityMap loose = stability_map(chain_of(bar(voxelize::LatticeStyle::centers)), options);
   CHECK(loose.points[0].verdict == Verdict::mechanism);
   CHECK_FALSE(loose.bodies[0].mechanism_nodes.empty());
-  const StabilityMap sound = stability_map(chain_of(bar(LatticeStyle::corners)), options);
+  const StabilityMap sound = stability_map(chain_of(bar(voxelize::LatticeStyle::corners)), options);
   CHECK(sound.points[0].verdict == Verdict::stable);
   CHECK(sound.bodies[0].mechanism_nodes.empty());
   // A plate of one layer of centers bends freely.
-  const auto plate =
-      bodies::block(5, 4, 1, 0.1, bodies::material("m", 1e5, 1000, 0), LatticeStyle::centers);
+  const auto plate = bodies::block(5, 4, 1, 0.1, bodies::material("m", 1e5, 1000, 0),
+                                   voxelize::LatticeStyle::centers);
   CHECK(stability_map(chain_of(plate), options).points[0].verdict == Verdict::mechanism);
 }
 
@@ -239,8 +241,8 @@ TEST_CASE("A level used off the ratio that it was made for is named, with its fr
 }
 
 TEST_CASE("A map shows damping as what bounds the step") {
-  LodChain chain = chain_of(
-      bodies::block(2, 2, 4, 0.1, bodies::material("m", 1e5, 1000, 0.05), LatticeStyle::corners));
+  LodChain chain = chain_of(bodies::block(2, 2, 4, 0.1, bodies::material("m", 1e5, 1000, 0.05),
+                                          voxelize::LatticeStyle::corners));
   StabilityOptions options;
   options.ratios = {1};
   options.integrators = {Integrator::symplectic_euler};
