@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "lod/calibration/calibrate.hpp"
+#include "lod/calibration/elastic_targets.hpp"
 #include "lod/calibration/rescale_moduli.hpp"
 #include "lod/grouping/exact_count.hpp"
 #include "lod/grouping/grouping.hpp"

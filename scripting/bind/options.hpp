@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -116,10 +117,10 @@ std::vector<Parameter> parameters_of(const S& usual = {}) {
 }
 
 /// Sets what the script's table gives. `base`: the model whose nodes a struct with NodesOption rows
-/// speaks of.
+/// speaks of. `except`: a row that the caller reads itself.
 template <HasOptions S>
 void read_options(const Call& call, TableReader& reader, S& into,
-                  const MassSpringModel* base = nullptr);
+                  const MassSpringModel* base = nullptr, std::string_view except = {});
 
 namespace option_detail {
 
@@ -173,9 +174,10 @@ void read_row(const Call& call, TableReader& reader, const RecordOption<S, Membe
 }  // namespace option_detail
 
 template <HasOptions S>
-void read_options(const Call& call, TableReader& reader, S& into, const MassSpringModel* base) {
+void read_options(const Call& call, TableReader& reader, S& into, const MassSpringModel* base,
+                  std::string_view except) {
   for_each_option(into, [&](const auto& row, auto& member) {
-    option_detail::read_row(call, reader, row, member, base);
+    if (row.name != except) option_detail::read_row(call, reader, row, member, base);
   });
 }
 

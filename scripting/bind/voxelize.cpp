@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/units.hpp"
+#include "scripting/bind/options.hpp"
 #include "scripting/bind/records.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
@@ -35,9 +36,7 @@ int import_binding(Call& call) {
   reader.read("unit", unit);
   if (!unit.empty()) options.unit = length_unit(unit);
   voxelize::UpAxis up = voxelize::UpAxis::z;
-  reader.choose(
-      "up", up,
-      {{"x", voxelize::UpAxis::x}, {"y", voxelize::UpAxis::y}, {"z", voxelize::UpAxis::z}});
+  reader.read("up", up);
   if (reader.has("up")) options.up = up;
   reader.finish();
 
@@ -143,13 +142,7 @@ int lattice_binding(Call& call) {
   const auto grid = call.value<GridValue>(1);
   voxelize::LatticeOptions options;
   TableReader reader = call.options(2);
-  reader.choose(
-      "style", options.style,
-      {{"corners", voxelize::LatticeStyle::corners}, {"centers", voxelize::LatticeStyle::centers}});
-  reader.choose("hinges", options.hinges,
-                {{"report", voxelize::HingePolicy::report},
-                 {"fill", voxelize::HingePolicy::fill},
-                 {"separate", voxelize::HingePolicy::separate}});
+  read_options(call, reader, options);
   reader.finish();
 
   voxelize::LatticeModel lattice = voxelize::build_lattice(grid->grid, options);
@@ -266,12 +259,12 @@ void describe_voxelize(Api& api) {
       .options = {{.name = "unit",
                    .type = "string",
                    .fallback = "the file's, else \"m\" (and said)",
-                   .help = "unit of length of the file: nm um mm cm dm m km in ft"},
+                   .help = "unit of length of the file"},
                   {.name = "up",
                    .type = "one of",
                    .fallback = "the file's, else the custom of the format (and said)",
                    .help = "axis of the file that points up",
-                   .choices = {"x", "y", "z"}}},
+                   .choices = words_of<voxelize::UpAxis>()}},
       .returns = "Mesh: in metres, z up",
       .errors = "No such file, not a mesh, no triangles, coordinates that are not finite.",
       .example = "local mesh = s.import(\"dumbbell.obj\", {unit = \"cm\", up = \"z\"})",
@@ -283,18 +276,7 @@ void describe_voxelize(Api& api) {
       .group = kGroup,
       .summary = "Builds the cubic lattice of masses and springs on a grid (6 + 12 neighbours).",
       .arguments = {{.name = "grid", .type = "Grid", .help = "filled cells"}},
-      .options = {{.name = "style",
-                   .type = "one of",
-                   .fallback = "\"corners\"",
-                   .help = "nodes at the corners of the cells (no border error) or at their "
-                           "centers (as in the paper)",
-                   .choices = {"corners", "centers"}},
-                  {.name = "hinges",
-                   .type = "one of",
-                   .fallback = "\"report\"",
-                   .help = "where cells touch only along an edge or at a corner: leave and say so, "
-                           "fill a cell, or take the cells apart",
-                   .choices = {"report", "fill", "separate"}}},
+      .options = parameters_of<voxelize::LatticeOptions>(),
       .returns = "Model: with the mesh's surface bound to its nodes",
       .errors = "An empty grid.",
       .example = "local base = s.lattice(grid, {style = \"centers\"})",
