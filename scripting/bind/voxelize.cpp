@@ -162,6 +162,12 @@ int lattice_binding(Call& call) {
   return call.give(std::shared_ptr<const ModelValue>(value));
 }
 
+Words length_units() {
+  Words words{"unit"};
+  for (const std::string& unit : unit_names(Dimension::length)) words.all.push_back({unit});
+  return words;
+}
+
 void describe_mesh(Api& api) {
   TypeBuilder<MeshValue> type(
       "A surface of triangles in metres, z up, in named parts.", [](const MeshValue& value) {
@@ -257,9 +263,10 @@ void describe_voxelize(Api& api) {
       .summary = "Reads a mesh: OBJ, STL, PLY, GLB/glTF, FBX, OFF or Collada.",
       .arguments = {{.name = "path", .type = "string", .help = "the file"}},
       .options = {{.name = "unit",
-                   .type = "string",
+                   .type = "one of",
                    .fallback = "the file's, else \"m\" (and said)",
-                   .help = "unit of length of the file"},
+                   .help = "unit of length of the file",
+                   .choices = length_units()},
                   {.name = "up",
                    .type = "one of",
                    .fallback = "the file's, else the custom of the format (and said)",
