@@ -9,6 +9,7 @@
 #include "lod/options.hpp"
 #include "lod/quality/certify.hpp"
 #include "scripting/bind/options.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 

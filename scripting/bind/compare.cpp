@@ -14,6 +14,7 @@
 #include "scripting/bind/options.hpp"
 #include "scripting/bind/run_options.hpp"
 #include "scripting/bind/scenario_table.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/study/ensemble.hpp"

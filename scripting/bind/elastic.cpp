@@ -13,6 +13,7 @@
 #include "elastic/zero_modes.hpp"
 #include "scripting/bind/node_choice.hpp"
 #include "scripting/bind/options.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 

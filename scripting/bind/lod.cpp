@@ -11,6 +11,7 @@
 #include "scripting/bind/grouping_script.hpp"
 #include "scripting/bind/node_choice.hpp"
 #include "scripting/bind/options.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "lod/refill.hpp"
 #include "scripting/bind/options.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "voxelize/refill.hpp"

@@ -10,6 +10,7 @@
 #include "base/units.hpp"
 #include "scripting/bind/options.hpp"
 #include "scripting/bind/records.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "voxelize/grid.hpp"
