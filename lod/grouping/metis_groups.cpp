@@ -88,4 +88,8 @@ Groups metis_groups(const MassSpringModel& /*model*/, std::uint32_t /*count*/,
 
 #endif
 
+Groups metis_groups(const GroupingTask& task) {
+  return metis_groups(task.model, task.count, task.options.seed);
+}
+
 }  // namespace springlod::lod
