@@ -51,12 +51,12 @@ class ActiveStep {
     Eigen::MatrixXd normal = problem_.normal;
     normal.diagonal().array() += damping;
     const Eigen::LLT<Eigen::MatrixXd> dense(normal);
-    if (over_.size() == 0) return problem_.slopes * dense.solve(problem_.miss);
+    if (over_.size() == 0) return problem_.slopes * dense.solve(problem_.residual);
     Eigen::MatrixXd along = coupling_;  // w H J L^-T, L L^T = J^T J + a I
     elastic::solve_right_transposed(dense.matrixLLT(), along);
     const Eigen::VectorXd z =
-        solve_limits(along, damping, over_ - along * dense.matrixL().solve(problem_.miss));
-    const Eigen::VectorXd y = dense.solve(problem_.miss - coupling_.transpose() * z);
+        solve_limits(along, damping, over_ - along * dense.matrixL().solve(problem_.residual));
+    const Eigen::VectorXd y = dense.solve(problem_.residual - coupling_.transpose() * z);
     return problem_.slopes * y + limits_.transpose() * z;
   }
 

@@ -11,7 +11,7 @@ namespace springlod::lod {
 struct StepProblem {
   const Eigen::MatrixXd& slopes;                               ///< J: n x R, dense, R few
   const Eigen::MatrixXd& normal;                               ///< J^T J
-  const Eigen::VectorXd& miss;                                 ///< R
+  const Eigen::VectorXd& residual;                             ///< R
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& limits;  ///< H: L x n, L may be many
   const Eigen::VectorXd& excess;                               ///< L, at d = 0
   Eigen::VectorXd near{};                                      ///< n, none: 0

@@ -82,12 +82,12 @@ std::vector<std::pair<std::size_t, std::size_t>> ElasticFit::mode_pairs() const 
   return pairs;
 }
 
-ElasticMisses ElasticFit::misses(const MassSpringModel& level) const {
+ElasticResiduals ElasticFit::residuals(const MassSpringModel& level) const {
   const elastic::ElasticBody body = held_body(level, anchored_);
   const auto of_modes = static_cast<Eigen::Index>(mode_pairs().size());
   const Eigen::Index rows = of_modes + static_cast<Eigen::Index>(loads_.size());
-  ElasticMisses all;
-  all.miss = Eigen::VectorXd::Zero(rows);
+  ElasticResiduals all;
+  all.weighted = Eigen::VectorXd::Zero(rows);
   all.slopes = Eigen::MatrixXd::Zero(level.spring_count() + level.node_count(), rows);
   run_jobs(2, threads_, [&](std::uint64_t job, const std::function<bool()>&) {
     if (job == 0 && of_modes > 0) add_modes(level, body, 0, all);
@@ -97,7 +97,7 @@ ElasticMisses ElasticFit::misses(const MassSpringModel& level) const {
 }
 
 void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticBody& body,
-                           Eigen::Index first, ElasticMisses& all) const {
+                           Eigen::Index first, ElasticResiduals& all) const {
   const std::vector<double>& wanted = targets_.squared_frequency;
   const std::vector<elastic::Mode> found =
       elastic::lowest_modes(
@@ -106,7 +106,7 @@ void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticB
   std::vector<Eigen::VectorXd> stretch;
   for (std::size_t i = 0; i < found.size(); ++i) {
     stretch.emplace_back(stretch_ * flat(found[i].shape));
-    all.frequency.push_back(std::abs(found[i].angular_frequency / std::sqrt(wanted[i]) - 1));
+    all.frequency_error.push_back(std::abs(found[i].angular_frequency / std::sqrt(wanted[i]) - 1));
   }
   const auto k = as_vector(level.stiffness).array();
   const auto m = as_vector(level.mass).array();
@@ -117,13 +117,13 @@ void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticB
     const double weight = targets_.mode_weight * mode_weight(i);
     all.slopes.col(row) << weight / scale * k * stretch[i].array() * stretch[j].array(),
         -weight * m * dots(found[i].shape, found[j].shape).array();
-    if (i == j) all.miss[row] = weight * std::log(wanted[i] / scale);
+    if (i == j) all.weighted[row] = weight * std::log(wanted[i] / scale);
     ++row;
   }
 }
 
 void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticBody& body,
-                           Eigen::Index first, ElasticMisses& all) const {
+                           Eigen::Index first, ElasticResiduals& all) const {
   const std::vector<elastic::StaticSolution> solved =
       elastic::solve_static(body, loads_, {.balance = kLoadBalance});
   const auto k = as_vector(level.stiffness).array();
@@ -131,14 +131,14 @@ void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticB
   for (std::size_t l = 0; l < loads_.size(); ++l) {
     const LoadTarget& target = targets_.loads[l];
     const double c = solved[l].compliance;
-    all.compliance.push_back(std::abs(c / target.compliance - 1));
+    all.compliance_error.push_back(std::abs(c / target.compliance - 1));
     if (!(c > 0)) continue;  // the groups took the load into themselves
     const Eigen::VectorXd stretch = stretch_ * flat(solved[l].displacement);
     const Eigen::Index row = first + static_cast<Eigen::Index>(l);
     all.slopes.col(row) << -target.weight / c * k * stretch.array().square(),
         -2 * target.weight / c * m *
             dots(solved[l].displacement, rigid_acceleration(body, loads_[l])).array();
-    all.miss[row] = target.weight * std::log(target.compliance / c);
+    all.weighted[row] = target.weight * std::log(target.compliance / c);
   }
 }
 

@@ -16,11 +16,11 @@ namespace springlod::lod {
 
 /// How a level misses its targets: weighted misses r and their slopes by ln k of each spring and
 /// ln m of each node.
-struct ElasticMisses {
-  Eigen::VectorXd miss;            ///< ln(wanted / found), weighted [1], R
-  Eigen::MatrixXd slopes;          ///< (S + N) x R: by how much each unknown lessens each miss
-  std::vector<double> frequency;   ///< |found / wanted - 1| of each mode, not weighted
-  std::vector<double> compliance;  ///< the same of each load
+struct ElasticResiduals {
+  Eigen::VectorXd weighted;             ///< r, R [1]
+  Eigen::MatrixXd slopes;               ///< (S + N) x R: by how much each unknown lessens each miss
+  std::vector<double> frequency_error;  ///< |found / wanted - 1| of each mode, not weighted
+  std::vector<double> compliance_error;  ///< the same of each load
 };
 
 /// Compares a level with the targets of its base, as often as its stiffnesses and masses change;
@@ -38,16 +38,16 @@ class ElasticFit {
   /// differentiable one by one. Compliances:
   ///   d ln c / d ln k = -k (b.u)^2 / c,   d ln c / d ln m = -2 m u.a / c,
   /// a the acceleration of the free body, whose inertia balances the load.
-  ElasticMisses misses(const MassSpringModel& level) const;
+  ElasticResiduals residuals(const MassSpringModel& level) const;
 
  private:
   /// Pairs of modes, each with itself and those of its own frequency.
   std::vector<std::pair<std::size_t, std::size_t>> mode_pairs() const;
   /// Fill the rows from `first` on.
   void add_modes(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
-                 ElasticMisses& all) const;
+                 ElasticResiduals& all) const;
   void add_loads(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
-                 ElasticMisses& all) const;
+                 ElasticResiduals& all) const;
 
   const ElasticTargets& targets_;
   std::uint32_t threads_;

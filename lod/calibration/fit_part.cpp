@@ -98,8 +98,8 @@ class PartFit {
   struct Point {
     Eigen::VectorXd theta;
     MassSpringModel model;
-    ElasticMisses misses;    // slopes by theta, along changes that keep the moments
-    Eigen::MatrixXd normal;  // slopes^T slopes
+    ElasticResiduals residuals;  // slopes by theta, along changes that keep the moments
+    Eigen::MatrixXd normal;      // slopes^T slopes
   };
   struct Best {
     Eigen::VectorXd theta;
@@ -135,7 +135,7 @@ class PartFit {
                    .now = {now_.theta, now_.model.mass},
                    .best = {},
                    .best_frequency = best_ ? best_->highest_frequency : 0,
-                   .frequency_error = mean(now_.misses.frequency, 0, kLowestModes)};
+                   .frequency_error = mean(now_.residuals.frequency_error, 0, kLowestModes)};
     if (best_) state.best = FitPoint{best_->theta, best_->model.mass};
     return state;
   }
@@ -145,9 +145,9 @@ class PartFit {
   }
 
   void measure(Point& point) const {
-    point.misses = fit_.misses(point.model);
-    variables_.turn_slopes(point.model.mass, point.misses.slopes);
-    point.normal = elastic::gram(point.misses.slopes);
+    point.residuals = fit_.residuals(point.model);
+    variables_.turn_slopes(point.model.mass, point.residuals.slopes);
+    point.normal = elastic::gram(point.residuals.slopes);
   }
 
   Point at(Eigen::VectorXd theta) const {
@@ -171,7 +171,7 @@ class PartFit {
   }
 
   double merit(const Point& point) const {
-    return point.misses.miss.squaredNorm() +
+    return point.residuals.weighted.squaredNorm() +
            limit_weight_ * limit_weight_ * squared_excess(point.model, limit_);
   }
 
@@ -182,9 +182,9 @@ class PartFit {
       const CapRows cap = cap_rows(variables_.model(now_.theta + step), limit_, kMargin);
       const Eigen::SparseMatrix<double, Eigen::RowMajor> limits = variables_.turned(cap.slopes);
       const Eigen::VectorXd excess = cap.excess - limits * step;
-      step = damped_step({.slopes = now_.misses.slopes,
+      step = damped_step({.slopes = now_.residuals.slopes,
                           .normal = now_.normal,
-                          .miss = now_.misses.miss,
+                          .residual = now_.residuals.weighted,
                           .limits = limits,
                           .excess = excess,
                           .near = step,
@@ -222,7 +222,7 @@ class PartFit {
 
   /// Whether all kinds of misses are within what is wanted.
   bool good(const Point& point) const {
-    const std::vector<double>& frequency = point.misses.frequency;
+    const std::vector<double>& frequency = point.residuals.frequency_error;
     return mean(frequency, 0, kLowestModes) <= tolerance_ &&
            mean(frequency, kLowestModes, frequency.size()) <= kHigherModesTolerance * tolerance_ &&
            mean_of_loads(point, {LoadKind::smooth}) <= kSmoothLoadsTolerance * tolerance_ &&
@@ -236,7 +236,7 @@ class PartFit {
     std::vector<double> of_kinds;
     for (std::size_t l = 0; l < targets_.loads.size(); ++l)
       if (std::find(kinds.begin(), kinds.end(), targets_.loads[l].kind) != kinds.end())
-        of_kinds.push_back(point.misses.compliance[l]);
+        of_kinds.push_back(point.residuals.compliance_error[l]);
     return mean(of_kinds, 0, of_kinds.size());
   }
 

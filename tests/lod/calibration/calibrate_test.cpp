@@ -138,16 +138,16 @@ TEST_CASE("Slopes of the misses are what finite differences say") {
     const ElasticTargets targets = measure_targets(base, options);
     const Level level = plain_level(base, 0.4);
     const ElasticFit fit(level.model, level.of_base, targets);
-    const ElasticMisses here = fit.misses(level.model);
+    const ElasticResiduals here = fit.residuals(level.model);
     const Eigen::VectorXd way = any_way(level.model, 3);
     constexpr double h = 1e-4;
-    const ElasticMisses ahead = fit.misses(moved(level.model, way, h));
-    const ElasticMisses behind = fit.misses(moved(level.model, way, -h));
-    const Eigen::VectorXd measured = (behind.miss - ahead.miss) / (2 * h);
+    const ElasticResiduals ahead = fit.residuals(moved(level.model, way, h));
+    const ElasticResiduals behind = fit.residuals(moved(level.model, way, -h));
+    const Eigen::VectorXd measured = (behind.weighted - ahead.weighted) / (2 * h);
     const Eigen::VectorXd told = here.slopes.transpose() * way;
     REQUIRE(measured.size() == told.size());
     for (Eigen::Index r = 0; r < told.size(); ++r)
-      if (here.miss[r] != 0)  // rows of pairs of modes have no miss of their own
+      if (here.weighted[r] != 0)  // rows of pairs of modes have no miss of their own
         CHECK(told[r] == Approx(measured[r]).epsilon(2e-3).margin(1e-5));
   }
 }
@@ -251,9 +251,9 @@ TEST_CASE("Several parts, one of them a single node, and anchors are calibrated 
   options.calibrate.targets.patches = 0;
   const ElasticTargets wanted = measure_targets(two, options.calibrate.targets);
   const ElasticFit fit(chain.levels[1].model, chain.levels[1].of_base, wanted);
-  const ElasticMisses misses = fit.misses(chain.levels[1].model);
+  const ElasticResiduals residuals = fit.residuals(chain.levels[1].model);
   double mean = 0;
-  for (int i = 0; i < 10; ++i) mean += misses.frequency[static_cast<std::size_t>(i)] / 10;
+  for (int i = 0; i < 10; ++i) mean += residuals.frequency_error[static_cast<std::size_t>(i)] / 10;
   CHECK(mean < 0.01);
 }
 

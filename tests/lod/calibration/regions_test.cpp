@@ -90,16 +90,16 @@ TEST_CASE("Targets are of the kinds that were asked for, each with its weight") 
   }
 }
 
-TEST_CASE("Weights of modes and loads scale their misses") {
+TEST_CASE("Weights of modes and loads scale their residuals") {
   const MassSpringModel base = block(4, 4, 5);
   const Level level = simplify(base, {.levels = 1}).levels[1];
-  const auto misses = [&](const TargetOptions& options) {
+  const auto residuals = [&](const TargetOptions& options) {
     const ElasticTargets targets = measure_targets(base, options);
-    return ElasticFit(level.model, level.of_base, targets).misses(level.model).miss;
+    return ElasticFit(level.model, level.of_base, targets).residuals(level.model).weighted;
   };
-  const Eigen::VectorXd usual = misses({.modes = 4, .patches = 2});
+  const Eigen::VectorXd usual = residuals({.modes = 4, .patches = 2});
   const Eigen::VectorXd both =
-      misses({.modes = 4, .patches = 2, .mode_weight = 2, .load_weight = 0.5});
+      residuals({.modes = 4, .patches = 2, .mode_weight = 2, .load_weight = 0.5});
   REQUIRE(usual.size() == both.size());
   const Eigen::Index loads = 11;
   CHECK(both.head(usual.size() - loads).isApprox(2 * usual.head(usual.size() - loads)));
