@@ -41,7 +41,7 @@ class ActiveStep {
       : problem_(problem),
         limits_(problem.limit_weight * chosen(problem.limits, active)),
         product_(limits_ * Rows(limits_.transpose())),
-        coupling_(limits_ * problem.slopes),
+        coupling_(limits_ * problem.jacobian),
         over_(limits_.rows()) {
     for (Eigen::Index r = 0; r < over_.size(); ++r)
       over_[r] = -problem.limit_weight * problem.excess[active[static_cast<std::size_t>(r)]];
@@ -51,13 +51,13 @@ class ActiveStep {
     Eigen::MatrixXd normal = problem_.normal;
     normal.diagonal().array() += damping;
     const Eigen::LLT<Eigen::MatrixXd> dense(normal);
-    if (over_.size() == 0) return problem_.slopes * dense.solve(problem_.residual);
+    if (over_.size() == 0) return problem_.jacobian * dense.solve(problem_.residual);
     Eigen::MatrixXd along = coupling_;  // w H J L^-T, L L^T = J^T J + a I
     elastic::solve_right_transposed(dense.matrixLLT(), along);
     const Eigen::VectorXd z =
         solve_limits(along, damping, over_ - along * dense.matrixL().solve(problem_.residual));
     const Eigen::VectorXd y = dense.solve(problem_.residual - coupling_.transpose() * z);
-    return problem_.slopes * y + limits_.transpose() * z;
+    return problem_.jacobian * y + limits_.transpose() * z;
   }
 
  private:

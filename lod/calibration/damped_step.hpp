@@ -9,7 +9,7 @@ namespace springlod::lod {
 ///   min |J^T d - miss|^2 + sum over the active limits of w^2 (H d + excess)^2 + damping |d|^2.
 /// A limit is active if it is above 0 at `near`, or would be after the step.
 struct StepProblem {
-  const Eigen::MatrixXd& slopes;                               ///< J: n x R, dense, R few
+  const Eigen::MatrixXd& jacobian;                             ///< J: n x R, dense, R few
   const Eigen::MatrixXd& normal;                               ///< J^T J
   const Eigen::VectorXd& residual;                             ///< R
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& limits;  ///< H: L x n, L may be many

@@ -88,7 +88,7 @@ ElasticResiduals ElasticFit::residuals(const MassSpringModel& level) const {
   const Eigen::Index rows = of_modes + static_cast<Eigen::Index>(loads_.size());
   ElasticResiduals all;
   all.weighted = Eigen::VectorXd::Zero(rows);
-  all.slopes = Eigen::MatrixXd::Zero(level.spring_count() + level.node_count(), rows);
+  all.jacobian = Eigen::MatrixXd::Zero(level.spring_count() + level.node_count(), rows);
   run_jobs(2, threads_, [&](std::uint64_t job, const std::function<bool()>&) {
     if (job == 0 && of_modes > 0) add_modes(level, body, 0, all);
     if (job == 1 && !loads_.empty()) add_loads(level, body, of_modes, all);
@@ -115,7 +115,7 @@ void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticB
     if (j >= found.size()) break;  // a level of very few nodes
     const double scale = found[i].angular_frequency * found[j].angular_frequency;
     const double weight = targets_.mode_weight * mode_weight(i);
-    all.slopes.col(row) << weight / scale * k * stretch[i].array() * stretch[j].array(),
+    all.jacobian.col(row) << weight / scale * k * stretch[i].array() * stretch[j].array(),
         -weight * m * dots(found[i].shape, found[j].shape).array();
     if (i == j) all.weighted[row] = weight * std::log(wanted[i] / scale);
     ++row;
@@ -135,7 +135,7 @@ void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticB
     if (!(c > 0)) continue;  // the groups took the load into themselves
     const Eigen::VectorXd stretch = stretch_ * flat(solved[l].displacement);
     const Eigen::Index row = first + static_cast<Eigen::Index>(l);
-    all.slopes.col(row) << -target.weight / c * k * stretch.array().square(),
+    all.jacobian.col(row) << -target.weight / c * k * stretch.array().square(),
         -2 * target.weight / c * m *
             dots(solved[l].displacement, rigid_acceleration(body, loads_[l])).array();
     all.weighted[row] = target.weight * std::log(target.compliance / c);

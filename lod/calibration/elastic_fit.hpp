@@ -18,7 +18,7 @@ namespace springlod::lod {
 /// ln m of each node.
 struct ElasticResiduals {
   Eigen::VectorXd weighted;             ///< r, R [1]
-  Eigen::MatrixXd slopes;               ///< (S + N) x R: by how much each unknown lessens each miss
+  Eigen::MatrixXd jacobian;             ///< (S + N) x R: by how much each unknown lessens each miss
   std::vector<double> frequency_error;  ///< |found / wanted - 1| of each mode, not weighted
   std::vector<double> compliance_error;  ///< the same of each load
 };

@@ -146,14 +146,14 @@ class PartFit {
 
   void measure(Point& point) const {
     point.residuals = fit_.residuals(point.model);
-    variables_.turn_slopes(point.model.mass, point.residuals.slopes);
-    point.normal = elastic::gram(point.residuals.slopes);
+    variables_.project_jacobian(point.model.mass, point.residuals.jacobian);
+    point.normal = elastic::gram(point.residuals.jacobian);
   }
 
   Point at(Eigen::VectorXd theta) const {
     Point point{std::move(theta), {}, {}, {}};
     point.model = variables_.model(point.theta);
-    variables_.take_masses(point.model.mass, point.theta);
+    variables_.masses_to_theta(point.model.mass, point.theta);
     measure(point);
     return point;
   }
@@ -180,9 +180,10 @@ class PartFit {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(variables_.count());
     for (int bend = 0; bend < kBends && step.allFinite(); ++bend) {
       const CapRows cap = cap_rows(variables_.model(now_.theta + step), limit_, kMargin);
-      const Eigen::SparseMatrix<double, Eigen::RowMajor> limits = variables_.turned(cap.slopes);
+      const Eigen::SparseMatrix<double, Eigen::RowMajor> limits =
+          variables_.scaled_jacobian(cap.jacobian);
       const Eigen::VectorXd excess = cap.excess - limits * step;
-      step = damped_step({.slopes = now_.residuals.slopes,
+      step = damped_step({.jacobian = now_.residuals.jacobian,
                           .normal = now_.normal,
                           .residual = now_.residuals.weighted,
                           .limits = limits,

@@ -18,7 +18,7 @@ constexpr double kPower = 32;
 /// (axis_d.dA.axis_d).
 struct Norm {
   double value = 0;
-  Vec3 slope = Vec3::Zero();
+  Vec3 gradient = Vec3::Zero();
   Mat3 axes = Mat3::Identity();
 };
 
@@ -50,7 +50,7 @@ CapRows cap_rows(const MassSpringModel& model, double tau, double margin) {
   const SpringRows springs(model);
   const std::vector<Mat3> held = elastic::node_stiffness(model);
   std::vector<double> excess;
-  std::vector<Eigen::Triplet<double>> slopes;
+  std::vector<Eigen::Triplet<double>> jacobian;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     const Norm norm = norm_of(held[i]);
     const double over = std::log(bound_of(norm, model.mass[i]) / tau);
@@ -59,17 +59,17 @@ CapRows cap_rows(const MassSpringModel& model, double tau, double margin) {
     excess.push_back(over);
     springs.for_each(i, [&](std::uint32_t, std::uint32_t s) {
       const Vec3 along = norm.axes.transpose() * spring_direction(model, s);
-      const double part = norm.slope.dot(along.cwiseAbs2()) / norm.value;
-      slopes.emplace_back(row, static_cast<int>(s), model.stiffness[s] * part);
+      const double part = norm.gradient.dot(along.cwiseAbs2()) / norm.value;
+      jacobian.emplace_back(row, static_cast<int>(s), model.stiffness[s] * part);
     });
-    slopes.emplace_back(row, static_cast<int>(model.spring_count() + i), -1.0);
+    jacobian.emplace_back(row, static_cast<int>(model.spring_count() + i), -1.0);
   }
   CapRows rows;
   rows.excess =
       Eigen::Map<const Eigen::VectorXd>(excess.data(), static_cast<Eigen::Index>(excess.size()));
-  rows.slopes.resize(rows.excess.size(),
-                     static_cast<Eigen::Index>(model.spring_count()) + model.node_count());
-  rows.slopes.setFromTriplets(slopes.begin(), slopes.end());
+  rows.jacobian.resize(rows.excess.size(),
+                       static_cast<Eigen::Index>(model.spring_count()) + model.node_count());
+  rows.jacobian.setFromTriplets(jacobian.begin(), jacobian.end());
   return rows;
 }
 

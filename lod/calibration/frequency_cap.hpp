@@ -14,8 +14,8 @@ namespace springlod::lod {
 /// |A| is the Schatten norm (tr A^32)^(1/32), at most 1.04 lambda_max and at least lambda_max:
 /// lambda_max itself has a kink where two eigenvalues meet, which is where lowering it leads.
 struct CapRows {
-  Eigen::VectorXd excess;                               ///< b, L: of nodes near or above the limit
-  Eigen::SparseMatrix<double, Eigen::RowMajor> slopes;  ///< L x (S + N)
+  Eigen::VectorXd excess;  ///< b, L: of nodes near or above the limit
+  Eigen::SparseMatrix<double, Eigen::RowMajor> jacobian;  ///< L x (S + N)
 };
 
 /// Rows of the nodes with b > -`margin`; tau [rad2/s2].

@@ -32,13 +32,13 @@ class LevelVariables {
   MassSpringModel model(const Eigen::VectorXd& theta) const;
   MassSpringModel model(const FitPoint& point) const;
   /// Brings the part of the masses in theta to what they are once moments are restored.
-  void take_masses(const std::vector<double>& mass, Eigen::VectorXd& theta) const;
+  void masses_to_theta(const std::vector<double>& mass, Eigen::VectorXd& theta) const;
 
   /// From slopes by ln k and ln m, a row each, to slopes by theta along what keeps the moments.
-  void turn_slopes(const std::vector<double>& mass, Eigen::MatrixXd& slopes) const;
+  void project_jacobian(const std::vector<double>& mass, Eigen::MatrixXd& jacobian) const;
   /// From slopes by ln k and ln m, a column each, to slopes by theta.
-  Eigen::SparseMatrix<double, Eigen::RowMajor> turned(
-      const Eigen::SparseMatrix<double, Eigen::RowMajor>& slopes) const;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> scaled_jacobian(
+      const Eigen::SparseMatrix<double, Eigen::RowMajor>& jacobian) const;
 
  private:
   MassSpringModel with_springs(const Eigen::VectorXd& theta) const;

@@ -57,12 +57,12 @@ void MassMoments::project(const std::vector<double>& mass,
                           Eigen::Ref<Eigen::MatrixXd> changes) const {
   for (const Piece& piece : pieces_) {
     const auto size = static_cast<Eigen::Index>(piece.nodes.size());
-    Eigen::Matrix<double, Eigen::Dynamic, 10> slopes(size, 10);
+    Eigen::Matrix<double, Eigen::Dynamic, 10> gradients(size, 10);
     for (Eigen::Index i = 0; i < size; ++i) {
       const std::uint32_t node = piece.nodes[static_cast<std::size_t>(i)];
-      slopes.row(i) = mass[node] * monomials_[node].transpose();
+      gradients.row(i) = mass[node] * monomials_[node].transpose();
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slopes);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(gradients);
     Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(size, qr.rank());
     basis = qr.householderQ() * basis;
     const Eigen::MatrixXd of_piece = changes(piece.nodes, Eigen::all);

@@ -144,7 +144,7 @@ TEST_CASE("Slopes of the misses are what finite differences say") {
     const ElasticResiduals ahead = fit.residuals(moved(level.model, way, h));
     const ElasticResiduals behind = fit.residuals(moved(level.model, way, -h));
     const Eigen::VectorXd measured = (behind.weighted - ahead.weighted) / (2 * h);
-    const Eigen::VectorXd told = here.slopes.transpose() * way;
+    const Eigen::VectorXd told = here.jacobian.transpose() * way;
     REQUIRE(measured.size() == told.size());
     for (Eigen::Index r = 0; r < told.size(); ++r)
       if (here.weighted[r] != 0)  // rows of pairs of modes have no miss of their own
@@ -161,7 +161,7 @@ TEST_CASE("Slopes of the nodes' bounds are what finite differences say") {
   const Eigen::VectorXd measured = (cap_rows(moved(level, way, h), 1, 1e3).excess -
                                     cap_rows(moved(level, way, -h), 1, 1e3).excess) /
                                    (2 * h);
-  CHECK((here.slopes * way - measured).cwiseAbs().maxCoeff() < 1e-6);
+  CHECK((here.jacobian * way - measured).cwiseAbs().maxCoeff() < 1e-6);
   const double bound = largest_node_bound(level);
   CHECK(std::log(bound) == Approx(here.excess.maxCoeff()));
   CHECK(bound >= std::pow(elastic::frequency_bound(level), 2) * (1 - 1e-12));

@@ -26,13 +26,13 @@ Rows limits_of(Eigen::Index count, Eigen::Index unknowns) {
 
 TEST_CASE("A step is the dense least-squares solution over its rows and the active limits") {
   constexpr Eigen::Index n = 40, r = 6, l = 15;
-  const Eigen::MatrixXd slopes = elastic::random_block(n, r, 1);
+  const Eigen::MatrixXd jacobian = elastic::random_block(n, r, 1);
   const Eigen::VectorXd residual = 0.01 * elastic::random_block(r, 1, 2);
   const Rows limits = limits_of(l, n);
   const Eigen::VectorXd excess = Eigen::VectorXd::Constant(l, 0.05);  // all active
   double damping = 1e-3;
-  const Eigen::VectorXd d = damped_step({.slopes = slopes,
-                                         .normal = slopes.transpose() * slopes,
+  const Eigen::VectorXd d = damped_step({.jacobian = jacobian,
+                                         .normal = jacobian.transpose() * jacobian,
                                          .residual = residual,
                                          .limits = limits,
                                          .excess = excess,
@@ -40,26 +40,26 @@ TEST_CASE("A step is the dense least-squares solution over its rows and the acti
                                          .most_rms = 10},
                                         damping);
   CHECK(damping == 1e-3);
-  const double ridge = damping * (slopes.transpose() * slopes).diagonal().mean();
+  const double ridge = damping * (jacobian.transpose() * jacobian).diagonal().mean();
   const Eigen::MatrixXd h = 0.7 * Eigen::MatrixXd(limits);
   const Eigen::MatrixXd normal =
-      slopes * slopes.transpose() + h.transpose() * h + ridge * Eigen::MatrixXd::Identity(n, n);
+      jacobian * jacobian.transpose() + h.transpose() * h + ridge * Eigen::MatrixXd::Identity(n, n);
   const Eigen::VectorXd expected =
-      normal.ldlt().solve(slopes * residual - 0.7 * (h.transpose() * excess));
+      normal.ldlt().solve(jacobian * residual - 0.7 * (h.transpose() * excess));
   CHECK((d - expected).norm() < 1e-6 * expected.norm());
 }
 
 TEST_CASE("A limit that only the step would break is held, one that stays far off is not there") {
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, 1);
-  slopes(0, 0) = 1;
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2, 1);
+  jacobian(0, 0) = 1;
   const Eigen::VectorXd residual = Eigen::VectorXd::Constant(1, 0.5);
   Rows limits(1, 2);
   limits.insert(0, 0) = 1;
   const auto first = [&](double excess) {
     double damping = 1e-6;
     const Eigen::VectorXd over = Eigen::VectorXd::Constant(1, excess);
-    return damped_step({.slopes = slopes,
-                        .normal = slopes.transpose() * slopes,
+    return damped_step({.jacobian = jacobian,
+                        .normal = jacobian.transpose() * jacobian,
                         .residual = residual,
                         .limits = limits,
                         .excess = over,
@@ -72,13 +72,13 @@ TEST_CASE("A limit that only the step would break is held, one that stays far of
 }
 
 TEST_CASE("The damping rises until the step is short enough") {
-  const Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(3, 3);
+  const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(3, 3);
   const Eigen::VectorXd residual = Eigen::VectorXd::Constant(3, 5);
   const Rows none(0, 3);
   const Eigen::VectorXd no_excess;
   double damping = 1e-4;
-  const Eigen::VectorXd d = damped_step({.slopes = slopes,
-                                         .normal = slopes.transpose() * slopes,
+  const Eigen::VectorXd d = damped_step({.jacobian = jacobian,
+                                         .normal = jacobian.transpose() * jacobian,
                                          .residual = residual,
                                          .limits = none,
                                          .excess = no_excess,
@@ -90,15 +90,15 @@ TEST_CASE("The damping rises until the step is short enough") {
 }
 
 TEST_CASE("A limit that is broken near where the step ends counts, though it is not at its start") {
-  const Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(2, 1);
-  const Eigen::MatrixXd normal = slopes.transpose() * slopes;
+  const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(2, 1);
+  const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   const Eigen::VectorXd residual = Eigen::VectorXd::Zero(1);
   const Eigen::VectorXd excess = Eigen::VectorXd::Constant(1, -1);
   Rows limits(1, 2);
   limits.insert(0, 1) = 1;
   const auto second = [&](const Eigen::VectorXd& near) {
     double damping = 1e-6;
-    return damped_step({.slopes = slopes,
+    return damped_step({.jacobian = jacobian,
                         .normal = normal,
                         .residual = residual,
                         .limits = limits,
