@@ -76,9 +76,9 @@ void take(Unpacker& from, std::optional<FitPoint>& point) {
 template <class State, class Visit>
 void visit_members(State& state, const Visit& visit) {
   visit(state.iteration);
-  visit(state.tries);
+  visit(state.steps_outside);
   visit(state.finished);
-  visit(state.limit);
+  visit(state.bound);
   visit(state.damping);
   visit(state.tighten);
   visit(state.now);

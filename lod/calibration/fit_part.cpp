@@ -11,7 +11,7 @@
 #include "elastic/stable_step.hpp"
 #include "lod/calibration/damped_step.hpp"
 #include "lod/calibration/elastic_fit.hpp"
-#include "lod/calibration/frequency_cap.hpp"
+#include "lod/calibration/frequency_constraints.hpp"
 #include "lod/calibration/tolerance.hpp"
 
 namespace springlod::lod {
@@ -22,20 +22,20 @@ constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
 /// Damping over the mean of the slopes' squared norms: at the start, and bounds of it.
 constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
 /// What the damping is divided by after a step that helped, multiplied by after one that did not.
-constexpr double kTrust = 3, kDistrust = 4;
+constexpr double kDampingDecrease = 3, kDampingIncrease = 4;
 /// Weight of a node above the limit, where a miss of a load that is fitted has 1. More nodes than
 /// so many share the weight of these, or the misses would not count beside them.
-constexpr double kLimitWeight = 0.5, kLimitNodes = 1000;
+constexpr double kConstraintWeight = 0.5, kConstraintNodes = 1000;
 /// How often a step follows the limits through their bends: they are cheap to tell anew, where
 /// misses take most of the time.
-constexpr int kBends = 4;
+constexpr int kRelinearizations = 4;
 /// What the limit of squared frequencies falls to while the level is good, at first; its root when
 /// a level did not become good again in so many steps, down to hardly any fall.
 constexpr double kTighten = 0.8, kLeastTighten = 0.98;
 constexpr std::uint32_t kPatience = 10;
 /// The limit over the largest bound there is, at least: one farther below pulls at all nodes, and
 /// no longer at the ones that matter.
-constexpr double kLeastLimit = 0.68;
+constexpr double kLeastBound = 0.68;
 /// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
 constexpr double kMargin = 1;
 
@@ -62,7 +62,8 @@ class PartFit {
         tolerance_(frequency_tolerance(options.tolerance, targets.nodes, level.node_count())),
         least_frequency_(options.least_frequency * targets.highest_frequency *
                          std::cbrt(static_cast<double>(level.node_count()) / targets.nodes)),
-        limit_weight_(kLimitWeight * std::sqrt(std::min(1.0, kLimitNodes / level.node_count()))),
+        constraint_weight_(kConstraintWeight *
+                           std::sqrt(std::min(1.0, kConstraintNodes / level.node_count()))),
         variables_(level, options.moments),
         fit_(level, of_base, targets, options.threads) {}
 
@@ -71,25 +72,25 @@ class PartFit {
       restore(*progress_.from);
     else
       begin();
-    for (; !finished_ && iteration_ < steps_; tell()) {
-      if (good(now_)) {
+    for (; !finished_ && iteration_ < steps_; report()) {
+      if (within_tolerance(now_)) {
         keep_if_better();
         if (best_->highest_frequency <= least_frequency_) break;
-        const double bound = largest_node_bound(now_.model);
-        limit_ = std::max(tighten_ * std::min(limit_, bound), kLeastLimit * bound);
-        tries_ = 0;
-      } else if (best_ && (tries_ >= kPatience || damping_ > kMostDamping)) {
+        const double largest = largest_node_bound(now_.model);
+        bound_ = std::max(tighten_ * std::min(bound_, largest), kLeastBound * largest);
+        steps_outside_ = 0;
+      } else if (best_ && (steps_outside_ >= kPatience || damping_ > kMostDamping)) {
         if (!back_off()) break;
-        tries_ = 0;
+        steps_outside_ = 0;
       }
-      ++tries_;
+      ++steps_outside_;
       ++iteration_;
       if (!advance() && !best_) break;
     }
     if (!finished_) {
-      if (good(now_)) keep_if_better();
+      if (within_tolerance(now_)) keep_if_better();
       finished_ = true;
-      tell();
+      report();
     }
     return best_ ? std::move(best_->model) : std::move(now_.model);
   }
@@ -109,14 +110,14 @@ class PartFit {
 
   void begin() {
     now_ = at(Eigen::VectorXd::Zero(variables_.count()));
-    limit_ = largest_node_bound(start_);
+    bound_ = largest_node_bound(start_);
   }
 
   void restore(const FitState& state) {
     iteration_ = state.iteration;
-    tries_ = state.tries;
+    steps_outside_ = state.steps_outside;
     finished_ = state.finished;
-    limit_ = state.limit;
+    bound_ = state.bound;
     damping_ = state.damping;
     tighten_ = state.tighten;
     now_ = {state.now.theta, variables_.model(state.now), {}, {}};
@@ -127,9 +128,9 @@ class PartFit {
 
   FitState state() const {
     FitState state{.iteration = iteration_,
-                   .tries = tries_,
+                   .steps_outside = steps_outside_,
                    .finished = finished_,
-                   .limit = limit_,
+                   .bound = bound_,
                    .damping = damping_,
                    .tighten = tighten_,
                    .now = {now_.theta, now_.model.mass},
@@ -140,7 +141,7 @@ class PartFit {
     return state;
   }
 
-  void tell() const {
+  void report() const {
     if (progress_.on_iteration) progress_.on_iteration(state());
   }
 
@@ -172,24 +173,25 @@ class PartFit {
 
   double merit(const Point& point) const {
     return point.residuals.weighted.squaredNorm() +
-           limit_weight_ * limit_weight_ * squared_excess(point.model, limit_);
+           constraint_weight_ * constraint_weight_ * squared_violation(point.model, bound_);
   }
 
   /// The step that suits the misses as they go on straight, and the limits as they bend.
   Eigen::VectorXd next_step() {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(variables_.count());
-    for (int bend = 0; bend < kBends && step.allFinite(); ++bend) {
-      const CapRows cap = cap_rows(variables_.model(now_.theta + step), limit_, kMargin);
-      const Eigen::SparseMatrix<double, Eigen::RowMajor> limits =
-          variables_.scaled_jacobian(cap.jacobian);
-      const Eigen::VectorXd excess = cap.excess - limits * step;
+    for (int i = 0; i < kRelinearizations && step.allFinite(); ++i) {
+      const FrequencyConstraints constraints =
+          frequency_constraints(variables_.model(now_.theta + step), bound_, kMargin);
+      const Eigen::SparseMatrix<double, Eigen::RowMajor> constraint_jacobian =
+          variables_.scaled_jacobian(constraints.jacobian);
+      const Eigen::VectorXd constraint_value = constraints.value - constraint_jacobian * step;
       step = damped_step({.jacobian = now_.residuals.jacobian,
                           .normal = now_.normal,
                           .residual = now_.residuals.weighted,
-                          .limits = limits,
-                          .excess = excess,
-                          .near = step,
-                          .limit_weight = limit_weight_,
+                          .constraint_jacobian = constraint_jacobian,
+                          .constraint_value = constraint_value,
+                          .linearized_at = step,
+                          .constraint_weight = constraint_weight_,
                           .most_rms = kMostRms},
                          damping_)
                  .cwiseMax(-kMostStep)
@@ -203,9 +205,9 @@ class PartFit {
     std::optional<Point> next = after(next_step());
     if (next && merit(*next) < merit(now_)) {
       now_ = *std::move(next);
-      damping_ = std::max(kLeastDamping, damping_ / kTrust);
+      damping_ = std::max(kLeastDamping, damping_ / kDampingDecrease);
     } else {
-      damping_ *= kDistrust;
+      damping_ *= kDampingIncrease;
     }
     return damping_ <= kMostDamping;
   }
@@ -216,13 +218,13 @@ class PartFit {
     tighten_ = std::sqrt(tighten_);
     if (tighten_ > kLeastTighten) return false;
     now_ = at(best_->theta);
-    limit_ = tighten_ * largest_node_bound(now_.model);
+    bound_ = tighten_ * largest_node_bound(now_.model);
     damping_ = kFirstDamping;
     return true;
   }
 
   /// Whether all kinds of misses are within what is wanted.
-  bool good(const Point& point) const {
+  bool within_tolerance(const Point& point) const {
     const std::vector<double>& frequency = point.residuals.frequency_error;
     return mean(frequency, 0, kLowestModes) <= tolerance_ &&
            mean(frequency, kLowestModes, frequency.size()) <= kHigherModesTolerance * tolerance_ &&
@@ -251,16 +253,16 @@ class PartFit {
   const FitOptions& options_;
   const FitProgress& progress_;
   std::uint32_t steps_;
-  double tolerance_, least_frequency_, limit_weight_;
+  double tolerance_, least_frequency_, constraint_weight_;
   LevelVariables variables_;
   ElasticFit fit_;
   Point now_;
   std::optional<Best> best_;
-  double limit_ = 0;  // of the nodes' own squared frequencies [rad2/s2]
+  double bound_ = 0;  // of the nodes' own squared frequencies [rad2/s2]
   double damping_ = kFirstDamping;
   double tighten_ = kTighten;
   std::uint32_t iteration_ = 0;
-  std::uint32_t tries_ = 0;  // steps since the level was good
+  std::uint32_t steps_outside_ = 0;  // steps since the level was good
   bool finished_ = false;
 };
 

@@ -14,10 +14,10 @@ namespace springlod::lod {
 
 /// All that a fit goes on from: the same state leads to the same bits.
 struct FitState {
-  std::uint32_t iteration = 0;  ///< steps made
-  std::uint32_t tries = 0;      ///< of them, since the level was good
+  std::uint32_t iteration = 0;      ///< steps made
+  std::uint32_t steps_outside = 0;  ///< of them, since the level was good
   bool finished = false;
-  double limit = 0;    ///< of the nodes' own squared frequencies [rad2/s2]
+  double bound = 0;    ///< of the nodes' own squared frequencies [rad2/s2]
   double damping = 0;  ///< of the next step [1]
   double tighten = 0;  ///< what the limit is multiplied by while the level is good [1]
   FitPoint now;

@@ -8,7 +8,7 @@
 #include "elastic/stable_step.hpp"
 #include "lod/build.hpp"
 #include "lod/calibration/elastic_fit.hpp"
-#include "lod/calibration/frequency_cap.hpp"
+#include "lod/calibration/frequency_constraints.hpp"
 #include "lod/calibration/long_springs.hpp"
 #include "lod/calibration/mass_moments.hpp"
 #include "lod/calibration/rescale_moduli.hpp"
@@ -154,19 +154,19 @@ TEST_CASE("Slopes of the misses are what finite differences say") {
 
 TEST_CASE("Slopes of the nodes' bounds are what finite differences say") {
   const MassSpringModel level = plain_level(ball(), 0.4).model;
-  const CapRows here = cap_rows(level, 1, 1e3);
-  REQUIRE(here.excess.size() == level.node_count());
+  const FrequencyConstraints here = frequency_constraints(level, 1, 1e3);
+  REQUIRE(here.value.size() == level.node_count());
   const Eigen::VectorXd way = any_way(level, 4);
   constexpr double h = 1e-5;
-  const Eigen::VectorXd measured = (cap_rows(moved(level, way, h), 1, 1e3).excess -
-                                    cap_rows(moved(level, way, -h), 1, 1e3).excess) /
+  const Eigen::VectorXd measured = (frequency_constraints(moved(level, way, h), 1, 1e3).value -
+                                    frequency_constraints(moved(level, way, -h), 1, 1e3).value) /
                                    (2 * h);
   CHECK((here.jacobian * way - measured).cwiseAbs().maxCoeff() < 1e-6);
   const double bound = largest_node_bound(level);
-  CHECK(std::log(bound) == Approx(here.excess.maxCoeff()));
+  CHECK(std::log(bound) == Approx(here.value.maxCoeff()));
   CHECK(bound >= std::pow(elastic::frequency_bound(level), 2) * (1 - 1e-12));
   CHECK(bound <= std::pow(elastic::frequency_bound(level), 2) * 1.04);
-  CHECK(squared_excess(level, bound) == Approx(0).margin(1e-12));
+  CHECK(squared_violation(level, bound) == Approx(0).margin(1e-12));
 }
 
 TEST_CASE("Calibrated levels swing and give way as the base, with a longer step") {

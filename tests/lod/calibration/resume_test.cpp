@@ -181,31 +181,31 @@ TEST_CASE("A fit state reads back as it was kept") {
   const TemporaryFolder folder;
   const CalibrationStore store(folder / "store", nullptr);
   FitState state{.iteration = 7,
-                 .tries = 3,
-                 .limit = 1.5,
+                 .steps_outside = 3,
+                 .bound = 1.5,
                  .damping = 1e-3,
                  .tighten = 0.9,
                  .now = {Eigen::VectorXd::LinSpaced(5, 0, 1), {1, 2, 3}},
                  .best = {},
                  .best_frequency = 12};
-  for (const bool good : {false, true}) {
-    if (good) state.best = FitPoint{Eigen::VectorXd::LinSpaced(5, 1, 2), {3, 2, 1}};
+  for (const bool has_best : {false, true}) {
+    if (has_best) state.best = FitPoint{Eigen::VectorXd::LinSpaced(5, 1, 2), {3, 2, 1}};
     store.keep(2, 0, "fingerprint", state);
     CHECK_FALSE(store.fit(2, 0, "another"));
     CHECK_FALSE(store.fit(1, 0, "fingerprint"));
     const std::optional<FitState> back = store.fit(2, 0, "fingerprint");
     REQUIRE(back);
     CHECK(back->iteration == 7);
-    CHECK(back->tries == 3);
+    CHECK(back->steps_outside == 3);
     CHECK_FALSE(back->finished);
-    CHECK(back->limit == state.limit);
+    CHECK(back->bound == state.bound);
     CHECK(back->damping == state.damping);
     CHECK(back->tighten == state.tighten);
     CHECK(back->best_frequency == 12);
     CHECK(back->now.theta == state.now.theta);
     CHECK(back->now.mass == state.now.mass);
-    CHECK(back->best.has_value() == good);
-    if (good) CHECK(back->best->theta == state.best->theta);
+    CHECK(back->best.has_value() == has_best);
+    if (has_best) CHECK(back->best->theta == state.best->theta);
   }
 }
 

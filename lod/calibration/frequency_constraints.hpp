@@ -13,18 +13,18 @@ namespace springlod::lod {
 ///
 /// |A| is the Schatten norm (tr A^32)^(1/32), at most 1.04 lambda_max and at least lambda_max:
 /// lambda_max itself has a kink where two eigenvalues meet, which is where lowering it leads.
-struct CapRows {
-  Eigen::VectorXd excess;  ///< b, L: of nodes near or above the limit
+struct FrequencyConstraints {
+  Eigen::VectorXd value;  ///< b, L: of nodes near or above the limit
   Eigen::SparseMatrix<double, Eigen::RowMajor> jacobian;  ///< L x (S + N)
 };
 
 /// Rows of the nodes with b > -`margin`; tau [rad2/s2].
-CapRows cap_rows(const MassSpringModel& model, double tau, double margin);
+FrequencyConstraints frequency_constraints(const MassSpringModel& model, double tau, double margin);
 
 /// Largest 2 |A_i| / m_i [rad2/s2].
 double largest_node_bound(const MassSpringModel& model);
 
 /// Sum of the squares of the b above 0.
-double squared_excess(const MassSpringModel& model, double tau);
+double squared_violation(const MassSpringModel& model, double tau);
 
 }  // namespace springlod::lod
