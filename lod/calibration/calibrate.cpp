@@ -62,15 +62,15 @@ TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint
   return of_part;
 }
 
-BaseAnswers answers_of(const MassSpringModel& part, std::size_t number,
-                       const TargetOptions& options, const std::vector<LoadTarget>& asked,
-                       const CalibrationStore* store) {
-  if (store == nullptr) return measure_base(part, options, asked);
+BaseMeasurements measure_or_load(const MassSpringModel& part, std::size_t number,
+                                 const TargetOptions& options, const std::vector<LoadTarget>& loads,
+                                 const CalibrationStore* store) {
+  if (store == nullptr) return measure_base(part, options, loads);
   const std::string fingerprint = fingerprint_of(part, options);
-  if (std::optional<BaseAnswers> kept = store->answers(number, fingerprint)) return *kept;
-  BaseAnswers answers = measure_base(part, options, asked);
-  store->keep(number, fingerprint, answers);
-  return answers;
+  if (std::optional<BaseMeasurements> kept = store->measurements(number, fingerprint)) return *kept;
+  BaseMeasurements measured = measure_base(part, options, loads);
+  store->keep(number, fingerprint, measured);
+  return measured;
 }
 
 std::vector<PartTargets> measure_parts(const MassSpringModel& base, const CalibrateOptions& options,
@@ -83,9 +83,10 @@ std::vector<PartTargets> measure_parts(const MassSpringModel& base, const Calibr
   std::vector<PartTargets> all;
   for (ModelPart& part : split_parts(base, connected_components(base))) {
     const TargetOptions of_part = options_of_part(part, anchored, regions, options);
-    std::vector<LoadTarget> asked = asked_loads(part.model, of_part);
-    const BaseAnswers answers = answers_of(part.model, all.size(), of_part, asked, store);
-    ElasticTargets targets = targets_of(part.model, of_part, std::move(asked), answers);
+    std::vector<LoadTarget> loads = target_loads(part.model, of_part);
+    const BaseMeasurements measured =
+        measure_or_load(part.model, all.size(), of_part, loads, store);
+    ElasticTargets targets = make_targets(part.model, of_part, std::move(loads), measured);
     all.push_back({std::move(part), std::move(targets)});
   }
   return all;
@@ -109,35 +110,35 @@ void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpring
 }
 
 /// Keeps the state of one fit, now and then.
-class FitKeeper {
+class FitCheckpoint {
  public:
-  FitKeeper(const CalibrationStore& store, std::size_t level, std::size_t part,
-            std::string fingerprint)
+  FitCheckpoint(const CalibrationStore& store, std::size_t level, std::size_t part,
+                std::string fingerprint)
       : store_(store), level_(level), part_(part), fingerprint_(std::move(fingerprint)) {}
 
-  std::optional<FitState> kept() const { return store_.fit(level_, part_, fingerprint_); }
+  std::optional<FitState> load() const { return store_.fit(level_, part_, fingerprint_); }
 
   /// True if it was due.
-  bool offer(const FitState& state) {
+  bool save_if_due(const FitState& state) {
     if (!state.finished && Clock::now() < due_) return false;
-    keep(state);
+    save(state);
     return true;
   }
 
-  void keep(const FitState& state) {
+  void save(const FitState& state) {
     store_.keep(level_, part_, fingerprint_, state);
-    due_ = Clock::now() + kEvery;
+    due_ = Clock::now() + kInterval;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
   /// As much as a user minds losing to a power cut; a state is some megabytes.
-  static constexpr std::chrono::seconds kEvery{2};
+  static constexpr std::chrono::seconds kInterval{2};
 
   const CalibrationStore& store_;
   std::size_t level_, part_;
   std::string fingerprint_;
-  Clock::time_point due_ = Clock::now() + kEvery;
+  Clock::time_point due_ = Clock::now() + kInterval;
 };
 
 std::string detail_of(std::size_t level, const FitState& state, double base_frequency) {
@@ -167,7 +168,7 @@ class Calibrator {
                  fit_level(job + 1, stopped, task);
                });
     } catch (const InterruptedError&) {
-      if (store_ && !said_) say_where();
+      if (store_ && !reported_store_) report_store();
       throw;
     }
   }
@@ -199,31 +200,33 @@ class Calibrator {
     options.iterations = steps_of(level);
     options.threads = options_.threads;
     FitProgress progress;
-    std::optional<FitKeeper> keeper;
+    std::optional<FitCheckpoint> checkpoint;
     if (store_) {
-      keeper.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options));
-      progress.from = keeper->kept();
+      checkpoint.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options));
+      progress.from = checkpoint->load();
     }
-    std::uint32_t told = 0;  // steps that the task knows of
-    const auto tell = [&](const FitState& state) {
+    std::uint32_t reported = 0;  // steps that the task knows of
+    const auto report = [&](const FitState& state) {
       if (stopped()) throw InterruptedError();
       task.detail(detail_of(level, state, targets.highest_frequency));
       const std::uint32_t done = state.finished ? options.iterations : state.iteration;
-      task.advance(done - std::exchange(told, done));
+      task.advance(done - std::exchange(reported, done));
     };
     if (progress.from) {
       if (!resumed_.exchange(true))
         say(fmt::format("calibration: goes on from what is kept in {}", store_->folder().string()));
-      tell(*progress.from);
+      report(*progress.from);
     }
     progress.on_iteration = [&](const FitState& state) {
       try {
-        tell(state);
+        report(state);
       } catch (const InterruptedError&) {
-        if (keeper) keeper->keep(state);
+        if (checkpoint) checkpoint->save(state);
         throw;
       }
-      if (keeper && keeper->offer(state) && !state.finished && !said_.exchange(true)) say_where();
+      if (checkpoint && checkpoint->save_if_due(state) && !state.finished &&
+          !reported_store_.exchange(true))
+        report_store();
     };
     return fit_part(start, groups, targets, options, progress);
   }
@@ -233,7 +236,7 @@ class Calibrator {
     return fit_steps(options_.fit, chain_.levels[level].model.node_count());
   }
 
-  void say_where() const {
+  void report_store() const {
     say(
         fmt::format("calibration: its state is kept in {}; if it is stopped, the same call goes on "
                     "from there",
@@ -247,7 +250,7 @@ class Calibrator {
   const CalibrateOptions& options_;
   std::optional<CalibrationStore> store_;
   std::vector<PartTargets> base_;
-  std::atomic<bool> said_{false}, resumed_{false};
+  std::atomic<bool> reported_store_{false}, resumed_{false};
 };
 
 }  // namespace

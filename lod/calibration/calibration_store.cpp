@@ -87,7 +87,7 @@ void visit_members(State& state, const Visit& visit) {
   visit(state.frequency_error);
 }
 
-std::string name_of_answers(std::size_t part) {
+std::string name_of_measurements(std::size_t part) {
   return fmt::format("base-part-{}", part + 1);
 }
 
@@ -148,25 +148,25 @@ CalibrationStore::CalibrationStore(fs::path folder, Progress* progress)
   }
 }
 
-std::optional<BaseAnswers> CalibrationStore::answers(std::size_t part,
-                                                     const std::string& fingerprint) const {
-  const std::optional<std::string> payload = read(name_of_answers(part), fingerprint);
+std::optional<BaseMeasurements> CalibrationStore::measurements(
+    std::size_t part, const std::string& fingerprint) const {
+  const std::optional<std::string> payload = read(name_of_measurements(part), fingerprint);
   if (!payload) return std::nullopt;
   Unpacker from(*payload);
-  BaseAnswers answers;
-  answers.squared_frequency = from.take_list<double>();
-  answers.compliance = from.take_list<double>();
-  answers.highest_frequency = from.take<double>();
-  return answers;
+  BaseMeasurements measured;
+  measured.squared_frequency = from.take_list<double>();
+  measured.compliance = from.take_list<double>();
+  measured.highest_frequency = from.take<double>();
+  return measured;
 }
 
 void CalibrationStore::keep(std::size_t part, const std::string& fingerprint,
-                            const BaseAnswers& answers) const {
+                            const BaseMeasurements& measured) const {
   Packer to;
-  to.add(answers.squared_frequency);
-  to.add(answers.compliance);
-  to.add(answers.highest_frequency);
-  write(name_of_answers(part), fingerprint, to.bytes());
+  to.add(measured.squared_frequency);
+  to.add(measured.compliance);
+  to.add(measured.highest_frequency);
+  write(name_of_measurements(part), fingerprint, to.bytes());
 }
 
 std::optional<FitState> CalibrationStore::fit(std::size_t level, std::size_t part,

@@ -24,8 +24,10 @@ class CalibrationStore {
   /// write do.
   CalibrationStore(std::filesystem::path folder, Progress* progress);
 
-  std::optional<BaseAnswers> answers(std::size_t part, const std::string& fingerprint) const;
-  void keep(std::size_t part, const std::string& fingerprint, const BaseAnswers& answers) const;
+  std::optional<BaseMeasurements> measurements(std::size_t part,
+                                               const std::string& fingerprint) const;
+  void keep(std::size_t part, const std::string& fingerprint,
+            const BaseMeasurements& measured) const;
 
   std::optional<FitState> fit(std::size_t level, std::size_t part,
                               const std::string& fingerprint) const;

@@ -59,7 +59,8 @@ ElasticFit::ElasticFit(const MassSpringModel& level, const Groups& of_base,
       threads_(threads),
       anchored_(carried(of_base, targets.anchored)),
       stretch_(level.spring_count(), 3 * static_cast<Eigen::Index>(level.node_count())) {
-  for (const LoadTarget& target : targets.loads) loads_.push_back(carried(of_base, target.load));
+  for (const LoadTarget& target : targets.loads)
+    loads_.push_back(summed_over_groups(of_base, target.load));
   std::vector<Eigen::Triplet<double>> entries;
   for (std::uint32_t s = 0; s < level.spring_count(); ++s) {
     const Vec3 u = spring_direction(level, s);

@@ -47,7 +47,7 @@ std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes);
 constexpr double kLoadBalance = 1e-8;
 
 /// What is measured of a base, which takes long where it is large.
-struct BaseAnswers {
+struct BaseMeasurements {
   std::vector<double> squared_frequency;  ///< as in ElasticTargets
   std::vector<double> compliance;         ///< of every load asked, also where it is 0 [J]
   double highest_frequency = 0;           ///< omega_max [rad/s]
@@ -61,11 +61,11 @@ ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions&
 
 /// Its parts, for those who keep the answers: the loads, whose compliances are yet to be measured;
 /// what is measured of the base, in which the weights have no part; and both together.
-std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOptions& options);
-BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options,
-                         const std::vector<LoadTarget>& asked);
-ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& options,
-                          std::vector<LoadTarget> asked, const BaseAnswers& answers);
+std::vector<LoadTarget> target_loads(const MassSpringModel& base, const TargetOptions& options);
+BaseMeasurements measure_base(const MassSpringModel& base, const TargetOptions& options,
+                              const std::vector<LoadTarget>& loads);
+ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& options,
+                            std::vector<LoadTarget> loads, const BaseMeasurements& measured);
 
 /// The body held at the anchored nodes; what they leave free is balanced by its inertia, as if
 /// there were none, and not refused.
@@ -78,6 +78,6 @@ std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const Targ
                                          const std::vector<std::uint32_t>& anchored);
 
 /// Forces on the nodes of a level, from those on the base's nodes.
-elastic::StaticLoad carried(const Groups& of_base, const elastic::StaticLoad& load);
+elastic::StaticLoad summed_over_groups(const Groups& of_base, const elastic::StaticLoad& load);
 
 }  // namespace springlod::lod

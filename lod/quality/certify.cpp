@@ -152,7 +152,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
              if (level.model.spring_count() == 0) return;  // a point: nothing to measure
              std::vector<elastic::StaticLoad> summed;
              for (const elastic::StaticLoad& load : loads.all)
-               summed.push_back(carried(level.of_base, load));
+               summed.push_back(summed_over_groups(level.of_base, load));
              const Measured found =
                  measure(level.model, summed, loads.smooth,
                          carried(level.of_base, options.anchored), options.modes);

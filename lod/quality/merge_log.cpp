@@ -89,7 +89,7 @@ Answers answer(const MassSpringModel& base, const Level& level, const elastic::E
     loads.push_back(std::move(inertia));
   }
   for (const elastic::StaticLoad& load : questions.loads)
-    loads.push_back(carried(level.of_base, load));
+    loads.push_back(summed_over_groups(level.of_base, load));
   for (elastic::StaticSolution& solution : elastic::solve_static(body, loads)) {
     answers.compliance.push_back(solution.compliance);
     answers.displacement.push_back(std::move(solution.displacement));
