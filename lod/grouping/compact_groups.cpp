@@ -24,12 +24,12 @@ using Nodes = std::vector<std::uint32_t>;
 
 /// Nodes that may share groups, but with none of another kind: connected part, material, border.
 std::vector<Nodes> kinds_of(const MassSpringModel& model, BorderRule border) {
-  const Components parts = connected_components(model);
+  const Components components = connected_components(model);
   std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, Nodes> kinds;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     if (border == BorderRule::strong && model.border[i] != 0) continue;
     const bool apart = border == BorderRule::weak && model.border[i] != 0;
-    kinds[{parts.of_node[i], model.material[i], apart}].push_back(i);
+    kinds[{components.of_node[i], model.material[i], apart}].push_back(i);
   }
   std::vector<Nodes> nodes;
   for (auto& [kind, of_kind] : kinds) nodes.push_back(std::move(of_kind));
@@ -44,9 +44,9 @@ std::vector<SharedNodes> frequencies_of(const MassSpringModel& model,
   for (const Nodes& kind : kinds) {
     std::vector<double> of_kind;
     for (const std::uint32_t i : kind) of_kind.push_back(bounds[i]);
-    const auto middle = of_kind.begin() + static_cast<std::ptrdiff_t>(of_kind.size() / 2);
-    std::nth_element(of_kind.begin(), middle, of_kind.end());
-    shared.push_back({static_cast<std::uint32_t>(kind.size()), *middle});
+    const auto median = of_kind.begin() + static_cast<std::ptrdiff_t>(of_kind.size() / 2);
+    std::nth_element(of_kind.begin(), median, of_kind.end());
+    shared.push_back({static_cast<std::uint32_t>(kind.size()), *median});
   }
   return shared;
 }
@@ -59,10 +59,10 @@ class CompactKind {
       : model_(model), nodes_(nodes), of_(nodes.size(), 0), center_(count, Vec3::Zero()) {
     ChanceStream chance(seed);
     // A lattice has many equal coordinates: which side of a cut they go to is left to chance.
-    const double blur = kBlur * bounds_of(nodes).diagonal().norm() / std::cbrt(nodes.size());
+    const double jitter = kJitter * bounds_of(nodes).diagonal().norm() / std::cbrt(nodes.size());
     for (const std::uint32_t i : nodes) {
-      const Vec3 away(chance.unit() - 0.5, chance.unit() - 0.5, chance.unit() - 0.5);
-      place_.emplace_back(model.rest[i] + blur * away);
+      const Vec3 offset(chance.unit() - 0.5, chance.unit() - 0.5, chance.unit() - 0.5);
+      position_.emplace_back(model.rest[i] + jitter * offset);
     }
     Nodes order(nodes.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -81,7 +81,7 @@ class CompactKind {
 
  private:
   /// Of the mean distance of nodes.
-  static constexpr double kBlur = 0.6;
+  static constexpr double kJitter = 0.6;
 
   Box3 bounds_of(const Nodes& nodes) const {
     Box3 box;
@@ -96,7 +96,7 @@ class CompactKind {
       return;
     }
     Box3 box;
-    for (const std::uint32_t i : part) box.extend(place_[i]);
+    for (const std::uint32_t i : part) box.extend(position_[i]);
     Eigen::Index axis = 0;
     box.sizes().maxCoeff(&axis);
     const std::uint32_t low = count / 2;
@@ -104,8 +104,8 @@ class CompactKind {
                                                     part.size() - (count - low));
     std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(cut), part.end(),
                      [&](std::uint32_t p, std::uint32_t q) {
-                       const double x = place_[p][axis];
-                       const double y = place_[q][axis];
+                       const double x = position_[p][axis];
+                       const double y = position_[q][axis];
                        return x != y ? x < y : p < q;
                      });
     halve(part.first(cut), low, next);
@@ -146,7 +146,7 @@ class CompactKind {
 
   const MassSpringModel& model_;
   const Nodes& nodes_;
-  std::vector<Vec3> place_;        // of nodes_, blurred
+  std::vector<Vec3> position_;     // of nodes_, blurred
   std::vector<std::uint32_t> of_;  // of nodes_
   std::vector<Vec3> center_;
 };
@@ -175,7 +175,7 @@ Groups compact_groups(const MassSpringModel& model, const CompactOptions& option
       groups.of[kinds[k][i]] = groups.count + kind.groups()[i];
     groups.count += share[k];
   }
-  mend_groups(model, groups);
+  connect_groups(model, groups);
   return groups;
 }
 

@@ -40,7 +40,7 @@ Pieces pieces_of(const MassSpringModel& model, const Groups& groups) {
 
 }  // namespace
 
-void mend_groups(const MassSpringModel& model, Groups& groups) {
+void connect_groups(const MassSpringModel& model, Groups& groups) {
   for (;;) {
     const Pieces pieces = pieces_of(model, groups);
     if (std::find(pieces.main.begin(), pieces.main.end(), false) == pieces.main.end()) return;

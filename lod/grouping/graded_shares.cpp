@@ -12,7 +12,7 @@ namespace springlod::lod {
 namespace {
 
 /// Part of the even share that a kind keeps at least; it gets at most its inverse.
-constexpr double kLeastPart = 0.5;
+constexpr double kLeastFraction = 0.5;
 /// Groups that give a kind a shape.
 constexpr double kShape = 24;
 
@@ -36,14 +36,14 @@ std::vector<double> exact_shares(const std::vector<SharedNodes>& kinds, double c
     std::vector<double> share;
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const double nodes = kinds[k].nodes;
-      const double least = std::min(even, std::max(kLeastPart * even, kShape / nodes));
-      const double most = std::min(1.0, even / kLeastPart);
+      const double least = std::min(even, std::max(kLeastFraction * even, kShape / nodes));
+      const double most = std::min(1.0, even / kLeastFraction);
       share.push_back(nodes * std::clamp(weight[k] * scale, least, most));
     }
     return share;
   };
   const auto [lightest, heaviest] = std::minmax_element(weight.begin(), weight.end());
-  double low = kLeastPart * even / *heaviest;
+  double low = kLeastFraction * even / *heaviest;
   double high = 1 / *lightest;
   constexpr int kHalvings = 100;
   for (int i = 0; i < kHalvings; ++i) {

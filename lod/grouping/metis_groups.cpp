@@ -61,7 +61,7 @@ Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint
     throw InputError(fmt::format("metis grouping: METIS could not make {} groups of {} nodes",
                                  count, model.node_count()));
   Groups groups = without_gaps(part, count);
-  mend_groups(model, groups);
+  connect_groups(model, groups);
   split_to_count(model, springs, count, groups);
   return groups;
 }

@@ -56,8 +56,8 @@ void merge_nodes(const MassSpringModel& fine, const Groups& groups,
 
 // A spring none of whose ends merged stays the only one of its pair and keeps its length; the
 // others run from centre to centre.
-void lay_springs(const MassSpringModel& fine, const std::vector<std::uint32_t>& into,
-                 const std::vector<std::uint32_t>& size, MassSpringModel& coarse) {
+void set_rest_lengths(const MassSpringModel& fine, const std::vector<std::uint32_t>& into,
+                      const std::vector<std::uint32_t>& size, MassSpringModel& coarse) {
   coarse.rest_length.resize(coarse.spring_count());
   for (std::uint32_t p = 0; p < coarse.spring_count(); ++p) {
     const std::uint32_t a = coarse.a[p];
@@ -104,7 +104,7 @@ MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinki
   merge_nodes(fine, groups, size, coarse);
   coarse.a = std::move(links.a);
   coarse.b = std::move(links.b);
-  lay_springs(fine, links.into, size, coarse);
+  set_rest_lengths(fine, links.into, size, coarse);
   add_up_springs(fine, links.into, coarse);
   return coarse;
 }

@@ -7,7 +7,7 @@ namespace {
 
 // The closed form of the eigenvalues is off by up to some 1e-8 of the trace (a root of the
 // rounding, where two coincide); what lies closer to the limit than this is left to it.
-constexpr double kDoubt = 1e-6;
+constexpr double kRoundingMargin = 1e-6;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ bool Rigidity::surely_at_least(double ratio) const {
   const double trace = xx_ + yy_ + zz_;
   const double det =
       xx_ * (yy_ * zz_ - zy_ * zy_) - yx_ * (yx_ * zz_ - zy_ * zx_) + zx_ * (yx_ * zy_ - yy_ * zx_);
-  return det > (ratio / 2 + kDoubt) * (trace * trace * trace);
+  return det > (ratio / 2 + kRoundingMargin) * (trace * trace * trace);
 }
 
 bool Rigidity::at_least(double ratio) const {

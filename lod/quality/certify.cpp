@@ -113,8 +113,8 @@ void compare_masses(const MassSpringModel& base, const MassSpringModel& level,
       largest > 0 ? (second_moments(level) - moments).cwiseAbs().maxCoeff() / largest : 0;
 }
 
-void judge(const CertifyOptions& options, const LodChain& chain, const Level& level,
-           Certificate& c) {
+void check_tolerances(const CertifyOptions& options, const LodChain& chain, const Level& level,
+                      Certificate& c) {
   c.tolerance = frequency_tolerance(options.tolerance, chain.levels.front().model.node_count(),
                                     level.model.node_count());
   constexpr double kPercent = 100;
@@ -171,7 +171,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
                c.zero_modes += part.zero_modes;
                c.expected_zero_modes += part.expected;
              }
-             judge(options, chain, level, c);
+             check_tolerances(options, chain, level, c);
              level.certificate = std::move(c);
              task.advance();
            });

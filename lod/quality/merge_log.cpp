@@ -24,7 +24,7 @@ namespace {
 
 /// A level that gives way less than this part of the base is rigid [1], as where all that a load
 /// pulls at is in one group: no farther off is told, for the logarithm of nothing has no end.
-constexpr double kRigid = 1e-3;
+constexpr double kLeastCompliance = 1e-3;
 
 /// What the base is asked.
 struct Questions {
@@ -110,7 +110,7 @@ std::optional<Groups> groups_between(const Groups& finer, const Groups& coarser)
 }
 
 /// (ln to - ln from) / (to - from).
-double log_slope(double from, double to) {
+double log_difference_quotient(double from, double to) {
   const double relative = to / from - 1;
   constexpr double kSmall = 1e-9;  // where the quotient is rounding
   return (std::abs(relative) < kSmall ? 1 : std::log1p(relative) / relative) / from;
@@ -128,8 +128,8 @@ double change_between(const Answers& from, const Answers& to, std::size_t l) {
 }
 
 /// A merge's part in the mean |error| of the answers of a kind.
-double part_of(const std::vector<Answer>& answers, Answer::Kind kind,
-               const std::vector<double>& error, const std::vector<double>& change) {
+double contribution_to_mean(const std::vector<Answer>& answers, Answer::Kind kind,
+                            const std::vector<double>& error, const std::vector<double>& change) {
   double sum = 0;
   int count = 0;
   for (std::size_t l = 0; l < answers.size(); ++l) {
@@ -186,7 +186,8 @@ class Log {
     Answers from = step.from == 0 ? of_base : answers_of(step.from);
     for (Answers* answers : {&to, &from})
       for (std::size_t l = 0; l < of_base.compliance.size(); ++l)
-        answers->compliance[l] = std::max(answers->compliance[l], kRigid * of_base.compliance[l]);
+        answers->compliance[l] =
+            std::max(answers->compliance[l], kLeastCompliance * of_base.compliance[l]);
     step.answers = questions.answers;
     for (std::size_t l = 0; l < step.answers.size(); ++l) {
       step.change.push_back(change_between(from, to, l));
@@ -195,35 +196,35 @@ class Log {
     step.merges.resize(groups->count);
     for (std::uint32_t g = 0; g < groups->count; ++g) step.merges[g].node = g;
     for (const std::uint32_t g : groups->of) ++step.merges[g].pieces;
-    share_changes(*groups, from, to, step);
+    attribute_changes(*groups, from, to, step);
     return step;
   }
 
   /// The changes of the step as a sum over its merges.
-  void share_changes(const Groups& groups, const Answers& from, const Answers& to,
-                     MergeStep& step) const {
+  void attribute_changes(const Groups& groups, const Answers& from, const Answers& to,
+                         MergeStep& step) const {
     const auto changes = compliance_changes(
         {chain_.levels[step.from].model, chain_.levels[step.level].model, groups},
         from.displacement, to.displacement);
     for (std::size_t l = 0; l < changes.size(); ++l) {
-      const double softer = log_slope(from.compliance[l], to.compliance[l]);
+      const double softer = log_difference_quotient(from.compliance[l], to.compliance[l]);
       if (l >= from.work.size()) {
         for (Merge& merge : step.merges) merge.change.push_back(softer * changes[l][merge.node]);
         continue;
       }
-      const double work = log_slope(sum_of(from.work[l]), sum_of(to.work[l]));
+      const double work = log_difference_quotient(sum_of(from.work[l]), sum_of(to.work[l]));
       std::vector<double> lost = to.work[l];
       for (std::size_t i = 0; i < groups.of.size(); ++i) lost[groups.of[i]] -= from.work[l][i];
       for (Merge& merge : step.merges)
         merge.change.push_back((work * lost[merge.node] - softer * changes[l][merge.node]) / 2);
     }
     for (Merge& merge : step.merges) {
-      const auto part = [&](Answer::Kind kind) {
-        return part_of(step.answers, kind, step.error, merge.change);
+      const auto contribution = [&](Answer::Kind kind) {
+        return contribution_to_mean(step.answers, kind, step.error, merge.change);
       };
-      merge.frequencies = part(Answer::Kind::mode);
-      merge.smooth_loads = part(Answer::Kind::smooth);
-      merge.local_loads = part(Answer::Kind::local);
+      merge.frequencies = contribution(Answer::Kind::mode);
+      merge.smooth_loads = contribution(Answer::Kind::smooth);
+      merge.local_loads = contribution(Answer::Kind::local);
     }
   }
 
@@ -249,7 +250,7 @@ MergeLog log_merges(const LodChain& chain, const MergeLogOptions& options) {
 }
 
 double mean_error(const MergeStep& step, Answer::Kind kind) {
-  return part_of(step.answers, kind, step.error, step.error);
+  return contribution_to_mean(step.answers, kind, step.error, step.error);
 }
 
 }  // namespace springlod::lod

@@ -105,7 +105,7 @@ TEST_CASE("A torn group is mended by giving its stray to a neighbour") {
       test::table_model({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {1, 1, 1, 1},
                         {{0, 1, 100}, {1, 2, 100}, {2, 3, 100}});
   Groups groups{{0, 0, 1, 0}, 2};
-  mend_groups(rope, groups);
+  connect_groups(rope, groups);
   CHECK(groups.of == std::vector<std::uint32_t>{0, 0, 1, 1});
 }
 
