@@ -19,13 +19,13 @@
 namespace springlod::lod {
 namespace {
 
-/// A part of the base with its targets.
+/// A connected component of the base with its targets.
 struct PartTargets {
   ModelPart part;
   ElasticTargets targets;
 };
 
-/// The nodes of a part among some of the model's, as the part numbers them.
+/// The chosen nodes that lie in the component, numbered within it.
 std::vector<std::uint32_t> nodes_of_part(const ModelPart& part,
                                          const std::vector<std::uint8_t>& chosen) {
   std::vector<std::uint32_t> nodes;
@@ -39,17 +39,18 @@ void require_surface(const MassSpringModel& base, const TargetOptions& options) 
     for (const std::uint32_t node : options.regions[r].nodes)
       if (node >= base.node_count())
         throw InputError(
-            fmt::format("calibration: region {} names node {}; there are {}, counted from 0", r + 1,
-                        node, base.node_count()));
+            fmt::format("calibration: region {} contains node {}; the base has {}, counted from 0",
+                        r + 1, node, base.node_count()));
     if (movable_nodes(base, options.regions[r], options.anchored).empty())
       throw InputError(
           fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
-                      "free to move; name nodes of the surface, beside the anchored ones",
+                      "free to move; use nodes of the surface that are not anchored",
                       options.regions[r].nodes.size(), r + 1));
   }
 }
 
-/// The options for a part of the base: its own anchored nodes and regions.
+/// The options for a component of the base: those of the call with its own anchored nodes and
+/// regions.
 TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint8_t>& anchored,
                               const std::vector<std::vector<std::uint8_t>>& regions,
                               const CalibrateOptions& options) {
@@ -92,7 +93,7 @@ std::vector<PartTargets> measure_parts(const MassSpringModel& base, const Calibr
   return all;
 }
 
-/// Nodes of a part of the base -> nodes of the part of the level that they went into.
+/// The map from the nodes of a component of the base to those of the level's component.
 Groups groups_of_part(const ModelPart& base, const ModelPart& level, const Groups& of_base) {
   Groups groups{{}, level.model.node_count()};
   std::vector<std::uint32_t> place(of_base.count);
@@ -109,7 +110,7 @@ void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpring
   }
 }
 
-/// Keeps the state of one fit, now and then.
+/// Saves the state of one fit at intervals.
 class FitCheckpoint {
  public:
   FitCheckpoint(const CalibrationStore& store, std::size_t level, std::size_t part,
@@ -118,7 +119,7 @@ class FitCheckpoint {
 
   std::optional<FitState> load() const { return store_.fit(level_, part_, fingerprint_); }
 
-  /// True if it was due.
+  /// Saves a finished fit at once, another one if the interval has passed; true if it saved.
   bool save_if_due(const FitState& state) {
     if (!state.finished && Clock::now() < due_) return false;
     save(state);
@@ -132,7 +133,7 @@ class FitCheckpoint {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// As much as a user minds losing to a power cut; a state is some megabytes.
+  /// Fit time that an abrupt stop may lose. A state has some megabytes.
   static constexpr std::chrono::seconds kInterval{2};
 
   const CalibrationStore& store_;
@@ -143,10 +144,10 @@ class FitCheckpoint {
 
 std::string detail_of(std::size_t level, const FitState& state, double base_frequency) {
   constexpr double kPercent = 100;
-  std::string text = fmt::format("level {}, step {}: f1..10 off by {:.2g} %", level,
-                                 state.iteration, kPercent * state.frequency_error);
+  std::string text = fmt::format("level {}, step {}: f1..10 error {:.2g} %", level, state.iteration,
+                                 kPercent * state.frequency_error);
   if (state.best_frequency > 0)
-    text += fmt::format(", omega_max {:.2f} of the base's", state.best_frequency / base_frequency);
+    text += fmt::format(", omega_max / base {:.2f}", state.best_frequency / base_frequency);
   return text;
 }
 
@@ -214,7 +215,7 @@ class Calibrator {
     };
     if (progress.from) {
       if (!resumed_.exchange(true))
-        say(fmt::format("calibration: goes on from what is kept in {}", store_->folder().string()));
+        say(fmt::format("calibration: resumes from {}", store_->folder().string()));
       report(*progress.from);
     }
     progress.on_iteration = [&](const FitState& state) {
@@ -231,15 +232,13 @@ class Calibrator {
     return fit_part(start, groups, targets, options, progress);
   }
 
-  /// At most, of each part.
+  /// Largest number of steps of each component.
   std::uint32_t steps_of(std::size_t level) const {
     return fit_steps(options_.fit, chain_.levels[level].model.node_count());
   }
 
   void report_store() const {
-    say(
-        fmt::format("calibration: its state is kept in {}; if it is stopped, the same call goes on "
-                    "from there",
+    say(fmt::format("calibration: its state is saved in {}; repeat the call to resume after a stop",
                     store_->folder().string()));
   }
   void say(const std::string& text) const {

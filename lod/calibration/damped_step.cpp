@@ -10,13 +10,13 @@
 namespace springlod::lod {
 namespace {
 
-/// How often limits that a step would break are added; what then still breaks is left to the next
-/// step.
+/// Passes of the active set. Constraints still violated after the last are left to the next step.
 constexpr int kPasses = 3;
-/// By what the damping grows while the step is too long.
+/// Factor on the damping while the step is too long.
 constexpr double kRaise = 3;
-/// How well the limits' part of a step is solved for, and after how many iterations what there is
-/// will do: misses are made up for exactly all the same, and limits bend more than is left then.
+/// Relative accuracy and largest number of iterations of the conjugate gradients. They solve for
+/// the constraints alone; the residuals are eliminated exactly. The constraints are nonlinear, and
+/// their linearization error exceeds what the last iterations would gain.
 constexpr double kAccuracy = 1e-7;
 constexpr int kMostIterations = 60;
 
@@ -32,9 +32,10 @@ Rows select_rows(const Rows& all, const std::vector<Eigen::Index>& active) {
   return rows;
 }
 
-/// Solves for fixed active limits: with B = [J^T; w H] the step is B^T x of
-///   (B B^T + a I) x = [miss; -w excess],
-/// the dense rows eliminated first, the limits' part z solved for by conjugate gradients.
+/// Solution for a fixed active set: with B = [G^T; w H] the step is B^T x, where
+///   (B B^T + epsilon I) x = [r; -w h].
+/// The dense rows are eliminated; the Schur complement of the constraints, unknowns z, is solved by
+/// conjugate gradients.
 class ActiveStep {
  public:
   ActiveStep(const StepProblem& problem, const std::vector<Eigen::Index>& active)
@@ -53,7 +54,7 @@ class ActiveStep {
     normal.diagonal().array() += damping;
     const Eigen::LLT<Eigen::MatrixXd> dense(normal);
     if (right_.size() == 0) return problem_.jacobian * dense.solve(problem_.residual);
-    Eigen::MatrixXd scaled_coupling = coupling_;  // w H J L^-T, L L^T = J^T J + a I
+    Eigen::MatrixXd scaled_coupling = coupling_;  // w H G L^-T, L L^T = G^T G + epsilon I
     elastic::solve_right_transposed(dense.matrixLLT(), scaled_coupling);
     const Eigen::VectorXd z =
         solve_constraints(scaled_coupling, damping,
@@ -63,7 +64,7 @@ class ActiveStep {
   }
 
  private:
-  /// (product + damping I - along along^T) z = right.
+  /// Solves (product + damping I - scaled_coupling scaled_coupling^T) z = right.
   Eigen::VectorXd solve_constraints(const Eigen::MatrixXd& scaled_coupling, double damping,
                                     const Eigen::VectorXd& right) const {
     const Eigen::VectorXd scale =
@@ -90,10 +91,10 @@ class ActiveStep {
   }
 
   const StepProblem& problem_;
-  Rows constraints_;          // w H of the active ones
+  Rows constraints_;          // w H of the active set
   Rows product_;              // w^2 H H^T
-  Eigen::MatrixXd coupling_;  // w H J
-  Eigen::VectorXd right_;     // -w excess
+  Eigen::MatrixXd coupling_;  // w H G
+  Eigen::VectorXd right_;     // -w h
 };
 
 double rms(const Eigen::VectorXd& d) {

@@ -10,13 +10,13 @@
 namespace springlod::lod {
 namespace {
 
-/// Squared frequencies of the base nearer than this count as one.
+/// Squared frequencies of the base count as equal within this fraction.
 constexpr double kSameFrequency = 0.01;
-/// Of squared frequencies, as a bound; what they really miss by is about the square of it.
+/// Relative error bound of the squared frequencies; the error itself is about its square.
 constexpr double kAccuracy = 1e-3;
 
-/// Weights of the modes, where a smooth load has 1: the lowest ten carry most of a motion, and each
-/// kind of miss counts about as much at its tolerance.
+/// Weight of a mode, relative to that of a smooth load. The ten lowest modes carry most of a
+/// motion. With these weights each kind of residual counts about equally at its tolerance.
 double mode_weight(std::size_t mode) {
   constexpr double kLow = 3.75, kHigh = 1;
   return mode < kLowestModes ? kLow : kHigh;
@@ -39,7 +39,7 @@ Eigen::VectorXd dots(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
   return dot;
 }
 
-/// As which the load accelerates the nodes if nothing deforms [m/s2].
+/// Acceleration of the nodes of the undeformed body under the load [m/s2].
 std::vector<Vec3> rigid_acceleration(const elastic::ElasticBody& body,
                                      const elastic::StaticLoad& load) {
   std::vector<Vec3> acceleration(body.node_count, Vec3::Zero());
@@ -133,7 +133,7 @@ void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticB
     const LoadTarget& target = targets_.loads[l];
     const double c = solved[l].compliance;
     all.compliance_error.push_back(std::abs(c / target.compliance - 1));
-    if (!(c > 0)) continue;  // the groups took the load into themselves
+    if (!(c > 0)) continue;  // the forces cancel within the groups
     const Eigen::VectorXd stretch = stretch_ * flat(solved[l].displacement);
     const Eigen::Index row = first + static_cast<Eigen::Index>(l);
     all.jacobian.col(row) << -target.weight / c * k * stretch.array().square(),

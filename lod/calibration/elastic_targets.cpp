@@ -18,8 +18,8 @@
 namespace springlod::lod {
 namespace {
 
-/// Loads solved for together: enough for the factors to be read seldom, few enough for a large
-/// base, of which each takes as much memory as six copies of the positions.
+/// Load cases per block of the solver. More read the factors less often; each needs the memory of
+/// six copies of the positions.
 constexpr std::size_t kTogether = 32;
 
 void check_weight(const char* name, double weight) {
@@ -36,8 +36,7 @@ void check(const TargetOptions& options) {
     check_weight("weight of a region", region.weight);
   const bool any_load = options.smooth_loads || options.patches != 0U || !options.regions.empty();
   if ((options.modes == 0 || options.mode_weight == 0) && (!any_load || options.load_weight == 0))
-    throw InputError(
-        "calibration: nothing is left to be fitted; ask for modes or loads, with a weight above 0");
+    throw InputError("calibration: no targets are left; use modes or loads with a weight above 0");
 }
 
 std::vector<elastic::StaticLoad> region_loads(const MassSpringModel& base,
@@ -77,7 +76,7 @@ elastic::ElasticBody held_body(const MassSpringModel& model,
                                const std::vector<std::uint32_t>& anchored, Progress* progress) {
   elastic::ElasticBody body =
       elastic::elastic_body(model, {.anchored = anchored, .progress = progress});
-  body.anchored.clear();  // solve_static refuses to push at free motions only if there are any
+  body.anchored.clear();  // without anchors solve_static balances free motions by inertia
   return body;
 }
 
@@ -147,7 +146,7 @@ ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& op
   targets.loads = std::move(loads);
   for (std::size_t l = 0; l < targets.loads.size(); ++l)
     targets.loads[l].compliance = measured.compliance.at(l);
-  // Those that find nothing to pull at go.
+  // A load without effect on the base, such as a stretch across a flat model, is dropped.
   std::erase_if(targets.loads, [](const LoadTarget& target) { return !(target.compliance > 0); });
   targets.highest_frequency = measured.highest_frequency;
   targets.nodes = base.node_count();

@@ -17,30 +17,34 @@
 namespace springlod::lod {
 namespace {
 
-/// Bounds of the unknowns: of one step, its root mean square, and of all steps together.
+/// Bounds on theta: on each component of a step, on its root mean square, on each component in all.
 constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
-/// Damping over the mean of the slopes' squared norms: at the start, and bounds of it.
+/// Damping relative to the mean diagonal of G^T G: initial value, least and largest.
 constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
-/// What the damping is divided by after a step that helped, multiplied by after one that did not.
+/// The damping is divided by the first after an accepted step, multiplied by the second after a
+/// rejected one.
 constexpr double kDampingDecrease = 3, kDampingIncrease = 4;
-/// Weight of a node above the limit, where a miss of a load that is fitted has 1. More nodes than
-/// so many share the weight of these, or the misses would not count beside them.
+/// Penalty weight of a constraint, relative to a smooth load. In a level of more than 1000 nodes
+/// the constraints weigh as much as those of 1000 nodes; they would outweigh the residuals
+/// otherwise (docs/method.md, eq. 39).
 constexpr double kConstraintWeight = 0.5, kConstraintNodes = 1000;
-/// How often a step follows the limits through their bends: they are cheap to tell anew, where
-/// misses take most of the time.
+/// Linearizations of the constraints per step. The constraints are strongly nonlinear and cheap;
+/// the residuals are nearly linear and costly, so they are linearized once (docs/method.md, eq.
+/// 42).
 constexpr int kRelinearizations = 4;
-/// What the limit of squared frequencies falls to while the level is good, at first; its root when
-/// a level did not become good again in so many steps, down to hardly any fall.
+/// Factor on the frequency bound each time the level is within tolerance (docs/method.md, eq. 45).
+/// If the level stays outside tolerance for kPatience steps, the factor becomes its own square
+/// root; the fit ends when the factor exceeds kLeastTighten.
 constexpr double kTighten = 0.8, kLeastTighten = 0.98;
 constexpr std::uint32_t kPatience = 10;
-/// The limit over the largest bound there is, at least: one farther below pulls at all nodes, and
-/// no longer at the ones that matter.
+/// Least ratio of the frequency bound to the largest node frequency. A lower bound would constrain
+/// nearly all nodes instead of the stiffest.
 constexpr double kLeastBound = 0.68;
-/// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
+/// Nodes with ln(squared frequency / bound) below -kMargin have no constraint row.
 constexpr double kMargin = 1;
 
-/// What patch loads, and those of pieces, may be missed by, over the tolerance of the lowest
-/// frequencies; and those of regions, which are asked for because they matter.
+/// Tolerances of patch and piece loads, and of region loads, relative to that of the ten lowest
+/// frequencies (docs/method.md, eq. 44).
 constexpr double kPatchLoadsTolerance = 20, kRegionLoadsTolerance = 8;
 
 double mean(const std::vector<double>& values, std::size_t begin, std::size_t end) {
@@ -99,8 +103,8 @@ class PartFit {
   struct Point {
     Eigen::VectorXd theta;
     MassSpringModel model;
-    ElasticResiduals residuals;  // slopes by theta, along changes that keep the moments
-    Eigen::MatrixXd normal;      // slopes^T slopes
+    ElasticResiduals residuals;  // Jacobian by theta, projected: see project_jacobian
+    Eigen::MatrixXd normal;      // G^T G
   };
   struct Best {
     Eigen::VectorXd theta;
@@ -159,14 +163,14 @@ class PartFit {
     return point;
   }
 
-  /// The level a step further; none where it cannot be measured, or not in finite numbers.
+  /// The level after a step; none if it cannot be measured or is not finite.
   std::optional<Point> after(const Eigen::VectorXd& step) const {
     if (!step.allFinite()) return std::nullopt;
     try {
       Point point = at((now_.theta + step).cwiseMax(-kMostChange).cwiseMin(kMostChange));
       if (point.theta.allFinite() && point.normal.allFinite()) return point;
     } catch (const InputError&) {
-      // Stiffnesses too far apart to be factorised, or for modes to be found.
+      // The stiffnesses are too far apart for the factorization or the eigensolver.
     }
     return std::nullopt;
   }
@@ -176,7 +180,7 @@ class PartFit {
            constraint_weight_ * constraint_weight_ * squared_violation(point.model, bound_);
   }
 
-  /// The step that suits the misses as they go on straight, and the limits as they bend.
+  /// Step with the residuals linearized once and the constraints re-linearized along the step.
   Eigen::VectorXd next_step() {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(variables_.count());
     for (int i = 0; i < kRelinearizations && step.allFinite(); ++i) {
@@ -200,7 +204,7 @@ class PartFit {
     return step;
   }
 
-  /// One step; it is taken back if it did not help. False if none will any more.
+  /// One step, rejected if it does not lower the merit. False once the damping is at its upper end.
   bool advance() {
     std::optional<Point> next = after(next_step());
     if (next && merit(*next) < merit(now_)) {
@@ -212,8 +216,8 @@ class PartFit {
     return damping_ <= kMostDamping;
   }
 
-  /// Returns to the best level, to go on from there in smaller steps. False if they would be too
-  /// small.
+  /// Restarts from the best level, to tighten the bound in smaller steps. False if these would be
+  /// too small.
   bool back_off() {
     tighten_ = std::sqrt(tighten_);
     if (tighten_ > kLeastTighten) return false;
@@ -223,7 +227,7 @@ class PartFit {
     return true;
   }
 
-  /// Whether all kinds of misses are within what is wanted.
+  /// Whether the mean errors of all kinds are within tolerance (docs/method.md, eq. 44).
   bool within_tolerance(const Point& point) const {
     const std::vector<double>& frequency = point.residuals.frequency_error;
     return mean(frequency, 0, kLowestModes) <= tolerance_ &&
@@ -234,7 +238,7 @@ class PartFit {
            mean_of_loads(point, {LoadKind::region}) <= kRegionLoadsTolerance * tolerance_;
   }
 
-  /// Mean miss of the loads of some kinds; 0 if there are none.
+  /// Mean compliance error of the loads of some kinds [1]; 0 if there are none.
   double mean_of_loads(const Point& point, std::initializer_list<LoadKind> kinds) const {
     std::vector<double> of_kinds;
     for (std::size_t l = 0; l < targets_.loads.size(); ++l)
@@ -258,11 +262,11 @@ class PartFit {
   ElasticFit fit_;
   Point now_;
   std::optional<Best> best_;
-  double bound_ = 0;  // of the nodes' own squared frequencies [rad2/s2]
+  double bound_ = 0;  // on the squared frequencies of the nodes [rad2/s2]
   double damping_ = kFirstDamping;
   double tighten_ = kTighten;
   std::uint32_t iteration_ = 0;
-  std::uint32_t steps_outside_ = 0;  // steps since the level was good
+  std::uint32_t steps_outside_ = 0;  // since the level was last within tolerance
   bool finished_ = false;
 };
 

@@ -14,8 +14,7 @@ namespace {
 
 constexpr double kPower = 32;
 
-/// |A| and what it grows by with each part of A along the axes: d|A| = sum_d slope_d
-/// (axis_d.dA.axis_d).
+/// |A| and its gradient along the eigenvectors: d|A| = sum_d gradient_d (axis_d . dA axis_d).
 struct Norm {
   double value = 0;
   Vec3 gradient = Vec3::Zero();

@@ -5,7 +5,7 @@
 namespace springlod::lod {
 namespace {
 
-/// What ln m changes for each unit of an unknown, where ln k changes by 1 (spec 4.1).
+/// Change of ln m per unit of theta; ln k changes by 1 (docs/method.md, eq. 29).
 constexpr double kMassScale = 0.5;
 
 }  // namespace

@@ -22,7 +22,8 @@ namespace {
 
 using Nodes = std::vector<std::uint32_t>;
 
-/// Nodes that may share groups, but with none of another kind: connected part, material, border.
+/// Kinds of nodes: nodes of one connected component, material and border flag. A group lies within
+/// one kind.
 std::vector<Nodes> kinds_of(const MassSpringModel& model, BorderRule border) {
   const Components components = connected_components(model);
   std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, Nodes> kinds;
@@ -36,11 +37,11 @@ std::vector<Nodes> kinds_of(const MassSpringModel& model, BorderRule border) {
   return nodes;
 }
 
-/// With the median of what the nodes add to the bound of the largest squared frequency.
-std::vector<SharedNodes> frequencies_of(const MassSpringModel& model,
-                                        const std::vector<Nodes>& kinds) {
+/// The size of each kind and the median of its nodes' bounds on the squared frequency.
+std::vector<NodeKind> frequencies_of(const MassSpringModel& model,
+                                     const std::vector<Nodes>& kinds) {
   const std::vector<double> bounds = elastic::node_frequency_bounds(model, model.rest, {});
-  std::vector<SharedNodes> shared;
+  std::vector<NodeKind> shared;
   for (const Nodes& kind : kinds) {
     std::vector<double> of_kind;
     for (const std::uint32_t i : kind) of_kind.push_back(bounds[i]);
@@ -51,14 +52,14 @@ std::vector<SharedNodes> frequencies_of(const MassSpringModel& model,
   return shared;
 }
 
-/// Groups of the nodes of one kind.
+/// The groups of one kind of nodes.
 class CompactKind {
  public:
   CompactKind(const MassSpringModel& model, const Nodes& nodes, std::uint32_t count,
               std::uint64_t seed)
       : model_(model), nodes_(nodes), of_(nodes.size(), 0), center_(count, Vec3::Zero()) {
     ChanceStream chance(seed);
-    // A lattice has many equal coordinates: which side of a cut they go to is left to chance.
+    // A lattice has many equal coordinates; the jitter assigns them to a random side of a cut.
     const double jitter = kJitter * bounds_of(nodes).diagonal().norm() / std::cbrt(nodes.size());
     for (const std::uint32_t i : nodes) {
       const Vec3 offset(chance.unit() - 0.5, chance.unit() - 0.5, chance.unit() - 0.5);
@@ -80,7 +81,7 @@ class CompactKind {
   const std::vector<std::uint32_t>& groups() const { return of_; }
 
  private:
-  /// Of the mean distance of nodes.
+  /// Jitter of positions, in mean distances of nodes.
   static constexpr double kJitter = 0.6;
 
   Box3 bounds_of(const Nodes& nodes) const {
@@ -122,7 +123,8 @@ class CompactKind {
     for (std::size_t g = 0; g < center_.size(); ++g) center_[g] = sum[g] / mass[g];
   }
 
-  /// False if nothing changed. A group never loses its last node.
+  /// Assigns each node to the nearest centre, unless its group would become empty. False if nothing
+  /// changed.
   bool assign() {
     Box3 box = bounds_of(nodes_);
     const double bin = std::max(std::cbrt(box.volume() / static_cast<double>(center_.size())),
@@ -161,8 +163,8 @@ Groups compact_groups(const MassSpringModel& model, const CompactOptions& option
       if (model.border[i] != 0) groups.of[i] = groups.count++;
   if (wanted < groups.count)
     throw InputError(
-        fmt::format("compact grouping: {} groups are fewer than the {} border nodes, "
-                    "which stay single (border = \"strong\")",
+        fmt::format("compact grouping: {} groups are fewer than the {} border nodes, which stay "
+                    "single with border = \"strong\"; use more groups or border = \"weak\"",
                     wanted, groups.count));
   wanted -= groups.count;
   const std::vector<Nodes> kinds = kinds_of(model, options.border);

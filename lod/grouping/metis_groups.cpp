@@ -15,10 +15,10 @@
 namespace springlod::lod {
 namespace {
 
-/// METIS weighs edges by whole numbers: what the largest spring work becomes.
+/// Integer weight of the edge with the largest k L^2; METIS takes integer weights.
 constexpr double kLargestWeight = 10000;
 
-/// Groups that METIS left empty go.
+/// Renumbers the groups without those that METIS left empty.
 Groups without_gaps(const std::vector<idx_t>& part, std::uint32_t count) {
   std::vector<std::uint32_t> number(count, 0);
   for (const idx_t p : part) number[static_cast<std::size_t>(p)] = 1;
@@ -32,8 +32,8 @@ Groups without_gaps(const std::vector<idx_t>& part, std::uint32_t count) {
 
 Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint64_t seed) {
   if (count == 0 || count > model.node_count())
-    throw InputError(fmt::format("metis grouping: {} groups of {} nodes; ask for 1 to {}", count,
-                                 model.node_count(), model.node_count()));
+    throw InputError(fmt::format("metis grouping: {} nodes cannot form {} groups; use 1 to {}",
+                                 model.node_count(), count, model.node_count()));
   const SpringRows springs(model);
   std::vector<double> work;
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
@@ -58,7 +58,7 @@ Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint
   if (count > 1 && METIS_PartGraphRecursive(&nodes, &constraints, start.data(), neighbour.data(),
                                             nullptr, nullptr, weight.data(), &parts, nullptr,
                                             nullptr, options.data(), &cut, part.data()) != METIS_OK)
-    throw InputError(fmt::format("metis grouping: METIS could not make {} groups of {} nodes",
+    throw InputError(fmt::format("metis grouping: METIS failed to make {} groups of {} nodes",
                                  count, model.node_count()));
   Groups groups = without_gaps(part, count);
   connect_groups(model, groups);

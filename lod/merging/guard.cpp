@@ -17,7 +17,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 // pair is joined, though each node has fewer than 4 springs.
 constexpr std::uint32_t kSimplexNodes = 4;
 
-// The fine model as far as the guards need it.
+// View of the fine model for the guards.
 struct FineGraph {
   const MassSpringModel& model;
   const Components& components;
@@ -31,8 +31,8 @@ struct FineGraph {
   double tension(std::uint32_t s) const { return model.stiffness[s] * model.rest_length[s]; }
 };
 
-// The merged model as far as the guards need it. Fusing groups keeps k L of every spring, so that
-// the graph can be coarsened again and again without looking back at the fine model.
+// The merged model as the guards see it. Fusing groups conserves k L of every spring, so the graph
+// is coarsened repeatedly without the fine model.
 class CoarseGraph {
  public:
   CoarseGraph() = default;
@@ -75,11 +75,11 @@ class CoarseGraph {
   std::vector<Vec3> moment_;  // mass times centre [kg m]
   std::vector<Vec3> center_;
   std::vector<std::uint8_t> border_;
-  std::vector<std::uint32_t> component_;  // connected part of the fine model
+  std::vector<std::uint32_t> component_;  // connected component of the fine model
   std::vector<double> tension_;           // of each edge, sum of k L [N]
 };
 
-// Tells floppy nodes by their springs and the size of their part.
+// Decides whether a node is floppy from its springs and the size of its component.
 class FloppyRule {
  public:
   explicit FloppyRule(const GuardOptions& options) : options_(options) {}
@@ -99,13 +99,13 @@ std::vector<std::uint32_t> component_sizes(const Graph& graph, std::uint32_t com
   return size;
 }
 
-// Parts with at least one sound node. Springs are sorted by their lower end, so that a node has met
-// all its springs when those it is the lower end of are through: mostly the first few nodes tell.
+// Whether each component has a sound node. Springs are sorted by their lower end, so a node is
+// complete after the springs whose lower end it is. Usually the first few nodes decide.
 std::vector<bool> sound_components(const FineGraph& fine, const FloppyRule& rule) {
   const std::vector<std::uint32_t> component_size = component_sizes(fine, fine.components.count);
   std::vector<bool> sound(fine.components.count, false);
   std::uint32_t undecided = fine.components.count;
-  std::vector<Rigidity> nodes;  // grows as far as the springs met reach
+  std::vector<Rigidity> nodes;  // grows to the highest node reached
   std::uint32_t s = 0;
   for (std::uint32_t i = 0; i < fine.size() && undecided > 0; ++i) {
     if (nodes.size() <= i) nodes.resize(i + 1);
@@ -134,7 +134,7 @@ class Guard {
     result_.groups = groups;
     const Components components = connected_components(fine);
     const FineGraph base{fine, components};
-    // A rope or a cloth is floppy by its nature; only parts that were solid are kept solid.
+    // A rope or a cloth is floppy from the start; only components that were sound are kept sound.
     sound_component_ = sound_components(base, rule_);
     mean_length_ = mean_spring_length(fine);
     graph_ = CoarseGraph(base, groups, result_.links);
@@ -176,7 +176,7 @@ class Guard {
     for (std::uint32_t e = 0; e < edge_count(); ++e) {
       const auto [a, b] = edge(e);
       if (!(graph_.offset(a, b).norm() < least)) continue;
-      // One fusion a node and pass: a fused pair has a new centre, which decides anew.
+      // At most one fusion for each node in a pass: a fused pair has a new centroid.
       if (taken[a] || taken[b] || !may_fuse(a) || !may_fuse(b)) continue;
       taken[a] = taken[b] = true;
       fused += clusters.unite(a, b) ? 1 : 0;
@@ -202,8 +202,9 @@ class Guard {
     return apply(clusters, fused);
   }
 
-  // Nearest neighbour each floppy node may fuse with. Under a weak border one of its own kind is
-  // taken before a nearer one of the other kind, so that the surface stays where it is.
+  // The nearest neighbour that each floppy node may fuse with. Under a weak border a neighbour of
+  // its own kind (border or inner) goes before a nearer one of the other kind, to preserve the
+  // surface.
   std::vector<std::uint32_t> partners(const std::vector<bool>& floppy) const {
     struct Best {
       std::uint32_t node = kNone;

@@ -16,7 +16,7 @@ Binding make_binding(const MergedPair& pair) {
   return base_from_level(chain, 1);
 }
 
-/// x.Ky of one spring.
+/// Contribution of one spring to x.Ky [J].
 double work(const MassSpringModel& model, std::uint32_t spring, const std::vector<Vec3>& x,
             const std::vector<Vec3>& y) {
   const Vec3 along = spring_direction(model, spring);
@@ -24,7 +24,7 @@ double work(const MassSpringModel& model, std::uint32_t spring, const std::vecto
   return model.stiffness[spring] * along.dot(x[b] - x[a]) * along.dot(y[b] - y[a]);
 }
 
-/// The parts of the coarse nodes for one load after the other.
+/// Contributions of the coarse nodes to the change of compliance of one load.
 class Contributions {
  public:
   explicit Contributions(const MergedPair& pair)
@@ -82,7 +82,8 @@ std::vector<std::vector<double>> compliance_changes(const MergedPair& pair,
     if (fine[load].size() != pair.fine.node_count() ||
         coarse[load].size() != pair.coarse.node_count())
       throw InputError(fmt::format(
-          "compliance change: load {} has displacements of {} and {} nodes, the models {} and {}",
+          "compliance change: load {} has displacements of {} and {} nodes; the models have {} and "
+          "{} nodes",
           load, fine[load].size(), coarse[load].size(), pair.fine.node_count(),
           pair.coarse.node_count()));
     changes.push_back(contributions.of(fine[load], coarse[load]));

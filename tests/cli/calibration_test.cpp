@@ -79,7 +79,7 @@ TEST_CASE("a script's calibration keeps its state in a store, and says where it 
   CHECK(ran.exit_code == 0);
   CHECK_THAT(ran.out, Contains("true\t3\n"));
   CHECK_THAT(ran.out, Contains("its state cannot be kept in"));
-  CHECK_THAT(ran.err, Contains("goes on from what is kept in"));
+  CHECK_THAT(ran.err, Contains("resumes from"));
 }
 
 TEST_CASE("convert that is stopped while it calibrates goes on to the same levels") {
@@ -97,7 +97,7 @@ TEST_CASE("convert that is stopped while it calibrates goes on to the same level
     return all;
   };
   const auto bytes = [&](const std::string& name) { return slurp(scratch / name); };
-  const std::string mark = "its state is kept in";
+  const std::string mark = "its state is saved in";
   const Ran whole = springlod_run(arguments("whole.glb", {}));
   CAPTURE(whole.err);
   REQUIRE(whole.exit_code == 0);
@@ -110,7 +110,7 @@ TEST_CASE("convert that is stopped while it calibrates goes on to the same level
   CHECK_FALSE(fs::exists(scratch / "bar.glb"));
   const Ran resumed = springlod_run(arguments("bar.glb", {}));
   CHECK(resumed.exit_code == 0);
-  CHECK_THAT(resumed.err, Contains("goes on from what is kept in"));
+  CHECK_THAT(resumed.err, Contains("resumes from"));
   CHECK(bytes("bar.glb") == bytes("whole.glb"));
   CHECK_FALSE(fs::exists(scratch / "bar.calibration"));
 }
@@ -128,7 +128,7 @@ TEST_CASE(
   CHECK(convert(1).exit_code == 0);
   CHECK(fs::exists(scratch / "kept/bar/level-1-part-1.bin"));
   CHECK_FALSE(fs::exists(scratch / "bar.calibration"));
-  CHECK_THAT(convert(1).err, Contains("goes on from what is kept in"));
+  CHECK_THAT(convert(1).err, Contains("resumes from"));
   const Ran other = convert(1.5);
   CHECK(other.exit_code == 0);
   CHECK_THAT(other.err, Contains("is of another base"));

@@ -32,25 +32,25 @@ Level plain_level(const MassSpringModel& base, double keep) {
       .levels[1];
 }
 
-/// The level with ln k, then ln m, moved by h along `way`.
-MassSpringModel moved(MassSpringModel level, const Eigen::VectorXd& way, double h) {
+/// The level with ln k, then ln m, changed by h times `direction`.
+MassSpringModel moved(MassSpringModel level, const Eigen::VectorXd& direction, double h) {
   for (std::uint32_t s = 0; s < level.spring_count(); ++s)
-    level.stiffness[s] *= std::exp(h * way[s]);
+    level.stiffness[s] *= std::exp(h * direction[s]);
   for (std::uint32_t i = 0; i < level.node_count(); ++i)
-    level.mass[i] *= std::exp(h * way[level.spring_count() + i]);
+    level.mass[i] *= std::exp(h * direction[level.spring_count() + i]);
   return level;
 }
 
-Eigen::VectorXd any_way(const MassSpringModel& level, std::uint64_t seed) {
+Eigen::VectorXd any_direction(const MassSpringModel& level, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  Eigen::VectorXd way(level.spring_count() + level.node_count());
-  for (double& each : way) each = 2 * test::uniform(random) - 1;
-  return way;
+  Eigen::VectorXd direction(level.spring_count() + level.node_count());
+  for (double& each : direction) each = 2 * test::uniform(random) - 1;
+  return direction;
 }
 
 }  // namespace
 
-TEST_CASE("Second moments, mass and centre of a level are those of the base, k L stays") {
+TEST_CASE("restore_second_moments restores mass, centre and second moments and keeps k L") {
   for (const MassSpringModel& base : {ball(), rods()}) {
     Level level = plain_level(base, 0.2);
     const MassSpringModel before = level.model;
@@ -74,7 +74,7 @@ TEST_CASE("A sheet stays a sheet when its second moments are restored") {
   for (const Vec3& x : level.model.rest) CHECK(x.z() == Approx(base.rest[0].z()));
 }
 
-TEST_CASE("Masses that shift come back to their moments") {
+TEST_CASE("MassMoments restores the moments of changed masses") {
   const MassSpringModel model = ball();
   const MassMoments moments(model);
   MassSpringModel shifted = model;
@@ -87,7 +87,7 @@ TEST_CASE("Masses that shift come back to their moments") {
   for (const double mass : shifted.mass) CHECK(mass > 0);
 }
 
-TEST_CASE("Projected changes of masses leave the moments alone to first order") {
+TEST_CASE("Projected changes of mass keep the moments to first order") {
   const MassSpringModel model = rods();
   const MassMoments moments(model);
   Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(model.node_count(), 1);
@@ -120,7 +120,7 @@ TEST_CASE("Favouring long springs keeps sum k L^2 and c / k") {
   CHECK(elastic::largest_frequency(after) < elastic::largest_frequency(before));
 }
 
-TEST_CASE("Rescaled moduli of one material are those of eq. 2") {
+TEST_CASE("Rescaled moduli of one material are those of the base by eq. 2 of docs/method.md") {
   const MassSpringModel base = block(5, 5, 5);
   MassSpringModel level = plain_level(base, 0.4).model;
   CHECK(estimated_young(level) > 1.02 * estimated_young(base));
@@ -128,7 +128,7 @@ TEST_CASE("Rescaled moduli of one material are those of eq. 2") {
   CHECK(estimated_young(level) == Approx(estimated_young(base)).epsilon(1e-12));
 }
 
-TEST_CASE("Slopes of the misses are what finite differences say") {
+TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
   for (const bool anchored : {false, true}) {
     const MassSpringModel base = rods();
     TargetOptions options{.modes = 8, .patches = 6};
@@ -139,29 +139,30 @@ TEST_CASE("Slopes of the misses are what finite differences say") {
     const Level level = plain_level(base, 0.4);
     const ElasticFit fit(level.model, level.of_base, targets);
     const ElasticResiduals here = fit.residuals(level.model);
-    const Eigen::VectorXd way = any_way(level.model, 3);
+    const Eigen::VectorXd direction = any_direction(level.model, 3);
     constexpr double h = 1e-4;
-    const ElasticResiduals ahead = fit.residuals(moved(level.model, way, h));
-    const ElasticResiduals behind = fit.residuals(moved(level.model, way, -h));
+    const ElasticResiduals ahead = fit.residuals(moved(level.model, direction, h));
+    const ElasticResiduals behind = fit.residuals(moved(level.model, direction, -h));
     const Eigen::VectorXd measured = (behind.weighted - ahead.weighted) / (2 * h);
-    const Eigen::VectorXd told = here.jacobian.transpose() * way;
-    REQUIRE(measured.size() == told.size());
-    for (Eigen::Index r = 0; r < told.size(); ++r)
-      if (here.weighted[r] != 0)  // rows of pairs of modes have no miss of their own
-        CHECK(told[r] == Approx(measured[r]).epsilon(2e-3).margin(1e-5));
+    const Eigen::VectorXd expected = here.jacobian.transpose() * direction;
+    REQUIRE(measured.size() == expected.size());
+    for (Eigen::Index r = 0; r < expected.size(); ++r)
+      if (here.weighted[r] != 0)  // rows of mode pairs have residual 0 by definition
+        CHECK(expected[r] == Approx(measured[r]).epsilon(2e-3).margin(1e-5));
   }
 }
 
-TEST_CASE("Slopes of the nodes' bounds are what finite differences say") {
+TEST_CASE("The Jacobian of the frequency constraints agrees with finite differences") {
   const MassSpringModel level = plain_level(ball(), 0.4).model;
   const FrequencyConstraints here = frequency_constraints(level, 1, 1e3);
   REQUIRE(here.value.size() == level.node_count());
-  const Eigen::VectorXd way = any_way(level, 4);
+  const Eigen::VectorXd direction = any_direction(level, 4);
   constexpr double h = 1e-5;
-  const Eigen::VectorXd measured = (frequency_constraints(moved(level, way, h), 1, 1e3).value -
-                                    frequency_constraints(moved(level, way, -h), 1, 1e3).value) /
-                                   (2 * h);
-  CHECK((here.jacobian * way - measured).cwiseAbs().maxCoeff() < 1e-6);
+  const Eigen::VectorXd measured =
+      (frequency_constraints(moved(level, direction, h), 1, 1e3).value -
+       frequency_constraints(moved(level, direction, -h), 1, 1e3).value) /
+      (2 * h);
+  CHECK((here.jacobian * direction - measured).cwiseAbs().maxCoeff() < 1e-6);
   const double bound = largest_node_bound(level);
   CHECK(std::log(bound) == Approx(here.value.maxCoeff()));
   CHECK(bound >= std::pow(elastic::frequency_bound(level), 2) * (1 - 1e-12));
@@ -169,7 +170,7 @@ TEST_CASE("Slopes of the nodes' bounds are what finite differences say") {
   CHECK(squared_violation(level, bound) == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("Calibrated levels swing and give way as the base, with a longer step") {
+TEST_CASE("Calibrated levels match frequencies and compliances of the base at a longer step") {
   const MassSpringModel base = ball();
   const GroupingOptions compact{.grouping = Grouping::compact};
   LodChain plain = simplify(base, {.keep = {0.45, 0.2}, .grouping = compact});
@@ -198,12 +199,12 @@ TEST_CASE("Calibrated levels swing and give way as the base, with a longer step"
     REQUIRE(after.frequencies.size() == 20);
     double mac = 0;
     for (std::size_t i = 0; i < 10; ++i) mac += after.frequencies[i].mac / 10;
-    CHECK(mac > 0.6);  // a sphere's modes come in fives, which may turn among themselves
+    CHECK(mac > 0.6);  // a sphere has fivefold eigenvalues, whose mode shapes may mix
     CHECK(before.misses.size() > after.misses.size());
   }
 }
 
-TEST_CASE("Calibration gives the same bits for any number of threads") {
+TEST_CASE("Calibration is bit-identical for any number of threads") {
   const MassSpringModel base = block(4, 4, 5);
   SimplifyOptions options{.calibration = Calibration::modes};
   options.calibrate.fit.iterations = 3;
@@ -216,7 +217,7 @@ TEST_CASE("Calibration gives the same bits for any number of threads") {
   }
 }
 
-TEST_CASE("Several parts, one of them a single node, and anchors are calibrated too") {
+TEST_CASE("Calibration handles several components, a single node among them, and anchors") {
   MassSpringModel two = block(4, 4, 4);
   const MassSpringModel other = block(3, 3, 6);
   const std::uint32_t first = two.node_count();
@@ -257,7 +258,7 @@ TEST_CASE("Several parts, one of them a single node, and anchors are calibrated 
   CHECK(mean < 0.01);
 }
 
-TEST_CASE("Levels keep exactly as many nodes as they should") {
+TEST_CASE("Levels have exactly the number of nodes that keep requests") {
   for (const Grouping grouping :
        {Grouping::standard, Grouping::priority_soft, Grouping::compact, Grouping::metis}) {
     const LodChain chain =

@@ -11,7 +11,7 @@ using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 namespace {
 
-/// Each limit on three neighbouring unknowns.
+/// Constraints on three neighbouring unknowns each.
 Rows constraints_on(Eigen::Index count, Eigen::Index unknowns) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int r = 0; r < count; ++r)
@@ -24,7 +24,7 @@ Rows constraints_on(Eigen::Index count, Eigen::Index unknowns) {
 
 }  // namespace
 
-TEST_CASE("A step is the dense least-squares solution over its rows and the active limits") {
+TEST_CASE("A step is the dense least-squares solution for residuals and active constraints") {
   constexpr Eigen::Index n = 40, r = 6, l = 15;
   const Eigen::MatrixXd jacobian = elastic::random_block(n, r, 1);
   const Eigen::VectorXd residual = 0.01 * elastic::random_block(r, 1, 2);
@@ -49,7 +49,7 @@ TEST_CASE("A step is the dense least-squares solution over its rows and the acti
   CHECK((d - expected).norm() < 1e-6 * expected.norm());
 }
 
-TEST_CASE("A limit that only the step would break is held, one that stays far off is not there") {
+TEST_CASE("A constraint that the step would violate becomes active, a distant one does not") {
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2, 1);
   jacobian(0, 0) = 1;
   const Eigen::VectorXd residual = Eigen::VectorXd::Constant(1, 0.5);
@@ -71,7 +71,7 @@ TEST_CASE("A limit that only the step would break is held, one that stays far of
   CHECK(first(-0.2) == Approx(0.2).epsilon(1e-3));
 }
 
-TEST_CASE("The damping rises until the step is short enough") {
+TEST_CASE("The damping is raised until the step is short enough") {
   const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(3, 3);
   const Eigen::VectorXd residual = Eigen::VectorXd::Constant(3, 5);
   const Rows none(0, 3);
@@ -89,7 +89,7 @@ TEST_CASE("The damping rises until the step is short enough") {
   CHECK(d[0] > 0.05);
 }
 
-TEST_CASE("A limit that is broken near where the step ends counts, though it is not at its start") {
+TEST_CASE("A constraint violated at the point of linearization is active, even if not at d = 0") {
   const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(2, 1);
   const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   const Eigen::VectorXd residual = Eigen::VectorXd::Zero(1);

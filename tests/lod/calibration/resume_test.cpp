@@ -1,4 +1,4 @@
-// Calibrations that are stopped and go on from what their store keeps.
+// Calibrations that are stopped and resumed from their store.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Stops the calibration when it goes on for so many times, and remembers what it was told.
+/// Stops the calibration after `stop_after` advances and records what is reported.
 class Watcher : public Progress {
  public:
   explicit Watcher(std::uint64_t stop_after = std::numeric_limits<std::uint64_t>::max())
@@ -88,9 +88,9 @@ const fs::path kNoStore;
 
 }  // namespace
 
-TEST_CASE("A calibration that is stopped again and again ends with the bits of one that was not") {
+TEST_CASE("A calibration that is stopped repeatedly ends bit-identical to an uninterrupted one") {
   const LodChain whole = calibrated(options_with(kNoStore, nullptr));
-  for (const std::uint64_t advances : {2, 5, 12}) {  // what is kept already counts as one a level
+  for (const std::uint64_t advances : {2, 5, 12}) {  // stored steps of a level advance once
     const TemporaryFolder folder;
     std::optional<LodChain> found;
     int stops = 0;
@@ -99,7 +99,7 @@ TEST_CASE("A calibration that is stopped again and again ends with the bits of o
       try {
         found = calibrated(options_with(folder / "store", &watcher));
       } catch (const InterruptedError&) {
-        CHECK_THAT(watcher.said, Contains("its state is kept in " + (folder / "store").string()));
+        CHECK_THAT(watcher.said, Contains("its state is saved in " + (folder / "store").string()));
       }
     }
     CHECK(stops > 2);
@@ -108,7 +108,7 @@ TEST_CASE("A calibration that is stopped again and again ends with the bits of o
   }
 }
 
-TEST_CASE("Threads do not matter to a calibration that goes on") {
+TEST_CASE("A calibration may resume with another number of threads") {
   const LodChain whole = calibrated(options_with(kNoStore, nullptr));
   const TemporaryFolder folder;
   Watcher watcher(6);
@@ -119,21 +119,21 @@ TEST_CASE("Threads do not matter to a calibration that goes on") {
   CHECK(same_bits(calibrated(options), whole));
 }
 
-TEST_CASE("What is measured of the base, and levels that are finished, are not made again") {
+TEST_CASE("A resumed calibration repeats neither the measurements nor finished levels") {
   const TemporaryFolder folder;
   Watcher first(9);
   CHECK_THROWS_AS(calibrated(options_with(folder / "store", &first)), InterruptedError);
   CHECK(std::count(first.tasks.begin(), first.tasks.end(), "iterating for modes") == 1);
-  CHECK_THAT(first.last_detail, Contains("level 1, step 10: f1..10 off by"));
+  CHECK_THAT(first.last_detail, Contains("level 1, step 10: f1..10 error"));
 
   Watcher second;
   const LodChain whole = calibrated(options_with(folder / "store", &second));
-  CHECK_THAT(second.said, Contains("goes on from what is kept in"));
+  CHECK_THAT(second.said, Contains("resumes from"));
   CHECK(std::count(second.tasks.begin(), second.tasks.end(), "iterating for modes") == 0);
 
   Watcher third;
   CHECK(same_bits(calibrated(options_with(folder / "store", &third)), whole));
-  CHECK(third.steps == 2);  // each level, all at once
+  CHECK(third.steps == 2);  // one advance for each finished level
 }
 
 TEST_CASE("A store of another base, level or options, or a damaged one, is not used") {
@@ -166,7 +166,7 @@ TEST_CASE("A store of another base, level or options, or a damaged one, is not u
   CHECK_THAT(damaged.said, Contains("level-1-part-1.bin is damaged"));
 }
 
-TEST_CASE("A store that cannot be written is refused before anything is measured") {
+TEST_CASE("A store that cannot be written is an error before any measurement") {
   const TemporaryFolder folder;
   write_text_file(folder / "file", "no folder");
   Watcher watcher;
@@ -177,7 +177,7 @@ TEST_CASE("A store that cannot be written is refused before anything is measured
   CHECK(watcher.tasks.empty());
 }
 
-TEST_CASE("A fit state reads back as it was kept") {
+TEST_CASE("A fit state is read back as it was stored") {
   const TemporaryFolder folder;
   const CalibrationStore store(folder / "store", nullptr);
   FitState state{.iteration = 7,
@@ -209,7 +209,7 @@ TEST_CASE("A fit state reads back as it was kept") {
   }
 }
 
-TEST_CASE("Steps of a fit whose misses are not finite are not taken") {
+TEST_CASE("Steps with non-finite residuals are rejected") {
   const MassSpringModel base = block(4, 4, 6);
   const Level level = plain().levels[2];
   ElasticTargets targets = measure_targets(base, {.modes = 10, .patches = 4});
@@ -219,7 +219,7 @@ TEST_CASE("Steps of a fit whose misses are not finite are not taken") {
   progress.on_iteration = [&](const FitState& state) { last = state; };
   const MassSpringModel same = fit_part(level.model, level.of_base, targets, {}, progress);
   CHECK(last.finished);
-  CHECK(last.iteration < 40);  // the damping grows out of bounds
+  CHECK(last.iteration < 40);  // the damping exceeds its upper bound
   CHECK(same.stiffness == level.model.stiffness);
   for (const double mass : same.mass) CHECK(std::isfinite(mass));
 }
