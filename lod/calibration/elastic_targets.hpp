@@ -39,6 +39,8 @@ struct ElasticTargets {
   std::vector<std::uint32_t> anchored;  ///< anchored nodes of the base
 };
 
+/// Number of modes to fit: 0 if options.kinds is loads.
+std::uint32_t mode_count(const TargetOptions& options);
 /// Number of patch pairs for a base of `nodes` nodes: options.patches if set, otherwise 150,
 /// falling to 60 for large bases (docs/method.md, eq. 31). Large models do not overfit to a few
 /// patches, so fewer patch load cases suffice.

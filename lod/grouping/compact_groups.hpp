@@ -29,5 +29,7 @@ struct CompactOptions {
 /// The time is N log N. Throws InputError if `count` is less than the kinds of nodes that must stay
 /// apart, or more than the nodes.
 Groups compact_groups(const MassSpringModel& model, const CompactOptions& options);
+/// The same as a grouping.
+Groups compact_groups(const GroupingTask& task);
 
 }  // namespace springlod::lod

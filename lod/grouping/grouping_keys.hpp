@@ -31,11 +31,14 @@ class RoundedKeys {
 /// 5.2; docs/method.md, eq. 22).
 std::vector<double> spring_gradients(const MassSpringModel& model);
 
+/// Order of the candidates for a pair, see the table below eq. 22 of docs/method.md.
+enum class PairOrder { length, gradient_and_length, gradient_first };
+
 /// Keys for choosing a neighbour: the first key, then the second, then a random number.
 class PairKeys {
  public:
-  /// `gradient` as spring_gradients tells; not needed for standard grouping.
-  PairKeys(const MassSpringModel& model, const GroupingOptions& options,
+  /// `gradient`: the result of spring_gradients; not used by PairOrder::length.
+  PairKeys(const MassSpringModel& model, const GroupingOptions& options, PairOrder order,
            std::vector<double> gradient);
   PairKeys(const PairKeys&) = delete;
   PairKeys& operator=(const PairKeys&) = delete;
@@ -56,6 +59,6 @@ class PairKeys {
 
 /// Key of each node; nodes are visited in ascending order. Empty: random order.
 std::vector<double> visit_priority(const MassSpringModel& model, const GroupingOptions& options,
-                                   const std::vector<double>& gradient);
+                                   PairOrder order, const std::vector<double>& gradient);
 
 }  // namespace springlod::lod

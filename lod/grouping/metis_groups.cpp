@@ -66,4 +66,8 @@ Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint
   return groups;
 }
 
+Groups metis_groups(const GroupingTask& task) {
+  return metis_groups(task.model, task.count, task.options.seed);
+}
+
 }  // namespace springlod::lod

@@ -47,7 +47,7 @@ class Integration {
         task_(options.progress, "simulate", steps_left()) {
     body_->prepare();
     energy_.emplace(model, *body_, options.precision, trajectory.step, *plan.limit);
-    if (!options.step && options.integrator == Integrator::symplectic_euler)
+    if (!options.step && choice_of(options.integrator).traits.fast)
       step_.emplace(model, *plan.limit, trajectory.step);
   }
 
