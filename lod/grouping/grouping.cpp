@@ -48,8 +48,8 @@ void require_joined(const Adjacency& adj, const std::vector<std::uint32_t>& set,
   }
   if (reached.size() < set.size())
     throw InputError(fmt::format(
-        "groups: the group of node {} is not held together by springs; merging it would weld "
-        "pieces that are mechanically apart",
+        "groups: the group of node {} is not connected by springs, so merging it would join "
+        "separate bodies; split it",
         set[0]));
 }
 
@@ -82,9 +82,9 @@ Groups groups_from_sets(const MassSpringModel& model,
     for (const std::uint32_t i : set) {
       if (i >= model.node_count())
         throw InputError(
-            fmt::format("groups: there is no node {}; the model has {}", i, model.node_count()));
-      if (leader[i] != kUngrouped)
-        throw InputError(fmt::format("groups: node {} is named twice", i));
+            fmt::format("groups: there is no node {}; the model has {} nodes, counted from 0", i,
+                        model.node_count()));
+      if (leader[i] != kUngrouped) throw InputError(fmt::format("groups: node {} occurs twice", i));
       leader[i] = set[0];
     }
   }

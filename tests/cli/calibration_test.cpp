@@ -60,7 +60,7 @@ TEST_CASE("scripts name regions that matter, and weights") {
         "regions[1]: nodes[1] must be a node number", "regions must be a list of Region tables",
         "left out beside targets = \"modes\"",
         "nodes of region 1 is a border node that is free to move", "load_weight = -2 must be 0 or",
-        "nothing is left to be fitted", "many\t2", "certify: within[1] must be a node number"})
+        "no targets are left", "many\t2", "certify: within[1] must be a node number"})
     CHECK_THAT(ran.out, Contains(reason));
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("a script's calibration keeps its state in a store, and says where it 
   CAPTURE(ran.out, ran.err);
   CHECK(ran.exit_code == 0);
   CHECK_THAT(ran.out, Contains("true\t3\n"));
-  CHECK_THAT(ran.out, Contains("its state cannot be kept in"));
+  CHECK_THAT(ran.out, Contains("its state cannot be saved in"));
   CHECK_THAT(ran.err, Contains("resumes from"));
 }
 
@@ -131,5 +131,5 @@ TEST_CASE(
   CHECK_THAT(convert(1).err, Contains("resumes from"));
   const Ran other = convert(1.5);
   CHECK(other.exit_code == 0);
-  CHECK_THAT(other.err, Contains("is of another base"));
+  CHECK_THAT(other.err, Contains("belongs to another base"));
 }

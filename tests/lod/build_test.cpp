@@ -83,7 +83,7 @@ TEST_CASE("Under a strong border the guards change no border node") {
 TEST_CASE("A level that cannot be coarser is an error that names the possible number") {
   const MassSpringModel two =
       springlod::test::table_model({{0, 0, 0}, {1, 0, 0}}, {1, 1}, {{0, 1, 1}});
-  CHECK_THROWS_WITH(simplify(two, {.levels = 3}), Catch::Contains("ask for levels = 1"));
+  CHECK_THROWS_WITH(simplify(two, {.levels = 3}), Catch::Contains("use levels = 1"));
 }
 
 TEST_CASE("Groups of a script are used unchanged, except by the guards") {

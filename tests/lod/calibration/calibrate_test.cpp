@@ -244,7 +244,8 @@ TEST_CASE("Calibration handles several components, a single node among them, and
   two.material.push_back(0);
   validate(two);
   SimplifyOptions options{.levels = 1, .calibrate = Calibrate::modes};
-  for (std::uint32_t i = first; i < first + 9; ++i) options.calibration.targets.anchored.push_back(i);
+  for (std::uint32_t i = first; i < first + 9; ++i)
+    options.calibration.targets.anchored.push_back(i);
   options.calibration.fit.iterations = 20;
   LodChain chain = simplify(two, options);
   validate(chain.levels[1].model);
@@ -268,7 +269,6 @@ TEST_CASE("Levels have exactly the number of nodes that keep requests") {
   CHECK_THROWS_WITH(simplify(ball(), {.keep = {0.2, 0.45}}), Catch::Contains("must fall"));
   CHECK_THROWS_WITH(simplify(ball(), {.levels = 3, .keep = {0.5, 0.2}}),
                     Catch::Contains("leave one out"));
-  CHECK_THROWS_WITH(
-      simplify(ball(), {.mass = MassRule::proximity, .calibrate = Calibrate::modes}),
-      Catch::Contains("proximity"));
+  CHECK_THROWS_WITH(simplify(ball(), {.mass = MassRule::proximity, .calibrate = Calibrate::modes}),
+                    Catch::Contains("proximity"));
 }

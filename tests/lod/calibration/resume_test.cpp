@@ -145,8 +145,9 @@ TEST_CASE("A store of another base, level or options, or a damaged one, is not u
   CalibrateOptions other = options_with(store, &watcher);
   other.fit.tolerance = 0.02;
   const LodChain found = calibrated(other);
-  CHECK_THAT(watcher.said, Contains("level-1-part-1.bin is of another base, another level or other "
-                                    "options; that part begins anew"));
+  CHECK_THAT(watcher.said,
+             Contains("level-1-part-1.bin belongs to another base, another level or other "
+                      "options and is ignored"));
   CHECK_THAT(watcher.said, !Contains("base-part-1.bin"));
   other.store.clear();
   CHECK(same_bits(found, calibrated(other)));
@@ -155,7 +156,7 @@ TEST_CASE("A store of another base, level or options, or a damaged one, is not u
   other = options_with(store, &seeded);
   other.targets.seed = 2;
   calibrated(other);
-  CHECK_THAT(seeded.said, Contains("base-part-1.bin is of another base"));
+  CHECK_THAT(seeded.said, Contains("base-part-1.bin belongs to another base"));
 
   const LodChain whole = calibrated(options_with(store, nullptr));
   overwrite(store / "level-2-part-1.bin", 100, 'x');
@@ -172,8 +173,8 @@ TEST_CASE("A store that cannot be written is an error before any measurement") {
   Watcher watcher;
   const CalibrateOptions options = options_with(folder / "file" / "store", &watcher);
   CHECK_THROWS_AS(calibrated(options), IoError);
-  CHECK_THROWS_WITH(calibrated(options), Contains("its state cannot be kept in") &&
-                                             Contains("name a folder that can be written to"));
+  CHECK_THROWS_WITH(calibrated(options), Contains("its state cannot be saved in") &&
+                                             Contains("use a writable folder"));
   CHECK(watcher.tasks.empty());
 }
 
