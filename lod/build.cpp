@@ -77,8 +77,8 @@ Step guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
   return {std::move(sound.groups), std::move(sound.links)};
 }
 
-/// Groups of an exact number. The guards fuse some groups, so that many more are requested in the
-/// next attempt; if there are too many then, the smallest are fused.
+/// Exactly `wanted` groups after the guards. The guards fuse some groups, and the next attempt
+/// requests as many more; surplus groups are fused, the smallest first.
 Step exact_step(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
                 std::uint32_t level, std::uint32_t wanted) {
   constexpr int kTries = 20;

@@ -38,9 +38,9 @@ void require_surface(const MassSpringModel& base, const TargetOptions& options) 
   for (std::size_t r = 0; r < options.regions.size(); ++r) {
     for (const std::uint32_t node : options.regions[r].nodes)
       if (node >= base.node_count())
-        throw InputError(
-            fmt::format("calibration: region {} contains node {}; the base has {}, counted from 0",
-                        r + 1, node, base.node_count()));
+        throw InputError(fmt::format(
+            "calibration: region {} contains node {}; the base has {} nodes, counted from 0", r + 1,
+            node, base.node_count()));
     if (movable_nodes(base, options.regions[r], options.anchored).empty())
       throw InputError(
           fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
@@ -133,7 +133,8 @@ class FitCheckpoint {
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// Fit time that an abrupt stop may lose. A state has some megabytes.
+  /// Fit time that an abrupt stop may lose. Saving more often costs time: a state is some
+  /// megabytes.
   static constexpr std::chrono::seconds kInterval{2};
 
   const CalibrationStore& store_;

@@ -18,13 +18,11 @@ struct StepProblem {
   Eigen::VectorXd linearized_at{};          ///< d at which h was linearized, n; empty: 0
   double constraint_weight = 1;             ///< w
   double most_rms = 0.2;                    ///< bound on the root mean square of d
-};                                          ///< n, none: 0
-double constraint_weight = 1;               ///< w
-double most_rms = 0.2;                      ///< of d: the damping is raised until it holds
 };
 
-/// Levenberg-Marquardt step. `damping` is epsilon over the mean diagonal of G^T G [1]; it is raised
-/// until the root mean square of d is at most `most_rms`, and returned as raised.
+/// Levenberg-Marquardt step d, n (Levenberg 1944, Marquardt 1963). `damping` is epsilon over the
+/// mean diagonal of G^T G [1]; it is raised until the root mean square of d is at most `most_rms`,
+/// and returned as raised.
 Eigen::VectorXd damped_step(const StepProblem& problem, double& damping);
 
 }  // namespace springlod::lod

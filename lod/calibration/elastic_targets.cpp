@@ -18,8 +18,8 @@
 namespace springlod::lod {
 namespace {
 
-/// Load cases per block of the solver. More read the factors less often; each needs the memory of
-/// six copies of the positions.
+/// Number of load cases solved together. A larger block reads the factors less often, but each load
+/// case needs the memory of six copies of the positions.
 constexpr std::size_t kTogether = 32;
 
 void check_weight(const char* name, double weight) {

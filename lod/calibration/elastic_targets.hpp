@@ -57,8 +57,8 @@ struct BaseMeasurements {
   double highest_frequency = 0;           ///< omega_max [rad/s]
 };
 
-/// Targets of a connected base. Half of the loads of a region are patch pairs, if two patches fit
-/// into it; the others push one patch against the inertia of the body or against its anchors. A
+/// Measures the targets of a base. Half of the loads of a region are patch pairs, if two patches
+/// fit into it; the others push one patch against the inertia of the body or against its anchors. A
 /// region without free border nodes adds no loads.
 /// Throws InputError for weights below 0, and where elastic_body does.
 ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options = {});

@@ -17,7 +17,7 @@
 namespace springlod::lod {
 namespace {
 
-/// Bounds on theta: on each component of a step, on its root mean square, on each component in all.
+/// Bounds on each component of a step, on its root mean square, and on each component of theta.
 constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
 /// Damping relative to the mean diagonal of G^T G: initial value, least and largest.
 constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
@@ -37,8 +37,8 @@ constexpr int kRelinearizations = 4;
 /// root; the fit ends when the factor exceeds kLeastTighten.
 constexpr double kTighten = 0.8, kLeastTighten = 0.98;
 constexpr std::uint32_t kPatience = 10;
-/// Least ratio of the frequency bound to the largest node frequency. A lower bound would constrain
-/// nearly all nodes instead of the stiffest.
+/// Least ratio of the frequency bound to the largest squared node frequency. With a smaller ratio
+/// nearly all nodes would be constrained instead of the stiffest.
 constexpr double kLeastBound = 0.68;
 /// Nodes with ln(squared frequency / bound) below -kMargin have no constraint row.
 constexpr double kMargin = 1;

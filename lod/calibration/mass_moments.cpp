@@ -17,8 +17,8 @@ constexpr double kLeastFactor = 0.2;
 /// kLeastFactor.
 constexpr int kCorrections = 3;
 
-/// Least nodes of a material region with constraints of its own: twice its ten moments, or the
-/// constraints would leave its masses nearly fixed.
+/// Least number of nodes of a material region with its own constraints: twice its ten moments. In a
+/// smaller region the constraints would nearly fix the masses.
 constexpr std::size_t kLeastPiece = 20;
 
 /// The nodes of each large material region, then those of all small regions together.

@@ -148,7 +148,7 @@ class CompactKind {
 
   const MassSpringModel& model_;
   const Nodes& nodes_;
-  std::vector<Vec3> position_;     // of nodes_, blurred
+  std::vector<Vec3> position_;     // of nodes_, with jitter
   std::vector<std::uint32_t> of_;  // of nodes_
   std::vector<Vec3> center_;
 };

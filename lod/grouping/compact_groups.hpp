@@ -26,10 +26,10 @@ struct CompactOptions {
 /// one material and, with BorderRule::weak, within the border or the interior. With
 /// BorderRule::strong border nodes stay single.
 ///
-/// The time is N log N. Throws InputError if `count` is less than the kinds of nodes that must stay
-/// apart, or more than the nodes.
+/// The time is N log N. Throws InputError if `count` is less than the number of kinds of nodes that
+/// must stay apart, or more than the nodes.
 Groups compact_groups(const MassSpringModel& model, const CompactOptions& options);
-/// The same as a grouping.
+/// The same with the options of a grouping.
 Groups compact_groups(const GroupingTask& task);
 
 }  // namespace springlod::lod

@@ -62,7 +62,7 @@ std::vector<std::uint32_t> graded_shares(const std::vector<NodeKind>& kinds, std
   if (count < kinds.size() || count > all)
     throw InputError(fmt::format(
         "compact grouping: {} groups are impossible for {} nodes of {} kinds (components, "
-        "materials, weak borders), which are not grouped together; use {} to {}",
+        "materials, weak borders), which cannot share groups; use {} to {}",
         count, all, kinds.size(), kinds.size(), all));
   if (!(grading >= 0 && grading <= 1))
     throw InputError(fmt::format("compact grouping: grading = {} must be from 0 to 1", grading));

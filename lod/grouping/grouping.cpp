@@ -13,7 +13,7 @@
 namespace springlod::lod {
 namespace {
 
-/// Every grouping there is. A new one is a file with its maker, an enumerator and a row here.
+/// The table of groupings. A new grouping needs a file with its function, an enumerator and a row.
 constexpr GroupingChoice kGroupings[] = {
     {{Grouping::standard, "standard", "nearest neighbours first, nodes in random order"},
      standard_groups},

@@ -29,8 +29,8 @@ Groups group_nodes(const MassSpringModel& model, const SpringRows& springs,
 Groups groups_from_sets(const MassSpringModel& model,
                         const std::vector<std::vector<std::uint32_t>>& sets);
 
-/// Groups from the first node of each node's group. They are numbered by their lowest node, so
-/// coarse nodes keep the order of the fine ones and neighbours stay close in memory.
+/// Groups from `leader`, the first node of each node's group. They are numbered by their lowest
+/// node, so coarse nodes keep the order of the fine ones and neighbours stay close in memory.
 Groups groups_from_leaders(const std::vector<std::uint32_t>& leader);
 
 }  // namespace springlod::lod

@@ -22,7 +22,7 @@ class Chance {
  public:
   explicit Chance(std::uint64_t seed) : seed_(mix(seed)) {}
   std::uint64_t operator()(Draw what, std::uint64_t x) const { return mix(state(what, x)); }
-  /// Mixed with y, the number drawn for (x, y).
+  /// State for numbers of two arguments: mix(state ^ y) is the number for (x, y).
   std::uint64_t state(Draw what, std::uint64_t x) const {
     return mix(mix(seed_ ^ static_cast<std::uint64_t>(what)) ^ x);
   }

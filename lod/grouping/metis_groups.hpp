@@ -12,7 +12,7 @@ namespace springlod::lod {
 /// recursive bisection), which minimizes the sum of k L^2 over cut springs. It is a baseline for
 /// geometric groupings. Throws InputError if `count` is 0 or exceeds the number of nodes.
 Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint64_t seed);
-/// The same as a grouping.
+/// The same with the options of a grouping.
 Groups metis_groups(const GroupingTask& task);
 
 }  // namespace springlod::lod

@@ -13,7 +13,7 @@ namespace springlod::lod {
 /// likewise), where L0 is its old rest length and L the distance of its new ends; parallel springs
 /// add up. A spring is copied bit for bit if neither of its ends was merged.
 ///
-/// There are no guards here. Throws InputError if two joined groups have the same centre of mass
+/// No guards are applied. Throws InputError if two joined groups have the same centre of mass
 /// (L = 0): see guard_groups.
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups);
 /// The same with the result of relink for `fine` and `groups`.

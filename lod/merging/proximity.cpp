@@ -13,7 +13,7 @@ constexpr double kPieceOffset = 0.25;
 constexpr std::size_t kPieces = 8;
 
 struct Pieces {
-  std::vector<Vec3> at;                ///< centres, eight a node, node by node [m]
+  std::vector<Vec3> at;                ///< centres, eight for each base node [m]
   std::vector<std::uint32_t> nearest;  ///< coarse node of each
 };
 

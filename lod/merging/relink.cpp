@@ -53,9 +53,9 @@ void gather_row(const SpringRows& springs, const Groups& groups,
   row.resize(count);
 }
 
-// Appends the higher groups of a row to `highs`, sorted and each once: the index there is the
-// number of the pair. Sets pair_end of each higher group to the number plus one; smaller values of
-// pair_end belong to earlier rows.
+// Appends the higher groups of a row to `highs`, sorted and without duplicates; the index in
+// `highs` is the number of the pair. Sets pair_end of each higher group to the number plus one;
+// smaller values of pair_end belong to earlier rows.
 void append_pairs(const std::vector<RowEntry>& row, std::vector<std::uint32_t>& highs,
                   std::vector<std::uint32_t>& pair_end) {
   const std::size_t first = highs.size();

@@ -15,9 +15,10 @@ struct MergedPair {
 };
 
 /// Attributes the change of static compliance to single merges (docs/method.md, eq. 51). `fine` and
-/// `coarse` are the displacements of the two models under the same loads, one field a load [m].
-/// Returns for each load the contribution of every coarse node to C' - C [J], where C = u.Ku and
-/// C' = u'.K'u'. The contributions add up to C' - C to rounding for any models and displacements:
+/// `coarse` are the displacements of the two models under the same loads, one field for each load
+/// [m]. Returns for each load the contribution of every coarse node to C' - C [J], where C = u.Ku
+/// and C' = u'.K'u'. The contributions add up to C' - C to rounding for any models and
+/// displacements:
 ///
 ///   C' - C = [v.Ku - w.K'u'] + [u'.K'u' - v.Ku] + [w.K'u' - u.Ku]
 ///

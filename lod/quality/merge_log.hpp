@@ -83,9 +83,10 @@ constexpr auto option_rows(const MergeLogOptions*) {
 /// add up to them (compliance_changes).
 ///
 /// The modes are those of the level, so motions that the base does not have are included. Each is
-/// interpolated to the other models as a shape w; its squared frequency there is Schwarz's quotient
-/// w.f / u.f, with the inertia forces f of w and the displacements u that f causes. The quotient is
-/// accurate to second order in the shape, and no modes need to be matched.
+/// interpolated to the other models as a shape w; its squared frequency there is, up to a common
+/// factor, Schwarz's quotient w.f / u.f, with the inertia forces f of w and the displacements u
+/// that f causes. The quotient is accurate to second order in the shape, and no modes need to be
+/// matched.
 ///
 /// Costs a factorization and the lowest modes of each level and static solutions of it and the
 /// base. Results are bit-identical for any number of threads. Throws InputError for a chain without

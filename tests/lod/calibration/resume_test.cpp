@@ -90,7 +90,7 @@ const fs::path kNoStore;
 
 TEST_CASE("A calibration that is stopped repeatedly ends bit-identical to an uninterrupted one") {
   const LodChain whole = calibrated(options_with(kNoStore, nullptr));
-  for (const std::uint64_t advances : {2, 5, 12}) {  // stored steps of a level advance once
+  for (const std::uint64_t advances : {2, 5, 12}) {  // stored steps of a level are one advance
     const TemporaryFolder folder;
     std::optional<LodChain> found;
     int stops = 0;
@@ -173,8 +173,8 @@ TEST_CASE("A store that cannot be written is an error before any measurement") {
   Watcher watcher;
   const CalibrateOptions options = options_with(folder / "file" / "store", &watcher);
   CHECK_THROWS_AS(calibrated(options), IoError);
-  CHECK_THROWS_WITH(calibrated(options), Contains("its state cannot be saved in") &&
-                                             Contains("use a writable folder"));
+  CHECK_THROWS_WITH(calibrated(options),
+                    Contains("its state cannot be saved in") && Contains("use a writable folder"));
   CHECK(watcher.tasks.empty());
 }
 
