@@ -23,7 +23,7 @@ MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinki
 /// nodes of `coarse`. Each base node is a cube of its volume, cut into eight pieces; each piece
 /// goes to the nearest coarse node. A coarse node without a piece gets the nearest one that another
 /// node can spare. Total mass and volume are conserved, the centre of mass is not. Positions,
-/// contact areas and springs stay.
+/// contact areas and springs are unchanged.
 void share_by_proximity(const MassSpringModel& base, MassSpringModel& coarse);
 
 }  // namespace springlod::lod
