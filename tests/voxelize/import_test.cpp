@@ -13,8 +13,8 @@
 #include "base/file.hpp"
 #include "voxelize/solid.hpp"
 
-using namespace springlod;
-using namespace springlod::voxelize;
+namespace springlod::voxelize {
+
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
@@ -280,3 +280,5 @@ TEST_CASE("the report says in words what was assumed") {
   CHECK_THAT(given, !Contains("assumed"));
   CHECK_THAT(given, Contains("0.001 m"));
 }
+
+}  // namespace springlod::voxelize

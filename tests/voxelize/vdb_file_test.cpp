@@ -8,8 +8,8 @@
 #include "tests/voxelize/grids.hpp"
 #include "tests/voxelize/shapes.hpp"
 
-using namespace springlod;
-using namespace springlod::voxelize;
+namespace springlod::voxelize {
+
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
@@ -94,3 +94,5 @@ TEST_CASE("a grid that breaks its rules is not saved") {
   CHECK_THROWS_AS(save_vdb(grid, folder.path / "bad.vdb"), InputError);
   CHECK_FALSE(fs::exists(folder.path / "bad.vdb"));
 }
+
+}  // namespace springlod::voxelize

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "lod/build.hpp"
+#include "lod/calibration/calibrate.hpp"
 #include "lod/calibration/elastic_fit.hpp"
 #include "lod/quality/certify.hpp"
 #include "lod/quality/compared_loads.hpp"

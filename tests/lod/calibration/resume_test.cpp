@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "lod/build.hpp"
+#include "lod/calibration/calibrate.hpp"
 #include "lod/calibration/calibration_store.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/model/sample_assets.hpp"

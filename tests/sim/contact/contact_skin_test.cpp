@@ -11,6 +11,7 @@
 #include "sim/contact/contact.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
 #include "sim/integrators/leapfrog.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
 #include "sim/study/compare.hpp"
 #include "tests/sim/side_by_side.hpp"

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "sim/contact/tunnel_watch.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
 #include "sim/study/stiffness_ratio.hpp"
 #include "tests/sim/bodies.hpp"
