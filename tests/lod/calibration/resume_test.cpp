@@ -225,3 +225,38 @@ TEST_CASE("Steps with non-finite residuals are rejected") {
   CHECK(same.stiffness == level.model.stiffness);
   for (const double mass : same.mass) CHECK(std::isfinite(mass));
 }
+
+template <class Member>
+void change(Member& member) {
+  if constexpr (std::is_enum_v<Member>)
+    member = static_cast<Member>(static_cast<int>(member) + 1);
+  else if constexpr (std::is_arithmetic_v<Member>)
+    member += 1;
+  else
+    member.emplace();
+}
+template <class Element>
+void change(std::vector<Element>& list) {
+  list.emplace_back();
+}
+
+TEST_CASE("A change of any option of the targets, but a weight, is another fingerprint") {
+  const MassSpringModel base = block(4, 4, 6);
+  const std::string usual = fingerprint_of(base, TargetOptions{});
+  std::size_t rows = 0;
+  const TargetOptions all;
+  for_each_option(all, [&](const auto&, const auto&) { ++rows; });
+  REQUIRE(rows > 5);
+  for (std::size_t changed = 0; changed < rows; ++changed) {
+    TargetOptions options;
+    bool measured = true;
+    std::size_t number = 0;
+    for_each_option(options, [&](const auto& row, auto& member) {
+      if (number++ != changed) return;
+      if constexpr (requires { row.is_weight; }) measured = !row.is_weight;
+      change(member);
+    });
+    CAPTURE(changed);
+    CHECK((fingerprint_of(base, options) != usual) == measured);
+  }
+}
