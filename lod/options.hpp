@@ -121,7 +121,7 @@ constexpr auto option_rows(const GuardOptions*) {
 /// Moments of mass that a calibration keeps (docs/method.md, eqs. 35 and 36).
 enum class KeptMoments {
   body,   ///< those of the whole body
-  pieces  ///< those of each material region of 20 nodes or more
+  pieces  ///< those of each material region of 20 nodes or more, and of the smaller ones together
 };
 
 inline constexpr Choice<KeptMoments> kKeptMoments[] = {
@@ -247,7 +247,7 @@ enum class Calibrate {
   modes,   ///< see calibrate
 };
 
-/// A row of the table; `remark` is appended to Level::made_by.
+/// A row of the table of calibrations; `remark` is appended to Level::made_by.
 struct CalibrateChoice : Choice<Calibrate> {
   const char* remark;
 };

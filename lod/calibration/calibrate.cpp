@@ -207,7 +207,7 @@ class Calibrator {
       checkpoint.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options));
       progress.from = checkpoint->load();
     }
-    std::uint32_t reported = 0;  // steps that the task knows of
+    std::uint32_t reported = 0;  // steps already counted by the task
     const auto report = [&](const FitState& state) {
       if (stopped()) throw InterruptedError();
       task.detail(detail_of(level, state, targets.highest_frequency));

@@ -113,7 +113,7 @@ void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticB
   const auto m = as_vector(level.mass).array();
   Eigen::Index row = first;
   for (const auto& [i, j] : mode_pairs()) {
-    if (j >= found.size()) break;  // a level of very few nodes
+    if (j >= found.size()) break;  // a level of very few nodes has fewer modes
     const double scale = found[i].angular_frequency * found[j].angular_frequency;
     const double weight = targets_.mode_weight * mode_weight(i);
     all.jacobian.col(row) << weight / scale * k * stretch[i].array() * stretch[j].array(),

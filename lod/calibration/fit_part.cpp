@@ -21,8 +21,7 @@ namespace {
 constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
 /// Damping relative to the mean diagonal of G^T G: initial value, least and largest.
 constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
-/// The damping is divided by the first after an accepted step, multiplied by the second after a
-/// rejected one.
+/// Divisor of the damping after an accepted step, and factor on it after a rejected one.
 constexpr double kDampingDecrease = 3, kDampingIncrease = 4;
 /// Penalty weight of a constraint, relative to a smooth load. In a level of more than 1000 nodes
 /// the constraints weigh as much as those of 1000 nodes; they would outweigh the residuals

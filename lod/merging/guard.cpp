@@ -99,8 +99,8 @@ std::vector<std::uint32_t> component_sizes(const Graph& graph, std::uint32_t com
   return size;
 }
 
-// Whether each component has a sound node. Springs are sorted by their lower end, so a node is
-// complete after the springs whose lower end it is. Usually the first few nodes decide.
+// Whether each component has a sound node. Springs are sorted by their lower end: once those
+// that start at a node are added, it has all its springs. Usually the first few nodes decide.
 std::vector<bool> sound_components(const FineGraph& fine, const FloppyRule& rule) {
   const std::vector<std::uint32_t> component_size = component_sizes(fine, fine.components.count);
   std::vector<bool> sound(fine.components.count, false);

@@ -74,8 +74,9 @@ std::vector<std::vector<double>> compliance_changes(const MergedPair& pair,
                                                     const std::vector<std::vector<Vec3>>& fine,
                                                     const std::vector<std::vector<Vec3>>& coarse) {
   if (fine.size() != coarse.size())
-    throw InputError(fmt::format("compliance change: {} loads of the fine model, {} of the coarse",
-                                 fine.size(), coarse.size()));
+    throw InputError(
+        fmt::format("compliance change: the fine model has {} loads, the coarse one {}",
+                    fine.size(), coarse.size()));
   const Contributions contributions(pair);
   std::vector<std::vector<double>> changes;
   for (std::size_t load = 0; load < fine.size(); ++load) {
