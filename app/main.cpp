@@ -10,6 +10,7 @@
 
 #include "app/cli.hpp"
 #include "base/error.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/paths.hpp"
 #include "scripting/engine/repl.hpp"
@@ -49,7 +50,7 @@ int run(const std::vector<std::string>& arguments) {
   }
   const CommandLine& line = parsed.line;
   const scripting::InterruptHandler interrupts;
-  ScriptState state(line.settings);
+  ScriptState state(line.settings, scripting::make_api());
   const Outcome outcome = run_action(state, line);
   if (outcome.interrupted)
     fmt::print(stderr, "springlod: interrupted\n");

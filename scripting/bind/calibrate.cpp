@@ -9,6 +9,7 @@
 #include "lod/quality/certify.hpp"
 #include "scripting/bind/calibration_option.hpp"
 #include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 

@@ -13,6 +13,7 @@
 #include "scripting/bind/chart_table.hpp"
 #include "scripting/bind/run_options.hpp"
 #include "scripting/bind/scenario_table.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/study/ensemble.hpp"

@@ -12,6 +12,7 @@
 #include "elastic/stiffness.hpp"
 #include "elastic/zero_modes.hpp"
 #include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {

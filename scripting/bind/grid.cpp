@@ -17,6 +17,7 @@
 #include "base/error.hpp"
 #include "base/units.hpp"
 #include "scripting/bind/records.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "voxelize/vdb_file.hpp"

@@ -12,6 +12,7 @@
 #include "scripting/bind/calibration_option.hpp"
 #include "scripting/bind/grouping_script.hpp"
 #include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 

@@ -10,6 +10,7 @@
 #include <lua.hpp>
 
 #include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "scripting/engine/result_table.hpp"

@@ -14,6 +14,7 @@
 #include "scripting/bind/certificate_table.hpp"
 #include "scripting/bind/model_table.hpp"
 #include "scripting/bind/records.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 

@@ -9,6 +9,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "voxelize/refill.hpp"

@@ -11,6 +11,7 @@
 #include "scripting/bind/draw_style.hpp"
 #include "scripting/bind/picture.hpp"
 #include "scripting/bind/still_pictures.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {
@@ -199,7 +200,7 @@ int render_binding(Call& call) {
                                .panel_height = options.height,
                                .panel_count = static_cast<std::uint32_t>(panels.size()),
                                .columns = options.columns};
-  render::save_png(call.session().still_pictures().draw(grid, std::move(panels), options.text),
+  render::save_png(call.session().kept<StillPictures>().draw(grid, std::move(panels), options.text),
                    call.path(1));
   return 0;
 }

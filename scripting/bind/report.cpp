@@ -14,6 +14,7 @@
 #include "report/video.hpp"
 #include "scripting/bind/chart_table.hpp"
 #include "scripting/bind/draw_style.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/study/stability_map.hpp"

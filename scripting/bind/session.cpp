@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
 #include "scripting/engine/help.hpp"
 #include "scripting/engine/inspect.hpp"

@@ -9,6 +9,7 @@
 #include "report/tables.hpp"
 #include "scripting/bind/chart_table.hpp"
 #include "scripting/bind/integrator_word.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/study/stability_map.hpp"

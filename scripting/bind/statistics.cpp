@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "report/stats.hpp"
+#include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <typeindex>
 #include <vector>
 
 #include "scripting/engine/console.hpp"
@@ -13,7 +16,6 @@ struct lua_State;
 namespace springlod::scripting {
 
 class Api;
-class StillPictures;
 
 /// What the command line settles for a whole run.
 struct Settings {
@@ -26,7 +28,6 @@ struct Settings {
 class Session {
  public:
   Session(Settings settings, const Api& api);
-  ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -34,13 +35,19 @@ class Session {
   const Api& api() const { return api_; }
   Console& console() { return console_; }
   Progress* progress() { return &console_; }
-  StillPictures& still_pictures() { return *still_pictures_; }
+  /// What bindings keep from one call to the next: one T, made when it is first asked for.
+  template <class T>
+  T& kept() {
+    std::any& slot = kept_[typeid(T)];
+    if (!slot.has_value()) slot = std::make_shared<T>();
+    return **std::any_cast<std::shared_ptr<T>>(&slot);
+  }
 
  private:
   Settings settings_;
   Console console_;
   const Api& api_;
-  std::unique_ptr<StillPictures> still_pictures_;
+  std::map<std::type_index, std::any> kept_;
 };
 
 /// The session of a Lua state (every coroutine of it included).

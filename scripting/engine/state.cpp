@@ -1,12 +1,12 @@
 #include "scripting/engine/state.hpp"
 
 #include <new>
+#include <utility>
 
 #include <fmt/format.h>
 #include <lua.hpp>
 
 #include "base/error.hpp"
-#include "scripting/bind/still_pictures.hpp"
 #include "scripting/engine/call.hpp"
 #include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/paths.hpp"
@@ -90,12 +90,7 @@ Session& session_of(lua_State* L) {
 }
 
 Session::Session(Settings settings, const Api& api)
-    : settings_(settings),
-      console_(settings.verbosity),
-      api_(api),
-      still_pictures_(std::make_unique<StillPictures>()) {}
-
-Session::~Session() = default;
+    : settings_(settings), console_(settings.verbosity), api_(api) {}
 
 void set_session(lua_State* L, Session* session) {
   *static_cast<Session**>(lua_getextraspace(L)) = session;
@@ -105,25 +100,8 @@ std::string version() {
   return SPRINGLOD_VERSION;
 }
 
-std::unique_ptr<Api> make_api() {
-  auto api = std::make_unique<Api>();
-  describe_session(*api);
-  describe_files(*api);
-  describe_voxelize(*api);
-  describe_model(*api);
-  describe_elastic(*api);
-  describe_lod(*api);
-  describe_merge_log(*api);
-  describe_sim(*api);
-  describe_render(*api);
-  describe_report(*api);
-  describe_statistics(*api);
-  describe_errors(*api);
-  return api;
-}
-
-ScriptState::ScriptState(const Settings& settings)
-    : api_(make_api()),
+ScriptState::ScriptState(const Settings& settings, std::unique_ptr<Api> api)
+    : api_(std::move(api)),
       session_(std::make_unique<Session>(settings, *api_)),
       lua_(luaL_newstate()) {
   if (lua_ == nullptr) throw std::bad_alloc();

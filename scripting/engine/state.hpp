@@ -25,7 +25,8 @@ struct Outcome {
 /// through which Ctrl-C stops a running script. Not to be shared between threads.
 class ScriptState {
  public:
-  explicit ScriptState(const Settings& settings);
+  /// `api`: what `require "springlod"` gives.
+  ScriptState(const Settings& settings, std::unique_ptr<Api> api);
   ~ScriptState();
   ScriptState(const ScriptState&) = delete;
   ScriptState& operator=(const ScriptState&) = delete;
@@ -53,8 +54,5 @@ class ScriptState {
   std::unique_ptr<Session> session_;
   lua_State* lua_;
 };
-
-/// The registry of everything.
-std::unique_ptr<Api> make_api();
 
 }  // namespace springlod::scripting

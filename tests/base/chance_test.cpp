@@ -5,8 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-using springlod::ChanceStream;
-using springlod::mix;
+using namespace springlod;
 
 TEST_CASE("chance gives the published numbers of SplitMix64") {
   // The first outputs of splitmix64.c from state 1234567.

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using springlod::DisjointSets;
+using namespace springlod;
 
 TEST_CASE("Sets are known by their lowest element and numbered by it") {
   DisjointSets sets(7);

@@ -9,11 +9,7 @@
 #include "tests/cli/program.hpp"
 
 using Catch::Matchers::Contains;
-using springlod::Api;
-using springlod::make_api;
-using springlod::Parameter;
-using springlod::ScriptState;
-using springlod::TableReader;
+using namespace springlod;
 using springlod::test::Ran;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
@@ -72,7 +68,7 @@ TEST_CASE("help explains functions, values, types, tables and refuses the rest w
 }
 
 TEST_CASE("a binding that reads what is not listed, or not all that is, fails hard") {
-  scripting::ScriptState state({});
+  scripting::ScriptState state({}, scripting::make_api());
   const std::vector<scripting::Parameter> listed{{.name = "size"}, {.name = "speed"}};
   scripting::TableReader reader(state.lua(), 0, listed, "test");
   double value = 0;

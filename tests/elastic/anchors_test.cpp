@@ -15,7 +15,7 @@
 #include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 using Nodes = std::vector<std::uint32_t>;
@@ -229,4 +229,4 @@ TEST_CASE("An anchored node that is none is refused by name") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

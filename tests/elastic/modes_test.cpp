@@ -10,7 +10,7 @@
 #include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Stiffnesses over four powers of ten.
@@ -229,4 +229,4 @@ TEST_CASE("Work on modes can be interrupted") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "tests/model/sample_models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 using test::box_lattice;
@@ -117,4 +117,4 @@ TEST_CASE("The stable step follows the formula for damped springs") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

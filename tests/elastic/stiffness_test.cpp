@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "tests/model/sample_models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 using test::box_lattice;
@@ -104,4 +104,4 @@ TEST_CASE("A model that cannot be stretched is refused") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

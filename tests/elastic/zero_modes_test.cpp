@@ -9,7 +9,7 @@
 #include "elastic/stiffness.hpp"
 #include "tests/model/sample_models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 using test::box_lattice;
@@ -142,4 +142,4 @@ TEST_CASE("Counts agree with a dense eigenvalue solver on lattices with springs 
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

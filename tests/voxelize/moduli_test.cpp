@@ -9,7 +9,7 @@
 #include "tests/voxelize/grids.hpp"
 #include "voxelize/lattice.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 using test::box_grid;
@@ -120,4 +120,4 @@ TEST_CASE("A body of two halves on a hinge names the smaller half") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::voxelize

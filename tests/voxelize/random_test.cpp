@@ -11,7 +11,7 @@
 #include "tests/voxelize/grids.hpp"
 #include "voxelize/random_periodic.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 using test::box_grid;
@@ -214,4 +214,4 @@ TEST_CASE("A periodic random network is below eq. 2 as the specification says, w
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::voxelize

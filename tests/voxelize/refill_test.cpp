@@ -7,7 +7,7 @@
 #include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
 
-namespace springlod {
+namespace springlod::voxelize {
 namespace {
 
 using test::box_grid;
@@ -97,4 +97,4 @@ TEST_CASE("A refill that gets no coarser is refused") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::voxelize

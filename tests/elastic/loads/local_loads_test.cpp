@@ -5,7 +5,7 @@
 #include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 Vec3 total(const StaticLoad& load) {
@@ -91,4 +91,4 @@ TEST_CASE("Local loads want a surface; a body too small for two patches has no p
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -8,7 +8,7 @@
 #include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// Forces of a uniform stress on the surface of a box of cells of edge a: each outer face of a cell
@@ -211,4 +211,4 @@ TEST_CASE("Loads of the wrong size or without a value are refused") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -3,7 +3,7 @@
 #include "elastic/moduli.hpp"
 #include "tests/support/models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 TEST_CASE("Eq. 2 of a rod of three nodes, by hand") {
@@ -46,4 +46,4 @@ TEST_CASE("What eq. 2 says of the materials adds up to what it says of the whole
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -5,7 +5,7 @@
 #include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 std::vector<MaterialModuli> under_smooth_loads(const MassSpringModel& model) {
@@ -167,4 +167,4 @@ TEST_CASE("Displacements of another model are refused") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "elastic/moduli.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// The cubic lattice of 6 + 12 neighbours, n^3 nodes 1 m apart, k = 1 N/m.
@@ -57,4 +57,4 @@ TEST_CASE("A periodic network whose arrays do not fit is refused") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

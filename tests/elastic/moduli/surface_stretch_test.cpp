@@ -4,7 +4,7 @@
 #include "elastic/moduli.hpp"
 #include "tests/support/models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 /// A cube of one cell of the `corners` lattice: 1 m, E = 2.5 k / a with k = 4 N/m.
@@ -40,4 +40,4 @@ TEST_CASE("Areas that are too few or enclose nothing are refused") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

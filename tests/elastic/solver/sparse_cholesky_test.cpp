@@ -11,7 +11,7 @@
 #include "tests/elastic/elastic_samples.hpp"
 #include "tests/support/models.hpp"
 
-namespace springlod {
+namespace springlod::elastic {
 namespace {
 
 Eigen::SparseMatrix<double> shifted_stiffness(const MassSpringModel& m, double shift) {
@@ -111,4 +111,4 @@ TEST_CASE("A matrix that is not positive definite is told") {
 }
 
 }  // namespace
-}  // namespace springlod
+}  // namespace springlod::elastic

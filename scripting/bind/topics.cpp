@@ -1,0 +1,24 @@
+#include "scripting/bind/topics.hpp"
+
+#include "scripting/engine/script_error.hpp"
+
+namespace springlod::scripting {
+
+std::unique_ptr<Api> make_api() {
+  auto api = std::make_unique<Api>();
+  describe_session(*api);
+  describe_files(*api);
+  describe_voxelize(*api);
+  describe_model(*api);
+  describe_elastic(*api);
+  describe_lod(*api);
+  describe_merge_log(*api);
+  describe_sim(*api);
+  describe_render(*api);
+  describe_report(*api);
+  describe_statistics(*api);
+  describe_errors(*api);
+  return api;
+}
+
+}  // namespace springlod::scripting
