@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "model/spring_rows.hpp"
+#include "base/script_number.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -189,10 +190,11 @@ void validate(const Binding& binding, std::uint32_t node_count) {
     throw InputError("binding: its rows do not cover its entries");
   for (std::size_t e = 0; e < binding.node.size(); ++e) {
     if (binding.node[e] >= node_count)
-      throw InputError(fmt::format("binding: entry {} names node {}, but there are only {}", e,
-                                   binding.node[e], node_count));
+      throw InputError(fmt::format("binding: entry {} names node {}, but there are only {}",
+                                   script_number(e), script_number(binding.node[e]), node_count));
     if (!std::isfinite(binding.weight[e]))
-      throw InputError(fmt::format("binding: the weight of entry {} is not finite", e));
+      throw InputError(
+          fmt::format("binding: the weight of entry {} is not finite", script_number(e)));
   }
 }
 
@@ -237,7 +239,7 @@ Binding compose(const Binding& outer, const Binding& inner) {
       const std::uint32_t q = outer.node[e];
       if (q >= inner.point_count())
         throw InputError(fmt::format("binding: point {} hangs on point {}, of which there are {}",
-                                     p, q, inner.point_count()));
+                                     script_number(p), script_number(q), inner.point_count()));
       for (std::uint32_t f = inner.start[q]; f < inner.start[q + 1]; ++f)
         row.emplace_back(inner.node[f], outer.weight[e] * inner.weight[f]);
     }

@@ -8,6 +8,7 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -26,7 +27,7 @@ void require_sizes(const MassSpringModel& m) {
 void validate_nodes(const MassSpringModel& m) {
   for (std::uint32_t i = 0; i < m.node_count(); ++i) {
     const auto fail = [&](const char* rule) {
-      throw InputError(fmt::format("model: node {}: {}", i, rule));
+      throw InputError(fmt::format("model: node {}: {}", script_number(i), rule));
     };
     if (!m.rest[i].allFinite()) fail("its position is not finite");
     if (!(m.mass[i] > 0) || !std::isfinite(m.mass[i])) fail("its mass must be above 0");
@@ -40,7 +41,8 @@ void validate_nodes(const MassSpringModel& m) {
 void validate_springs(const MassSpringModel& m) {
   for (std::uint32_t s = 0; s < m.spring_count(); ++s) {
     const auto fail = [&](const char* rule) {
-      throw InputError(fmt::format("model: spring {} ({} - {}): {}", s, m.a[s], m.b[s], rule));
+      throw InputError(fmt::format("model: spring {} ({} - {}): {}", script_number(s),
+                                   script_number(m.a[s]), script_number(m.b[s]), rule));
     };
     if (m.b[s] >= m.node_count()) fail("it names a node that is not there");
     if (m.a[s] >= m.b[s]) fail("its nodes must be two different ones, the lower first");

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/loads.hpp"
 #include "elastic/solver/conjugate_gradients.hpp"
 
@@ -24,8 +25,8 @@ void check(const ElasticBody& body, const StaticLoad& load) {
                                  load.name, load.force.size(), body.node_count));
   for (std::size_t i = 0; i < load.force.size(); ++i)
     if (!load.force[i].allFinite())
-      throw InputError(
-          fmt::format("static load {}: the force on node {} is not finite", load.name, i));
+      throw InputError(fmt::format("static load {}: the force on node {} is not finite", load.name,
+                                   script_number(i)));
 }
 
 /// A load does not count as pushing at a zero mode if its part along it, over its size, is less
@@ -41,9 +42,9 @@ void check_held(const ElasticPart& part, const StaticLoad& load, const Eigen::Ve
   motion.reshaped(3, motion.size() / 3).colwise().norm().maxCoeff(&farthest);
   throw InputError(fmt::format(
       "static load {}: no spring resists it, and the anchors leave the part free to move with it, "
-      "most of all node {} (counted from 0); anchor more nodes: three that do not lie in a line "
+      "most of all node {}; anchor more nodes: three that do not lie in a line "
       "hold a solid part, and zero_modes tells what is loose",
-      load.name, part.nodes[static_cast<std::size_t>(farthest)]));
+      load.name, script_number(part.nodes[static_cast<std::size_t>(farthest)])));
 }
 
 /// D y = force by conjugate gradients preconditioned with the shifted factor; `direction` is what

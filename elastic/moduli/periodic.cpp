@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/moduli.hpp"
 #include "elastic/moduli/balanced_solver.hpp"
 
@@ -23,8 +24,8 @@ void require_sizes(const PeriodicNetwork& n) {
         fmt::format("periodic network: every spring array must have {} entries", springs));
   for (std::size_t s = 0; s < springs; ++s)
     if (n.a[s] >= n.rest.size() || n.b[s] >= n.rest.size())
-      throw InputError(
-          fmt::format("periodic network: spring {} names a node that is not there", s));
+      throw InputError(fmt::format("periodic network: spring {} names a node that is not there",
+                                   script_number(s)));
 }
 
 }  // namespace

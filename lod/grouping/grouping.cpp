@@ -10,6 +10,7 @@
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "lod/grouping/grouping_keys.hpp"
 #include "lod/grouping/radix_sort.hpp"
 
@@ -171,7 +172,7 @@ void require_joined(const SpringRows& springs, const std::vector<std::uint32_t>&
     throw InputError(fmt::format(
         "groups: the group of node {} is not held together by springs; merging it would weld "
         "pieces that are mechanically apart",
-        set[0]));
+        script_number(set[0])));
 }
 
 }  // namespace
@@ -191,10 +192,10 @@ Groups groups_from_sets(const MassSpringModel& model,
   for (const std::vector<std::uint32_t>& set : sets) {
     for (const std::uint32_t i : set) {
       if (i >= model.node_count())
-        throw InputError(
-            fmt::format("groups: there is no node {}; the model has {}", i, model.node_count()));
+        throw InputError(fmt::format("groups: there is no node {}; the model has {}",
+                                     script_number(i), model.node_count()));
       if (leader[i] != kUngrouped)
-        throw InputError(fmt::format("groups: node {} is named twice", i));
+        throw InputError(fmt::format("groups: node {} is named twice", script_number(i)));
       leader[i] = set[0];
     }
   }

@@ -2,13 +2,6 @@
 
 #include <numeric>
 
-#include "sim/fast/fast_leapfrog.hpp"
-#include "sim/integrators/backward_euler.hpp"
-#include "sim/integrators/leapfrog.hpp"
-#include "sim/integrators/projective_dynamics.hpp"
-#include "sim/integrators/runge_kutta.hpp"
-#include "sim/integrators/xpbd.hpp"
-
 namespace springlod::sim {
 
 Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -58,27 +51,6 @@ double Stepper::kinetic_after(std::uint32_t* fastest) const {
     }
   }
   return sum;
-}
-
-std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenario& scenario,
-                                      const State& start, double step,
-                                      const StepperOptions& options) {
-  switch (options.integrator) {
-    case Integrator::symplectic_euler:
-      return std::make_unique<FastLeapfrog>(model, scenario, start, step, options);
-    case Integrator::velocity_verlet:
-      return std::make_unique<Leapfrog>(model, scenario, start, step, options);
-    case Integrator::runge_kutta_4:
-      return std::make_unique<RungeKutta>(model, scenario, start, step, options);
-    case Integrator::backward_euler_cg:
-    case Integrator::backward_euler_direct:
-      return std::make_unique<BackwardEuler>(model, scenario, start, step, options);
-    case Integrator::xpbd:
-      return std::make_unique<Xpbd>(model, scenario, start, step, options);
-    case Integrator::projective_dynamics:
-      return std::make_unique<ProjectiveDynamics>(model, scenario, start, step, options);
-  }
-  return nullptr;
 }
 
 }  // namespace springlod::sim

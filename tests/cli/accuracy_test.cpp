@@ -6,9 +6,9 @@
 
 using Catch::Contains;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace {
 
@@ -60,8 +60,8 @@ TEST_CASE("calibration refuses what it cannot do, and says why") {
   CHECK_THAT(refusal("calibrate = 'modes', calibration = {target = 'modes'}"), Contains("targets"));
 }
 
-TEST_CASE("springlod accuracy measures methods side by side") {
-  const Scratch scratch;
+TEST_CASE("springlod accuracy measures methods side by side", "[long]") {
+  const TemporaryFolder scratch;
   const std::string folder = (scratch / "accuracy").string();
 #ifdef SPRINGLOD_HAS_METIS
   const std::string last = "METIS plain";
@@ -80,8 +80,9 @@ TEST_CASE("springlod accuracy measures methods side by side") {
   CHECK_THAT(nothing.err, Contains("must be one of sphere, rods"));
 }
 
-TEST_CASE("springlod accuracy charts errors of smaller and smaller levels against their cost") {
-  const Scratch scratch;
+TEST_CASE("springlod accuracy charts errors of smaller and smaller levels against their cost",
+          "[long]") {
+  const TemporaryFolder scratch;
   const std::string folder = (scratch / "accuracy").string();
   const Ran ran = springlod_run({"accuracy", folder, "--trade-off", "--quick", "-q"});
   CAPTURE(ran.err);

@@ -5,9 +5,9 @@
 using Catch::Matchers::Contains;
 using springlod::test::obj_of_boxes;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::spit;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace {
 
@@ -20,7 +20,7 @@ Ran run_lua(const std::string& code, const std::vector<std::string>& arguments =
 }  // namespace
 
 TEST_CASE("the script of the architecture page runs, and so does every function of the API") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "dumbbell.obj",
        obj_of_boxes({{"rod", 0, 9}, {"rubber", 9, 14}, {"rod_2", 14, 23}}, 4));
   const Ran ran = run_lua(R"(
@@ -115,7 +115,7 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     for name, value in pairs(s) do
       if type(value) == "function" and not called[name] then print("NEVER CALLED", name) end
     end)",
-                          {scratch.folder().string()});
+                          {scratch.path().string()});
   CAPTURE(ran.out, ran.err);
   CHECK(ran.exit_code == 0);
   CHECK(ran.err.empty());

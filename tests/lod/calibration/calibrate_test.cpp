@@ -203,7 +203,7 @@ TEST_CASE("Calibrated levels swing and give way as the base, with a longer step"
   }
 }
 
-TEST_CASE("Calibration gives the same bits for any number of threads") {
+TEST_CASE("Calibration gives the same bits for any number of threads", "[threaded]") {
   const MassSpringModel base = block(4, 4, 5);
   SimplifyOptions options{.calibration = Calibration::modes};
   options.calibrate.fit.iterations = 3;
