@@ -26,7 +26,8 @@ void add_settings(CLI::App& app, scripting::Settings& settings, Switches& switch
   app.add_option("--seed", settings.seed, "seed of everything random (default 1)");
   app.add_option("--threads", settings.threads, "threads at most; 0, the default: all cores");
   app.add_flag("-q,--quiet", switches.quiet, "no talk on stderr but errors");
-  app.add_flag("-v,--verbose", switches.verbose, "more talk, such as each step of a calibration; tracebacks");
+  app.add_flag("-v,--verbose", switches.verbose,
+               "more talk, such as each step of a calibration; tracebacks");
 }
 
 void settle(const Switches& switches, scripting::Settings& settings) {

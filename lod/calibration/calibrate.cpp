@@ -39,9 +39,9 @@ void require_surface(const MassSpringModel& base, const TargetOptions& options) 
   for (std::size_t r = 0; r < options.regions.size(); ++r) {
     for (const std::uint32_t node : options.regions[r].nodes)
       if (node >= base.node_count())
-        throw InputError(fmt::format(
-            "calibration: region {} contains node {}; the base has {} nodes", script_number(r),
-            script_number(node), base.node_count()));
+        throw InputError(
+            fmt::format("calibration: region {} contains node {}; the base has {} nodes",
+                        script_number(r), script_number(node), base.node_count()));
     if (movable_nodes(base, options.regions[r], options.anchored).empty())
       throw InputError(
           fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
@@ -115,7 +115,7 @@ void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpring
 class FitCheckpoint {
  public:
   FitCheckpoint(const CalibrationStore& store, std::size_t level, std::size_t part,
-            std::string fingerprint, double interval)
+                std::string fingerprint, double interval)
       : store_(store),
         level_(level),
         part_(part),

@@ -69,14 +69,16 @@ class ActiveStep {
   Eigen::VectorXd solve_constraints(const Eigen::MatrixXd& scaled_coupling, double damping,
                                     const Eigen::VectorXd& right) const {
     const Eigen::VectorXd scale =
-        (product_.diagonal().array() + damping - scaled_coupling.rowwise().squaredNorm().array()).inverse();
+        (product_.diagonal().array() + damping - scaled_coupling.rowwise().squaredNorm().array())
+            .inverse();
     const Eigen::VectorXd first = scale.cwiseProduct(right);
     const double small = kAccuracy * kAccuracy * right.dot(first);
     return elastic::conjugate_gradients(
                right, first, kMostIterations,
                [&](const Eigen::VectorXd& direction) {
                  Eigen::VectorXd image = product_ * direction + damping * direction;
-                 image.noalias() -= scaled_coupling * (scaled_coupling.transpose() * direction).eval();
+                 image.noalias() -=
+                     scaled_coupling * (scaled_coupling.transpose() * direction).eval();
                  return image;
                },
                [&](const Eigen::MatrixXd& residual) { return scale.cwiseProduct(residual); },
