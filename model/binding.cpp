@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "model/spring_rows.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -141,7 +142,7 @@ std::vector<Candidate> choose(const std::vector<Candidate>& candidates, std::siz
 
 /// Nodes up to two springs away from `centre`, itself included. `mark` holds N zeros and does so
 /// again afterwards.
-std::vector<std::uint32_t> two_springs_around(std::uint32_t centre, const Adjacency& adj,
+std::vector<std::uint32_t> two_springs_around(std::uint32_t centre, const SpringRows& springs,
                                               std::vector<std::uint8_t>& mark) {
   std::vector<std::uint32_t> found{centre};
   mark[centre] = 1;
@@ -149,12 +150,11 @@ std::vector<std::uint32_t> two_springs_around(std::uint32_t centre, const Adjace
   std::size_t next = 0;
   for (int ring = 0; ring < 2; ++ring) {
     for (; next < ring_end; ++next)
-      for (std::uint32_t e = adj.start[found[next]]; e < adj.start[found[next] + 1]; ++e) {
-        const std::uint32_t node = adj.neighbour[e];
-        if (mark[node] != 0) continue;
+      springs.for_each(found[next], [&](std::uint32_t node, std::uint32_t) {
+        if (mark[node] != 0) return;
         mark[node] = 1;
         found.push_back(node);
-      }
+      });
     ring_end = found.size();
   }
   for (const std::uint32_t node : found) mark[node] = 0;
@@ -213,7 +213,7 @@ Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& mode
                     options.nodes_per_point));
   const NodeCloud cloud{model.rest};
   const NodeTree tree(3, cloud);
-  const Adjacency adj = adjacency(model);
+  const SpringRows springs(model);
   std::vector<std::uint8_t> mark(model.node_count(), 0);
   Binding binding;
   binding.start.reserve(points.size() + 1);
@@ -222,7 +222,7 @@ Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& mode
     std::uint32_t nearest = 0;
     double distance2 = 0;
     tree.knnSearch(point.data(), 1, &nearest, &distance2);
-    const auto around = two_springs_around(nearest, adj, mark);
+    const auto around = two_springs_around(nearest, springs, mark);
     const auto candidates = by_distance(point, model, around);
     append_weights(binding, point, model, choose(candidates, options.nodes_per_point, model));
   }

@@ -27,16 +27,11 @@ void StepByStep::advance(std::uint64_t steps) {
 }
 
 Vec3 Stepper::center_of_mass() const {
-  Vec3 moment = Vec3::Zero();
-  for (std::size_t i = 0; i < x_.size(); ++i) moment += model_->mass[i] * x_[i];
-  return moment / total_mass_;
+  return springlod::center_of_mass(*model_, x_);
 }
 
 Vec3 Stepper::center_velocity() const {
-  const std::vector<Vec3>& v = velocities_after();
-  Vec3 momentum = Vec3::Zero();
-  for (std::size_t i = 0; i < v.size(); ++i) momentum += model_->mass[i] * v[i];
-  return momentum / total_mass_;
+  return springlod::center_of_mass(*model_, velocities_after());
 }
 
 double Stepper::gravity_energy() const {

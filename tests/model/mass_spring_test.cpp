@@ -72,23 +72,6 @@ TEST_CASE("Arrays of unequal length, no nodes and no materials are refused") {
   CHECK_THROWS_AS(validate(m), InputError);
 }
 
-TEST_CASE("Springs by node come in rising order of neighbour, each at both ends") {
-  const MassSpringModel m = box_lattice(4, 3, 5);
-  const Adjacency adj = adjacency(m);
-  REQUIRE(adj.start.size() == m.node_count() + 1);
-  REQUIRE(adj.neighbour.size() == m.end_count());
-  std::vector<int> seen(m.spring_count(), 0);
-  for (std::uint32_t i = 0; i < m.node_count(); ++i)
-    for (std::uint32_t e = adj.start[i]; e < adj.start[i + 1]; ++e) {
-      if (e > adj.start[i]) REQUIRE(adj.neighbour[e - 1] < adj.neighbour[e]);
-      const std::uint32_t s = adj.spring[e];
-      ++seen[s];
-      REQUIRE(m.a[s] + m.b[s] == i + adj.neighbour[e]);
-      REQUIRE((m.a[s] == i || m.b[s] == i));
-    }
-  for (const int times : seen) REQUIRE(times == 2);
-}
-
 TEST_CASE("Connected parts are numbered by their lowest node") {
   const MassSpringModel m = make_model(
       {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}}, {{0, 4}, {1, 3}, {3, 5}});

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "tests/render/golden.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
 using namespace springlod::report;
@@ -25,7 +26,7 @@ TEST_CASE("numbers are written as short as they read back the same") {
 }
 
 TEST_CASE("cells with commas, quotes and line breaks are quoted as RFC 4180 says") {
-  const TemporaryFolder folder("csv");
+  const TemporaryFolder folder;
   const auto path = folder.path() / "table.csv";
   save_csv({{"name", "value"}, {{"a,b", whole(1)}, {"say \"hi\"", "2\n3"}, {"plain", Cell()}}},
            path);
@@ -46,7 +47,7 @@ TEST_CASE("a CSV file has numbers in full, a terminal four digits of them") {
 }
 
 TEST_CASE("a ragged table is refused") {
-  const TemporaryFolder folder("csv");
+  const TemporaryFolder folder;
   const Table ragged{{"a", "b"}, {{"1", "2"}, {"3"}}};
   CHECK_THROWS_WITH(save_csv(ragged, folder.path() / "t.csv"), Catch::Contains("row 2"));
   CHECK_THROWS_AS(format_table(ragged), InputError);

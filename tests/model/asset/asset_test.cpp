@@ -11,6 +11,7 @@
 #include "base/file.hpp"
 #include "tests/model/asset/glb_text.hpp"
 #include "tests/model/sample_assets.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace springlod {
 namespace {
@@ -167,7 +168,7 @@ TEST_CASE("A file cut short anywhere is refused") {
   }
 }
 
-TEST_CASE("A flipped bit is refused, or changes nothing that is read") {
+TEST_CASE("A flipped bit is refused, or changes nothing that is read", "[long]") {
   const TemporaryFolder folder;
   const LodAsset asset = sample_asset();
   save_asset(asset, folder / "asset.glb");
@@ -191,7 +192,7 @@ TEST_CASE("A flipped bit is refused, or changes nothing that is read") {
   CHECK(refused > tried / 2);
 }
 
-TEST_CASE("A flipped bit in an exact array or in the description of it is refused") {
+TEST_CASE("A flipped bit in an exact array or in the description of it is refused", "[long]") {
   const TemporaryFolder folder;
   save_asset(sample_asset(), folder / "asset.glb");
   const std::string bytes = read_file(folder / "asset.glb");

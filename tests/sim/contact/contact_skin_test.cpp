@@ -12,6 +12,7 @@
 #include "sim/contact/contact.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
 #include "sim/integrators/leapfrog.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
 #include "sim/study/compare.hpp"
 #include "tests/sim/side_by_side.hpp"
@@ -186,7 +187,7 @@ TEST_CASE("Friction on a skin removes the energy it reports; stick springs store
   CHECK((left - contacts[0].normal.dot(left) * contacts[0].normal).norm() < 1e-12);
 }
 
-TEST_CASE("A base with the skin of its own is the base without, to the bit") {
+TEST_CASE("A base with the skin of its own is the base without, to the bit", "[long]") {
   const LodChain& chain = small_chain();
   const MassSpringModel& base = chain.levels[0].model;
   Scenario scene = small_scene(0.8);
@@ -195,7 +196,7 @@ TEST_CASE("A base with the skin of its own is the base without, to the bit") {
   box.half_size = {0.2, 1, 0.2};
   scene.obstacles.push_back(scene.obstacles[0]);
   scene.obstacles[1].shape = box;
-  for (const Integrator integrator : kIntegrators) {
+  for (const Integrator integrator : all_choices<Integrator>()) {
     CAPTURE(to_string(integrator));
     RunOptions options{.integrator = integrator, .step = 2e-4};
     const Trajectory bare = run(base, scene, options);
@@ -295,7 +296,7 @@ TEST_CASE("The implicit schemes bring a level with a skin to the same rest as th
   scene.duration = 1;
   RunOptions options{.skin = skin_of(chain, 1)};
   const double rest = center_of_mass(model, run(model, scene, options).final.x).z();
-  for (const Integrator integrator : kIntegrators) {
+  for (const Integrator integrator : all_choices<Integrator>()) {
     if (!is_implicit(integrator)) continue;
     CAPTURE(to_string(integrator));
     options.integrator = integrator;
@@ -369,7 +370,8 @@ TEST_CASE("Fast steps with a skin are those of the plain kernel, whatever the la
           Approx(plain.ledger.*part).margin(1e-8 * std::abs(plain.ledger.total())));
 }
 
-TEST_CASE("Fast steps with a skin give the same bits at any stride, on any number of threads") {
+TEST_CASE("Fast steps with a skin give the same bits at any stride, on any number of threads",
+          "[threaded]") {
   const LodChain chain = lod::simplify(two_material_block(33), {.levels = 1});
   const MassSpringModel& model = chain.levels[1].model;
   REQUIRE(model.node_count() > 16'000);  // worth two threads

@@ -112,7 +112,7 @@ TEST_CASE("Fast steps give the same bits, however many are taken at once, with a
   check_same_bits(one, without);
 }
 
-TEST_CASE("Fast steps give the same bits on any number of threads") {
+TEST_CASE("Fast steps give the same bits on any number of threads", "[threaded]") {
   const bool merged = GENERATE(false, true);
   const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
   const MassSpringModel lattice = two_material_block(merged ? 38 : 31);

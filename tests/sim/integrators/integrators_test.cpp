@@ -76,7 +76,7 @@ TEST_CASE("Every scheme follows a damped vibration at its order") {
   }
 }
 
-TEST_CASE("Every scheme keeps momentum and, thrown free, the parabola within its order") {
+TEST_CASE("Every scheme keeps momentum and, thrown free, the parabola within its order", "[long]") {
   const MassSpringModel model = bodies::rods();
   Scenario scene;
   scene.duration = 0.2;
@@ -176,7 +176,7 @@ TEST_CASE("Runge-Kutta is stable below its predicted step and diverges above it"
   CHECK_THROWS_AS(run(model, scene, with(Integrator::runge_kutta_4, 1.03 * limit)), UnstableError);
 }
 
-TEST_CASE("Runge-Kutta closes the ledger of the rods thrown at the wall") {
+TEST_CASE("Runge-Kutta closes the ledger of the rods thrown at the wall", "[long]") {
   const auto model = bodies::rods();
   const Scenario scene = bodies::rods_scene();
   RunOptions options;

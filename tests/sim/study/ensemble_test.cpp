@@ -39,7 +39,7 @@ TEST_CASE("An ensemble runs the starts that compare runs") {
   }
 }
 
-TEST_CASE("An ensemble is the same in parts and for any number of threads") {
+TEST_CASE("An ensemble is the same in parts and for any number of threads", "[threaded]") {
   const MassSpringModel& model = bodies::small_chain().levels[1].model;
   EnsembleOptions options;
   options.starts = 6;
