@@ -1,6 +1,7 @@
 #include "sim/fast/fast_leapfrog.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -225,11 +226,13 @@ void FastLeapfrog::touch_with_skin(const Pass& pass, const MovingFrame& frame,
 
 void FastLeapfrog::wait_for_others(std::uint32_t block, const Share& share) const {
   const FastBody::BlockRange needs = body_->needs(block);
+  assert(needs.first <= block && block <= needs.last && needs.last < contacts_of_.size());
   for (std::uint32_t b = needs.first; b <= needs.last; ++b)
     if (b < share.first || b >= share.end) found_.wait_for(b, share.kicks);
 }
 
 void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block) {
+  assert(block < contacts_of_.size());
   BlockContacts& contacts = contacts_of_[block];
   const MovingFrame next = after(pass, frame);
   const MovingFrame kicked{frame.origin, next.velocity};
