@@ -26,7 +26,8 @@ void add_settings(CLI::App& app, scripting::Settings& settings, Switches& switch
   app.add_option("--seed", settings.seed, "seed of everything random (default 1)");
   app.add_option("--threads", settings.threads, "threads at most; 0, the default: all cores");
   app.add_flag("-q,--quiet", switches.quiet, "no talk on stderr but errors");
-  app.add_flag("-v,--verbose", switches.verbose, "more talk; tracebacks of failed commands");
+  app.add_flag("-v,--verbose", switches.verbose,
+               "more talk, such as each step of a calibration; tracebacks");
 }
 
 void settle(const Switches& switches, scripting::Settings& settings) {
@@ -65,7 +66,7 @@ std::string usage_text(const std::vector<scripting::StockCommand>& commands) {
          "  --seed N       seed of everything random (default 1)\n"
          "  --threads N    threads at most; 0, the default: all cores\n"
          "  -q, --quiet    no talk on stderr but errors\n"
-         "  -v, --verbose  more talk; tracebacks of failed commands\n"
+         "  -v, --verbose  more talk, such as each step of a calibration; tracebacks\n"
          "  --version      print the version\n"
          "  -h, --help     print this\n";
 }

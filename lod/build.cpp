@@ -8,13 +8,13 @@
 
 #include "base/error.hpp"
 #include "lod/calibration/calibrate.hpp"
+#include "lod/calibration/elastic_targets.hpp"
 #include "lod/calibration/rescale_moduli.hpp"
-#include "lod/grouping/compact_groups.hpp"
 #include "lod/grouping/exact_count.hpp"
 #include "lod/grouping/grouping.hpp"
-#include "lod/grouping/metis_groups.hpp"
 #include "lod/merging/guard.hpp"
 #include "lod/merging/merge.hpp"
+#include "lod/quality/certify.hpp"
 
 namespace springlod::lod {
 namespace {
@@ -29,21 +29,9 @@ std::string told_from(const SimplifyOptions& options) {
                      options.guards ? "" : ", no guards");
 }
 
-std::string told_calibration(Calibration calibration) {
-  switch (calibration) {
-    case Calibration::none:
-      return "";
-    case Calibration::moduli:
-      return ", moduli rescaled";
-    case Calibration::modes:
-      return ", calibrated";
-  }
-  return "";
-}
-
 bool straight_from_base(const SimplifyOptions& options) {
-  return options.straight || (!options.groups && (options.grouping.grouping == Grouping::compact ||
-                                                  options.grouping.grouping == Grouping::metis));
+  return options.straight ||
+         (!options.groups && choice_of(options.grouping.grouping).traits.from_base);
 }
 
 /// 0 if the grouping decides.
@@ -59,14 +47,9 @@ std::uint32_t wanted_nodes(std::uint32_t base_nodes, const SimplifyOptions& opti
 Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
                   std::uint32_t level, std::uint32_t wanted) {
   if (options.groups) return options.groups(finer.model, finer.of_base, level);
-  if (options.grouping.grouping == Grouping::compact)
-    return compact_groups(finer.model, {.count = wanted,
-                                        .border = options.grouping.border,
-                                        .grading = options.grouping.grading,
-                                        .seed = options.grouping.seed});
-  if (options.grouping.grouping == Grouping::metis)
-    return metis_groups(finer.model, wanted, options.grouping.seed);
-  Groups groups = group_nodes(finer.model, springs, options.grouping);
+  const GroupingChoice& grouping = choice_of(options.grouping.grouping);
+  Groups groups = grouping.make({finer.model, springs, wanted, options.grouping});
+  if (grouping.traits.from_base) return groups;
   while (wanted > 0 && groups.count > wanted) {
     const MassSpringModel merged = merge(finer.model, groups);
     Groups more = group_nodes(merged, options.grouping);
@@ -144,7 +127,7 @@ Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uin
   return {merge(finer.model, step.groups, std::move(step.links)),
           compose(finer.of_base, step.groups),
           (options.made_by.empty() ? told_from(options) : options.made_by) +
-              told_calibration(options.calibration)};
+              choice_of(options.calibrate).remark};
 }
 
 void check(const SimplifyOptions& options) {
@@ -162,11 +145,13 @@ void check(const SimplifyOptions& options) {
     throw InputError(
         "simplify: keep asks for numbers of nodes, which groups named by hand already have; leave "
         "one out");
-  if (!options.groups && options.grouping.grouping == Grouping::metis &&
+  const GroupingChoice& grouping = choice_of(options.grouping.grouping);
+  if (!options.groups && !grouping.traits.follows_border &&
       options.grouping.border != BorderRule::none)
-    throw InputError(
-        "simplify: grouping = \"metis\" knows no borders; leave border out or take compact");
-  if (options.calibration == Calibration::modes && options.mass == MassRule::proximity)
+    throw InputError(fmt::format(
+        "simplify: grouping = \"{}\" knows no borders; leave border out or take compact",
+        grouping.name));
+  if (options.calibrate == Calibrate::modes && options.mass == MassRule::proximity)
     throw InputError(
         "simplify: calibrate = \"modes\" finds the masses itself; leave out mass = \"proximity\"");
 }
@@ -187,13 +172,18 @@ LodChain simplify(MassSpringModel base, const SimplifyOptions& options) {
       task.advance();
     }
   }
-  if (options.calibration == Calibration::moduli)
+  if (options.calibrate == Calibrate::moduli)
     for (std::uint32_t level = 1; level <= options.levels; ++level)
       rescale_moduli(chain.levels.front().model, chain.levels[level].model);
-  if (options.calibration == Calibration::modes) {
-    CalibrateOptions calibration = options.calibrate;
+  if (options.calibrate == Calibrate::modes) {
+    CalibrateOptions calibration = options.calibration;
     calibration.progress = options.progress;
     calibrate(chain, calibration);
+    certify(chain, {.modes = std::max(1U, mode_count(calibration.targets)),
+                    .anchored = calibration.targets.anchored,
+                    .tolerance = calibration.fit.tolerance,
+                    .threads = calibration.threads,
+                    .progress = options.progress});
   }
   return chain;
 }

@@ -11,9 +11,6 @@ namespace springlod::report {
 /// `frames` is not empty and in rising order of time.
 std::vector<Vec3> positions_at(const std::vector<sim::Frame>& frames, double t);
 
-/// Mass-weighted centre of the positions.
-Vec3 center_of_mass(const std::vector<Vec3>& positions, const std::vector<double>& mass);
-
 /// Running mean over `reach` entries to both sides, shorter at the ends: a camera on this path
 /// neither lags nor jerks at an impact.
 std::vector<Vec3> smoothed(const std::vector<Vec3>& path, std::uint32_t reach);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/choice.hpp"
 #include "base/progress.hpp"
 
 // Statistics of samples of runs: the face of stats/, which needs nothing but base.
@@ -66,6 +67,13 @@ enum class SeedDesign {
   crossed,  ///< the same seeds in every start: one chain a seed, run from every start
   nested    ///< other seeds in every start
 };
+
+inline constexpr Choice<SeedDesign> kSeedDesigns[] = {
+    {SeedDesign::crossed, "crossed", "the same seeds in every start: one chain a seed"},
+    {SeedDesign::nested, "nested", "other seeds in every start"}};
+constexpr ChoiceTable<Choice<SeedDesign>> choices(SeedDesign) {
+  return {"seeds", kSeedDesigns};
+}
 
 /// Of four starts there are but 35 different resamples, too few for the tail of anything.
 constexpr std::size_t kLeastStarts = 5;
@@ -186,12 +194,25 @@ Equivalence bootstrap_equivalence(const StartSample& base, const StartSample& ot
 
 // Two samples compared (sample_comparison.cpp).
 
+/// How means are tested for equivalence.
+enum class MeanTest {
+  student,    ///< test_equivalence
+  bootstrap,  ///< bootstrap_equivalence
+};
+
+inline constexpr Choice<MeanTest> kMeanTests[] = {
+    {MeanTest::student, "student", "Student's t"},
+    {MeanTest::bootstrap, "bootstrap", "for values far from normal"}};
+constexpr ChoiceTable<Choice<MeanTest>> choices(MeanTest) {
+  return {"test", kMeanTests};
+}
+
 struct SampleComparisonOptions {
   BootstrapOptions resampling = {};   ///< pairing and design hold for the test as well
   double confidence = 0.95;           ///< of the intervals; the test is at 1 - confidence
   std::optional<double> margin = {};  ///< of the equivalence test; none: no test
   std::optional<double> spread = {};  ///< see EquivalenceOptions
-  bool bootstrap_test = false;        ///< bootstrap_equivalence instead of test_equivalence
+  MeanTest test = MeanTest::student;
 };
 
 /// A number and the interval it is known to.
@@ -217,6 +238,13 @@ SampleComparison compare_samples(const StartSample& base, const StartSample& oth
 // The noise floor (noise_floor.cpp).
 
 enum class SampleDistance { wasserstein, energy };
+
+inline constexpr Choice<SampleDistance> kSampleDistances[] = {
+    {SampleDistance::wasserstein, "wasserstein", "1-Wasserstein distance"},
+    {SampleDistance::energy, "energy", "energy distance, without a root"}};
+constexpr ChoiceTable<Choice<SampleDistance>> choices(SampleDistance) {
+  return {"distance", kSampleDistances};
+}
 
 /// wasserstein_distance or energy_distance.
 double distance_between(const std::vector<double>& base, const std::vector<double>& other,

@@ -17,9 +17,9 @@ parser:option("--steps", "levels between the base and the coarsest (default: 10;
 parser:option("--least", "nodes of the coarsest level over those of the base")
   :convert(command.number("--least", 0)):default("0.1")
 parser:option("--grouping", "which nodes merge")
-  :choices{"standard", "priority", "priority_hard", "compact", "metis"}:default("standard")
+  :choices(s.choices.grouping):default("standard")
 parser:option("--border", "how border nodes merge")
-  :choices{"none", "weak", "strong"}:default("none")
+  :choices(s.choices.border):default("none")
 parser:flag("--as-made", "the asset's own levels in place of new ones")
 parser:flag("--calibrate", "levels fitted to the base, as by convert --calibrate modes")
 parser:option("--leave-out", "costliest part of the merges of a step that is tried without; 0: no "

@@ -57,7 +57,7 @@ RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
   validate(options);
   RunPlan plan{.limit = std::make_shared<const StepLimit>(
                    step_limit(model, scenario, options.integrator, options.skin.get()))};
-  if (options.integrator == Integrator::symplectic_euler)
+  if (choice_of(options.integrator).traits.fast)
     plan.layout = make_fast_model(model, options.precision, options.layout);
   return plan;
 }
@@ -102,16 +102,6 @@ double measured_distance(const Scenario& scenario, const Vec3& first_center,
     throw InputError(fmt::format("scenario: measure_from = \"{}\" is the name of no obstacle",
                                  scenario.measure_from));
   return surface_distance(*obstacle, final_center).distance;
-}
-
-Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x) {
-  Vec3 moment = Vec3::Zero();
-  double mass = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    moment += model.mass[i] * x[i];
-    mass += model.mass[i];
-  }
-  return moment / mass;
 }
 
 }  // namespace springlod::sim

@@ -19,7 +19,7 @@ namespace {
 
 /// To be raised whenever a fit would go another way from the same state, or a file look otherwise:
 /// what an older program kept is then not used.
-constexpr std::uint32_t kFormat = 2;
+constexpr std::uint32_t kFormat = 3;
 constexpr std::size_t kChecksumSize = 16;  // of content_hash [bytes]
 
 const char* const kAbout =
@@ -87,6 +87,30 @@ void visit_members(State& state, const Visit& visit) {
   visit(state.frequency_error);
 }
 
+/// Adds what an options struct sets, row by row. `with_weights`: also how much things count.
+template <HasOptions S>
+void pack_options(Packer& to, const S& all, bool with_weights) {
+  for_each_option(all, [&](const auto& row, const auto& member) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    if constexpr (requires { row.is_weight; })
+      if (row.is_weight && !with_weights) return;
+    if constexpr (std::is_enum_v<Member>) {
+      to.add(static_cast<int>(member));
+    } else if constexpr (requires {
+                           typename Member::value_type;
+                           requires HasOptions<typename Member::value_type>;
+                         }) {
+      to.add(member.size());
+      for (const auto& each : member) pack_options(to, each, with_weights);
+    } else if constexpr (requires { member.has_value(); }) {
+      to.add(member.has_value());
+      if (member) to.add(*member);
+    } else {
+      to.add(member);
+    }
+  });
+}
+
 std::string name_of_answers(std::size_t part) {
   return fmt::format("base-part-{}", part + 1);
 }
@@ -100,15 +124,9 @@ std::string name_of_fit(std::size_t level, std::size_t part) {
 std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options) {
   Packer all;
   pack(all, base_part);
-  all.add(options.modes);
-  all.add(options.smooth_loads);
-  all.add(patch_count(options, base_part.node_count()));
-  all.add(options.seed);
-  all.add(options.anchored);
-  for (const TargetRegion& region : options.regions) {
-    all.add(region.nodes);
-    all.add(region.patches);
-  }
+  TargetOptions measured = options;
+  measured.patches = patch_count(options, base_part.node_count());
+  pack_options(all, measured, false);
   return content_hash(all.bytes());
 }
 
@@ -129,10 +147,7 @@ std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel&
   pack(all, level_part);
   all.add(of_base.of);
   all.add(of_base.count);
-  all.add(options.iterations);
-  all.add(options.tolerance);
-  all.add(options.least_frequency);
-  all.add(static_cast<int>(options.moments));
+  pack_options(all, options, true);
   return content_hash(all.bytes());
 }
 

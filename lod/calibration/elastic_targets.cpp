@@ -34,8 +34,13 @@ void check(const TargetOptions& options) {
   check_weight("load_weight", options.load_weight);
   for (const TargetRegion& region : options.regions)
     check_weight("weight of a region", region.weight);
-  const bool any_load = options.smooth_loads || options.patches != 0U || !options.regions.empty();
-  if ((options.modes == 0 || options.mode_weight == 0) && (!any_load || options.load_weight == 0))
+  const bool any_load = options.kinds != TargetKinds::modes;
+  if (!any_load && !options.regions.empty())
+    throw InputError(
+        "calibration: regions must be left out beside targets = \"modes\": they are regions of "
+        "loads");
+  if ((mode_count(options) == 0 || options.mode_weight == 0) &&
+      (!any_load || options.load_weight == 0))
     throw InputError(
         "calibration: nothing is left to be fitted; ask for modes or loads, with a weight above 0");
 }
@@ -96,7 +101,12 @@ std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const Targ
   return nodes;
 }
 
+std::uint32_t mode_count(const TargetOptions& options) {
+  return options.kinds == TargetKinds::loads ? 0 : options.modes;
+}
+
 std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes) {
+  if (options.kinds == TargetKinds::modes) return 0;
   if (options.patches) return *options.patches;
   constexpr double kMost = 150, kLeast = 60, kFew = 2000;
   return static_cast<std::uint32_t>(std::clamp(kMost * std::sqrt(kFew / nodes), kLeast, kMost));
@@ -109,7 +119,7 @@ std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOpt
     for (elastic::StaticLoad& load : loads)
       asked.push_back({kind, std::move(load), 0, weight * options.load_weight});
   };
-  if (options.smooth_loads) {
+  if (options.kinds != TargetKinds::modes) {
     ask(LoadKind::smooth, 1, elastic::smooth_loads(base));
     ask(LoadKind::piece, options.piece_weight, elastic::piece_loads(base));
   }
@@ -128,10 +138,10 @@ BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& optio
   const elastic::ElasticBody body = held_body(base, options.anchored, options.progress);
   BaseAnswers answers;
   run_jobs(2, options.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
-    if (job == 0 && options.modes > 0)
+    const std::uint32_t modes = mode_count(options);
+    if (job == 0 && modes > 0)
       for (const elastic::Mode& mode :
-           elastic::lowest_modes(body, {.count = options.modes, .progress = options.progress})
-               .modes)
+           elastic::lowest_modes(body, {.count = modes, .progress = options.progress}).modes)
         answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
     if (job == 1) answers.compliance = compliances(body, asked, stopped);
   });

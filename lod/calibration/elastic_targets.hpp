@@ -38,6 +38,8 @@ struct ElasticTargets {
   std::vector<std::uint32_t> anchored;  ///< nodes of the base
 };
 
+/// Modes that are asked for: none if loads alone are.
+std::uint32_t mode_count(const TargetOptions& options);
 /// Pairs of patches for a base of so many nodes: 150, and fewer for more than 2000 nodes, which a
 /// fit does not bend for the loads of some patches as those of a small body, down to 60.
 std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes);

@@ -179,4 +179,11 @@ Groups compact_groups(const MassSpringModel& model, const CompactOptions& option
   return groups;
 }
 
+Groups compact_groups(const GroupingTask& task) {
+  return compact_groups(task.model, {.count = task.count,
+                                     .border = task.options.border,
+                                     .grading = task.options.grading,
+                                     .seed = task.options.seed});
+}
+
 }  // namespace springlod::lod

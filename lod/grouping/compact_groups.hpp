@@ -28,5 +28,7 @@ struct CompactOptions {
 /// Linear in the nodes but for a logarithm. Throws InputError if `count` is less than the pieces
 /// that must stay apart, or more than the nodes.
 Groups compact_groups(const MassSpringModel& model, const CompactOptions& options);
+/// The same as a grouping.
+Groups compact_groups(const GroupingTask& task);
 
 }  // namespace springlod::lod

@@ -5,8 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.hpp"
-
 namespace springlod::lod {
 namespace {
 
@@ -83,7 +81,7 @@ std::vector<double> spring_gradients(const MassSpringModel& m) {
   return gradient;
 }
 
-PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options,
+PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options, PairOrder order,
                    std::vector<double> gradient)
     : own_(std::move(gradient)) {
   if (options.pair_cost) {
@@ -93,36 +91,31 @@ PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options,
     first_ = RoundedKeys(own_);
     return;
   }
-  switch (options.grouping) {
-    case Grouping::standard:
+  switch (order) {
+    case PairOrder::length:
       first_ = RoundedKeys(model.rest_length);
       break;
-    case Grouping::priority_soft:
+    case PairOrder::gradient_and_length:
       for (std::uint32_t s = 0; s < model.spring_count(); ++s)
         own_[s] = model.rest_length[s] * (1 + kGradientWeight * own_[s] * model.rest_length[s]);
       first_ = RoundedKeys(own_);
       break;
-    case Grouping::priority_hard:
+    case PairOrder::gradient_first:
       first_ = RoundedKeys(own_);
       second_ = RoundedKeys(model.rest_length);
       has_second_ = true;
       break;
-    case Grouping::compact:
-    case Grouping::metis:
-      throw InputError(
-          "group_nodes: compact and metis groups do not grow from pairs; see "
-          "compact_groups and metis_groups");
   }
 }
 
 std::vector<double> visit_priority(const MassSpringModel& model, const GroupingOptions& options,
-                                   const std::vector<double>& gradient) {
+                                   PairOrder order, const std::vector<double>& gradient) {
   if (options.node_priority) {
     std::vector<double> priority(model.node_count());
     for (std::uint32_t i = 0; i < model.node_count(); ++i) priority[i] = options.node_priority(i);
     return priority;
   }
-  if (options.grouping == Grouping::standard) return {};
+  if (order == PairOrder::length) return {};
   return node_gradients(model, gradient);
 }
 

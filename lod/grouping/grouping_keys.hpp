@@ -29,11 +29,14 @@ class RoundedKeys {
 /// g of each spring: |dE| / mean E + |drho| / mean rho per length [1/m] (the paper, section 5.2).
 std::vector<double> spring_gradients(const MassSpringModel& model);
 
+/// By what neighbours are chosen.
+enum class PairOrder { length, gradient_and_length, gradient_first };
+
 /// What decides between neighbours: first key, then second, then chance.
 class PairKeys {
  public:
-  /// `gradient` as spring_gradients tells; not needed for standard grouping.
-  PairKeys(const MassSpringModel& model, const GroupingOptions& options,
+  /// `gradient` as spring_gradients tells; not needed for PairOrder::length.
+  PairKeys(const MassSpringModel& model, const GroupingOptions& options, PairOrder order,
            std::vector<double> gradient);
   PairKeys(const PairKeys&) = delete;
   PairKeys& operator=(const PairKeys&) = delete;
@@ -54,6 +57,6 @@ class PairKeys {
 
 /// Key of each node, lower goes first; empty if chance alone decides.
 std::vector<double> visit_priority(const MassSpringModel& model, const GroupingOptions& options,
-                                   const std::vector<double>& gradient);
+                                   PairOrder order, const std::vector<double>& gradient);
 
 }  // namespace springlod::lod

@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/choice.hpp"
+#include "base/option.hpp"
 #include "base/progress.hpp"
+#include "model/anchors.hpp"
 #include "model/chain.hpp"
 
 namespace springlod::lod {
@@ -20,6 +23,14 @@ struct Answer {
   std::string name;
   Kind kind = Kind::mode;
 };
+
+inline constexpr Choice<Answer::Kind> kAnswerKinds[] = {
+    {Answer::Kind::mode, "mode", "frequency of one of the level's lowest modes"},
+    {Answer::Kind::smooth, "smooth", "compliance to one of the nine smooth loads"},
+    {Answer::Kind::local, "local", "compliance to a pinch or push of patches of the surface"}};
+constexpr ChoiceTable<Choice<Answer::Kind>> choices(Answer::Kind) {
+  return {"answer", kAnswerKinds};
+}
 
 /// What one merge changed.
 struct Merge {
@@ -54,6 +65,17 @@ struct MergeLogOptions {
   std::uint32_t threads = 1;                 ///< 0: all cores
   Progress* progress = nullptr;              ///< may be null
 };
+constexpr auto option_rows(const MergeLogOptions*) {
+  using Options = MergeLogOptions;
+  return std::tuple(
+      option("modes", &Options::modes, "lowest modes of each level; 0: none"),
+      option("local_loads", &Options::local_loads,
+             "pinches, and as many pushes, on patches of the surface; 0: none"),
+      option("seed", &Options::seed, "of where they act, as in certify"),
+      option("from_base", &Options::from_base,
+             "each step counts from the base, also where a level was merged from the one before"),
+      anchored_option(&Options::anchored));
+}
 
 /// Which merge cost which error, level by level: the steps from each level to the next if it was
 /// merged from that, else (compact, metis, refilled) from the base. A step's changes are measured,

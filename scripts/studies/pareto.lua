@@ -1,9 +1,7 @@
 -- Draws cost against error for every way of making levels and of stepping them.
 
 local s = require "springlod"
-local body_size = require "lib.body_size"
 local command = require "lib.command"
-local file_checksum = require "lib.file_checksum"
 local pareto_chains = require "studies.pareto.chains"
 local pareto_charts = require "studies.pareto.charts"
 local pareto_ensembles = require "studies.pareto.ensembles"
@@ -32,11 +30,12 @@ local function axis(name, help)
     :convert(command.words_of("--" .. name, all[name]))
 end
 axis("groupings", "such as standard,compact")
-axis("borders", "of none,weak,strong")
-axis("calibrations", "of none,moduli,modes")
+axis("borders", "of " .. table.concat(all.borders, ","))
+axis("calibrations", "of " .. table.concat(all.calibrations, ","))
 axis("integrators", "such as symplectic_euler,xpbd")
-axis("precisions", "of double,single; symplectic_euler alone has single")
-axis("errors", "of frequencies,loads,surface,ensemble; the last takes longest")
+axis("precisions", "of " .. table.concat(all.precisions, ",")
+  .. "; symplectic_euler alone has single")
+axis("errors", "of " .. table.concat(all.errors, ",") .. "; the last takes longest")
 parser:option("--keep", "nodes of each level over those of the base, such as 0.45,0.2 (default: "
   .. "the asset's)"):argname("<parts>"):convert(command.numbers("--keep", 0))
 parser:option("--seeds", "chains of each way of making levels (default: 5; quick: 1)")
@@ -87,7 +86,7 @@ end
 -- All that what is kept depends on; axes and seeds may grow from run to run.
 local function store_settings(settings, scene)
   return {
-    springlod = s.version, asset = file_checksum(args.asset), scene = scene, keep = settings.keep,
+    springlod = s.version, asset = s.hash{file = args.asset}, scene = scene, keep = settings.keep,
     starts = settings.starts, jitter = settings.jitter, seed = settings.seed,
     repeats = settings.repeats, implicit_step = settings.implicit_step,
     surface_time = settings.surface_time or "first contact",
@@ -205,7 +204,7 @@ local function pareto()
   local scene, asset = command.load_table(args.scenario), s.load(args.asset)
   local settings, scenario = settings_of(asset), s.scenario(scene) -- wrong ones get into no store
   local study = {
-    base = asset[0], size = body_size(asset[0]), scene = scene, scenario = scenario,
+    base = asset[0], size = asset[0].bounds.diagonal, scene = scene, scenario = scenario,
     settings = settings, folder = args.out,
     store = run_store.open(args.out .. "/runs", store_settings(settings, scene)),
   }

@@ -37,7 +37,7 @@ TEST_CASE("a script builds a random model, simplifies it and reads what was meas
 }
 
 TEST_CASE("a script and a .vdb file see the depth of cells, asked for or not") {
-  const springlod::test::Scratch scratch;
+  const springlod::test::TemporaryFolder scratch;
   const Ran ran = with_grid("local path = '" + (scratch / "grid.vdb").string() + "'\n" + R"(
     local cored = s.voxelize(mesh, {cell = "10 cm", core = {depth = "15 cm",
                                                             material = {young = "1 MPa"}}})

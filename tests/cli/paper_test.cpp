@@ -8,11 +8,11 @@
 
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::springlod_interrupted;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace {
 
@@ -27,7 +27,7 @@ std::vector<std::string> paper(const std::filesystem::path& folder, const std::s
 
 TEST_CASE("paper goes on where it was stopped, and comes to the same tables on any cores",
           "[long]") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Ran whole = springlod_run(paper(scratch / "whole", "5", "2"));
   REQUIRE(whole.exit_code == 0);
   for (const char* part : {"Table 1", "LOD-hb-2", "Table 2", "base at half the step", "die"})
@@ -67,7 +67,7 @@ TEST_CASE("paper goes on where it was stopped, and comes to the same tables on a
 }
 
 TEST_CASE("paper knows the materials of kept runs by their content, wherever the file is") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto with_materials = [&](const std::string& file, const std::string& shell) {
     // Soft, for a long step; the unused one's name has all that a CSV file quotes.
     const std::string core = "core = {young = '10 kPa', density = 1000, colour = {0.5, 0.2, 0.2}}";

@@ -11,14 +11,14 @@ using springlod::test::number;
 using springlod::test::Ran;
 using springlod::test::Row;
 using springlod::test::rows_of;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 TEST_CASE("precision, quickly: single precision swings and drops as double does, within bounds",
           "[long]") {
-  const Scratch out;
-  const Ran ran = springlod_run({"-q", "precision", out.folder().string(), "--quick"});
+  const TemporaryFolder out;
+  const Ran ran = springlod_run({"-q", "precision", out.path().string(), "--quick"});
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace springlod::test {
 
 /// How one run of the real program ended.
@@ -17,7 +19,9 @@ struct Ran {
 Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input = "",
                   const std::filesystem::path& folder = SPRINGLOD_SOURCE_DIR);
 
-/// Runs it, interrupts it (SIGINT) as soon as `mark` shows on its stderr, and waits.
+/// Runs it, interrupts it (SIGINT) as soon as `mark` shows on its stderr, and waits for its end.
+/// However slowly the test reads, the program is still at work then if it has more than two lines
+/// left to write after the mark: its stderr is a pipe that holds one line.
 Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark);
 
 /// The program in a terminal of its own, its keyboard in our hands.
@@ -30,11 +34,12 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
 
   void type(const std::string& keys);
-  /// Waits until `text` shows in what came since the last wait; false if it does not in 20 s.
+  /// Waits until `text` shows in what came since the last wait; false if nothing more comes, for
+  /// the program ended or hangs.
   bool shows(const std::string& text);
   /// All that came on the screen so far.
   const std::string& screen() const { return screen_; }
-  /// Waits for the program to leave; -1 if it does not in 20 s.
+  /// Waits for the program to leave; -1 if it hangs.
   int exit_code();
 
  private:
@@ -44,20 +49,6 @@ class Terminal {
   int process_ = -1;
   std::size_t seen_ = 0;
   std::string screen_;
-};
-
-/// A fresh folder that is removed with everything in it.
-class Scratch {
- public:
-  Scratch();
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-  const std::filesystem::path& folder() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
 };
 
 std::string slurp(const std::filesystem::path& path);

@@ -11,9 +11,9 @@
 
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace {
 
@@ -63,8 +63,8 @@ Ran with_bar(const std::string& script) {
 }  // namespace
 
 TEST_CASE("refinement, quickly: errors fall with the cells, corners by order 2") {
-  const Scratch out;
-  const Ran ran = springlod_run({"refinement", out.folder().string(), "--quick"});
+  const TemporaryFolder out;
+  const Ran ran = springlod_run({"refinement", out.path().string(), "--quick"});
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
   const std::string table = slurp(out / "table.csv");
@@ -89,8 +89,8 @@ TEST_CASE("refinement, quickly: errors fall with the cells, corners by order 2")
 
 TEST_CASE("refinement: with eight cells across, all is within two percent of Timoshenko",
           "[long]") {
-  const Scratch out;
-  const Ran ran = springlod_run({"-q", "refinement", out.folder().string(), "--finest", "8"});
+  const TemporaryFolder out;
+  const Ran ran = springlod_run({"-q", "refinement", out.path().string(), "--finest", "8"});
   REQUIRE(ran.exit_code == 0);
   const auto corners = errors_of(slurp(out / "table.csv"), "corners");
   check_falling(corners);

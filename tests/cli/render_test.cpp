@@ -11,20 +11,20 @@ using namespace springlod::test;
 namespace {
 
 // Runs `call`, which may use s, m (a model of two nodes), run (0.1 s of it) and folder.
-Ran draw(const std::string& call, const Scratch& scratch) {
+Ran draw(const std::string& call, const TemporaryFolder& scratch) {
   const std::string script = R"(
     local s = require "springlod"
     local folder = ...
     local m = s.model{nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 2}}, springs = {{1, 2, k = 100}}}
     local run = s.run(m, {duration = 0.1})
   )";
-  return springlod_run({"-q", "-e", script + call, scratch.folder().string()});
+  return springlod_run({"-q", "-e", script + call, scratch.path().string()});
 }
 
 }  // namespace
 
 TEST_CASE("wrong options of render say what is wrong and what is right") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto refuses = [&](const std::string& arguments, const std::string& message) {
     const Ran ran = draw("s.render(folder .. '/a.png', " + arguments + ")", scratch);
     CAPTURE(arguments, ran.err);
@@ -47,11 +47,11 @@ TEST_CASE("wrong options of render say what is wrong and what is right") {
   refuses("{{m, m}}", "one subject");
   refuses("{m, title = 'a'}", "{{run, title = ...}}");
   refuses("{{m, cut = 5}}", "panel 1");
-  refuses("m, {camera = 'fit'}", "one of follow, fixed");
+  refuses("m, {camera = 'fit'}", "one of fixed, follow");
 }
 
 TEST_CASE("panels of one picture can show other things and other instants, in rows") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Ran ran = draw(R"lua(
     s.render(folder .. "/a.png", {
       {m, node_colour = "mass", title = "mass\nof two nodes"}, {m, node_values = {3, 4}},

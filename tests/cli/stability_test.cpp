@@ -8,21 +8,21 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using springlod::test::make_bar_asset;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
 namespace {
 
-void make_asset(const Scratch& scratch) {
+void make_asset(const TemporaryFolder& scratch) {
   make_bar_asset(scratch / "bar.glb", 3,
                  {"--cell", "0.5", "--lattice", "corners", "--levels", "1"});
 }
 
-std::vector<std::string> arguments(const Scratch& scratch, const std::string& out,
+std::vector<std::string> arguments(const TemporaryFolder& scratch, const std::string& out,
                                    const std::vector<std::string>& more = {}) {
   std::vector<std::string> all{"stability",
                                (scratch / "bar.glb").string(),
@@ -43,7 +43,7 @@ std::vector<std::string> arguments(const Scratch& scratch, const std::string& ou
 }  // namespace
 
 TEST_CASE("stability writes map, bodies, timings and picture, the same bits with any threads") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(scratch, "one"));
   CAPTURE(ran.err);
@@ -70,7 +70,7 @@ TEST_CASE("stability writes map, bodies, timings and picture, the same bits with
 }
 
 TEST_CASE("stability says in one line what is wrong with an option or asset") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   make_asset(scratch);
   const auto refused = [&](const std::vector<std::string>& more, int code,
                            const std::string& reason) {
@@ -89,7 +89,7 @@ TEST_CASE("stability says in one line what is wrong with an option or asset") {
 }
 
 TEST_CASE("stability names the mechanism of a bar one cell thick instead of running it") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   make_bar_asset(scratch / "bar.glb", 6, {"--cell", "1", "--lattice", "centers", "--levels", "0"});
   const Ran ran = springlod_run(arguments(scratch, "out"));
   CAPTURE(ran.err);

@@ -2,7 +2,6 @@
 -- energy measure that it cites, and how much each scene makes of a small change.
 
 local s = require "springlod"
-local averages = require "lib.averages"
 local cut = require "lib.cut_scene"
 local paper_numbers = require "studies.paper.numbers"
 local paper_runs = require "studies.paper.runs"
@@ -11,7 +10,13 @@ local paper_variants = require "studies.paper.variants"
 
 local paper_studies = {}
 
-local mean, standard_deviation = averages.mean, averages.standard_deviation
+local mean = s.mean
+
+local function standard_deviation(list)
+  local middle, sum = mean(list), 0
+  for _, value in ipairs(list) do sum = sum + (value - middle) ^ 2 end
+  return math.sqrt(sum / (#list - 1))
+end
 
 -- What a study of the variants is kept as: a folder may get other ones later.
 local function kept_as(name, settings)

@@ -1,21 +1,24 @@
 -- Cost against error as a chart: colour tells the calibration, symbol the grouping, rings the
 -- paper's variants; the points of the front have names.
 
+local s = require "springlod"
 local command = require "lib.command"
 local pareto_front = require "studies.pareto.front"
 
 local pareto_charts = {}
 
-local colours = {none = "orange", moduli = "pink", modes = "blue"}
-local calibration_names = {
-  {"none", "not calibrated"}, {"moduli", "moduli calibrated"}, {"modes", "modes calibrated"},
-}
-local symbols = {
-  {"standard", "disc"}, {"priority", "square"}, {"priority_hard", "triangle_down"},
-  {"compact", "triangle"}, {"metis", "diamond"},
-}
-local symbol_of = {}
-for _, entry in ipairs(symbols) do symbol_of[entry[1]] = entry[2] end
+-- Colours of the calibrations and symbols of the groupings, in the order of s.choices.
+local colours, calibration_names = {}, {}
+for i, calibration in ipairs(s.choices.calibrate) do
+  colours[calibration] = ({"orange", "pink", "blue"})[i]
+  calibration_names[i] = {calibration, (i == 1 and "not" or calibration) .. " calibrated"}
+end
+local symbols, symbol_of = {}, {}
+for i, grouping in ipairs(s.choices.grouping) do
+  local symbol = ({"disc", "square", "triangle_down", "triangle", "diamond"})[i] or "pentagon"
+  symbols[i] = {grouping, symbol}
+  symbol_of[grouping] = symbol
+end
 
 -- Errors this much below the floor are all the same: their points sit on the axis, which begins at
 -- this part of the least of the others.

@@ -1,24 +1,20 @@
 -- What springlod pareto compares: ways of making levels, ways of stepping them, and their names.
 
+local s = require "springlod"
 local paper_variants = require "studies.paper.variants"
 
 local pareto_variants = {}
 
 -- Every word of each axis.
 pareto_variants.axes = {
-  groupings = {"standard", "priority", "priority_hard", "compact", "metis"},
-  borders = {"none", "weak", "strong"},
-  calibrations = {"none", "moduli", "modes"},
-  integrators = {"symplectic_euler", "velocity_verlet", "runge_kutta_4", "backward_euler_cg",
-                 "backward_euler_direct", "xpbd", "projective_dynamics"},
-  precisions = {"double", "single"},
+  groupings = s.choices.grouping,
+  borders = s.choices.border,
+  calibrations = s.choices.calibrate,
+  integrators = s.choices.integrator,
+  precisions = s.choices.precision,
   errors = {"frequencies", "loads", "surface", "ensemble"},
 }
 
-local borderless = {metis = true} -- graph partitions know no borders
-local single_too = {symplectic_euler = true} -- alone has both precisions
-local implicit = {backward_euler_cg = true, backward_euler_direct = true, xpbd = true,
-                  projective_dynamics = true}
 local paper_groupings = {standard = true, priority = true}
 
 local short = { -- in labels, where every letter counts
@@ -33,7 +29,7 @@ function pareto_variants.ways_of_making(axes)
   for _, grouping in ipairs(axes.groupings) do
     for _, border in ipairs(axes.borders) do
       for _, calibration in ipairs(axes.calibrations) do
-        if border == "none" or not borderless[grouping] then
+        if border == "none" or s.choices.grouping[grouping].follows_border then
           ways[#ways + 1] = {
             name = ("%s-%s-%s"):format(grouping, border, calibration), grouping = grouping,
             border = border, calibration = calibration,
@@ -49,7 +45,7 @@ function pareto_variants.ways_of_stepping(axes)
   local ways = {}
   for _, integrator in ipairs(axes.integrators) do
     for _, precision in ipairs(axes.precisions) do
-      if precision == "double" or single_too[integrator] then
+      if precision == "double" or s.choices.integrator[integrator].fast then
         ways[#ways + 1] = {
           name = integrator .. "-" .. precision, integrator = integrator, precision = precision,
           usual = integrator == "symplectic_euler" and precision == "double",
@@ -97,8 +93,10 @@ function pareto_variants.variant(making, level, stepping, implicit_step)
       or "base-" .. stepping.name,
     label = label(making, level, stepping), paper = paper_name(making, level, stepping),
     making = making, level = level, stepping = stepping,
-    step_options = {integrator = stepping.integrator, precision = stepping.precision,
-                    step = implicit[stepping.integrator] and implicit_step or nil},
+    step_options = {
+      integrator = stepping.integrator, precision = stepping.precision,
+      step = s.choices.integrator[stepping.integrator].implicit and implicit_step or nil,
+    },
   }
 end
 

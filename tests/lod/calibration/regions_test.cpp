@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "lod/build.hpp"
+#include "lod/calibration/calibrate.hpp"
 #include "lod/calibration/elastic_fit.hpp"
 #include "lod/quality/certify.hpp"
 #include "lod/quality/compared_loads.hpp"
@@ -37,8 +38,8 @@ double error_within(const MassSpringModel& base, const std::vector<std::uint32_t
   SimplifyOptions options{.levels = 1,
                           .keep = {0.2},
                           .grouping = {.grouping = Grouping::compact},
-                          .calibration = Calibration::modes};
-  options.calibrate.targets = targets;
+                          .calibrate = Calibrate::modes};
+  options.calibration.targets = targets;
   LodChain chain = simplify(base, options);
   certify(chain, {.within = region, .anchored = targets.anchored});
   return mean_load_error(*chain.levels[1].certificate, true);

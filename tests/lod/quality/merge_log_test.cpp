@@ -11,6 +11,7 @@
 #include "elastic/modes.hpp"
 #include "elastic/stiffness.hpp"
 #include "lod/build.hpp"
+#include "lod/grouping/grouping.hpp"
 #include "lod/quality/certify.hpp"
 #include "lod/quality/compliance_change.hpp"
 #include "tests/lod/bodies.hpp"

@@ -11,6 +11,7 @@
 #include "base/file.hpp"
 #include "tests/model/asset/glb_text.hpp"
 #include "tests/model/sample_assets.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace springlod {
 namespace {
@@ -120,7 +121,7 @@ TEST_CASE("A broken asset is not saved") {
   LodAsset asset = sample_asset();
   asset.chain.levels[1].model.mass[3] = -1;
   CHECK_THROWS_WITH(save_asset(asset, folder / "asset.glb"),
-                    Contains("level 1") && Contains("node 3"));
+                    Contains("level 1") && Contains("node 4"));
   CHECK_FALSE(std::filesystem::exists(folder / "asset.glb"));
 }
 

@@ -7,10 +7,12 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/stable_step.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
 #include "sim/integrators/leapfrog.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
 #include "sim/study/compare.hpp"
 #include "tests/sim/side_by_side.hpp"
@@ -194,7 +196,7 @@ TEST_CASE("A base with the skin of its own is the base without, to the bit", "[l
   box.half_size = {0.2, 1, 0.2};
   scene.obstacles.push_back(scene.obstacles[0]);
   scene.obstacles[1].shape = box;
-  for (const Integrator integrator : kIntegrators) {
+  for (const Integrator integrator : all_choices<Integrator>()) {
     CAPTURE(to_string(integrator));
     RunOptions options{.integrator = integrator, .step = 2e-4};
     const Trajectory bare = run(base, scene, options);
@@ -294,7 +296,7 @@ TEST_CASE("The implicit schemes bring a level with a skin to the same rest as th
   scene.duration = 1;
   RunOptions options{.skin = skin_of(chain, 1)};
   const double rest = center_of_mass(model, run(model, scene, options).final.x).z();
-  for (const Integrator integrator : kIntegrators) {
+  for (const Integrator integrator : all_choices<Integrator>()) {
     if (!is_implicit(integrator)) continue;
     CAPTURE(to_string(integrator));
     options.integrator = integrator;
@@ -319,8 +321,9 @@ TEST_CASE("A skin that goes through a wall is stopped, by the base's node, under
           {.integrator = integrator, .step = 2e-4, .skin = skin_of(chain, 1)});
       FAIL("no point went through");
     } catch (const TunnelError& e) {
-      CHECK_THAT(e.what(), Catch::Contains("the surface at node " + std::to_string(e.node()) +
-                                           " of the base went through obstacle \"thin wall\""));
+      CHECK_THAT(e.what(),
+                 Catch::Contains("the surface at node " + std::to_string(script_number(e.node())) +
+                                 " of the base went through obstacle \"thin wall\""));
       CHECK(e.node() < chain.levels[0].model.node_count());
     }
   }

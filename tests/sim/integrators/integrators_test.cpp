@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "sim/integrators/runge_kutta.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
 #include "tests/sim/bodies.hpp"
 #include "tests/support/models.hpp"

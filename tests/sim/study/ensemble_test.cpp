@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/study/compare.hpp"
 #include "tests/sim/bodies.hpp"
 
