@@ -19,7 +19,7 @@
 namespace springlod::lod {
 namespace {
 
-std::string told_from(const SimplifyOptions& options) {
+std::string summary_of(const SimplifyOptions& options) {
   const GroupingOptions& g = options.grouping;
   std::string grouping = to_string(g.grouping);
   if (options.groups) grouping = "groups of the script";
@@ -34,16 +34,16 @@ bool straight_from_base(const SimplifyOptions& options) {
          (!options.groups && choice_of(options.grouping.grouping).traits.from_base);
 }
 
-/// 0 if the grouping decides.
+/// Requested number of nodes of a level; 0: the grouping determines it.
 std::uint32_t wanted_nodes(std::uint32_t base_nodes, const SimplifyOptions& options,
                            std::uint32_t level) {
   if (options.keep.empty() && !straight_from_base(options)) return 0;
-  constexpr double kUsual = 0.45;  // what pairs and triples come to (spec 3)
+  constexpr double kUsual = 0.45;  // average fraction that groups of 2 or 3 nodes leave
   const double part = options.keep.empty() ? std::pow(kUsual, level) : options.keep[level - 1];
   return std::max(1U, static_cast<std::uint32_t>(std::lround(part * base_nodes)));
 }
 
-/// Groups of nodes of `finer`, `wanted` of them unless that is 0.
+/// Groups of the nodes of `finer`, before guards: `wanted` groups unless that is 0.
 Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
                   std::uint32_t level, std::uint32_t wanted) {
   if (options.groups) return options.groups(finer.model, finer.of_base, level);
@@ -77,27 +77,28 @@ Step guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
   return {std::move(sound.groups), std::move(sound.links)};
 }
 
-/// The guards fuse some of the groups: for an exact number of them as many more are asked for as
-/// were fused, and what is too many then is fused by size.
+/// Exactly `wanted` groups after the guards. The guards fuse some groups, and the next attempt
+/// requests as many more; surplus groups are fused, the smallest first.
 Step exact_step(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
                 std::uint32_t level, std::uint32_t wanted) {
   constexpr int kTries = 20;
-  std::uint32_t asked = wanted, found = 0;
+  std::uint32_t requested = wanted, found = 0;
   for (int i = 0; i < kTries; ++i) {
-    Step step =
-        guarded_step(finer, springs, raw_groups(finer, springs, options, level, asked), options);
+    Step step = guarded_step(finer, springs, raw_groups(finer, springs, options, level, requested),
+                             options);
     if (step.groups.count > wanted) {
       fuse_to_count(finer.model, options.grouping.border, wanted, step.groups);
       step = guarded_step(finer, springs, std::move(step.groups), options);
     }
     if (step.groups.count == wanted) return step;
     found = step.groups.count;
-    // One more each time, or the same groups might come back for ever.
-    asked = std::min(asked + (found < wanted ? wanted - found : 0) + 1, finer.model.node_count());
+    // One more each time; otherwise the same groups could recur.
+    requested =
+        std::min(requested + (found < wanted ? wanted - found : 0) + 1, finer.model.node_count());
   }
   throw InputError(fmt::format(
-      "simplify: level {} comes to {} nodes where {} were asked for: the guards, or the border "
-      "rule, allow no other; ask for {} or leave keep out",
+      "simplify: level {} has {} nodes instead of {}, because of the guards or the border rule; "
+      "set keep to {} nodes or leave it out",
       level, found, wanted, found));
 }
 
@@ -112,10 +113,10 @@ void require_coarser(const Level& finer, const Groups& groups, const SimplifyOpt
                      std::uint32_t level) {
   if (groups.count < finer.model.node_count()) return;
   throw InputError(fmt::format(
-      "simplify: level {} would be the same as level {} ({} nodes): no two nodes may merge any "
-      "more; ask for levels = {}{}",
-      level, level - 1, groups.count, level - 1,
-      options.grouping.border == BorderRule::strong ? " or for border = \"weak\"" : ""));
+      "simplify: level {} is the coarsest possible one, because no two of its {} nodes can merge; "
+      "use levels = {}{}",
+      level - 1, groups.count, level - 1,
+      options.grouping.border == BorderRule::strong ? " or border = \"weak\"" : ""));
 }
 
 Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uint32_t level) {
@@ -126,7 +127,7 @@ Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uin
   require_coarser(chain.levels.back(), step.groups, options, level);
   return {merge(finer.model, step.groups, std::move(step.links)),
           compose(finer.of_base, step.groups),
-          (options.made_by.empty() ? told_from(options) : options.made_by) +
+          (options.made_by.empty() ? summary_of(options) : options.made_by) +
               choice_of(options.calibrate).remark};
 }
 
@@ -135,25 +136,26 @@ void check(const SimplifyOptions& options) {
   for (const double part : options.keep) {
     if (!(part > 0 && part < before))
       throw InputError(
-          fmt::format("simplify: keep = {} must fall from level to level, between 1 and 0", part));
+          fmt::format("simplify: keep has {}; its numbers must fall from level to level and be "
+                      "between 1 and 0",
+                      part));
     before = part;
   }
   if (!options.keep.empty() && options.keep.size() != options.levels)
-    throw InputError(fmt::format("simplify: keep names {} levels and levels = {}; leave one out",
+    throw InputError(fmt::format("simplify: keep is for {} levels, but levels = {}; leave one out",
                                  options.keep.size(), options.levels));
   if (options.groups && !options.keep.empty())
-    throw InputError(
-        "simplify: keep asks for numbers of nodes, which groups named by hand already have; leave "
-        "one out");
+    throw InputError("simplify: keep and groups both determine the number of nodes; leave one out");
   const GroupingChoice& grouping = choice_of(options.grouping.grouping);
   if (!options.groups && !grouping.traits.follows_border &&
       options.grouping.border != BorderRule::none)
     throw InputError(fmt::format(
-        "simplify: grouping = \"{}\" knows no borders; leave border out or take compact",
+        "simplify: grouping = \"{}\" has no border rules; leave border out or use grouping = "
+        "\"compact\"",
         grouping.name));
   if (options.calibrate == Calibrate::modes && options.mass == MassRule::proximity)
     throw InputError(
-        "simplify: calibrate = \"modes\" finds the masses itself; leave out mass = \"proximity\"");
+        "simplify: calibrate = \"modes\" determines the masses; leave out mass = \"proximity\"");
 }
 
 }  // namespace

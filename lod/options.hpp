@@ -16,36 +16,36 @@
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
-// What can be asked of simplify, step by step: groups, merging, guards, calibration.
+// Options of simplify: grouping, merging, guards, calibration.
 namespace springlod::lod {
 
 struct GroupingTask;
 
-/// Which nodes merge; what each means stands in its row, see choices(Grouping).
+/// Rule that selects the nodes to merge. Each is described in its row, see choices(Grouping).
 enum class Grouping { standard, priority_soft, priority_hard, compact, metis };
 
 /// A row of the table of groupings.
 struct GroupingChoice : Choice<Grouping> {
   Groups (*make)(const GroupingTask& task);
   struct Traits {
-    /// Makes as many groups as wanted, so that every level is merged straight from the base. The
-    /// others make what they make, from the level before.
+    /// Makes a requested number of groups, so every level is merged straight from the base. The
+    /// number of groups of the other groupings follows from the level before.
     bool from_base = false;
-    bool follows_border = true;  ///< keeps BorderRule
+    bool follows_border = true;  ///< follows BorderRule
   } traits = {};
 };
 ChoiceTable<GroupingChoice> choices(Grouping);
-/// What scripts may ask of a grouping.
+/// Traits of a grouping that scripts can read.
 constexpr auto choice_traits(const GroupingChoice& row) {
   return std::array{std::pair("from_base", row.traits.from_base),
                     std::pair("follows_border", row.traits.follows_border)};
 }
 
-/// What may happen to border nodes (5.3).
+/// Restriction on merging border nodes (the paper, section 5.3).
 enum class BorderRule {
   none,
-  /// Border nodes merge only with border nodes; a node whose best candidate is of the other kind
-  /// skips its own turn, yet others may pick it.
+  /// Border nodes merge only with border nodes. A node whose best candidate is of the other kind
+  /// skips its turn; other nodes may still choose it.
   weak,
   strong,  ///< border nodes never merge
 };
@@ -58,16 +58,17 @@ constexpr ChoiceTable<Choice<BorderRule>> choices(BorderRule) {
   return {"border", kBorderRules};
 }
 
-/// Lower goes first. Called once a node.
+/// Nodes are visited in ascending order of the result. Called once for each node.
 using NodePriority = std::function<double(std::uint32_t node)>;
-/// Lower goes first; NaN or infinity forbids the pair. Called once a spring, with a < b.
+/// A node takes the neighbour of lowest result; NaN or infinity forbids the pair. Called once for
+/// each spring, with a < b.
 using PairCost = std::function<double(std::uint32_t a, std::uint32_t b)>;
 
 struct GroupingOptions {
   Grouping grouping = Grouping::standard;
   BorderRule border = BorderRule::none;
   std::uint64_t seed = 1;
-  double grading = 0.5;          ///< of compact groups by stiffness, see graded_shares
+  double grading = 0.5;          ///< of compact groups by stiffness, 0 to 1, see graded_shares
   NodePriority node_priority{};  ///< replaces the order in which nodes are visited
   PairCost pair_cost{};          ///< replaces the key by which neighbours are chosen
 };
@@ -82,11 +83,11 @@ constexpr auto option_rows(const GroupingOptions*) {
              "for a longer step"));
 }
 
-/// Where the mass of a body goes when its nodes merge (the paper, section 4.2 and figure 2).
+/// Distribution of mass to merged nodes (the paper, section 4.2 and figure 2).
 enum class MassRule {
-  proportional,  ///< a node has the masses of its group
-  /// Each piece of the body goes to the nearest node, so masses also shift to neighbours that did
-  /// not merge.
+  proportional,  ///< a node has the mass of its group
+  /// Each piece of the body goes to the nearest node, so mass also shifts to neighbours that were
+  /// not merged.
   proximity,
 };
 
@@ -98,13 +99,13 @@ constexpr ChoiceTable<Choice<MassRule>> choices(MassRule) {
 }
 
 struct GuardOptions {
-  /// Joined groups nearer than this part of the fine model's mean spring length are fused
-  /// (coincident centroids would give k = infinity). Spec 3.
+  /// Joined groups are fused if their distance is below this fraction of the fine model's mean
+  /// spring length (docs/method.md, eq. 20): coincident centroids would give an infinite k.
   double coincident_fraction = 0.25;
-  /// A node with fewer springs is floppy and is fused with its nearest neighbour.
+  /// A node with fewer springs is floppy and is fused with its nearest neighbour (eq. 21).
   std::uint32_t least_springs = 4;
-  /// A node is floppy too if lambda_min / lambda_max of sum k u u^T is below this: its springs lie
-  /// nearly in one plane.
+  /// A node is also floppy if lambda_min / lambda_max of sum k u u^T is below this (eq. 21): its
+  /// springs lie nearly in one plane.
   double least_rigidity = 1e-3;
   BorderRule border = BorderRule::none;  ///< strong: only inner nodes are fused
 };
@@ -117,10 +118,10 @@ constexpr auto option_rows(const GuardOptions*) {
              "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T is below"));
 }
 
-/// Whose moments are kept while masses shift between nodes.
+/// Moments of mass that a calibration keeps (docs/method.md, eqs. 35 and 36).
 enum class KeptMoments {
-  body,   ///< those of the whole
-  pieces  ///< also those of each piece: connected nodes of one material, 20 or more
+  body,   ///< those of the whole body
+  pieces  ///< those of each material region of 20 nodes or more, and of the smaller ones together
 };
 
 inline constexpr Choice<KeptMoments> kKeptMoments[] = {
@@ -132,12 +133,12 @@ constexpr ChoiceTable<Choice<KeptMoments>> choices(KeptMoments) {
   return {"moments", kKeptMoments};
 }
 
-/// Part of a body that a level shall give way in as the base does, such as where it will touch the
-/// ground or next to where it is held.
+/// A region of the surface whose local compliance a calibration fits, such as a contact face or the
+/// surroundings of an anchor.
 struct TargetRegion {
-  std::vector<std::uint32_t> nodes;  ///< of the base; those on the border count
-  double weight = 1;                 ///< of each load, where a smooth one has 1
-  std::uint32_t patches = 40;        ///< loads on patches within it
+  std::vector<std::uint32_t> nodes;  ///< base nodes; loads act on the border nodes among them
+  double weight = 1;                 ///< of each load, relative to a smooth load [1]
+  std::uint32_t patches = 40;        ///< number of loads on patches within it
 };
 constexpr auto option_rows(const TargetRegion*) {
   return std::tuple(
@@ -151,7 +152,7 @@ constexpr auto option_rows(const TargetRegion*) {
              "room, the others pushed against the body's inertia"));
 }
 
-/// What shall be as in the base.
+/// Kinds of targets of a calibration.
 enum class TargetKinds {
   both,
   modes,
@@ -167,21 +168,20 @@ constexpr ChoiceTable<Choice<TargetKinds>> choices(TargetKinds) {
 }
 
 struct TargetOptions {
-  /// Loads are the nine of smooth_loads, piece_loads, and those on patches and regions.
+  /// The loads are smooth_loads, piece_loads, and loads on patches and regions.
   TargetKinds kinds = TargetKinds::both;
   std::uint32_t modes = 20;
-  double piece_weight = 0.3;  ///< of each of piece_loads, where one of the nine has 1
-  /// Pairs of opposed loads on patches of the surface, see patch_pairs: without them what is not
-  /// fitted gets worse than it was.
-  /// None named: see patch_count.
+  double piece_weight = 0.3;  ///< of each of piece_loads, relative to a smooth load [1]
+  /// Number of patch pairs on the surface, see patch_pairs; empty: see patch_count. Without them a
+  /// fit increases the error of loads that are not fitted.
   std::optional<std::uint32_t> patches = {};
-  double patch_weight = 0.2;
+  double patch_weight = 0.2;  ///< of each patch pair, relative to a smooth load [1]
   std::vector<TargetRegion> regions = {};
-  /// How much modes and static loads of every kind count, over what they usually do.
+  /// Factors on the weights of all modes and of all static loads [1].
   double mode_weight = 1, load_weight = 1;
   std::uint64_t seed = 1;                    ///< of the patches
-  std::vector<std::uint32_t> anchored = {};  ///< nodes of the base that are held
-  std::uint32_t threads = 1;                 ///< up to two are used; the same bits for any number
+  std::vector<std::uint32_t> anchored = {};  ///< base nodes that are held fixed
+  std::uint32_t threads = 1;                 ///< at most two are used; results do not depend on it
   Progress* progress = nullptr;              ///< may be null
 };
 constexpr auto option_rows(const TargetOptions*) {
@@ -207,19 +207,21 @@ constexpr auto option_rows(const TargetOptions*) {
 }
 
 struct FitOptions {
-  /// Steps at most; 0: 90 for up to 500 nodes, down to 10 for large levels, see fit_steps.
+  /// Largest number of steps; 0: 90 for up to 500 nodes, down to 10 for large levels, see
+  /// fit_steps.
   std::uint32_t iterations = 0;
-  /// Mean error of the ten lowest frequencies that is good enough [1], 0: see frequency_tolerance;
-  /// the other modes may miss by four times as much, smooth loads and those of regions by eight,
-  /// loads of patches and pieces by twenty times as much.
+  /// Tolerance t of the mean error of the ten lowest frequencies [1]; 0: see frequency_tolerance.
+  /// The tolerance of the other modes is 4 t, of smooth and region loads 8 t, of patch and piece
+  /// loads 20 t (docs/method.md, eq. 44).
   double tolerance = 0;
-  /// Where the largest frequency need not fall any further, over that of a lattice of as many
-  /// nodes, omega0 (N / N0)^(1/3): below it local loads are answered worse.
+  /// The fit ends when omega_max is at most this fraction of omega0_max (N / N0)^(1/3), that of a
+  /// lattice with as many nodes (docs/method.md, eq. 46) [1]. A lower omega_max increases the error
+  /// of local loads.
   double least_frequency = 0.85;
-  /// Of pieces too: how a body moves when it is hit in one place then is more like its base, its
-  /// largest frequency less low, for the nodes that are stiff may not be given the others' mass.
+  /// With KeptMoments::pieces stiff regions cannot take mass from the others. More accurate in
+  /// impacts; shorter stable time step.
   KeptMoments moments = KeptMoments::body;
-  std::uint32_t threads = 1;  ///< up to two are used; the same bits for any number
+  std::uint32_t threads = 1;  ///< at most two are used; results do not depend on it
 };
 constexpr auto option_rows(const FitOptions*) {
   return std::tuple(
@@ -238,14 +240,14 @@ constexpr auto option_rows(const FitOptions*) {
              "masses shift between nodes; which mass, centre and second moments stay"));
 }
 
-/// What is done to levels after merging.
+/// Treatment of levels after merging.
 enum class Calibrate {
-  none,    ///< as they were merged (the paper)
+  none,    ///< none, as in the paper
   moduli,  ///< see rescale_moduli
   modes,   ///< see calibrate
 };
 
-/// A row of its words, with what a level says of how it was made.
+/// A row of the table of calibrations; `remark` is appended to Level::made_by.
 struct CalibrateChoice : Choice<Calibrate> {
   const char* remark;
 };
@@ -264,15 +266,15 @@ constexpr ChoiceTable<CalibrateChoice> choices(Calibrate) {
 struct CalibrateOptions {
   TargetOptions targets{};
   FitOptions fit{};
-  /// Folder that keeps what was found so far (CalibrationStore): a calibration that was stopped
-  /// goes on from there when it is made again, to the same bits. Empty: nothing is kept.
+  /// Folder for the state of the calibration (CalibrationStore). A stopped calibration resumes from
+  /// it with bit-identical results when the call is repeated. Empty: no state is saved.
   std::filesystem::path store{};
   /// Time between two writes of a fit's state to the store [s], 0: after each step. A step of a
   /// large level takes seconds, its state is some megabytes. A fit that is interrupted or done
   /// writes its state in any case; one that is killed loses the steps since the last write.
   double keep_every = 2;
-  /// Levels that are fitted at a time, 0: as many as cores; of more than one each may take a second
-  /// thread, for the levels differ much in size.
+  /// Levels fitted at a time; 0: one for each core. With more than one, each may use a second
+  /// thread, because the levels differ much in size.
   std::uint32_t threads = 1;
   Progress* progress = nullptr;  ///< may be null
 };
@@ -296,12 +298,12 @@ using GroupMaker =
 
 struct SimplifyOptions {
   std::uint32_t levels = 2;
-  /// Nodes of each level over those of the base, falling; met exactly. Empty: as many as the
-  /// grouping makes; straight from the base, 0.45, 0.2, 0.09, ...
+  /// Number of nodes of each level as a fraction of the base's, descending; met exactly. Empty: as
+  /// many as the grouping makes; for levels merged straight from the base 0.45, 0.2, 0.09, ...
   std::vector<double> keep{};
   GroupingOptions grouping{};
-  /// Every level merged straight from the base, as those of compact and metis always are: no level
-  /// has to do with what the one before merged.
+  /// Every level is merged straight from the base, independently of the other levels. Groupings
+  /// with the trait from_base do so always.
   bool straight = false;
   MassRule mass = MassRule::proportional;
   bool guards = true;
@@ -309,7 +311,7 @@ struct SimplifyOptions {
   GroupMaker groups{};   ///< optional
   Calibrate calibrate = Calibrate::none;
   CalibrateOptions calibration{};  ///< for Calibrate::modes
-  std::string made_by{};           ///< left empty: told from the options
+  std::string made_by{};           ///< Level::made_by; empty: a summary of the options
   Progress* progress = nullptr;
 };
 constexpr auto option_rows(const SimplifyOptions*) {

@@ -13,7 +13,7 @@
 namespace springlod::lod {
 namespace {
 
-/// Every node of the base to the nearest of `nodes`.
+/// Maps every base node to the nearest of `nodes`.
 Groups nearest_groups(const MassSpringModel& base, const std::vector<Vec3>& nodes) {
   const Box3 box = bounds(base.rest).merged(bounds(nodes));
   const auto count = static_cast<std::uint32_t>(nodes.size());
@@ -35,7 +35,7 @@ Groups nearest_groups(const MassSpringModel& base, const std::vector<Vec3>& node
       best = i;
       least = squared;
     }
-    // There are fewer groups than nodes, so one has two.
+    // There are fewer groups than nodes, so some group has at least two.
     --size[groups.of[best]];
     groups.of[best] = g;
     size[g] = 1;
@@ -52,8 +52,8 @@ LodChain refill(const MassSpringModel& base, std::vector<Level> levels) {
     const std::uint32_t before = chain.levels.back().model.node_count();
     if (level.model.node_count() >= before)
       throw InputError(
-          fmt::format("refill: level {} would have {} nodes and the level before has {}; ask for "
-                      "fewer",
+          fmt::format("refill: level {} would have {} nodes and the level before has {}; use fewer "
+                      "nodes",
                       chain.levels.size(), level.model.node_count(), before));
     level.of_base = nearest_groups(base, level.model.rest);
     chain.levels.push_back(std::move(level));

@@ -16,7 +16,7 @@
 namespace springlod::lod {
 namespace {
 
-/// Every grouping there is. A new one is a file with its maker, an enumerator and a row here.
+/// The table of groupings. A new grouping needs a file with its function, an enumerator and a row.
 constexpr GroupingChoice kGroupings[] = {
     {{Grouping::standard, "standard", "nearest neighbours first, nodes in random order"},
      standard_groups},
@@ -50,8 +50,8 @@ void require_joined(const SpringRows& springs, const std::vector<std::uint32_t>&
   }
   if (reached.size() < set.size())
     throw InputError(fmt::format(
-        "groups: the group of node {} is not held together by springs; merging it would weld "
-        "pieces that are mechanically apart",
+        "groups: the group of node {} is not connected by springs, so merging it would join "
+        "separate bodies; split it",
         script_number(set[0])));
 }
 
@@ -83,10 +83,10 @@ Groups groups_from_sets(const MassSpringModel& model,
   for (const std::vector<std::uint32_t>& set : sets) {
     for (const std::uint32_t i : set) {
       if (i >= model.node_count())
-        throw InputError(fmt::format("groups: there is no node {}; the model has {}",
+        throw InputError(fmt::format("groups: there is no node {}; the model has {} nodes",
                                      script_number(i), model.node_count()));
       if (leader[i] != kUngrouped)
-        throw InputError(fmt::format("groups: node {} is named twice", script_number(i)));
+        throw InputError(fmt::format("groups: node {} occurs twice", script_number(i)));
       leader[i] = set[0];
     }
   }

@@ -8,18 +8,18 @@
 namespace springlod::lod {
 namespace {
 
-// Weight of the gradient against the length in the soft key; the prototype's choice (spec 3).
+// Weight of the gradient relative to the length in the soft key (docs/method.md, eq. 23).
 constexpr double kGradientWeight = 4;
 
-// Keys that differ by less than this part of the mean are equal, and chance decides.
+// Keys that agree to this fraction of their mean are equal; a random number decides.
 constexpr double kTieFraction = 1e-9;
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// Young's modulus of a node up to a factor that is the same for all: the mean k weighted by L^2,
-// which a node on the border, with fewer springs, does not bias.
+// Young's modulus of a node up to a common factor: the mean of k weighted by L^2 (docs/method.md,
+// eq. 22). A mean has no bias at border nodes, which have fewer springs.
 std::vector<double> node_stiffness(const MassSpringModel& m) {
   std::vector<double> work(m.node_count(), 0);
   std::vector<double> weight(m.node_count(), 0);

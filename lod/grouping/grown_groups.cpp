@@ -17,13 +17,12 @@ constexpr std::uint32_t kUngrouped = std::numeric_limits<std::uint32_t>::max();
 
 enum class Draw : std::uint64_t { order = 1, size = 2, tie = 3 };
 
-// A random number that depends on nothing but what is asked, so that no order of evaluation can
-// change it.
+// Random numbers by hashing of the seed and the arguments, independent of the order of evaluation.
 class Chance {
  public:
   explicit Chance(std::uint64_t seed) : seed_(mix(seed)) {}
   std::uint64_t operator()(Draw what, std::uint64_t x) const { return mix(state(what, x)); }
-  /// Mixed with y, the number drawn for (x, y).
+  /// State for numbers of two arguments: mix(state ^ y) is the number for (x, y).
   std::uint64_t state(Draw what, std::uint64_t x) const {
     return mix(mix(seed_ ^ static_cast<std::uint64_t>(what)) ^ x);
   }
@@ -32,7 +31,7 @@ class Chance {
   std::uint64_t seed_;
 };
 
-// By priority, then by chance; without priorities by chance alone.
+// Order by priority, ties at random; without priorities a random order.
 std::vector<std::uint32_t> visit_order(std::uint32_t count, const std::vector<double>& priority,
                                        const Chance& chance) {
   std::vector<KeyedNode> visits(count);
@@ -79,9 +78,9 @@ class Grouper {
       for (std::uint32_t i = 0; i < model_.node_count(); ++i) free_[i] = model_.border[i] == 0;
   }
 
-  // Visits jump about in memory; without this they would wait for it nearly all the time.
+  // Visits access memory at random; without prefetching, latency would dominate the time.
   void prefetch_after(std::size_t visit) const {
-    constexpr std::size_t kAhead = 8;  // visits from one stage to the next
+    constexpr std::size_t kAhead = 8;  // prefetch distance of each stage in visits
     const auto stage = [&](std::size_t ahead, const auto& prefetch) {
       if (visit + ahead < order_.size() && free_[order_[visit + ahead]])
         prefetch(order_[visit + ahead]);
@@ -120,7 +119,7 @@ class Grouper {
     return best.node;
   }
 
-  // The first node is no candidate of its own: no spring joins a node to itself.
+  // The first node cannot choose itself: no spring joins a node to itself.
   void grow(std::uint32_t i) {
     const std::uint32_t size = chance_(Draw::size, i) % 2 == 0 ? 2 : 3;
     for (std::uint32_t members = 1; members < size; ++members) {

@@ -4,15 +4,16 @@
 
 namespace springlod::lod {
 
-// Groups of two or three nodes that springs join (each size drawn with probability 1/2), grown from
-// one node after the other; what is left over stays single (the paper, section 5). How many groups
-// come of it is not chosen.
+// Groups of two or three nodes joined by springs (each size drawn with probability 1/2), grown node
+// by node; nodes without a free neighbour stay single (the paper, section 5). The number of groups
+// follows from the model.
 
-/// Nearest neighbours first, nodes in random order (5.1).
+/// Nearest neighbours first, nodes in random order (the paper, section 5.1).
 Groups standard_groups(const GroupingTask& task);
-/// Key L (1 + 4 g L): short springs between nodes of like material first.
+/// Key L (1 + 4 gamma L), with the gradient gamma of the spring: short springs between nodes of
+/// like material first (docs/method.md, eq. 23).
 Groups priority_groups(const GroupingTask& task);
-/// Gradient first, distance second: the paper's words (5.2).
+/// Gradient first, distance second, as the paper describes it (section 5.2).
 Groups hard_priority_groups(const GroupingTask& task);
 
 }  // namespace springlod::lod

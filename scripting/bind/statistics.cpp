@@ -81,7 +81,7 @@ void read_resampling(Call& call, TableReader& reader, report::BootstrapOptions& 
 }
 
 int mean_binding(Call& call) {
-  return call.give(mean(sample_argument(call, 1, "sample").values));
+  return call.give(report::mean(sample_argument(call, 1, "sample").values));
 }
 
 int statistics_binding(Call& call) {

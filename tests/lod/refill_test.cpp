@@ -66,7 +66,7 @@ TEST_CASE("The paper's figure 1: a cube refilled with lattices of 125, 64 and 27
     CHECK(elastic::stretch_test(chain.levels[2].model).young == Approx(1e6).epsilon(1e-6));
 }
 
-TEST_CASE("A ball of two materials is refilled with about as many nodes as asked for") {
+TEST_CASE("A ball of two materials is refilled with about the requested number of nodes") {
   const MaterialGrid grid = ball_grid(6);
   const MassSpringModel base = build_lattice(grid).model;
   const LodChain lattices = refill(base, refill_levels(grid, {.nodes = {400, 160, 60}}));
@@ -84,7 +84,7 @@ TEST_CASE("A ball of two materials is refilled with about as many nodes as asked
   CHECK(random.levels[3].model.node_count() == 57);
 }
 
-TEST_CASE("Base nodes belong to the nearest node of a refilled level") {
+TEST_CASE("Base nodes are mapped to the nearest node of a refilled level") {
   const MaterialGrid grid = box_grid(8, 8, 8, 0.01);
   const MassSpringModel base = build_lattice(grid).model;
   const Level level =
@@ -95,7 +95,7 @@ TEST_CASE("Base nodes belong to the nearest node of a refilled level") {
   }
 }
 
-TEST_CASE("A refill that gets no coarser is refused") {
+TEST_CASE("A refill that is no coarser than the level before is an error") {
   const MaterialGrid grid = box_grid(4, 4, 4, 0.01);
   const MassSpringModel base = build_lattice(grid).model;
   CHECK_THROWS_AS(refill(base, refill_levels(grid, {})), InputError);
