@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -17,6 +18,7 @@ class DisjointSets {
 
   /// Lowest element of the set of `i`.
   std::uint32_t lowest(std::uint32_t i) {
+    assert(i < parent_.size());
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
@@ -33,7 +35,10 @@ class DisjointSets {
 
   /// Makes `i` a set by itself again. To be called for all elements of its set, or others still
   /// lead to it.
-  void separate(std::uint32_t i) { parent_[i] = i; }
+  void separate(std::uint32_t i) {
+    assert(i < parent_.size());
+    parent_[i] = i;
+  }
 
   /// The number of the set of each element, sets numbered by their lowest element.
   struct Numbers {

@@ -1,6 +1,7 @@
 #include "elastic/stable_step.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +33,7 @@ class MassWeightedStiffness {
   MassWeightedStiffness(const MassSpringModel& model, const std::vector<double>& ground)
       : a_(model.a), b_(model.b) {
     const std::uint32_t n = model.node_count();
+    assert(ground.empty() || ground.size() == n);
     ground_.resize(n, 0);
     std::vector<double> weight(n);
     for (std::uint32_t i = 0; i < n; ++i) {

@@ -1,8 +1,11 @@
 #include "model/parts.hpp"
 
+#include <cassert>
+
 namespace springlod::inline model {
 
 std::vector<ModelPart> split_parts(const MassSpringModel& model, const Components& components) {
+  assert(components.of_node.size() == model.node_count());
   std::vector<ModelPart> parts(components.count);
   std::vector<std::uint32_t> place(model.node_count());
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {

@@ -1,5 +1,6 @@
 #include "model/point_bins.hpp"
 
+#include <cassert>
 #include <limits>
 #include <numeric>
 
@@ -14,6 +15,7 @@ constexpr double kFewBins = 4096;
 
 PointBins::PointBins(const std::vector<Vec3>& points, const Box3& box, double bin, Edges edges)
     : points_(points), box_(box), edges_(edges) {
+  assert(bin > 0 && !box.isEmpty());
   const Vec3 extent = box.sizes();
   const double most = std::max(kFewBins, kMostBinsPerPoint * static_cast<double>(points.size()));
   const auto bins = [&](double edge) {

@@ -1,5 +1,7 @@
 #include "model/spring_rows.hpp"
 
+#include <cassert>
+
 namespace springlod::inline model {
 
 SpringRows::SpringRows(std::uint32_t node_count, const std::vector<std::uint32_t>& a,
@@ -7,7 +9,10 @@ SpringRows::SpringRows(std::uint32_t node_count, const std::vector<std::uint32_t
     : b_(b),
       start_(node_count + 1, Start{0, 0}),
       lower_(std::make_unique_for_overwrite<Lower[]>(b.size())) {
+  assert(a.size() == b.size());
   for (std::uint32_t s = 0; s < spring_count(); ++s) {
+    assert(a[s] < b[s] && b[s] < node_count);
+    assert(s == 0 || a[s - 1] < a[s] || (a[s - 1] == a[s] && b[s - 1] < b[s]));
     ++start_[b[s]].lower;
     ++start_[a[s]].higher;
   }

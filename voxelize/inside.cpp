@@ -26,7 +26,8 @@ openvdb::Coord coord(const CellIndex& c) {
   return {c[0], c[1], c[2]};
 }
 
-/// A mesh as meshToVolume reads it.
+/// A mesh as meshToVolume reads it; the names are those that it calls.
+// NOLINTBEGIN(readability-identifier-naming)
 struct SurfaceInCells {
   const std::vector<Vec3>& positions;
   const std::vector<Triangle>& triangles;
@@ -39,6 +40,7 @@ struct SurfaceInCells {
     point = {p.x(), p.y(), p.z()};
   }
 };
+// NOLINTEND(readability-identifier-naming)
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
 

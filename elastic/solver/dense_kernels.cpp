@@ -1,6 +1,7 @@
 #include "elastic/solver/dense_kernels.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <mutex>
 
 #include <Eigen/Cholesky>
@@ -42,6 +43,7 @@ int stride(const ConstDenseRef& m) {
 }  // namespace
 
 bool factorise_lower(DenseRef a) {
+  assert(a.rows() == a.cols());
   if (a.cols() <= kSmall) return Eigen::LLT<DenseRef>(a).info() == Eigen::Success;
   const Eigen::Index half = a.cols() / 2;
   const Eigen::Index rest = a.cols() - half;
@@ -53,6 +55,7 @@ bool factorise_lower(DenseRef a) {
 
 void solve_right_transposed(const ConstDenseRef& l, DenseRef b) {
   if (b.size() == 0) return;
+  assert(l.rows() == l.cols() && b.cols() == l.rows());
   const BlasTurn turn;
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, size(b.rows()),
               size(b.cols()), 1, l.data(), stride(l), b.data(), stride(b));
@@ -60,6 +63,7 @@ void solve_right_transposed(const ConstDenseRef& l, DenseRef b) {
 
 void solve_right(const ConstDenseRef& l, DenseRef b) {
   if (b.size() == 0) return;
+  assert(l.rows() == l.cols() && b.cols() == l.rows());
   const BlasTurn turn;
   cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, size(b.rows()),
               size(b.cols()), 1, l.data(), stride(l), b.data(), stride(b));
@@ -67,6 +71,7 @@ void solve_right(const ConstDenseRef& l, DenseRef b) {
 
 void subtract_square(const ConstDenseRef& a, DenseRef c) {
   if (c.size() == 0) return;
+  assert(c.rows() == c.cols() && a.rows() == c.rows());
   const BlasTurn turn;
   cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, size(c.rows()), size(a.cols()), -1, a.data(),
               stride(a), 1, c.data(), stride(c));
@@ -83,6 +88,7 @@ Eigen::MatrixXd gram(const ConstDenseRef& a) {
 }
 
 Eigen::MatrixXd transposed_product(const ConstDenseRef& a, const ConstDenseRef& b) {
+  assert(a.rows() == b.rows());
   Eigen::MatrixXd product = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   if (product.size() == 0 || a.size() == 0) return product;
   const BlasTurn turn;
@@ -94,6 +100,7 @@ Eigen::MatrixXd transposed_product(const ConstDenseRef& a, const ConstDenseRef& 
 
 void multiply_transposed(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c) {
   if (c.size() == 0) return;
+  assert(a.cols() == b.cols() && c.rows() == a.rows() && c.cols() == b.rows());
   const BlasTurn turn;
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, size(c.rows()), size(c.cols()),
               size(a.cols()), 1, a.data(), stride(a), b.data(), stride(b), 0, c.data(), stride(c));
@@ -101,6 +108,7 @@ void multiply_transposed(const ConstDenseRef& a, const ConstDenseRef& b, DenseRe
 
 void subtract_product(const ConstDenseRef& a, const ConstDenseRef& b, DenseRef c) {
   if (c.size() == 0) return;
+  assert(a.cols() == b.rows() && c.rows() == a.rows() && c.cols() == b.cols());
   const BlasTurn turn;
   cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size(c.rows()), size(c.cols()),
               size(a.cols()), -1, a.data(), stride(a), b.data(), stride(b), 1, c.data(), stride(c));

@@ -1,6 +1,7 @@
 #include "elastic/solver/sparse_cholesky.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "elastic/solver/dense_kernels.hpp"
@@ -33,6 +34,8 @@ class SparseCholesky::Builder {
   Builder(SparseCholesky& factor, const Eigen::SparseMatrix<double>& matrix,
           const std::vector<Vec3>& points)
       : factor_(factor), matrix_(matrix), graph_(node_graph(matrix)) {
+    assert(matrix.rows() == matrix.cols());
+    assert(matrix.rows() == 3 * static_cast<Eigen::Index>(points.size()));
     Dissection dissection = dissect(points, graph_);
     pieces_ = std::move(dissection.pieces);
     factor_.order_ = std::move(dissection.order);
@@ -109,6 +112,7 @@ class SparseCholesky::Builder {
     const std::vector<std::uint32_t>& rows = factor_.fronts_[child].rows;
     const Eigen::Index width = front.width();
     const Eigen::MatrixXd update = std::exchange(updates_[child], {});
+    assert(update.rows() == 3 * static_cast<Eigen::Index>(rows.size()));
     for (std::size_t j = 0; j < rows.size(); ++j) {
       const auto from = 3 * static_cast<Eigen::Index>(j);
       const auto to = 3 * static_cast<Eigen::Index>(local_[rows[j]]);

@@ -1,6 +1,7 @@
 #include "lod/merging/merge.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,7 +14,10 @@ namespace {
 
 std::vector<std::uint32_t> group_sizes(const Groups& groups) {
   std::vector<std::uint32_t> size(groups.count, 0);
-  for (const std::uint32_t g : groups.of) ++size[g];
+  for (const std::uint32_t g : groups.of) {
+    assert(g < groups.count);
+    ++size[g];
+  }
   return size;
 }
 
@@ -99,6 +103,9 @@ MassSpringModel merge(const MassSpringModel& fine, const Groups& groups) {
 }
 
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links) {
+  assert(groups.of.size() == fine.node_count());
+  assert(links.into.size() == fine.spring_count());
+  assert(links.a.size() == links.b.size());
   const std::vector<std::uint32_t> size = group_sizes(groups);
   MassSpringModel coarse;
   coarse.materials = fine.materials;

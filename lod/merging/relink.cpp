@@ -1,6 +1,7 @@
 #include "lod/merging/relink.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -41,6 +42,7 @@ struct RowEntry {
 void gather_row(const SpringRows& springs, const Groups& groups,
                 std::span<const std::uint32_t> members, std::uint32_t low,
                 std::vector<RowEntry>& row) {
+  assert(std::is_sorted(members.begin(), members.end()));
   std::size_t ends = 0;
   for (const std::uint32_t i : members) ends += springs.count(i);
   row.resize(ends);
@@ -103,7 +105,10 @@ Relinking relink(const SpringRows& springs, const Groups& groups) {
 
 Relinking compose(Relinking finer, Relinking coarser) {
   for (std::uint32_t& pair : finer.into)
-    if (pair != Relinking::kInside) pair = coarser.into[pair];
+    if (pair != Relinking::kInside) {
+      assert(pair < coarser.into.size());
+      pair = coarser.into[pair];
+    }
   return {std::move(coarser.a), std::move(coarser.b), std::move(finer.into)};
 }
 

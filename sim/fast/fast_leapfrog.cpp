@@ -1,6 +1,7 @@
 #include "sim/fast/fast_leapfrog.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -224,11 +225,13 @@ void FastLeapfrog::apply_skin_contacts(const Pass& pass, const MovingFrame& fram
 
 void FastLeapfrog::wait_for_others(std::uint32_t block, const Share& share) const {
   const FastBody::BlockRange needs = body_->needs(block);
+  assert(needs.first <= block && block <= needs.last && needs.last < block_contacts_.size());
   for (std::uint32_t b = needs.first; b <= needs.last; ++b)
     if (b < share.first || b >= share.end) found_.wait_for(b, share.kicks);
 }
 
 void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block) {
+  assert(block < block_contacts_.size());
   BlockContacts& contacts = block_contacts_[block];
   const FastContacts::Step step = contact_step(pass, frame);
   if (pass.kick != 0) {

@@ -1,5 +1,7 @@
 #include "sim/fast/quad_body.hpp"
 
+#include <cassert>
+
 namespace springlod::sim {
 namespace {
 
@@ -39,6 +41,7 @@ void QuadBody<Real>::set(std::uint32_t block, const MovingFrame& frame, const st
   QuadBlockState<Real>& own = this->state_[block];
   own.bounds.setEmpty();
   const std::span<const std::uint32_t> nodes = this->nodes(block);
+  assert(nodes.size() <= own.records.size() && x.size() == v.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Vec3 own_x = x[nodes[i]] - frame.origin;
     const Vec3 own_v = v[nodes[i]] - frame.velocity;
@@ -75,6 +78,7 @@ void QuadBody<Real>::get_v(std::uint32_t block, const MovingFrame& frame,
 
 template <class Real>
 Vec3 QuadBody<Real>::x(Place at) const {
+  assert(at.block < this->state_.size() && at.index < this->state_[at.block].records.size());
   return read(this->state_[at.block].records[at.index].x);
 }
 
@@ -85,6 +89,7 @@ Vec3 QuadBody<Real>::v(Place at) const {
 
 template <class Real>
 Vec3 QuadBody<Real>::force(Place at) const {
+  assert(at.block < this->state_.size() && at.index < this->state_[at.block].forces.size());
   return read(this->state_[at.block].forces[at.index].at);
 }
 

@@ -1,5 +1,7 @@
 #include "sim/fast/row_body.hpp"
 
+#include <cassert>
+
 namespace springlod::sim {
 namespace {
 
@@ -24,6 +26,8 @@ void RowBody<Real>::set(std::uint32_t block, const MovingFrame& frame, const std
                         const std::vector<Vec3>& v) {
   const RowBlock& of = this->layout_->blocks[block];
   const std::span<const std::uint32_t> nodes = this->nodes(block);
+  assert(!nodes.empty() && nodes.size() <= of.places());
+  assert(x.size() == v.size());
   for (std::uint32_t i = 0; i < of.places(); ++i) {
     const bool fills_up = i >= nodes.size();
     const std::uint32_t node = fills_up ? nodes.back() : nodes[i];

@@ -26,7 +26,7 @@ void wait_for(const std::atomic<bool>& event) {
 
 }  // namespace
 
-TEST_CASE("Every job runs once, for any number of threads") {
+TEST_CASE("Every job runs once, for any number of threads", "[threaded]") {
   const std::uint32_t threads = GENERATE(0U, 1U, 2U, 5U, 80U);
   std::vector<int> runs(50, 0), stops(50, 0);  // plain: no two threads may have the same job
   run_jobs(runs.size(), threads, [&](std::uint64_t job, const Stopped& stopped) {
@@ -38,7 +38,7 @@ TEST_CASE("Every job runs once, for any number of threads") {
   run_jobs(0, threads, [](std::uint64_t, const Stopped&) { FAIL("there is no job"); });
 }
 
-TEST_CASE("One thread does the jobs in rising order, on the thread of the caller") {
+TEST_CASE("One thread does the jobs in rising order, on the thread of the caller", "[threaded]") {
   std::vector<std::uint64_t> order;
   const std::thread::id caller = std::this_thread::get_id();
   run_jobs(5, 1, [&](std::uint64_t job, const Stopped&) {
@@ -48,7 +48,8 @@ TEST_CASE("One thread does the jobs in rising order, on the thread of the caller
   CHECK(order == std::vector<std::uint64_t>{0, 1, 2, 3, 4});
 }
 
-TEST_CASE("The exception of the lowest failed job reaches the caller, with its type") {
+TEST_CASE("The exception of the lowest failed job reaches the caller, with its type",
+          "[threaded]") {
   const std::uint32_t threads = GENERATE(1U, 2U, 5U);
   const auto failing = [](std::uint64_t job, const Stopped&) {
     if (job == 7 || job == 8 || job == 30) throw InputError(std::to_string(job));
@@ -57,7 +58,8 @@ TEST_CASE("The exception of the lowest failed job reaches the caller, with its t
   CHECK_THROWS_WITH(run_jobs(50, threads, failing), "7");
 }
 
-TEST_CASE("Jobs after a failed one are not started, those under way are told to stop") {
+TEST_CASE("Jobs after a failed one are not started, those under way are told to stop",
+          "[threaded]") {
   std::atomic<bool> second_runs{false};
   std::atomic<int> started{0};
   const auto body = [&](std::uint64_t job, const Stopped& stopped) {
@@ -74,7 +76,7 @@ TEST_CASE("Jobs after a failed one are not started, those under way are told to 
   CHECK(started == 2);
 }
 
-TEST_CASE("Jobs before a failed one go on, and one that fails then counts instead") {
+TEST_CASE("Jobs before a failed one go on, and one that fails then counts instead", "[threaded]") {
   std::atomic<bool> later_failed{false};
   bool told_to_stop = true;
   const auto body = [&](std::uint64_t job, const Stopped& stopped) {
@@ -90,7 +92,7 @@ TEST_CASE("Jobs before a failed one go on, and one that fails then counts instea
   CHECK_FALSE(told_to_stop);
 }
 
-TEST_CASE("An interrupt stops the earlier jobs too") {
+TEST_CASE("An interrupt stops the earlier jobs too", "[threaded]") {
   std::atomic<bool> first_runs{false};
   const auto body = [&](std::uint64_t job, const Stopped& stopped) {
     if (job == 1) {

@@ -14,9 +14,9 @@
 #include "tests/cli/program.hpp"
 
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -95,9 +95,9 @@ TEST_CASE("The main job has the results whose hashes are kept") {
   // Each of OpenBLAS's kernels rounds differently; this one runs on every processor with AVX2.
   const std::string kind = processor_kind();
   if (!kind.empty()) setenv("OPENBLAS_CORETYPE", "Haswell", 1);
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string script = std::string(SPRINGLOD_SOURCE_DIR) + "/tests/golden/main_job.lua";
-  const Ran ran = springlod_run({"-q", "run", script, "--", scratch.folder().string()});
+  const Ran ran = springlod_run({"-q", "run", script, "--", scratch.path().string()});
   unsetenv("OPENBLAS_CORETYPE");
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);

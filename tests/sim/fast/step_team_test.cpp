@@ -39,7 +39,8 @@ Values first_values(std::size_t parts) {
 
 }  // namespace
 
-TEST_CASE("A team calls its work once for each member, the first on the thread of the caller") {
+TEST_CASE("A team calls its work once for each member, the first on the thread of the caller",
+          "[threaded]") {
   const std::uint32_t size = GENERATE(1U, 2U, 5U);
   std::vector<int> calls(size, 0);
   std::vector<std::thread::id> thread(size);
@@ -52,7 +53,7 @@ TEST_CASE("A team calls its work once for each member, the first on the thread o
   for (std::uint32_t number = 1; number < size; ++number) CHECK(thread[number] != thread[0]);
 }
 
-TEST_CASE("Nobody leaves a meeting before all have come, however often they meet") {
+TEST_CASE("Nobody leaves a meeting before all have come, however often they meet", "[threaded]") {
   const std::uint32_t size = GENERATE(1U, 2U, 3U, 5U);
   constexpr int kMeetings = 300;
   std::vector<int> round(size, 0);
@@ -68,7 +69,8 @@ TEST_CASE("Nobody leaves a meeting before all have come, however often they meet
   CHECK(wrong == std::vector<int>(size, 0));
 }
 
-TEST_CASE("Steps that wait for their neighbours' milestones come to what one thread comes to") {
+TEST_CASE("Steps that wait for their neighbours' milestones come to what one thread comes to",
+          "[threaded]") {
   const std::uint32_t size = GENERATE(1U, 2U, 3U, 5U);
   constexpr std::uint32_t kParts = 7, kSteps = 300;
   const Values wanted = stepped(first_values(kParts), kSteps);
@@ -93,7 +95,7 @@ TEST_CASE("Steps that wait for their neighbours' milestones come to what one thr
   done.wait_for(0, 0);  // at once
 }
 
-TEST_CASE("A part that is further than asked for is not waited for") {
+TEST_CASE("A part that is further than asked for is not waited for", "[threaded]") {
   Milestones done(2);
   done.reach(1, 5);
   for (const std::uint32_t milestone : {0U, 3U, 5U}) done.wait_for(1, milestone);
