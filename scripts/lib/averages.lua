@@ -1,4 +1,5 @@
--- Of a list of numbers. s.statistics gives intervals too, but wants five values or more.
+-- Mean and standard deviation of a list of numbers of any length; s.statistics, which adds
+-- intervals, needs at least five.
 
 local averages = {}
 

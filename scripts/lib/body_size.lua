@@ -1,4 +1,4 @@
--- The diagonal of the box around the nodes of a model [m].
+-- Diagonal of the bounding box of the nodes of a model [m].
 
 return function(model)
   local low, high = {math.huge, math.huge, math.huge}, {-math.huge, -math.huge, -math.huge}

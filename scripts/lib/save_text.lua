@@ -1,5 +1,5 @@
--- Writes text as a file in a folder that is there; aside first, so that a file of an earlier run is
--- whole until the new one is.
+-- Writes text to a file in an existing folder. It writes a temporary file and renames it, so that
+-- an interruption leaves the old file intact.
 
 return function(path, text)
   local file = assert(io.open(path .. ".part", "w"))
