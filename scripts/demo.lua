@@ -1,8 +1,9 @@
--- The whole workflow on the second body of the paper, two stiff rods and a rubber joint:
+-- Run the whole workflow on a sample, from a mesh to tables, charts and a video.
 --
 --   springlod run scripts/demo.lua -- [FOLDER [STARTS [FRAMES]]]
 --
--- mesh -> cells -> model -> levels -> a throw at a wall -> table, chart, video. ./dev demo runs it.
+-- The sample is the second body of the paper, two stiff rods and a rubber joint: mesh -> cells ->
+-- model -> levels -> a throw at a wall -> table, chart, video. ./dev demo runs this script.
 
 local s = require "springlod"
 local paper_numbers = require "studies.paper.numbers"

@@ -1,5 +1,4 @@
--- Measure the accuracy of levels: plain merging, calibration, groupings and refilling on the bodies
--- of studies/accuracy/bodies.lua.
+-- Measure the accuracy of levels by method: groupings, calibration and refilling.
 
 local s = require "springlod"
 local command = require "lib.command"

@@ -15,7 +15,7 @@ local parser = command.parser("paper", "Reproduce the tables and figures of Kot,
   .. "Gracki, \"Simplification of mass spring models\", from many runs each. Writes CSV files, "
   .. "charts, tables.md and figure-N.png. After an interruption (Ctrl-C) the same command resumes.")
 parser:option("--out", "folder to write to"):argname("<folder>"):default("out/paper")
-parser:flag("--quick", "use few runs, to test the command; the results mean nothing")
+parser:flag("--quick", "use few runs: a test of the command, without significance")
 parser:option("--starts", "paired starts of each model (default: 48; --quick: 8)")
   :convert(command.whole("--starts", 5))
 parser:option("--simplifications", "seeds of each simplification variant (default: 5; --quick: 2)")

@@ -52,7 +52,7 @@ parser:option("--until", "time up to which surfaces are compared, such as 0.5s (
   .. "after the first contact)"):convert(command.quantity("--until", "time"))
 parser:option("--implicit-step", "time step of the implicit integrators, such as 2ms")
   :convert(command.quantity("--implicit-step", "time")):default("1ms")
-parser:flag("--quick", "use few variants and runs, to test the command; the results mean nothing")
+parser:flag("--quick", "use few variants and runs: a test of the command, without significance")
 local args = parser:parse()
 
 local quick = args.quick and {
@@ -199,7 +199,9 @@ local function report(study, variants, left_out)
       end
     end
   end
-  if #left_out > 0 then print(("%d measurements failed: see left-out.csv"):format(#left_out)) end
+  if #left_out > 0 then
+    print(("failed levels and measurements: %d (see left-out.csv)"):format(#left_out))
+  end
 end
 
 local function pareto()

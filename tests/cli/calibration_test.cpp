@@ -82,7 +82,7 @@ TEST_CASE("a script's calibration keeps its state in a store, and says where it 
   CHECK_THAT(ran.err, Contains("goes on from what is kept in"));
 }
 
-TEST_CASE("convert that is stopped while it calibrates goes on to the same levels") {
+TEST_CASE("convert resumes an interrupted calibration and ends with the same levels") {
   const Scratch scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
   const auto arguments = [&](const std::string& name, const std::vector<std::string>& more) {

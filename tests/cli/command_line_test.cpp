@@ -20,7 +20,7 @@ TEST_CASE("the options --version and --help go to stdout and exit 0") {
   CHECK(help.exit_code == 0);
   for (const char* command : {"\n  run ", "\n  convert ", "\n  info ", "\n  compare "})
     CHECK_THAT(help.out, Contains(command));
-  CHECK_THAT(help.out, Contains("Turns meshes into LOD assets."));
+  CHECK_THAT(help.out, Contains("Convert meshes to LOD assets."));
 }
 
 TEST_CASE("wrong use exits 2, says why on stderr and names what is near") {

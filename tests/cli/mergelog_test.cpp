@@ -37,7 +37,7 @@ TEST_CASE("mergelog tells where to stop, and keeps tables, charts and a picture"
 
   const Ran own = run("own", {"--as-made", "--tolerance", "0.9"});
   CHECK(own.exit_code == 0);
-  CHECK_THAT(own.out, Contains("all levels are good enough") && !Contains("f1..10 without"));
+  CHECK_THAT(own.out, Contains("all levels are within tolerance") && !Contains("f1..10 without"));
   const Ran fitted = run("fitted", {"--calibrate", "--steps", "1", "--least", "0.5"});
   CHECK(fitted.exit_code == 0);
   CHECK_THAT(fitted.out, Contains("f1..10 within 0.5 %"));

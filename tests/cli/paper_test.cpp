@@ -25,7 +25,7 @@ std::vector<std::string> paper(const std::filesystem::path& folder, const std::s
 
 }  // namespace
 
-TEST_CASE("paper goes on where it was stopped, and comes to the same tables on any cores") {
+TEST_CASE("paper resumes after an interruption, with the same tables for any number of threads") {
   const Scratch scratch;
   const Ran whole = springlod_run(paper(scratch / "whole", "5", "2"));
   REQUIRE(whole.exit_code == 0);
@@ -62,7 +62,7 @@ TEST_CASE("paper goes on where it was stopped, and comes to the same tables on a
 
   const Ran mixed = springlod_run(paper(scratch / "whole", "6", "2"));
   CHECK(mixed.exit_code == 1);
-  CHECK_THAT(mixed.err, Contains("holds runs with starts = 5, not 6; take another folder"));
+  CHECK_THAT(mixed.err, Contains("holds runs with starts = 5, not 6; use another folder"));
 }
 
 TEST_CASE("paper knows the materials of kept runs by their content, wherever the file is") {
@@ -87,7 +87,7 @@ TEST_CASE("paper knows the materials of kept runs by their content, wherever the
   CHECK(changed.exit_code == 1);
   CHECK_THAT(changed.err, Contains("holds runs with ball_materials = {core = {") &&
                               Contains("young = 5 kPa") && Contains("young = 6 kPa") &&
-                              Contains("take another folder"));
+                              Contains("use another folder"));
   const Ran moved = springlod_interrupted(with_materials("moved.lua", "5 kPa"), "other-starts");
   CHECK(moved.exit_code == 130);
   CHECK(moved.err.find("ball/base") == std::string::npos);

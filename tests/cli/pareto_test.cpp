@@ -139,7 +139,7 @@ TEST_CASE("pareto leaves out what cannot be made and says why; wrong use is told
                 "--errors", "frequencies", "--precisions", "double", "--keep", "0.2"}));
   CAPTURE(ran.err);
   CHECK(ran.exit_code == 0);
-  CHECK_THAT(ran.out, Contains("1 left out: see left-out.csv"));
+  CHECK_THAT(ran.out, Contains("failed levels and measurements: 1 (see left-out.csv)"));
   CHECK_THAT(slurp(scratch / "out/left-out.csv"),
              Contains("compact-strong-none,levels,") && Contains("border nodes"));
   CHECK(by_variant(scratch / "out/points.csv").size() == 2);
@@ -151,7 +151,7 @@ TEST_CASE("pareto leaves out what cannot be made and says why; wrong use is told
     CHECK_THAT(wrong.err, Contains(reason) && !Contains("traceback"));
   };
   refused({"--groupings", "stndard"}, 2, "must be one of standard, priority,");
-  refused({"--starts", "4"}, 2, "must be a whole number of 5 or more");
+  refused({"--starts", "4"}, 2, "must be an integer of at least 5");
   refused({"--out", (scratch / "other").string(), "--integrators", "xpbd", "--precisions", "single",
            "--errors", "loads"},
           1, "symplectic_euler alone has single precision");

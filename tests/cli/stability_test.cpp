@@ -49,7 +49,7 @@ TEST_CASE("stability writes map, bodies, timings and picture, the same bits with
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
   CHECK_THAT(ran.out, Contains("stiff part: the half beyond the center of mass along x") &&
-                          Contains("projective_dynamics") && Contains("cheapest within 10 %") &&
+                          Contains("projective_dynamics") && Contains("cheapest run within 10 %") &&
                           Contains("40 points:"));
   const std::string map = slurp(scratch / "one/map.csv");
   CHECK_THAT(map, StartsWith("level,nodes,springs,integrator,iterations,ratio,step,limit,"));
