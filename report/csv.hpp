@@ -12,12 +12,13 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Shortest decimal form that reads back as the same double.
+/// Shortest decimal text that parses to the same double.
 std::string number_text(double value);
 
-/// RFC 4180; written aside and renamed. Throws IoError, InputError for a ragged table.
+/// Writes RFC 4180 to a temporary file and renames it. Throws IoError, and InputError if rows
+/// differ in length.
 void save_csv(const Table& table, const std::filesystem::path& path);
-/// Columns aligned for a terminal; numbers to the right.
+/// Aligns columns for a terminal; numbers are right-aligned.
 std::string format_table(const Table& table);
 
 }  // namespace springlod::report

@@ -7,10 +7,11 @@ namespace springlod::report {
 
 namespace {
 
-// Enough halvings of any bracket of doubles that is met here to reach its last bits.
+// Enough bisections to reach double precision for all brackets used here.
 constexpr int kHalvings = 200;
 
-/// The x in low..high with rising(x) = target, by halving: slow, sure, and the same everywhere.
+/// The x in low..high with rising(x) = target by bisection: robust and reproducible on all
+/// machines.
 template <class Rising>
 double solve(double low, double high, double target, Rising rising) {
   for (int i = 0; i < kHalvings; ++i) {
@@ -22,9 +23,9 @@ double solve(double low, double high, double target, Rising rising) {
 }
 
 /// ln Gamma(x), x > 0: Stirling's series above kFar, reached by Gamma(x + 1) = x Gamma(x).
-/// (std::lgamma writes a global.)
+/// (std::lgamma is not thread-safe.)
 double log_gamma(double x) {
-  constexpr double kFar = 12;  // where five terms of the series leave less than 1e-14
+  constexpr double kFar = 12;  // here five terms of the series have an error below 1e-14
   double shift = 0;
   while (x < kFar) {
     shift += std::log(x);
@@ -40,8 +41,8 @@ double log_gamma(double x) {
 /// Continued fraction of the incomplete beta function (Abramowitz and Stegun 26.5.8), by Lentz's
 /// method; fast for x < (a + 1) / (a + b + 2).
 double beta_fraction(double x, double a, double b) {
-  constexpr int kMostTerms = 10000;  // some sqrt(max(a, b)) are needed
-  constexpr double kTiny = 1e-300;   // stands for a denominator of 0
+  constexpr int kMostTerms = 10000;  // about sqrt(max(a, b)) are needed
+  constexpr double kTiny = 1e-300;   // replaces a denominator of 0
   const auto away_from_zero = [](double v) { return std::abs(v) < kTiny ? kTiny : v; };
   double c = 1;
   double d = 1 / away_from_zero(1 - (a + b) * x / (a + 1));
@@ -60,7 +61,7 @@ double beta_fraction(double x, double a, double b) {
   return value;
 }
 
-/// I_x(a, b); `y` is 1 - x, given apart because it may be far smaller than 1.
+/// I_x(a, b); `y` is 1 - x, a separate argument because it may be far smaller than 1.
 double incomplete_beta(double x, double y, double a, double b) {
   if (x <= 0) return 0;
   if (y <= 0) return 1;
@@ -80,7 +81,7 @@ double normal_quantile(double part) {
   constexpr double kFarthest = 40;  // normal_below(-40) is 0 in a double
   if (part <= 0) return -std::numeric_limits<double>::infinity();
   if (part >= 1) return std::numeric_limits<double>::infinity();
-  if (part > 0.5) return -normal_quantile(1 - part);  // bits are finer near 0
+  if (part > 0.5) return -normal_quantile(1 - part);  // doubles have a higher resolution near 0
   return solve(-kFarthest, 0, part, normal_below);
 }
 
@@ -93,7 +94,7 @@ double student_above(double t, double degrees) {
 }
 
 double student_quantile(double part, double degrees) {
-  constexpr double kFarthest = 1e15;  // beyond the 1e-15 tail even of one degree of freedom
+  constexpr double kFarthest = 1e15;  // tail probability below 1e-15 even for one degree of freedom
   if (part > 0.5) return -student_quantile(1 - part, degrees);
   return solve(-kFarthest, 0, part, [&](double t) { return student_above(-t, degrees); });
 }
