@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kPatience = 20000;  // [ms] for one thing to show on a terminal
+constexpr int kPatience = 20000;  // [ms] to wait for one output on a terminal
 
 const std::string kProgram = std::string(SPRINGLOD_BINARY_DIR) + "/app/springlod";
 
@@ -67,7 +67,7 @@ int exit_code_of(int process) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// A program with pipes for its three streams.
+// A child process with pipes for its three streams.
 class Child {
  public:
   explicit Child(const std::vector<std::string>& arguments,
@@ -90,7 +90,7 @@ class Child {
   }
 
   void give(const std::string& input) {
-    // A program that leaves early must not take the test with it (SIGPIPE is ignored there).
+    // A program that exits early must not kill the test, so SIGPIPE is ignored.
     std::size_t sent = 0;
     while (sent < input.size()) {
       const ssize_t count = write(in_.write_end, input.data() + sent, input.size() - sent);
@@ -100,7 +100,7 @@ class Child {
     in_.close_write();
   }
 
-  // Reads until both streams end or `mark` shows on stderr.
+  // Reads until both streams end or `mark` appears on stderr.
   void read_until(const std::string& mark) {
     while (out_.read_end >= 0 || err_.read_end >= 0) {
       std::array<pollfd, 2> wait{{{out_.read_end, POLLIN, 0}, {err_.read_end, POLLIN, 0}}};
