@@ -136,7 +136,7 @@ Table timings_table(const sim::Comparison& comparison) {
   for (const sim::LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
       const sim::StartResult& start = runs.starts[i];
-      const double wall = std::max(start.wall_seconds, 1e-9);  // a clock may stand still
+      const double wall = std::max(start.wall_seconds, 1e-9);  // the clock resolution may give 0
       table.rows.push_back({fmt::format("{}", runs.level), runs.label, fmt::format("{}", i + 1),
                             number_text(wall), number_text(start.simulated),
                             fmt::format("{}", start.spring_updates),

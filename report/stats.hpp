@@ -152,7 +152,7 @@ struct EquivalenceOptions {
 
 /// Result of two one-sided tests (TOST, Schuirmann 1987): equivalence is shown if both null
 /// hypotheses, "lower by the margin or more" and "higher by the margin or more", are rejected. If
-/// not, nothing is shown.
+/// not, the test is inconclusive.
 struct Equivalence {
   double difference = 0;  ///< mean of the other minus mean of the base [unit of the values]
   double spread = 0;      ///< unit of the margin [unit of the values]

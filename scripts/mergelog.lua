@@ -113,7 +113,7 @@ local function level_row(entry)
   return row
 end
 
--- Signed change of each frequency and load by each step.
+-- Signed relative change of each frequency and compliance by each step.
 local function answer_rows(levels)
   local rows = {}
   for _, entry in ipairs(levels) do

@@ -95,7 +95,7 @@ local function store_settings(settings, scene)
   }
 end
 
--- What is measured for each variant: name, object and its method.
+-- The measurements of each variant: {name, object, name of its method}.
 local function measures_of(study)
   local measures = {}
   if wanted.surface then

@@ -165,7 +165,7 @@ TEST_CASE("a cut hides nodes by their rest position, with their springs") {
   CHECK_THROWS_WITH(validate(body), Contains("normal"));
 }
 
-TEST_CASE("framed points stay inside headroom and footroom") {
+TEST_CASE("framed points leave headroom and footroom free") {
   const MassSpringModel model = ball();
   for (const double aspect : {0.6, 4. / 3, 4.}) {
     const Framing framing{.aspect = aspect, .headroom = 0.3, .footroom = 0.1};

@@ -120,7 +120,7 @@ TEST_CASE("the floor is darker in a body's shadow than beside it") {
   const Image with = draw_one(panel);
   panel.bodies.clear();
   const Image without = draw_one(panel);
-  // The body hides a part of the floor; the other grey differences are shadow.
+  // The body hides a part of the floor; where it does not, grey differences are shadow.
   int darker = 0;
   for (std::size_t p = 0; p < with.rgb.size(); p += 3) {
     const int r = with.rgb[p];

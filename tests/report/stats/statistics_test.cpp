@@ -129,7 +129,7 @@ TEST_CASE("distribution functions match published tables") {
   CHECK(normal_quantile(0.975) == Approx(1.959963984540054).epsilon(1e-12));
   CHECK(normal_quantile(1e-10) == Approx(-6.361340902404056).epsilon(1e-12));
   CHECK(std::isinf(normal_quantile(1)));
-  // One degree of freedom is Cauchy's distribution, two have a closed form, many are normal.
+  // Cauchy distribution (one degree of freedom), closed form (two), normal limit (many).
   for (const double t : {-30.0, -1.0, 0.0, 0.3, 2.0, 1e6}) {
     CHECK(student_above(t, 1) == Approx(std::atan2(1, t) / std::numbers::pi).epsilon(1e-11));
     CHECK(student_above(t, 2) == Approx(0.5 - t / (2 * std::sqrt(2 + t * t))).margin(1e-12));
