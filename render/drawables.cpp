@@ -204,7 +204,7 @@ void validate(const DrawnBody& body) {
       throw InputError(fmt::format("drawing: {} node colours for a model of {} nodes",
                                    body.node_colours.size(), x.size()));
   } else if (style.nodes || style.springs || style.bold_inner_nodes) {
-    throw InputError("drawing: nodes or springs are asked for, but the body has no model");
+    throw InputError("drawing: the style shows nodes or springs, but the body has no model");
   }
   if (body.surface != nullptr) {
     const std::vector<Vec3>& x = surface_positions(body);

@@ -127,15 +127,15 @@ constexpr std::array<std::array<int, 2>, 8> kDirections{
     {{1, 0}, {1, 1}, {1, -1}, {-1, 0}, {-1, 1}, {-1, -1}, {0, 1}, {0, -1}}};
 
 // Distances from the point to try [px], and their cost as hidden area [px^2].
-constexpr std::array<double, 5> kWaysOff{0, 16, 32, 56, 84};
-constexpr double kCostOfWay = 8;  // per pixel of distance
+constexpr std::array<double, 5> kOffsets{0, 16, 32, 56, 84};
+constexpr double kCostOfOffset = 8;  // per pixel of distance
 
 Box label_box(double x, double y, double width, double height, const std::array<int, 2>& to,
-              double way) {
+              double offset) {
   constexpr double kGapSide = 10;
   constexpr double kGapUpright = 5;
-  const double side = kGapSide + way;
-  const double upright = kGapUpright + way;
+  const double side = kGapSide + offset;
+  const double upright = kGapUpright + offset;
   const double x0 = to[0] > 0 ? x + side : to[0] < 0 ? x - side - width : x - width / 2;
   const double y0 = to[1] > 0 ? y - upright - height : to[1] < 0 ? y + upright : y - height / 2;
   return {x0, y0, x0 + width, y0 + height};
@@ -229,18 +229,18 @@ std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, co
       const double height = frame.font * 1.1;
       Box best{};
       std::array<int, 2> direction{};
-      double way = 0;
+      double offset = 0;
       double least = std::numeric_limits<double>::infinity();
-      for (const double off : kWaysOff)
+      for (const double candidate : kOffsets)
         for (std::size_t d = 0; d < kDirections.size(); ++d) {
-          const Box box = label_box(x, y, width, height, kDirections[d], off);
+          const Box box = label_box(x, y, width, height, kDirections[d], candidate);
           const double cost =
-              cost_of(box, taken, frame) + static_cast<double>(d) + kCostOfWay * off;
+              cost_of(box, taken, frame) + static_cast<double>(d) + kCostOfOffset * candidate;
           if (cost >= least) continue;
           least = cost;
           best = box;
           direction = kDirections[d];
-          way = off;
+          offset = candidate;
         }
       best.weight = kHiddenLabel;
       taken.push_back(best);
@@ -251,8 +251,9 @@ std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, co
                         : anchor == TextAnchor::right ? best.x1
                                                       : (best.x0 + best.x1) / 2;
       labels.push_back({point.label, (at - frame.left) / plot_width,
-                        (frame.bottom - (best.y0 + best.y1) / 2) / plot_height, anchor, s, way > 0,
-                        (x - frame.left) / plot_width, (frame.bottom - y) / plot_height});
+                        (frame.bottom - (best.y0 + best.y1) / 2) / plot_height, anchor, s,
+                        offset > 0, (x - frame.left) / plot_width,
+                        (frame.bottom - y) / plot_height});
     }
   return labels;
 }

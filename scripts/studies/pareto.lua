@@ -171,7 +171,7 @@ local function charts_of(study)
   }
   if wanted.surface then
     charts[#charts + 1] = {name = "surface",
-      title = ("Surfaces before the first chaos (%s, up to %.2f s)"):format(name,
+      title = ("Surfaces until shortly after contact (%s, up to %.2f s)"):format(name,
         study.surfaces.time),
       y_label = "distance from the base's, rms, mean over time [% of its size]",
       floor = study.surfaces.floor.value, floor_name = "half the step"}

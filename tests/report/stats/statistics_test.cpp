@@ -94,7 +94,7 @@ TEST_CASE("distances of large samples are those of their distributions") {
       {exponential, slow, 1, 1.0 / 3},
       {normal_quantile, wide_normal, std::sqrt(2 / std::numbers::pi), normal_energy}};
   for (const Case& c : cases) {
-    // Sizes differ, as they may.
+    // Samples of different sizes.
     const Values base = even_sample(kSize, c.base);
     const Values other = even_sample(kSize / 2 * 3, c.other);
     CHECK(wasserstein_distance(base, other) == Approx(c.wasserstein).epsilon(1e-3));
