@@ -282,7 +282,7 @@ local function advise(stop, beyond)
   end
   print((stop and "next level: " or "finest level: ") .. described(beyond))
   say_errors(beyond)
-  print(("  costliest merge, with %s of the f1..10 error: %s"):format(
+  print(("  costliest merge, adding %s to f1..10: %s"):format(
     percent(beyond.merged[1].frequencies), where(beyond.merged[1])))
   local without = beyond.without
   if without then
