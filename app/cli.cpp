@@ -26,7 +26,8 @@ void add_settings(CLI::App& app, scripting::Settings& settings, Switches& switch
   app.add_option("--seed", settings.seed, "seed of all random numbers (default: 1)");
   app.add_option("--threads", settings.threads, "maximum number of threads; 0: all cores");
   app.add_flag("-q,--quiet", switches.quiet, "print only errors to stderr");
-  app.add_flag("-v,--verbose", switches.verbose, "print more to stderr; tracebacks on failure");
+  app.add_flag("-v,--verbose", switches.verbose,
+               "print more, such as each step of a calibration; tracebacks");
 }
 
 void settle(const Switches& switches, scripting::Settings& settings) {
@@ -65,7 +66,7 @@ std::string usage_text(const std::vector<scripting::StockCommand>& commands) {
          "  --seed N       seed of all random numbers (default: 1)\n"
          "  --threads N    maximum number of threads (default: 0, all cores)\n"
          "  -q, --quiet    print only errors to stderr\n"
-         "  -v, --verbose  print more to stderr; tracebacks on failure\n"
+         "  -v, --verbose  print more, such as each step of a calibration; tracebacks\n"
          "  --version      print the version\n"
          "  -h, --help     print this help\n";
 }

@@ -26,12 +26,12 @@ class IoError : public Error {
   using Error::Error;
 };
 
-/// A simulation left the numbers: names the first node that did and when.
+/// A simulation diverged: names the first node that did and when.
 class UnstableError : public Error {
  public:
   UnstableError(const std::string& message, std::uint32_t node, double time)
       : Error(message), node_(node), time_(time) {}
-  std::uint32_t node() const { return node_; }
+  std::uint32_t node() const { return node_; }  ///< counted from 0
   /// Simulated time [s].
   double time() const { return time_; }
 
@@ -46,7 +46,7 @@ class TunnelError : public Error {
  public:
   TunnelError(const std::string& message, std::uint32_t node, std::string obstacle, double time)
       : Error(message), node_(node), obstacle_(std::move(obstacle)), time_(time) {}
-  std::uint32_t node() const { return node_; }
+  std::uint32_t node() const { return node_; }  ///< counted from 0
   const std::string& obstacle() const { return obstacle_; }
   /// Simulated time at the end of the step that did it [s].
   double time() const { return time_; }

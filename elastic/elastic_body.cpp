@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/solver/dense_kernels.hpp"
 #include "elastic/solver/random_block.hpp"
 #include "elastic/solver/sparse_cholesky.hpp"
@@ -76,7 +77,7 @@ void factorise(ElasticPart& part, const MassSpringModel& model, const std::vecto
   throw InputError(
       fmt::format("elastic analysis: the stiffness of the part at node {} cannot be factorised; "
                   "its springs or masses differ too much",
-                  part.nodes.front()));
+                  script_number(part.nodes.front())));
 }
 
 /// Inverse iteration: what the springs do not resist outgrows all else by lambda / sigma a pass.
@@ -111,7 +112,7 @@ ElasticPart make_part(const ModelPart& whole, const std::vector<std::uint32_t>& 
     throw InputError(
         fmt::format("elastic analysis: the part at node {} has {} zero modes, too many to store; "
                     "zero_modes tells which nodes hang loose",
-                    part.nodes.front(), found.zero_modes));
+                    script_number(part.nodes.front()), found.zero_modes));
   part.stiffness = stiffness_matrix(model);
   if (free.size() < model.node_count()) part.stiffness = block_of(part.stiffness, free);
   for (Eigen::Index c = 0; c < part.unknowns(); ++c)
@@ -132,15 +133,16 @@ void require_finite(const MassSpringModel& model) {
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     if (!model.rest[i].allFinite() || !(model.mass[i] > 0 && std::isfinite(model.mass[i])))
       throw InputError(
-          fmt::format("elastic analysis: node {} (counted from 0) has a mass of {} kg and is at {} "
+          fmt::format("elastic analysis: node {} has a mass of {} kg and is at {} "
                       "{} {} m; all of them must be finite, and the mass above 0",
-                      i, model.mass[i], model.rest[i].x(), model.rest[i].y(), model.rest[i].z()));
+                      script_number(i), model.mass[i], model.rest[i].x(), model.rest[i].y(),
+                      model.rest[i].z()));
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
     if (!std::isfinite(model.stiffness[s]))
       throw InputError(
-          fmt::format("elastic analysis: the spring of the nodes {} and {} (counted from 0) has a "
+          fmt::format("elastic analysis: the spring of the nodes {} and {} has a "
                       "stiffness of {} N/m, which must be finite",
-                      model.a[s], model.b[s], model.stiffness[s]));
+                      script_number(model.a[s]), script_number(model.b[s]), model.stiffness[s]));
 }
 
 }  // namespace

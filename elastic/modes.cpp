@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/solver/dense_kernels.hpp"
 #include "elastic/solver/random_block.hpp"
 
@@ -162,9 +163,9 @@ void require_finite(const ElasticPart& part) {
                                                   part.stiffness.nonZeros());
   if (!entries.allFinite())
     throw InputError(fmt::format(
-        "modes: the stiffness over the masses of the part at node {} (counted from 0) "
+        "modes: the stiffness over the masses of the part at node {} "
         "is not finite; look for springs that are far too stiff or masses far too small",
-        part.nodes.front()));
+        script_number(part.nodes.front())));
 }
 
 PartSpectrum solve(const ElasticPart& part, const ModeOptions& options) {

@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include "model/spring_rows.hpp"
+
 namespace springlod::elastic {
 namespace {
 
@@ -19,7 +21,7 @@ class Growth {
  public:
   explicit Growth(const MassSpringModel& model)
       : model_(model),
-        adj_(adjacency(model)),
+        springs_(model),
         pieces_{std::vector<std::uint32_t>(model.node_count(), kNoPiece), 0},
         touching_(model.node_count()) {}
 
@@ -39,10 +41,6 @@ class Growth {
   };
 
   bool is_free(std::uint32_t i) const { return pieces_.of_node[i] == kNoPiece; }
-  bool joined(std::uint32_t i, std::uint32_t j) const {
-    return std::binary_search(adj_.neighbour.begin() + adj_.start[i],
-                              adj_.neighbour.begin() + adj_.start[i + 1], j);
-  }
 
   bool solid(const std::array<std::uint32_t, 4>& t) const {
     Mat3 edges;
@@ -55,13 +53,15 @@ class Growth {
   /// Four free nodes, i the lowest, each joined to each by springs and not in one plane.
   std::optional<std::array<std::uint32_t, 4>> tetrahedron_at(std::uint32_t i) const {
     std::vector<std::uint32_t> around;
-    for (std::uint32_t e = adj_.start[i]; e < adj_.start[i + 1]; ++e)
-      if (adj_.neighbour[e] > i && is_free(adj_.neighbour[e])) around.push_back(adj_.neighbour[e]);
+    springs_.for_each(i, [&](std::uint32_t j, std::uint32_t) {
+      if (j > i && is_free(j)) around.push_back(j);
+    });
     for (std::size_t j = 0; j < around.size(); ++j)
       for (std::size_t k = j + 1; k < around.size(); ++k) {
-        if (!joined(around[j], around[k])) continue;
+        if (!springs_.joined(around[j], around[k])) continue;
         for (std::size_t l = k + 1; l < around.size(); ++l) {
-          if (!joined(around[j], around[l]) || !joined(around[k], around[l])) continue;
+          if (!springs_.joined(around[j], around[l]) || !springs_.joined(around[k], around[l]))
+            continue;
           const std::array<std::uint32_t, 4> found{i, around[j], around[k], around[l]};
           if (solid(found)) return found;
         }
@@ -76,22 +76,21 @@ class Growth {
     while (!fresh.empty()) {
       const std::uint32_t i = fresh.back();
       fresh.pop_back();
-      for (std::uint32_t e = adj_.start[i]; e < adj_.start[i + 1]; ++e) {
-        const std::uint32_t j = adj_.neighbour[e];
-        if (!is_free(j)) continue;
+      springs_.for_each(i, [&](std::uint32_t j, std::uint32_t s) {
+        if (!is_free(j)) return;
         Touching& touching = touching_[j];
         if (touching.piece != piece) touching = {piece, Mat3::Zero()};
-        const Vec3 u = spring_direction(model_, adj_.spring[e]);
+        const Vec3 u = spring_direction(model_, s);
         touching.directions += u * u.transpose();
-        if (touching.directions.determinant() <= kFlat * kFlat) continue;
+        if (touching.directions.determinant() <= kFlat * kFlat) return;
         pieces_.of_node[j] = piece;
         fresh.push_back(j);
-      }
+      });
     }
   }
 
   const MassSpringModel& model_;
-  Adjacency adj_;
+  SpringRows springs_;
   RigidPieces pieces_;
   std::vector<Touching> touching_;
 };

@@ -130,6 +130,10 @@ struct CalibrateOptions {
   /// Folder that keeps what was found so far (CalibrationStore): a calibration that was stopped
   /// goes on from there when it is made again, to the same bits. Empty: nothing is kept.
   std::filesystem::path store{};
+  /// Time between two writes of a fit's state to the store [s], 0: after each step. A step of a
+  /// large level takes seconds, its state is some megabytes. A fit that is interrupted or done
+  /// writes its state in any case; one that is killed loses the steps since the last write.
+  double keep_every = 2;
   /// Levels that are fitted at a time, 0: as many as cores; of more than one each may take a second
   /// thread, for the levels differ much in size.
   std::uint32_t threads = 1;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "model/spring_rows.hpp"
 
 namespace springlod::lod {
 namespace {
@@ -13,10 +14,11 @@ namespace {
 constexpr std::size_t kMostNodes = 12;
 
 // The group's own node first, then its nearest spring neighbours.
-std::vector<std::uint32_t> nearest_neighbourhood(const MassSpringModel& model, const Adjacency& adj,
-                                                 std::uint32_t node, const Vec3& point) {
-  std::vector<std::uint32_t> nodes(adj.neighbour.begin() + adj.start[node],
-                                   adj.neighbour.begin() + adj.start[node + 1]);
+std::vector<std::uint32_t> nearest_neighbourhood(const MassSpringModel& model,
+                                                 const SpringRows& springs, std::uint32_t node,
+                                                 const Vec3& point) {
+  std::vector<std::uint32_t> nodes;
+  springs.for_each(node, [&](std::uint32_t other, std::uint32_t) { nodes.push_back(other); });
   const auto nearer = [&](std::uint32_t i, std::uint32_t j) {
     const double di = (model.rest[i] - point).squaredNorm();
     const double dj = (model.rest[j] - point).squaredNorm();
@@ -49,11 +51,11 @@ Binding base_from_level(const LodChain& chain, std::uint32_t level) {
   if (level == 0) return identity_binding(base.node_count());
   const MassSpringModel& coarse = chain.levels[level].model;
   const Groups& groups = chain.levels[level].of_base;
-  const Adjacency adj = adjacency(coarse);
+  const SpringRows springs(coarse);
   Binding binding;
   for (std::uint32_t i = 0; i < base.node_count(); ++i)
     append_bound_point(binding, base.rest[i], coarse,
-                       nearest_neighbourhood(coarse, adj, groups.of[i], base.rest[i]));
+                       nearest_neighbourhood(coarse, springs, groups.of[i], base.rest[i]));
   return binding;
 }
 

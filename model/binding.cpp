@@ -9,6 +9,8 @@
 #include <nanoflann.hpp>
 
 #include "base/error.hpp"
+#include "model/spring_rows.hpp"
+#include "base/script_number.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -140,7 +142,7 @@ std::vector<Candidate> choose(const std::vector<Candidate>& candidates, std::siz
 
 /// Nodes up to two springs away from `centre`, itself included. `mark` holds N zeros and does so
 /// again afterwards.
-std::vector<std::uint32_t> two_springs_around(std::uint32_t centre, const Adjacency& adj,
+std::vector<std::uint32_t> two_springs_around(std::uint32_t centre, const SpringRows& springs,
                                               std::vector<std::uint8_t>& mark) {
   std::vector<std::uint32_t> found{centre};
   mark[centre] = 1;
@@ -148,12 +150,11 @@ std::vector<std::uint32_t> two_springs_around(std::uint32_t centre, const Adjace
   std::size_t next = 0;
   for (int ring = 0; ring < 2; ++ring) {
     for (; next < ring_end; ++next)
-      for (std::uint32_t e = adj.start[found[next]]; e < adj.start[found[next] + 1]; ++e) {
-        const std::uint32_t node = adj.neighbour[e];
-        if (mark[node] != 0) continue;
+      springs.for_each(found[next], [&](std::uint32_t node, std::uint32_t) {
+        if (mark[node] != 0) return;
         mark[node] = 1;
         found.push_back(node);
-      }
+      });
     ring_end = found.size();
   }
   for (const std::uint32_t node : found) mark[node] = 0;
@@ -189,10 +190,11 @@ void validate(const Binding& binding, std::uint32_t node_count) {
     throw InputError("binding: its rows do not cover its entries");
   for (std::size_t e = 0; e < binding.node.size(); ++e) {
     if (binding.node[e] >= node_count)
-      throw InputError(fmt::format("binding: entry {} names node {}, but there are only {}", e,
-                                   binding.node[e], node_count));
+      throw InputError(fmt::format("binding: entry {} names node {}, but there are only {}",
+                                   script_number(e), script_number(binding.node[e]), node_count));
     if (!std::isfinite(binding.weight[e]))
-      throw InputError(fmt::format("binding: the weight of entry {} is not finite", e));
+      throw InputError(
+          fmt::format("binding: the weight of entry {} is not finite", script_number(e)));
   }
 }
 
@@ -211,7 +213,7 @@ Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& mode
                     options.nodes_per_point));
   const NodeCloud cloud{model.rest};
   const NodeTree tree(3, cloud);
-  const Adjacency adj = adjacency(model);
+  const SpringRows springs(model);
   std::vector<std::uint8_t> mark(model.node_count(), 0);
   Binding binding;
   binding.start.reserve(points.size() + 1);
@@ -220,7 +222,7 @@ Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& mode
     std::uint32_t nearest = 0;
     double distance2 = 0;
     tree.knnSearch(point.data(), 1, &nearest, &distance2);
-    const auto around = two_springs_around(nearest, adj, mark);
+    const auto around = two_springs_around(nearest, springs, mark);
     const auto candidates = by_distance(point, model, around);
     append_weights(binding, point, model, choose(candidates, options.nodes_per_point, model));
   }
@@ -237,7 +239,7 @@ Binding compose(const Binding& outer, const Binding& inner) {
       const std::uint32_t q = outer.node[e];
       if (q >= inner.point_count())
         throw InputError(fmt::format("binding: point {} hangs on point {}, of which there are {}",
-                                     p, q, inner.point_count()));
+                                     script_number(p), script_number(q), inner.point_count()));
       for (std::uint32_t f = inner.start[q]; f < inner.start[q + 1]; ++f)
         row.emplace_back(inner.node[f], outer.weight[e] * inner.weight[f]);
     }

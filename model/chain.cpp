@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 
 namespace springlod::inline model {
 
@@ -29,7 +30,7 @@ std::vector<std::uint32_t> carried(const Groups& groups, const std::vector<std::
   for (const std::uint32_t node : nodes) {
     if (node >= groups.of.size())
       throw InputError(fmt::format("groups: there is no node {} among the {} that were grouped",
-                                   node, groups.of.size()));
+                                   script_number(node), groups.of.size()));
     holds[groups.of[node]] = true;
   }
   std::vector<std::uint32_t> coarse;
@@ -42,12 +43,12 @@ void validate(const Groups& groups) {
   std::vector<bool> seen(groups.count, false);
   for (std::size_t i = 0; i < groups.of.size(); ++i) {
     if (groups.of[i] >= groups.count)
-      throw InputError(fmt::format("groups: node {} is in group {}, but there are only {}", i,
-                                   groups.of[i], groups.count));
+      throw InputError(fmt::format("groups: node {} is in group {}, but there are only {}",
+                                   script_number(i), script_number(groups.of[i]), groups.count));
     seen[groups.of[i]] = true;
   }
   for (std::uint32_t g = 0; g < groups.count; ++g)
-    if (!seen[g]) throw InputError(fmt::format("groups: group {} is empty", g));
+    if (!seen[g]) throw InputError(fmt::format("groups: group {} is empty", script_number(g)));
 }
 
 void Provenance::set(const std::string& key, const std::string& value) {

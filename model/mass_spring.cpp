@@ -8,6 +8,7 @@
 
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -26,7 +27,7 @@ void require_sizes(const MassSpringModel& m) {
 void validate_nodes(const MassSpringModel& m) {
   for (std::uint32_t i = 0; i < m.node_count(); ++i) {
     const auto fail = [&](const char* rule) {
-      throw InputError(fmt::format("model: node {}: {}", i, rule));
+      throw InputError(fmt::format("model: node {}: {}", script_number(i), rule));
     };
     if (!m.rest[i].allFinite()) fail("its position is not finite");
     if (!(m.mass[i] > 0) || !std::isfinite(m.mass[i])) fail("its mass must be above 0");
@@ -40,7 +41,8 @@ void validate_nodes(const MassSpringModel& m) {
 void validate_springs(const MassSpringModel& m) {
   for (std::uint32_t s = 0; s < m.spring_count(); ++s) {
     const auto fail = [&](const char* rule) {
-      throw InputError(fmt::format("model: spring {} ({} - {}): {}", s, m.a[s], m.b[s], rule));
+      throw InputError(fmt::format("model: spring {} ({} - {}): {}", script_number(s),
+                                   script_number(m.a[s]), script_number(m.b[s]), rule));
     };
     if (m.b[s] >= m.node_count()) fail("it names a node that is not there");
     if (m.a[s] >= m.b[s]) fail("its nodes must be two different ones, the lower first");
@@ -71,41 +73,28 @@ State rest_state(const MassSpringModel& model) {
   return {model.rest, std::vector<Vec3>(model.rest.size(), Vec3::Zero()), 0};
 }
 
-Adjacency adjacency(const MassSpringModel& model) {
-  Adjacency adj;
-  adj.start.assign(model.node_count() + 1, 0);
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    ++adj.start[model.a[s] + 1];
-    ++adj.start[model.b[s] + 1];
-  }
-  std::partial_sum(adj.start.begin(), adj.start.end(), adj.start.begin());
-  adj.neighbour.resize(model.end_count());
-  adj.spring.resize(model.end_count());
-  std::vector<std::uint32_t> next(adj.start.begin(), adj.start.end() - 1);
-  const auto put = [&](std::uint32_t node, std::uint32_t other, std::uint32_t spring) {
-    adj.neighbour[next[node]] = other;
-    adj.spring[next[node]++] = spring;
-  };
-  // Springs are sorted by (a, b): first all lower neighbours of a node, then all higher ones, each
-  // in rising order.
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s) put(model.b[s], model.a[s], s);
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s) put(model.a[s], model.b[s], s);
-  return adj;
-}
-
 MassProperties mass_properties(const MassSpringModel& model) {
   MassProperties p;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     p.mass += model.mass[i];
     p.volume += model.volume[i];
-    p.center += model.mass[i] * model.rest[i];
   }
-  p.center /= p.mass;
+  p.center = center_of_mass(model, model.rest);
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     const Vec3 r = model.rest[i] - p.center;
     p.inertia += model.mass[i] * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
   }
   return p;
+}
+
+Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x) {
+  Vec3 moment = Vec3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    moment += model.mass[i] * x[i];
+    mass += model.mass[i];
+  }
+  return moment / mass;
 }
 
 std::uint32_t border_count(const MassSpringModel& model) {

@@ -48,15 +48,6 @@ struct State {
 /// At rest in the rest positions, t = 0.
 State rest_state(const MassSpringModel& model);
 
-/// Springs by node, compressed rows: entries start[i] .. start[i+1]-1 belong to node i, in rising
-/// order of neighbour.
-struct Adjacency {
-  std::vector<std::uint32_t> start;      ///< N + 1
-  std::vector<std::uint32_t> neighbour;  ///< 2 S
-  std::vector<std::uint32_t> spring;     ///< 2 S
-};
-Adjacency adjacency(const MassSpringModel& model);
-
 /// Unit vector from a spring's end a to its end b at rest.
 inline Vec3 spring_direction(const MassSpringModel& model, std::uint32_t spring) {
   return (model.rest[model.b[spring]] - model.rest[model.a[spring]]).normalized();
@@ -70,6 +61,9 @@ struct MassProperties {
   Mat3 inertia = Mat3::Zero();  ///< of point masses about the centre of mass [kg m2]
 };
 MassProperties mass_properties(const MassSpringModel& model);
+
+/// Centre of mass of the nodes at positions x [m]. Given their velocities: its velocity [m/s].
+Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x);
 
 std::uint32_t border_count(const MassSpringModel& model);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -9,9 +10,9 @@
 
 namespace springlod::inline model {
 
-/// The springs of each node, as Adjacency tells them and in the same order, in half the memory: a
-/// node's springs to higher nodes stand side by side, sorted as they are, so that only those to
-/// lower nodes are listed. Refers to the ends of the springs, which must outlive it.
+/// The springs of each node, by rising neighbour. A node's springs to higher nodes already stand
+/// side by side in the model, which is sorted by (a, b): only those to lower nodes are listed,
+/// half the memory of a full adjacency. Refers to the ends of the springs, which must outlive it.
 class SpringRows {
  public:
   explicit SpringRows(const MassSpringModel& model)
@@ -37,6 +38,14 @@ class SpringRows {
     for (std::uint32_t e = start.lower; e < end.lower; ++e)
       visit(lower_[e].neighbour, lower_[e].spring);
     for (std::uint32_t s = start.higher; s < end.higher; ++s) visit(b_[s], s);
+  }
+
+  /// Whether a spring joins the two nodes.
+  bool joined(std::uint32_t i, std::uint32_t j) const {
+    const std::uint32_t low = std::min(i, j);
+    const auto row = b_.begin();
+    return std::binary_search(row + start_[low].higher, row + start_[low + 1].higher,
+                              std::max(i, j));
   }
 
   /// Who goes through nodes in no order waits for memory at each, unless it is asked for ahead:

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/moduli.hpp"
 #include "render/value_colour.hpp"
 
@@ -83,7 +84,8 @@ void require_usable(const DrawnBody& body, const std::vector<double>& values) {
                     values.size(), body.model->rest.size()));
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
-      throw InputError(fmt::format("drawing: the value of node {} is not a finite number", i + 1));
+      throw InputError(
+          fmt::format("drawing: the value of node {} is not a finite number", script_number(i)));
   const auto& range = body.style.values.range;
   if (range && !(range->first < range->second))
     throw InputError(fmt::format("drawing: the range of values must be increasing, got {} to {}",

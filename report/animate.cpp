@@ -211,11 +211,11 @@ std::vector<render::Camera> cameras_of(const LodAsset& asset, const sim::Compari
   const MassSpringModel& base = asset.chain.levels[0].model;
   std::vector<Vec3> path;
   for (const double t : times)
-    path.push_back(center_of_mass(positions_at(runs.base_frames, t), base.mass));
+    path.push_back(center_of_mass(base, positions_at(runs.base_frames, t)));
   constexpr double kSmooth = 0.2;  // to both sides [s of the video]
   path = smoothed(path, static_cast<std::uint32_t>(kSmooth * options.frame_rate));
   // A ball that contains the body in every orientation, with space for labels and surroundings.
-  const Vec3 center = center_of_mass(base.rest, base.mass);
+  const Vec3 center = center_of_mass(base, base.rest);
   double radius = 0;
   for (const Vec3& p : base.rest) radius = std::max(radius, (p - center).norm());
   constexpr double kRoom = 1.9;

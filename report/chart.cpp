@@ -68,10 +68,8 @@ Table data_table(const std::vector<ChartSeries>& series) {
     for (const ChartPoint& p : s.points) {
       const bool y = p.has_y_interval();
       const bool x = p.has_x_interval();
-      table.rows.push_back({s.name, number_text(p.x), number_text(p.y),
-                            number_text(y ? p.y_low : p.y), number_text(y ? p.y_high : p.y),
-                            p.label, number_text(x ? p.x_low : p.x),
-                            number_text(x ? p.x_high : p.x)});
+      table.rows.push_back({s.name, p.x, p.y, y ? p.y_low : p.y, y ? p.y_high : p.y, p.label,
+                            x ? p.x_low : p.x, x ? p.x_high : p.x});
     }
   return table;
 }

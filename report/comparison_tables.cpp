@@ -82,15 +82,11 @@ Table comparison_table(const sim::Comparison& comparison, const LodChain& chain)
     const double energy =
         mean_over(runs, [](const sim::StartResult& s) { return s.energy_difference; });
     const double simulated = mean_over(runs, [](const sim::StartResult& s) { return s.simulated; });
-    table.rows.push_back(
-        {fmt::format("{}", runs.level), runs.label, fmt::format("{}", model.node_count()),
-         fmt::format("{}", model.spring_count()), fmt::format("{}", model.end_count()),
-         number_text(runs.first.step), number_text(cost),
-         number_text(cost_per_second(levels.front()) / cost), number_text(surface),
-         number_text(100 * surface / diagonal), number_text(shape),
-         number_text(100 * shape / diagonal), number_text(distance),
-         number_text(distance_spread(runs)), number_text(energy), number_text(simulated),
-         number_text(largest_ledger_error(runs))});
+    table.rows.push_back({whole(runs.level), runs.label, whole(model.node_count()),
+                          whole(model.spring_count()), whole(model.end_count()), runs.first.step,
+                          cost, cost_per_second(levels.front()) / cost, surface,
+                          100 * surface / diagonal, shape, 100 * shape / diagonal, distance,
+                          distance_spread(runs), energy, simulated, largest_ledger_error(runs)});
   }
   return table;
 }
@@ -112,13 +108,11 @@ Table starts_table(const sim::Comparison& comparison) {
   for (const sim::LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
       const sim::StartResult& start = runs.starts[i];
-      table.rows.push_back({fmt::format("{}", runs.level), runs.label, fmt::format("{}", i + 1),
-                            number_text(start.distance), number_text(start.surface_error),
-                            number_text(start.shape_error), number_text(start.energy_difference),
-                            number_text(start.simulated), fmt::format("{}", start.spring_updates),
-                            number_text(start.ledger_error),
-                            fmt::format("{}", start.unconverged_steps),
-                            start.first_crossing ? number_text(*start.first_crossing) : ""});
+      table.rows.push_back({whole(runs.level), runs.label, whole(i + 1), start.distance,
+                            start.surface_error, start.shape_error, start.energy_difference,
+                            start.simulated, whole(start.spring_updates), start.ledger_error,
+                            whole(start.unconverged_steps),
+                            start.first_crossing ? Cell(*start.first_crossing) : Cell()});
     }
   return table;
 }
@@ -137,11 +131,10 @@ Table timings_table(const sim::Comparison& comparison) {
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
       const sim::StartResult& start = runs.starts[i];
       const double wall = std::max(start.wall_seconds, 1e-9);  // the clock resolution may give 0
-      table.rows.push_back({fmt::format("{}", runs.level), runs.label, fmt::format("{}", i + 1),
-                            number_text(wall), number_text(start.simulated),
-                            fmt::format("{}", start.spring_updates),
-                            number_text(static_cast<double>(start.spring_updates) / wall),
-                            number_text(start.simulated / wall)});
+      table.rows.push_back({whole(runs.level), runs.label, whole(i + 1), wall, start.simulated,
+                            whole(start.spring_updates),
+                            static_cast<double>(start.spring_updates) / wall,
+                            start.simulated / wall});
     }
   return table;
 }

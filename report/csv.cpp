@@ -54,21 +54,52 @@ std::size_t width(std::string_view text) {
   return columns;
 }
 
-// Whether a cell is right-aligned: "12", "-3.5e-4", "12.5 %", "18.6x".
+// "12.5 %", "18.6x": texts that line up on the right as numbers do.
 bool starts_as_number(std::string_view text) {
   if (text == "nan" || text == "inf" || text == "-inf") return true;
   const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
   return text.size() > sign && text[sign] >= '0' && text[sign] <= '9';
 }
 
+bool is_number(const Cell& cell) {
+  const auto* text = std::get_if<std::string>(&cell);
+  return text == nullptr || starts_as_number(*text);
+}
+
+bool is_blank(const Cell& cell) {
+  const auto* text = std::get_if<std::string>(&cell);
+  return text != nullptr ? text->empty() || *text == "-"
+                         : std::holds_alternative<std::monostate>(cell);
+}
+
 bool is_number_column(const Table& table, std::size_t column) {
   bool any = false;
   for (const auto& row : table.rows) {
-    if (row[column].empty() || row[column] == "-") continue;
-    if (!starts_as_number(row[column])) return false;
+    if (is_blank(row[column])) continue;
+    if (!is_number(row[column])) return false;
     any = true;
   }
   return any;
+}
+
+using NumberText = std::string (*)(double);
+
+std::string four_digits(double value) {
+  return fmt::format("{:.4g}", value);
+}
+
+std::string cell_text(const Cell& cell, NumberText number) {
+  if (const auto* whole_number = std::get_if<std::int64_t>(&cell))
+    return fmt::format("{}", *whole_number);
+  if (const auto* value = std::get_if<double>(&cell)) return number(*value);
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  return "";
+}
+
+std::vector<std::string> row_texts(const std::vector<Cell>& row, NumberText number) {
+  std::vector<std::string> texts;
+  for (const Cell& cell : row) texts.push_back(cell_text(cell, number));
+  return texts;
 }
 
 }  // namespace
@@ -83,18 +114,20 @@ void save_csv(const Table& table, const std::filesystem::path& path) {
   require_even(table);
   std::string text;
   append_row(text, table.columns);
-  for (const auto& row : table.rows) append_row(text, row);
+  for (const auto& row : table.rows) append_row(text, row_texts(row, number_text));
   write_text_file(path, text);
 }
 
 std::string format_table(const Table& table) {
   require_even(table);
   const std::size_t count = table.columns.size();
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& row : table.rows) rows.push_back(row_texts(row, four_digits));
   std::vector<std::size_t> widths(count);
   std::vector<bool> right(count);
   for (std::size_t c = 0; c < count; ++c) {
     widths[c] = width(table.columns[c]);
-    for (const auto& row : table.rows) widths[c] = std::max(widths[c], width(row[c]));
+    for (const auto& row : rows) widths[c] = std::max(widths[c], width(row[c]));
     right[c] = is_number_column(table, c);
   }
   std::string text;
@@ -115,7 +148,7 @@ std::string format_table(const Table& table) {
     for (std::size_t i = 0; i < widths[c]; ++i) rule += "\u2500";
   }
   text += rule + "\n";
-  for (const auto& row : table.rows) append(row);
+  for (const auto& row : rows) append(row);
   return text;
 }
 

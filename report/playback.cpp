@@ -19,16 +19,6 @@ std::vector<Vec3> positions_at(const std::vector<sim::Frame>& frames, double t) 
   return x;
 }
 
-Vec3 center_of_mass(const std::vector<Vec3>& positions, const std::vector<double>& mass) {
-  Vec3 sum = Vec3::Zero();
-  double total = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    sum += mass[i] * positions[i];
-    total += mass[i];
-  }
-  return sum / total;
-}
-
 std::vector<Vec3> smoothed(const std::vector<Vec3>& path, std::uint32_t reach) {
   std::vector<Vec3> out;
   out.reserve(path.size());

@@ -11,9 +11,6 @@ namespace springlod::report {
 /// the last. `frames` must not be empty and must be sorted by time.
 std::vector<Vec3> positions_at(const std::vector<sim::Frame>& frames, double t);
 
-/// Center of mass of the positions.
-Vec3 center_of_mass(const std::vector<Vec3>& positions, const std::vector<double>& mass);
-
 /// Centred moving average over `reach` entries on both sides, fewer at the ends. A camera on this
 /// path neither lags nor jerks at impacts.
 std::vector<Vec3> smoothed(const std::vector<Vec3>& path, std::uint32_t reach);

@@ -3,14 +3,6 @@
 #include "report/tables.hpp"
 
 namespace springlod::report {
-namespace {
-
-std::string whole(std::uint64_t value) {
-  return fmt::format("{}", value);
-}
-
-}  // namespace
-
 std::string stability_columns_help() {
   return "level, nodes, springs, integrator, iterations (at most; 0: explicit), ratio (of Young's "
          "moduli, stiff over soft), step [s], limit (predicted for the integrator; of symplectic "
@@ -32,16 +24,15 @@ Table stability_table(const sim::StabilityMap& map) {
       "node",  "energy_drift", "error",           "cost",       "unconverged_steps"};
   for (const sim::StabilityPoint& point : map.points) {
     const sim::StabilityBody& body = map.bodies[point.body];
-    const auto if_finished = [&](double value) {
-      return point.finished ? number_text(value) : std::string();
-    };
-    table.rows.push_back(
-        {whole(body.level), whole(body.nodes), whole(body.springs), to_string(point.integrator),
-         whole(point.iterations), number_text(body.ratio), number_text(point.step),
-         number_text(point.limit), number_text(point.step / point.limit), point.stable ? "1" : "0",
-         to_string(point.verdict), point.diverged_at ? number_text(*point.diverged_at) : "",
-         point.node ? whole(std::uint64_t{*point.node} + 1) : "", if_finished(point.energy_drift),
-         if_finished(point.error), if_finished(point.cost), whole(point.unconverged_steps)});
+    const auto if_finished = [&](double value) { return point.finished ? Cell(value) : Cell(); };
+    table.rows.push_back({whole(body.level), whole(body.nodes), whole(body.springs),
+                          to_string(point.integrator), whole(point.iterations), body.ratio,
+                          point.step, point.limit, point.step / point.limit,
+                          whole(point.stable ? 1 : 0), to_string(point.verdict),
+                          point.diverged_at ? Cell(*point.diverged_at) : Cell(),
+                          point.node ? whole(std::uint64_t{*point.node} + 1) : Cell(),
+                          if_finished(point.energy_drift), if_finished(point.error),
+                          if_finished(point.cost), whole(point.unconverged_steps)});
   }
   return table;
 }
@@ -61,11 +52,10 @@ Table stability_bodies_table(const sim::StabilityMap& map) {
                    "limit",           "limited_by",      "period",     "duration",
                    "frequency_error", "reference_error", "loose_nodes"};
   for (const sim::StabilityBody& body : map.bodies)
-    table.rows.push_back({whole(body.level), number_text(body.ratio), whole(body.nodes),
-                          whole(body.springs), number_text(body.limit),
-                          body.limited_by_damping ? "damping" : "springs", number_text(body.period),
-                          number_text(body.duration), number_text(body.frequency_error),
-                          number_text(body.reference_error), whole(body.mechanism_nodes.size())});
+    table.rows.push_back({whole(body.level), body.ratio, whole(body.nodes), whole(body.springs),
+                          body.limit, body.limited_by_damping ? "damping" : "springs", body.period,
+                          body.duration, body.frequency_error, body.reference_error,
+                          whole(body.mechanism_nodes.size())});
   return table;
 }
 
@@ -82,9 +72,8 @@ Table stability_timings_table(const sim::StabilityMap& map) {
     if (!point.finished) continue;
     const sim::StabilityBody& body = map.bodies[point.body];
     table.rows.push_back({whole(body.level), to_string(point.integrator), whole(point.iterations),
-                          number_text(body.ratio), number_text(point.step),
-                          number_text(point.wall_seconds),
-                          number_text(point.wall_seconds / body.duration)});
+                          body.ratio, point.step, point.wall_seconds,
+                          point.wall_seconds / body.duration});
   }
   return table;
 }

@@ -104,14 +104,4 @@ double measured_distance(const Scenario& scenario, const Vec3& first_center,
   return surface_distance(*obstacle, final_center).distance;
 }
 
-Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x) {
-  Vec3 moment = Vec3::Zero();
-  double mass = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    moment += model.mass[i] * x[i];
-    mass += model.mass[i];
-  }
-  return moment / mass;
-}
-
 }  // namespace springlod::sim

@@ -111,7 +111,4 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Sta
 double measured_distance(const Scenario& scenario, const Vec3& first_center,
                          const Vec3& final_center);
 
-/// Centre of mass of the nodes at positions x [m].
-Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x);
-
 }  // namespace springlod::sim

@@ -4,6 +4,7 @@
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/loads.hpp"
 
 namespace springlod::elastic {
@@ -18,8 +19,8 @@ class Surface {
         chosen_(model.node_count(), options.within.empty()) {
     for (const std::uint32_t i : options.within) {
       if (i >= model.node_count())
-        throw InputError(fmt::format("local loads: there is no node {}, only {} (counted from 0)",
-                                     i, model.node_count()));
+        throw InputError(fmt::format("local loads: there is no node {}; the model has {}",
+                                     script_number(i), model.node_count()));
       chosen_[i] = true;
     }
     for (std::uint32_t i = 0; i < model.node_count(); ++i) {

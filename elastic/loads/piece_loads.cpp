@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/script_number.hpp"
 #include "elastic/loads.hpp"
 #include "model/material_pieces.hpp"
 
@@ -35,8 +36,8 @@ std::vector<StaticLoad> piece_loads(const MassSpringModel& model, const PieceOpt
     for (const std::uint32_t i : piece) alone.volume[i] = model.volume[i];
     const std::uint32_t first = piece.front();
     for (StaticLoad& load : smooth_loads(alone)) {
-      load.name +=
-          fmt::format(" of {} at node {}", model.materials[model.material[first]].name, first);
+      load.name += fmt::format(" of {} at node {}", model.materials[model.material[first]].name,
+                               script_number(first));
       loads.push_back(std::move(load));
     }
   }

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/loads.hpp"
+#include "elastic/solver/conjugate_gradients.hpp"
 
 namespace springlod::elastic {
 namespace {
@@ -23,8 +25,8 @@ void check(const ElasticBody& body, const StaticLoad& load) {
                                  load.name, load.force.size(), body.node_count));
   for (std::size_t i = 0; i < load.force.size(); ++i)
     if (!load.force[i].allFinite())
-      throw InputError(
-          fmt::format("static load {}: the force on node {} is not finite", load.name, i));
+      throw InputError(fmt::format("static load {}: the force on node {} is not finite", load.name,
+                                   script_number(i)));
 }
 
 /// A load does not count as pushing at a zero mode if its part along it, over its size, is less
@@ -40,48 +42,28 @@ void check_held(const ElasticPart& part, const StaticLoad& load, const Eigen::Ve
   motion.reshaped(3, motion.size() / 3).colwise().norm().maxCoeff(&farthest);
   throw InputError(fmt::format(
       "static load {}: no spring resists it, and the anchors leave the part free to move with it, "
-      "most of all node {} (counted from 0); anchor more nodes: three that do not lie in a line "
+      "most of all node {}; anchor more nodes: three that do not lie in a line "
       "hold a solid part, and zero_modes tells what is loose",
-      load.name, part.nodes[static_cast<std::size_t>(farthest)]));
+      load.name, script_number(part.nodes[static_cast<std::size_t>(farthest)])));
 }
 
-struct Solved {
-  Eigen::MatrixXd y;
-  Eigen::VectorXd last_step;  // squared norm, of each column
-};
-
-/// D y = force by conjugate gradients, each column by itself but preconditioned together, the first
-/// time as given.
-Solved iterate(const ElasticPart& part, const Eigen::MatrixXd& force, Eigen::MatrixXd direction,
-               double balance) {
-  Solved solved{Eigen::MatrixXd::Zero(force.rows(), force.cols()),
-                Eigen::VectorXd::Zero(force.cols())};
-  Eigen::MatrixXd rest = force;
-  Eigen::VectorXd work = rest.cwiseProduct(direction).colwise().sum();
-  for (int step = 0; step < kMostSteps; ++step) {
-    const Eigen::MatrixXd product = part.stiffness * direction;
-    bool done = true;
-    for (Eigen::Index c = 0; c < force.cols(); ++c) {
-      const double energy = direction.col(c).dot(product.col(c));
-      const double length = energy > 0 ? work[c] / energy : 0;
-      solved.last_step[c] = length * length * direction.col(c).squaredNorm();
-      solved.y.col(c) += length * direction.col(c);
-      rest.col(c) -= length * product.col(c);
-      done = done && (solved.last_step[c] <= kSolved * kSolved * solved.y.col(c).squaredNorm() ||
-                      rest.col(c).norm() <= balance * force.col(c).norm());
-    }
-    if (done) break;
-    const Eigen::MatrixXd preconditioned = part.solve_shifted(rest);
-    const Eigen::VectorXd next = rest.cwiseProduct(preconditioned).colwise().sum();
-    for (Eigen::Index c = 0; c < force.cols(); ++c)
-      direction.col(c) =
-          preconditioned.col(c) + (work[c] > 0 ? next[c] / work[c] : 0) * direction.col(c);
-    work = next;
-  }
-  return solved;
+/// D y = force by conjugate gradients preconditioned with the shifted factor; `direction` is what
+/// that gives for the forces.
+ConjugateGradientSolution iterate(const ElasticPart& part, const Eigen::MatrixXd& force,
+                                  Eigen::MatrixXd direction, double balance) {
+  return conjugate_gradients(
+      force, std::move(direction), kMostSteps,
+      [&](const Eigen::MatrixXd& y) -> Eigen::MatrixXd { return part.stiffness * y; },
+      [&](const Eigen::MatrixXd& residual) { return part.solve_shifted(residual); },
+      [&](Eigen::Index c, const ConjugateGradientSolution& solved,
+          const Eigen::MatrixXd& residual) {
+        return solved.last_step[c] <= kSolved * kSolved * solved.x.col(c).squaredNorm() ||
+               residual.col(c).norm() <= balance * force.col(c).norm();
+      });
 }
 
-Solved solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force, double balance) {
+ConjugateGradientSolution solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force,
+                                         double balance) {
   Eigen::MatrixXd y = part.solve_shifted(force);
   // What is out of balance, force - D y = shift y, is known without another product. Most bodies
   // are so much stiffer than the shift that nothing is left to do.

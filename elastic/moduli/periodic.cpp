@@ -1,16 +1,12 @@
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/moduli.hpp"
+#include "elastic/moduli/balanced_solver.hpp"
 
 namespace springlod::elastic {
 namespace {
-
-/// Relative residual of the solution; the moduli come out to twice as many digits.
-constexpr double kTolerance = 1e-7;
-constexpr Eigen::Index kMaxSteps = 20000;
 
 using Strain = Eigen::Matrix<double, 6, 1>;  // xx, yy, zz, yz, zx, xy (engineering shears)
 
@@ -28,8 +24,8 @@ void require_sizes(const PeriodicNetwork& n) {
         fmt::format("periodic network: every spring array must have {} entries", springs));
   for (std::size_t s = 0; s < springs; ++s)
     if (n.a[s] >= n.rest.size() || n.b[s] >= n.rest.size())
-      throw InputError(
-          fmt::format("periodic network: spring {} names a node that is not there", s));
+      throw InputError(fmt::format("periodic network: spring {} names a node that is not there",
+                                   script_number(s)));
 }
 
 }  // namespace
@@ -63,21 +59,10 @@ PeriodicModuli periodic_stretch(const PeriodicNetwork& network) {
     force.middleRows<3>(3 * static_cast<Eigen::Index>(network.b[s])) -= k * u * e.transpose();
     work += k * length * length;
   }
-  Eigen::SparseMatrix<double, Eigen::RowMajor> stiffness(rows, rows);
+  BalancedSolver::Matrix stiffness(rows, rows);
   stiffness.setFromTriplets(entries.begin(), entries.end());
-  // Singular (the whole may be shifted), but the forces balance.
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>,
-                           Eigen::Lower | Eigen::Upper>
-      solver(stiffness);
-  solver.setTolerance(kTolerance);
-  solver.setMaxIterations(kMaxSteps);
-  for (int e = 0; e < 6; ++e) {
-    const Eigen::VectorXd moved = solver.solve(force.col(e));
-    if (solver.info() != Eigen::Success)
-      throw InputError(fmt::format("periodic stretch: not solved after {} steps (residual {:.1e})",
-                                   solver.iterations(), solver.error()));
-    energy.col(e) -= force.transpose() * moved;
-  }
+  const BalancedSolver solver(stiffness, {.name = "periodic stretch"});
+  for (int e = 0; e < 6; ++e) energy.col(e) -= force.transpose() * solver.solve(force.col(e));
   const double volume = network.box.prod();
   const Eigen::Matrix<double, 6, 6> c = energy / volume;
   const double straight = c(0, 0) + c(1, 1) + c(2, 2);

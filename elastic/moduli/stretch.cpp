@@ -5,10 +5,10 @@
 #include <optional>
 
 #include <Eigen/Cholesky>
-#include <Eigen/IterativeLinearSolvers>
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/moduli/balanced_solver.hpp"
 #include "elastic/stiffness.hpp"
 
 namespace springlod::elastic {
@@ -74,7 +74,7 @@ Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& stiffness, const MassSp
       if (r >= 0 && c >= 0)
         entries.emplace_back(static_cast<int>(r), static_cast<int>(c), e.value());
     }
-  Eigen::SparseMatrix<double, Eigen::RowMajor> free_stiffness(free_count, free_count);
+  BalancedSolver::Matrix free_stiffness(free_count, free_count);
   free_stiffness.setFromTriplets(entries.begin(), entries.end());
 
   const Eigen::VectorXd force = -(stiffness * u);
@@ -82,19 +82,13 @@ Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& stiffness, const MassSp
   for (std::size_t row = 0; row < free_of.size(); ++row)
     if (free_of[row] >= 0) free_force[free_of[row]] = force[static_cast<Eigen::Index>(row)];
 
-  // The matrix is singular (the bar may float sideways) but the forces balance, so conjugate
-  // gradients from zero converge to the solution without such motions.
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>,
-                           Eigen::Lower | Eigen::Upper>
-      solver(free_stiffness);
-  solver.setTolerance(kTolerance);
-  solver.setMaxIterations(kMaxSteps);
+  // The bar may float sideways, but the forces balance.
+  const BalancedSolver solver(free_stiffness,
+                              {.name = "stretch test",
+                               .advice = "the stiffness of the springs may differ too much",
+                               .tolerance = kTolerance,
+                               .most_steps = kMaxSteps});
   const Eigen::VectorXd correction = solver.solve(free_force);
-  if (solver.info() != Eigen::Success)
-    throw InputError(
-        fmt::format("stretch test: not solved after {} steps (residual {:.1e}); the "
-                    "stiffness of the springs may differ too much",
-                    solver.iterations(), solver.error()));
   for (std::size_t row = 0; row < free_of.size(); ++row)
     if (free_of[row] >= 0) u[static_cast<Eigen::Index>(row)] += correction[free_of[row]];
   return u;

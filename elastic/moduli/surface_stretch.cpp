@@ -1,20 +1,16 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "elastic/moduli.hpp"
+#include "elastic/moduli/balanced_solver.hpp"
 #include "elastic/stiffness.hpp"
 
 namespace springlod::elastic {
 namespace {
-
-/// Relative residual of the solution; the moduli come out to more digits than that.
-constexpr double kTolerance = 1e-7;
-constexpr Eigen::Index kMaxSteps = 20000;
 
 /// Takes from the forces of each connected part the push and the turn they leave on it: areas
 /// shared out among nodes balance only nearly.
@@ -75,13 +71,9 @@ SurfaceStretchResult surface_stretch(const MassSpringModel& model,
     throw InputError(
         fmt::format("surface stretch: {} areas for {} nodes", surface.size(), model.rest.size()));
   const Components parts = connected_components(model);
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> stiffness = stiffness_matrix(model);
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double, Eigen::RowMajor>,
-                           Eigen::Lower | Eigen::Upper>
-      solver(stiffness);
-  solver.setTolerance(kTolerance);
-  solver.setMaxIterations(kMaxSteps);
-
+  const BalancedSolver::Matrix stiffness = stiffness_matrix(model);
+  const BalancedSolver solver(stiffness, {.name = "surface stretch",
+                                          .advice = "zero_modes tells whether the model is solid"});
   const double volume = mass_properties(model).volume;
   double stretch = 0;      // sum of strain along the pull over stress: 3 / E
   double contraction = 0;  // 6 nu / E
@@ -95,13 +87,7 @@ SurfaceStretchResult surface_stretch(const MassSpringModel& model,
       virial += force[3 * static_cast<Eigen::Index>(i) + d] * model.rest[i][d];
     if (!(virial > 0))
       throw InputError("surface stretch: the areas do not close a surface around the nodes");
-    // Singular, but the forces balance: conjugate gradients keep out of the rigid motions.
     const Eigen::VectorXd moved = solver.solve(force);
-    if (solver.info() != Eigen::Success)
-      throw InputError(
-          fmt::format("surface stretch: not solved after {} steps (residual {:.1e}); zero_modes "
-                      "tells whether the model is solid",
-                      solver.iterations(), solver.error()));
     const Vec3 strain = mean_gradient(model, moved).diagonal() * volume / virial;
     stretch += strain[d];
     contraction -= strain.sum() - strain[d];

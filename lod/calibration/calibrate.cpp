@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/script_number.hpp"
 #include "lod/calibration/calibration_store.hpp"
 #include "lod/calibration/long_springs.hpp"
 #include "lod/calibration/second_moments.hpp"
@@ -38,14 +39,13 @@ void require_surface(const MassSpringModel& base, const TargetOptions& options) 
   for (std::size_t r = 0; r < options.regions.size(); ++r) {
     for (const std::uint32_t node : options.regions[r].nodes)
       if (node >= base.node_count())
-        throw InputError(
-            fmt::format("calibration: region {} names node {}; there are {}, counted from 0", r + 1,
-                        node, base.node_count()));
+        throw InputError(fmt::format("calibration: region {} names node {}; the base has {}",
+                                     script_number(r), script_number(node), base.node_count()));
     if (movable_nodes(base, options.regions[r], options.anchored).empty())
       throw InputError(
           fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
                       "free to move; name nodes of the surface, beside the anchored ones",
-                      options.regions[r].nodes.size(), r + 1));
+                      options.regions[r].nodes.size(), script_number(r)));
   }
 }
 
@@ -108,12 +108,17 @@ void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpring
   }
 }
 
-/// Keeps the state of one fit, now and then.
+/// Keeps the state of one fit, each time that an interval [s] is over.
 class FitKeeper {
  public:
   FitKeeper(const CalibrationStore& store, std::size_t level, std::size_t part,
-            std::string fingerprint)
-      : store_(store), level_(level), part_(part), fingerprint_(std::move(fingerprint)) {}
+            std::string fingerprint, double interval)
+      : store_(store),
+        level_(level),
+        part_(part),
+        fingerprint_(std::move(fingerprint)),
+        interval_(interval),
+        due_(Clock::now() + interval_) {}
 
   std::optional<FitState> kept() const { return store_.fit(level_, part_, fingerprint_); }
 
@@ -126,18 +131,18 @@ class FitKeeper {
 
   void keep(const FitState& state) {
     store_.keep(level_, part_, fingerprint_, state);
-    due_ = Clock::now() + kEvery;
+    due_ = Clock::now() + interval_;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  /// As much as a user minds losing to a power cut; a state is some megabytes.
-  static constexpr std::chrono::seconds kEvery{2};
+  using Seconds = std::chrono::duration<double>;
 
   const CalibrationStore& store_;
   std::size_t level_, part_;
   std::string fingerprint_;
-  Clock::time_point due_ = Clock::now() + kEvery;
+  Seconds interval_;
+  std::chrono::time_point<Clock, Seconds> due_;
 };
 
 std::string detail_of(std::size_t level, const FitState& state, double base_frequency) {
@@ -152,6 +157,9 @@ std::string detail_of(std::size_t level, const FitState& state, double base_freq
 class Calibrator {
  public:
   Calibrator(LodChain& chain, const CalibrateOptions& options) : chain_(chain), options_(options) {
+    if (!(options.keep_every >= 0))
+      throw InputError(
+          fmt::format("calibration: keep_every = {} must be 0 or more", options.keep_every));
     if (!options.store.empty()) store_.emplace(options.store, options.progress);
     base_ = measure_parts(chain.levels.front().model, options, store_ ? &*store_ : nullptr);
   }
@@ -201,7 +209,8 @@ class Calibrator {
     FitProgress progress;
     std::optional<FitKeeper> keeper;
     if (store_) {
-      keeper.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options));
+      keeper.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options),
+                     options_.keep_every);
       progress.from = keeper->kept();
     }
     std::uint32_t told = 0;  // steps that the task knows of

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "elastic/solver/conjugate_gradients.hpp"
 #include "elastic/solver/dense_kernels.hpp"
 
 namespace springlod::lod {
@@ -66,24 +67,21 @@ class ActiveStep {
                                const Eigen::VectorXd& right) const {
     const Eigen::VectorXd scale =
         (product_.diagonal().array() + damping - along.rowwise().squaredNorm().array()).inverse();
-    Eigen::VectorXd z = Eigen::VectorXd::Zero(right.size());
-    Eigen::VectorXd rest = right;
-    Eigen::VectorXd scaled = scale.cwiseProduct(rest);
-    Eigen::VectorXd direction = scaled;
-    double size = rest.dot(scaled);
-    const double small = kAccuracy * kAccuracy * size;
-    for (int i = 0; i < kMostIterations && size > small; ++i) {
-      Eigen::VectorXd image = product_ * direction + damping * direction;
-      image.noalias() -= along * (along.transpose() * direction).eval();
-      const double length = size / direction.dot(image);
-      z += length * direction;
-      rest -= length * image;
-      scaled = scale.cwiseProduct(rest);
-      const double next = rest.dot(scaled);
-      direction = scaled + next / size * direction;
-      size = next;
-    }
-    return z;
+    const Eigen::VectorXd first = scale.cwiseProduct(right);
+    const double small = kAccuracy * kAccuracy * right.dot(first);
+    return elastic::conjugate_gradients(
+               right, first, kMostIterations,
+               [&](const Eigen::VectorXd& direction) {
+                 Eigen::VectorXd image = product_ * direction + damping * direction;
+                 image.noalias() -= along * (along.transpose() * direction).eval();
+                 return image;
+               },
+               [&](const Eigen::MatrixXd& residual) { return scale.cwiseProduct(residual); },
+               [&](Eigen::Index, const elastic::ConjugateGradientSolution&,
+                   const Eigen::MatrixXd& residual) {
+                 return residual.col(0).dot(scale.cwiseProduct(residual.col(0))) <= small;
+               })
+        .x;
   }
 
   const StepProblem& problem_;

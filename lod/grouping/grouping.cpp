@@ -10,6 +10,7 @@
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "lod/grouping/grouping_keys.hpp"
 #include "lod/grouping/radix_sort.hpp"
 
@@ -157,22 +158,21 @@ class Grouper {
   std::vector<std::uint32_t> leader_;  // first node of the group
 };
 
-void require_joined(const Adjacency& adj, const std::vector<std::uint32_t>& set,
+void require_joined(const SpringRows& springs, const std::vector<std::uint32_t>& set,
                     const std::vector<std::uint32_t>& leader) {
   std::vector<std::uint32_t> reached{set[0]};
   for (std::size_t next = 0; next < reached.size(); ++next) {
     const std::uint32_t i = reached[next];
-    for (std::uint32_t e = adj.start[i]; e < adj.start[i + 1]; ++e) {
-      const std::uint32_t j = adj.neighbour[e];
+    springs.for_each(i, [&](std::uint32_t j, std::uint32_t) {
       if (leader[j] == leader[i] && std::find(reached.begin(), reached.end(), j) == reached.end())
         reached.push_back(j);
-    }
+    });
   }
   if (reached.size() < set.size())
     throw InputError(fmt::format(
         "groups: the group of node {} is not held together by springs; merging it would weld "
         "pieces that are mechanically apart",
-        set[0]));
+        script_number(set[0])));
 }
 
 }  // namespace
@@ -192,18 +192,18 @@ Groups groups_from_sets(const MassSpringModel& model,
   for (const std::vector<std::uint32_t>& set : sets) {
     for (const std::uint32_t i : set) {
       if (i >= model.node_count())
-        throw InputError(
-            fmt::format("groups: there is no node {}; the model has {}", i, model.node_count()));
+        throw InputError(fmt::format("groups: there is no node {}; the model has {}",
+                                     script_number(i), model.node_count()));
       if (leader[i] != kUngrouped)
-        throw InputError(fmt::format("groups: node {} is named twice", i));
+        throw InputError(fmt::format("groups: node {} is named twice", script_number(i)));
       leader[i] = set[0];
     }
   }
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     if (leader[i] == kUngrouped) leader[i] = i;
-  const Adjacency adj = adjacency(model);
+  const SpringRows springs(model);
   for (const std::vector<std::uint32_t>& set : sets)
-    if (!set.empty()) require_joined(adj, set, leader);
+    if (!set.empty()) require_joined(springs, set, leader);
   return numbered(leader);
 }
 

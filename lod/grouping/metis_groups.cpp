@@ -5,7 +5,9 @@
 #include <vector>
 
 #include <fmt/format.h>
+#ifdef SPRINGLOD_HAS_METIS
 #include <metis.h>
+#endif
 
 #include "base/error.hpp"
 #include "lod/grouping/connected_groups.hpp"
@@ -13,6 +15,9 @@
 #include "model/spring_rows.hpp"
 
 namespace springlod::lod {
+
+#ifdef SPRINGLOD_HAS_METIS
+
 namespace {
 
 /// METIS weighs edges by whole numbers: what the largest spring work becomes.
@@ -28,13 +33,9 @@ Groups without_gaps(const std::vector<idx_t>& part, std::uint32_t count) {
   return groups;
 }
 
-}  // namespace
-
-Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint64_t seed) {
-  if (count == 0 || count > model.node_count())
-    throw InputError(fmt::format("metis grouping: {} groups of {} nodes; ask for 1 to {}", count,
-                                 model.node_count(), model.node_count()));
-  const SpringRows springs(model);
+/// A partition of the nodes into `count` parts, the part of each node.
+std::vector<idx_t> partition(const MassSpringModel& model, const SpringRows& springs,
+                             std::uint32_t count, std::uint64_t seed) {
   std::vector<double> work;
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
     work.push_back(model.stiffness[s] * model.rest_length[s] * model.rest_length[s]);
@@ -60,10 +61,31 @@ Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint
                                             nullptr, options.data(), &cut, part.data()) != METIS_OK)
     throw InputError(fmt::format("metis grouping: METIS could not make {} groups of {} nodes",
                                  count, model.node_count()));
-  Groups groups = without_gaps(part, count);
+  return part;
+}
+
+}  // namespace
+
+Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint64_t seed) {
+  if (count == 0 || count > model.node_count())
+    throw InputError(fmt::format("metis grouping: {} groups of {} nodes; ask for 1 to {}", count,
+                                 model.node_count(), model.node_count()));
+  const SpringRows springs(model);
+  Groups groups = without_gaps(partition(model, springs, count, seed), count);
   mend_groups(model, groups);
   split_to_count(model, springs, count, groups);
   return groups;
 }
+
+#else
+
+Groups metis_groups(const MassSpringModel& /*model*/, std::uint32_t /*count*/,
+                    std::uint64_t /*seed*/) {
+  throw InputError(
+      "metis grouping: springlod was built without METIS; use the grouping compact, or install "
+      "libmetis-dev and build springlod again");
+}
+
+#endif
 
 }  // namespace springlod::lod

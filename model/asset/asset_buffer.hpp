@@ -1,43 +1,44 @@
 #pragma once
 
-#include <cstdint>
-#include <cstring>
+#include <cstddef>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
-#include <tiny_gltf.h>
+#include <nlohmann/json.hpp>
+
+#include "model/asset/asset_format.hpp"
 
 namespace springlod::inline model {
 
 /// The one buffer of a .glb file in the making: arrays go in, numbers of buffer views come out.
 class AssetBuffer {
  public:
-  explicit AssetBuffer(tinygltf::Model& gltf) : gltf_(gltf) { gltf_.buffers.resize(1); }
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
 
-  void reserve(std::size_t bytes) { gltf_.buffers[0].data.reserve(bytes); }
-
-  /// `target`: what WebGL uses the view for (TINYGLTF_TARGET_*), 0 for nothing. The array must not
-  /// be empty: glTF has no empty views.
+  /// The array must not be empty: glTF has no empty views.
   template <class T>
-  int add(const std::vector<T>& array, int target = 0) {
+  std::size_t add(const std::vector<T>& array, gltf::Target target = gltf::Target::none) {
     static_assert(std::is_standard_layout_v<T>);
-    auto& data = gltf_.buffers[0].data;
     // The widest element is a double, and accessors must start at multiples of their elements.
     constexpr std::size_t kAlignment = 8;
-    data.resize((data.size() + kAlignment - 1) / kAlignment * kAlignment, 0);
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = data.size();
-    view.byteLength = array.size() * sizeof(T);
-    view.target = target;
+    bytes_.resize((bytes_.size() + kAlignment - 1) / kAlignment * kAlignment, 0);
+    nlohmann::json view{{"buffer", 0}, {"byteLength", array.size() * sizeof(T)}};
+    if (!bytes_.empty()) view["byteOffset"] = bytes_.size();
+    if (target != gltf::Target::none) view["target"] = target;
     const auto* bytes = reinterpret_cast<const unsigned char*>(array.data());
-    data.insert(data.end(), bytes, bytes + view.byteLength);
-    gltf_.bufferViews.push_back(std::move(view));
-    return static_cast<int>(gltf_.bufferViews.size()) - 1;
+    bytes_.insert(bytes_.end(), bytes, bytes + array.size() * sizeof(T));
+    views_.push_back(std::move(view));
+    return views_.size() - 1;
   }
 
+  const std::vector<unsigned char>& bytes() const { return bytes_; }
+  /// "bufferViews" of the glTF document.
+  const nlohmann::json& views() const { return views_; }
+
  private:
-  tinygltf::Model& gltf_;
+  std::vector<unsigned char> bytes_;
+  nlohmann::json views_ = nlohmann::json::array();
 };
 
 }  // namespace springlod::inline model

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "model/asset/asset_json.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -99,11 +98,11 @@ Certificate::Load read_load(const FieldReader& from) {
 }  // namespace
 
 json certificate_json(const Certificate& certificate) {
-  json object{{"zeroModes", whole_number(certificate.zero_modes)},
-              {"expectedZeroModes", whole_number(certificate.expected_zero_modes)}};
+  json object{{"zeroModes", certificate.zero_modes},
+              {"expectedZeroModes", certificate.expected_zero_modes}};
   for (const auto& [key, member] : kNumbers) object[key] = certificate.*member;
   for (const Certificate::Moduli& m : certificate.moduli)
-    object["moduli"].push_back({{"material", utf8(m.material)},
+    object["moduli"].push_back({{"material", m.material},
                                 {"young", m.young},
                                 {"baseYoung", m.base_young},
                                 {"poisson", m.poisson},
@@ -111,11 +110,11 @@ json certificate_json(const Certificate& certificate) {
   for (const Certificate::Frequency& f : certificate.frequencies)
     object["frequencies"].push_back({{"level", f.level}, {"base", f.base}, {"mac", f.mac}});
   for (const Certificate::Load& load : certificate.loads)
-    object["loads"].push_back({{"name", utf8(load.name)},
+    object["loads"].push_back({{"name", load.name},
                                {"heldOut", load.held_out},
                                {"compliance", load.compliance},
                                {"error", load.error}});
-  for (const std::string& miss : certificate.misses) object["misses"].push_back(utf8(miss));
+  for (const std::string& miss : certificate.misses) object["misses"].push_back(miss);
   return object;
 }
 

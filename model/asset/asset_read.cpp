@@ -11,6 +11,7 @@
 #include "model/asset/asset.hpp"
 #include "model/asset/asset_certificate.hpp"
 #include "model/asset/asset_format.hpp"
+#include "model/asset/glb.hpp"
 
 // The extension is read with a JSON parser and range checks alone: a general glTF reader would
 // look at everything that a damaged file says.
@@ -19,50 +20,6 @@ namespace springlod::inline model {
 namespace {
 
 using nlohmann::json;
-
-/// What is wrong with the file, without its name.
-class Damage : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-struct GlbChunks {
-  std::string_view json;
-  std::string_view binary;
-};
-
-std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + offset, sizeof word);
-  return word;
-}
-
-/// Takes one chunk (length, type, data) off the front.
-std::string_view take_chunk(std::string_view& rest, std::uint32_t type, const char* name) {
-  constexpr std::size_t kHeader = 8;
-  if (rest.size() < kHeader || word_at(rest, 4) != type)
-    throw Damage(fmt::format("its {} chunk is missing", name));
-  const std::size_t length = word_at(rest, 0);
-  if (length > rest.size() - kHeader) throw Damage(fmt::format("its {} chunk is cut short", name));
-  const std::string_view chunk = rest.substr(kHeader, length);
-  rest.remove_prefix(kHeader + length);
-  return chunk;
-}
-
-GlbChunks split_glb(std::string_view file) {
-  constexpr std::size_t kHeader = 12;
-  constexpr std::uint32_t kJson = 0x4E4F534A;
-  constexpr std::uint32_t kBinary = 0x004E4942;
-  if (word_at(file, 4) != 2)
-    throw Damage(fmt::format("it says glTF version {}, not 2", word_at(file, 4)));
-  if (word_at(file, 8) != file.size())
-    throw Damage(fmt::format("it has {} bytes and should have {}", file.size(), word_at(file, 8)));
-  std::string_view rest = file.substr(kHeader);
-  GlbChunks chunks;
-  chunks.json = take_chunk(rest, kJson, "JSON");
-  chunks.binary = take_chunk(rest, kBinary, "binary");
-  return chunks;
-}
 
 /// Builds the asset from the extension and checks it against its checksum.
 class ExactReader {
@@ -176,9 +133,7 @@ const json* find_extension(const json& gltf) {
 LodAsset load_asset(const std::filesystem::path& path) {
   const std::string file = read_file(path);
   const std::string name = path.string();
-  constexpr std::string_view kMagic = "glTF";
-  constexpr std::size_t kSmallestGlb = 20;
-  if (file.size() < kSmallestGlb || !std::string_view(file).starts_with(kMagic))
+  if (!is_glb(file))
     throw IoError(
         fmt::format("{} is no .glb file (binary glTF); springlod convert makes one from "
                     "a mesh",

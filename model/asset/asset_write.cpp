@@ -1,11 +1,11 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <tiny_gltf.h>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -14,7 +14,7 @@
 #include "model/asset/asset_certificate.hpp"
 #include "model/asset/asset_display.hpp"
 #include "model/asset/asset_format.hpp"
-#include "model/asset/asset_json.hpp"
+#include "model/asset/glb.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -26,35 +26,36 @@ class ExactWriter {
  public:
   explicit ExactWriter(AssetBuffer& buffer) : buffer_(buffer) {}
 
-  /// Buffer view of each level's springs' ends; -1 for none.
-  std::vector<int> spring_ends;
+  /// Buffer view of each level's springs' ends; nothing for no springs.
+  std::vector<std::optional<std::size_t>> spring_ends;
 
   json describe(const LodAsset& asset) {
     json extension{{"version", asset_format::kVersion}};
-    // tinygltf writes an empty array as null, so empty ones are left out, here and below.
+    // Empty lists are left out, here and below.
     for (const auto& [key, value] : asset.provenance.entries)
-      extension["provenance"].push_back({utf8(key), utf8(value)});
+      extension["provenance"].push_back({key, value});
     for (const Level& level : asset.chain.levels) extension["levels"].push_back(describe(level));
     if (!asset.surface.positions.empty() || !asset.surface.parts.empty() ||
         !asset.surface_of_base.start.empty())
       extension["surface"] = describe(asset.surface, asset.surface_of_base);
-    checksum_.add(extension.dump());
+    checksum_.add(json_text(extension));
     extension["checksum"] = checksum_.text();
     return extension;
   }
 
  private:
   template <class T>
-  int put(json& object, const char* key, const std::vector<T>& array, int target = 0) {
+  std::optional<std::size_t> put(json& object, const char* key, const std::vector<T>& array,
+                                 gltf::Target target = gltf::Target::none) {
     checksum_.add({reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T)});
-    if (array.empty()) return -1;
-    const int view = buffer_.add(array, target);
+    if (array.empty()) return std::nullopt;
+    const std::size_t view = buffer_.add(array, target);
     object[key] = view;
     return view;
   }
 
   static json describe(const Material& material) {
-    return {{"name", utf8(material.name)},
+    return {{"name", material.name},
             {"young", material.young},
             {"density", material.density},
             {"damping", material.damping},
@@ -63,9 +64,9 @@ class ExactWriter {
 
   json describe(const Level& level) {
     const MassSpringModel& model = level.model;
-    json object{{"nodes", whole_number(model.node_count())},
-                {"springs", whole_number(model.spring_count())},
-                {"madeBy", utf8(level.made_by)}};
+    json object{{"nodes", model.node_count()},
+                {"springs", model.spring_count()},
+                {"madeBy", level.made_by}};
     for (const Material& material : model.materials)
       object["materials"].push_back(describe(material));
     put(object, "rest", model.rest);
@@ -80,7 +81,7 @@ class ExactWriter {
       ends.push_back(model.a[s]);
       ends.push_back(model.b[s]);
     }
-    spring_ends.push_back(put(object, "ends", ends, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER));
+    spring_ends.push_back(put(object, "ends", ends, gltf::Target::indices));
     put(object, "restLength", model.rest_length);
     put(object, "stiffness", model.stiffness);
     put(object, "damping", model.damping);
@@ -90,13 +91,12 @@ class ExactWriter {
   }
 
   json describe(const TriangleMesh& surface, const Binding& binding) {
-    json object{{"vertices", whole_number(surface.positions.size())},
-                {"triangles", whole_number(surface.triangles.size())}};
+    json object{{"vertices", surface.positions.size()}, {"triangles", surface.triangles.size()}};
     for (const MeshPart& part : surface.parts)
-      object["parts"].push_back({{"name", utf8(part.name)},
-                                 {"material", utf8(part.material)},
-                                 {"firstTriangle", whole_number(part.first_triangle)},
-                                 {"triangleCount", whole_number(part.triangle_count)}});
+      object["parts"].push_back({{"name", part.name},
+                                 {"material", part.material},
+                                 {"firstTriangle", part.first_triangle},
+                                 {"triangleCount", part.triangle_count}});
     put(object, "positions", surface.positions);
     put(object, "indices", surface.triangles);
     put(object, "bindingStart", binding.start);
@@ -123,26 +123,26 @@ std::size_t expected_bytes(const LodAsset& asset) {
 
 void save_asset(const LodAsset& asset, const std::filesystem::path& path) {
   validate(asset);
-  tinygltf::Model gltf;
-  gltf.asset.version = "2.0";
-  gltf.asset.generator = "springlod";
-  AssetBuffer buffer(gltf);
+  AssetBuffer buffer;
   buffer.reserve(expected_bytes(asset));
   ExactWriter exact(buffer);
-  gltf.extensions[asset_format::kExtension] = gltf_value(exact.describe(asset));
-  gltf.extensionsUsed = {asset_format::kExtension};
-  add_display(asset, exact.spring_ends, gltf, buffer);
+  json document{{"asset", {{"version", "2.0"}, {"generator", "springlod"}}},
+                {"extensionsUsed", {asset_format::kExtension}},
+                {"extensions", {{asset_format::kExtension, exact.describe(asset)}}}};
+  add_display(asset, exact.spring_ends, document, buffer);
+  document["bufferViews"] = buffer.views();
+  document["buffers"] = {{{"byteLength", buffer.bytes().size()}}};
 
   // Lengths in a .glb are 32 bits; the JSON wants some of it.
   constexpr std::size_t kLargestBuffer = 0xF0000000;
-  if (gltf.buffers[0].data.size() > kLargestBuffer)
+  if (buffer.bytes().size() > kLargestBuffer)
     throw IoError(
         fmt::format("cannot write {}: {} bytes do not fit into a .glb file (4 GB); use "
                     "larger cells or fewer levels",
-                    path.string(), gltf.buffers[0].data.size()));
+                    path.string(), buffer.bytes().size()));
   write_aside(path, [&](const std::filesystem::path& aside) {
     std::ofstream out(aside, std::ios::binary);
-    tinygltf::TinyGLTF().WriteGltfSceneToStream(&gltf, out, false, true);
+    write_glb(out, document, buffer.bytes());
     out.close();
     if (!out)
       throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));

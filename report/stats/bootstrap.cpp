@@ -3,12 +3,12 @@
 #include <numeric>
 #include <utility>
 
+#include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
 #include "base/chance.hpp"
 #include "base/error.hpp"
 #include "report/stats.hpp"
-#include "report/stats/probability.hpp"
 
 namespace springlod::report {
 
@@ -19,6 +19,14 @@ namespace {
 constexpr std::size_t kMostBlocks = 500;
 constexpr std::uint32_t kFewestResamples = 100;
 constexpr std::uint32_t kMostResamples = 1000000;  // 8 MB of results
+
+// An infinite or undefined argument gives an infinite or undefined result, and no exception.
+using boost::math::policies::domain_error;
+using boost::math::policies::ignore_error;
+using boost::math::policies::overflow_error;
+using Normal = boost::math::normal_distribution<
+    double,
+    boost::math::policies::policy<domain_error<ignore_error>, overflow_error<ignore_error>>>;
 
 using Samples = std::vector<std::vector<double>>;
 using Statistic = std::function<double(const Samples&)>;
@@ -201,17 +209,17 @@ double part_below(const std::vector<double>& rising, double value) {
 Bootstrap resampled(std::vector<StartSample> samples, Statistic statistic,
                     const BootstrapOptions& options) {
   Bootstrap result = Resampling(std::move(samples), std::move(statistic), options).run();
-  result.bias = normal_quantile(part_below(result.resampled, result.estimate));
+  result.bias = quantile(Normal(), part_below(result.resampled, result.estimate));
   return result;
 }
 
 /// Quantile order of the one-sided BCa limit with confidence `part` (Efron and Tibshirani 1993,
 /// eq. 14.10).
 double corrected(const Bootstrap& result, double part) {
-  const double shifted = result.bias + normal_quantile(part);
+  const double shifted = result.bias + quantile(Normal(), part);
   const double stretch = 1 - result.acceleration * shifted;
   if (stretch <= 0) return shifted < 0 ? 0 : 1;  // outside the range of the correction
-  return normal_below(result.bias + shifted / stretch);
+  return cdf(Normal(), result.bias + shifted / stretch);
 }
 
 }  // namespace
@@ -243,10 +251,10 @@ Interval interval(const Bootstrap& result, double confidence, IntervalMethod met
 }
 
 double confidence_below(const Bootstrap& result, double value) {
-  const double shifted = normal_quantile(part_below(result.resampled, value)) - result.bias;
+  const double shifted = quantile(Normal(), part_below(result.resampled, value)) - result.bias;
   const double stretch = 1 + result.acceleration * shifted;
   if (stretch <= 0) return shifted < 0 ? 0 : 1;
-  return normal_below(shifted / stretch - result.bias);
+  return cdf(Normal(), shifted / stretch - result.bias);
 }
 
 }  // namespace springlod::report

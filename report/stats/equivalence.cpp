@@ -2,15 +2,20 @@
 #include <cstdint>
 #include <vector>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "report/stats.hpp"
-#include "report/stats/probability.hpp"
 
 namespace springlod::report {
 
 namespace {
+
+// Degrees of freedom that underflowed give an undefined p-value, and no exception.
+using StudentsT = boost::math::students_t_distribution<
+    double, boost::math::policies::policy<
+                boost::math::policies::domain_error<boost::math::policies::ignore_error>>>;
 
 void validate(const EquivalenceOptions& options) {
   if (!(options.margin > 0 && std::isfinite(options.margin)))
@@ -67,7 +72,8 @@ struct Estimate {
   /// p-value of the null hypothesis "0 or less" (Welch-Satterthwaite).
   double p_positive() const {
     if (variance == 0) return value > 0 ? 0 : 1;
-    return student_above(value / std::sqrt(variance), variance * variance / parts);
+    const StudentsT distribution(variance * variance / parts);
+    return cdf(complement(distribution, value / std::sqrt(variance)));
   }
 };
 

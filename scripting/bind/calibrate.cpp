@@ -154,7 +154,14 @@ void describe_record(Api& api) {
             .fallback = "none",
             .help = "folder that keeps what was found so far: a call that was stopped, or killed, "
                     "goes on from there when it is made again, to the same bits; what is of "
-                    "another base, level or options is not used"}},
+                    "another base, level or options is not used"},
+           {.name = "keep_every",
+            .type = "quantity",
+            .dimension = Dimension::time,
+            .fallback = fmt::format("{} s", calibrate.keep_every),
+            .help = "time between two writes of a fit's state to the store, 0: after each step; "
+                    "a calibration that is killed loses so much, one that is stopped with Ctrl-C "
+                    "nothing"}},
       .example = "calibration = {targets = \"modes\", tolerance = 0.01}"});
 }
 
@@ -233,6 +240,7 @@ void read_calibration(Call& call, TableReader& reader, const MassSpringModel& ba
   std::string store;
   record.read("store", store);
   options.calibrate.store = store;
+  record.read("keep_every", options.calibrate.keep_every);
   record.finish();
   if (kinds == Kinds::loads) targets.modes = 0;
   if (kinds == Kinds::modes) {

@@ -85,20 +85,30 @@ report::ChartSeries read_series(Call& call, int table, const std::string& owner)
   return series;
 }
 
-std::string cell_text(lua_State* L, int index, NumberStyle numbers) {
+report::Cell read_cell(lua_State* L, int index) {
   switch (lua_type(L, index)) {
     case LUA_TNUMBER:
-      if (lua_isinteger(L, index) != 0) return fmt::format("{}", lua_tointeger(L, index));
-      return numbers == NumberStyle::exact ? report::number_text(lua_tonumber(L, index))
-                                           : fmt::format("{:.4g}", lua_tonumber(L, index));
+      if (lua_isinteger(L, index) != 0) return static_cast<std::int64_t>(lua_tointeger(L, index));
+      return lua_tonumber(L, index);
     case LUA_TNIL:
-      return "";
+      return {};
     default: {
       std::string text = luaL_tolstring(L, index, nullptr);
       lua_pop(L, 1);
       return text;
     }
   }
+}
+
+void push_cell(lua_State* L, const report::Cell& cell) {
+  if (const auto* whole = std::get_if<std::int64_t>(&cell))
+    lua_pushinteger(L, *whole);
+  else if (const auto* number = std::get_if<double>(&cell))
+    lua_pushnumber(L, *number);
+  else if (const auto* text = std::get_if<std::string>(&cell))
+    push(L, *text);
+  else
+    push(L, std::string());
 }
 
 std::vector<std::string> sorted_keys(lua_State* L, int table) {
@@ -130,9 +140,9 @@ report::ChartSeries cost_error_series(const ComparisonValue& comparison, TableRe
   // The title names the scenario; the legend tells which way of merging this is.
   series.name = comparison.chain->chain.levels.back().made_by;
   for (const auto& row : table.rows)
-    series.points.push_back({.x = 1 / std::stod(row[ratio]),
-                             .y = std::stod(row[error]),
-                             .label = row[column("label")]});
+    series.points.push_back({.x = 1 / std::get<double>(row[ratio]),
+                             .y = std::get<double>(row[error]),
+                             .label = std::get<std::string>(row[column("label")])});
   return series;
 }
 
@@ -262,7 +272,7 @@ void describe_series(Api& api) {
       .example = "{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}"});
 }
 
-report::Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers) {
+report::Table table_from_rows(Call& call, int index, TableReader& reader) {
   lua_State* L = call.lua();
   if (!lua_istable(L, index)) throw InputError(reader.owner() + ": rows must be a list of tables");
   report::Table table;
@@ -275,14 +285,14 @@ report::Table table_from_rows(Call& call, int index, TableReader& reader, Number
     if (table.columns.empty()) table.columns = sorted_keys(L, row);
     const bool list = lua_rawlen(L, row) > 0;
     const std::size_t cells = list ? lua_rawlen(L, row) : table.columns.size();
-    std::vector<std::string>& texts = table.rows.emplace_back();
+    std::vector<report::Cell>& row_cells = table.rows.emplace_back();
     for (std::size_t c = 0; c < cells; ++c) {
       if (list) {
         lua_rawgeti(L, row, static_cast<lua_Integer>(c) + 1);
       } else {
         lua_getfield(L, row, table.columns[c].c_str());
       }
-      texts.push_back(cell_text(L, -1, numbers));
+      row_cells.push_back(read_cell(L, -1));
       lua_pop(L, 1);
     }
     lua_pop(L, 1);
@@ -296,8 +306,7 @@ void push_rows(lua_State* L, const report::Table& table) {
   for (const auto& row : table.rows) {
     begin_table(L);
     for (std::size_t i = 0; i < row.size(); ++i) {
-      // Cells are text; numbers become numbers again.
-      if (lua_stringtonumber(L, row[i].c_str()) == 0) push(L, row[i]);
+      push_cell(L, row[i]);
       end_field(L, table.columns[i].c_str());
     }
     end_list_entry(L, ++number);

@@ -21,13 +21,10 @@ std::vector<Parameter> chart_parameters();
 /// The records Series and Point.
 void describe_series(Api& api);
 
-/// How numbers that are not whole are written: so that they read back the same, or to be looked at.
-enum class NumberStyle { exact, four_digits };
-
-/// A list of rows, each a table with the columns as keys; cells that are numbers become numbers.
+/// A list of rows, each a table with the columns as keys; an empty string for nothing.
 void push_rows(lua_State* L, const report::Table& table);
 
 /// Rows at `index` with the option `columns`.
-report::Table table_from_rows(Call& call, int index, TableReader& reader, NumberStyle numbers);
+report::Table table_from_rows(Call& call, int index, TableReader& reader);
 
 }  // namespace springlod::scripting

@@ -1,5 +1,6 @@
 // Mass-spring models: read, built from tables, estimated; chains saved, loaded and told about.
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -156,6 +157,16 @@ int info_binding(Call& call) {
   return 1;
 }
 
+void push_bounds(lua_State* L, const ModelValue& value) {
+  const Box3 box = bounds(value.model->rest);
+  const Vec3 size = box.sizes();
+  begin_table(L);
+  set_field(L, "low", Vec3(box.min()));
+  set_field(L, "high", Vec3(box.max()));
+  set_field(L, "diagonal",
+            std::sqrt(size.x() * size.x() + size.y() * size.y() + size.z() * size.z()));
+}
+
 std::string model_text(const ModelValue& value) {
   const MassSpringModel& model = *value.model;
   const MassProperties properties = mass_properties(model);
@@ -205,6 +216,9 @@ void describe_model_type(Api& api) {
              [](const ModelValue& value) { return mass_properties(*value.model).center; });
   type.field("inertia", "3 x 3 table", "about the centre of mass [kg m2]",
              [](const ModelValue& value) { return mass_properties(*value.model).inertia; });
+  type.table_field("bounds", "table",
+                   "box around the nodes: low and high, each {x, y, z}, and its diagonal [m]",
+                   push_bounds);
   type.field("young", "number", "Young's modulus by eq. 2 of the paper, an upper bound [Pa]",
              [](const ModelValue& value) { return estimated_young(*value.model); });
   type.table_field(

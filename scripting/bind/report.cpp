@@ -92,7 +92,7 @@ int chart_binding(Call& call) {
 
 int csv_binding(Call& call) {
   TableReader reader = call.options(3);
-  const report::Table table = table_from_rows(call, call.index(2), reader, NumberStyle::exact);
+  const report::Table table = table_from_rows(call, call.index(2), reader);
   reader.finish();
   report::save_csv(table, call.path(1));
   return 0;
@@ -100,8 +100,7 @@ int csv_binding(Call& call) {
 
 int format_table_binding(Call& call) {
   TableReader reader = call.options(2);
-  const report::Table table =
-      table_from_rows(call, call.index(1), reader, NumberStyle::four_digits);
+  const report::Table table = table_from_rows(call, call.index(1), reader);
   reader.finish();
   std::string text = report::format_table(table);
   if (text.ends_with('\n')) text.pop_back();  // print adds one

@@ -7,6 +7,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "scripting/bind/run_options.hpp"
 #include "scripting/bind/scenario_table.hpp"
 #include "scripting/bind/start_table.hpp"
@@ -32,7 +33,8 @@ void warn(Console& console, const sim::Trajectory& run) {
     console.say(fmt::format(
         "run: nodes {} and {} went past each other by t = {:.4g} s: the body is inside out there; "
         "take a stiffer material, a softer blow or a finer model",
-        run.first_crossing->a + 1, run.first_crossing->b + 1, run.first_crossing->time));
+        script_number(run.first_crossing->a), script_number(run.first_crossing->b),
+        run.first_crossing->time));
 }
 
 int run_binding(Call& call) {

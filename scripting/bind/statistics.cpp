@@ -81,6 +81,10 @@ void read_resampling(Call& call, TableReader& reader, report::BootstrapOptions& 
   options.progress = call.progress();
 }
 
+int mean_binding(Call& call) {
+  return call.give(mean(sample_argument(call, 1, "sample").values));
+}
+
 int statistics_binding(Call& call) {
   const report::StartSample sample = sample_argument(call, 1, "sample");
   report::BootstrapOptions resampling;
@@ -236,6 +240,15 @@ std::vector<Parameter> comparison_parameters() {
 }
 
 void describe_samples(Api& api) {
+  api.add(FunctionEntry{
+      .name = "mean",
+      .group = kGroup,
+      .summary = "Mean of a list of numbers. s.statistics adds an interval, from five values on.",
+      .arguments = {{.name = "sample", .type = "list of numbers", .help = "at least one"}},
+      .returns = "number",
+      .errors = "An empty list; a value that is not finite.",
+      .example = "print(s.mean{7.1, 8.4, 6.9})",
+      .call = mean_binding});
   api.add(FunctionEntry{
       .name = "statistics",
       .group = kGroup,

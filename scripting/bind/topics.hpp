@@ -11,6 +11,7 @@ std::unique_ptr<Api> make_api();
 
 // One a file of this folder: adds what scripts can do with its topic.
 void describe_session(Api& api);
+void describe_files(Api& api);
 void describe_model(Api& api);
 void describe_elastic(Api& api);
 void describe_voxelize(Api& api);

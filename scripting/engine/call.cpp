@@ -18,6 +18,13 @@ namespace springlod::scripting {
 
 namespace {
 
+// All of a string, bytes of 0 included.
+std::string text_at(lua_State* L, int index) {
+  std::size_t size = 0;
+  const char* text = lua_tolstring(L, index, &size);
+  return {text, size};
+}
+
 // What a message shows of a wrong value: "\"two\"", "1.5", "a table".
 std::string shown(lua_State* L, int index) {
   switch (lua_type(L, index)) {
@@ -172,7 +179,7 @@ void TableReader::read(std::string_view name, float& into) {
 void TableReader::read(std::string_view name, std::string& into) {
   if (!get(name)) return;
   if (lua_type(lua_, -1) != LUA_TSTRING) refuse(name, "text, got " + shown(lua_, -1));
-  into = lua_tostring(lua_, -1);
+  into = text_at(lua_, -1);
   lua_pop(lua_, 1);
 }
 
@@ -312,7 +319,7 @@ void Call::refuse_self() const {
 
 std::string Call::text(int number) const {
   if (lua_type(lua_, index(number)) != LUA_TSTRING) refuse(number, "text");
-  return lua_tostring(lua_, index(number));
+  return text_at(lua_, index(number));
 }
 
 double Call::number(int number) const {

@@ -1,8 +1,8 @@
 #include "scripting/engine/console.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -36,6 +36,17 @@ std::string rate_text(double rate) {
   if (rate >= 1e6) return fmt::format("{:.1f} M/s", rate / 1e6);
   if (rate >= 1e3) return fmt::format("{:.1f} k/s", rate / 1e3);
   return fmt::format("{:.1f} /s", rate);
+}
+
+// Talk that nobody can read must not stop the work: a failed write is left at that. A signal that
+// interrupts a write (a slow reader, Ctrl-C) does not count as a failure.
+void put(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(STDERR_FILENO, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
 }
 
 // An empty variable counts as not set (no-color.org).
@@ -72,7 +83,7 @@ void Console::say(std::string_view text) {
   if (verbosity_ == Verbosity::quiet) return;
   const std::lock_guard lock(mutex_);
   clear_bar();
-  fmt::print(stderr, "{}\n", text);
+  put(fmt::format("{}\n", text));
 }
 
 void Console::say_more(std::string_view text) {
@@ -122,7 +133,11 @@ void Console::end() {
 
 void Console::detail(std::string_view text) {
   const std::lock_guard lock(mutex_);
-  if (!running_.empty()) running_.back().detail = text;
+  if (running_.empty()) return;
+  running_.back().detail = text;
+  if (!verbose()) return;
+  clear_bar();
+  put(fmt::format("{}\n", text));
 }
 
 void Console::report(Running& running, Clock::time_point now, bool last) {
@@ -133,19 +148,17 @@ void Console::report(Running& running, Clock::time_point now, bool last) {
   std::string line = progress_line(running.name, running.done, running.total, seconds, terminal_);
   if (!last && !running.detail.empty()) line += "  " + running.detail;
   if (!terminal_) {
-    fmt::print(stderr, "{}\n", line);
+    put(line + "\n");
     return;
   }
   // \033[K clears what an earlier, longer line left; \033[2m is dim, which NO_COLOR turns off.
-  fmt::print(stderr, "\r{}{}{}\033[K", colour_ ? "\033[2m" : "", line, colour_ ? "\033[0m" : "");
-  std::fflush(stderr);
+  put(fmt::format("\r{}{}{}\033[K", colour_ ? "\033[2m" : "", line, colour_ ? "\033[0m" : ""));
   bar_shown_ = !last;
 }
 
 void Console::clear_bar() {
   if (!bar_shown_) return;
-  fmt::print(stderr, "\r\033[K");
-  std::fflush(stderr);
+  put("\r\033[K");
   bar_shown_ = false;
 }
 

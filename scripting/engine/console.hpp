@@ -15,8 +15,8 @@ namespace springlod::scripting {
 enum class Verbosity { quiet, normal, verbose };
 
 /// Talk on stderr (stdout carries results): remarks, and the progress of long work. On a terminal
-/// a bar with rate and time left, redrawn in place; elsewhere a line now and then. Ctrl-C makes
-/// `advance` throw InterruptedError.
+/// a bar with rate and time left, redrawn in place; elsewhere a line now and then. If verbose, each
+/// detail is a line of its own. Ctrl-C makes `advance` throw InterruptedError.
 class Console : public Progress {
  public:
   explicit Console(Verbosity verbosity);

@@ -8,6 +8,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 
 namespace springlod::scripting {
 
@@ -36,11 +37,11 @@ void describe_errors(Api& api) {
              [](const ErrorValue& error) { return error.where; });
   type.field("kind", "string",
              "\"input\" (a value or option is wrong), \"io\" (a file), \"unstable\" (a simulation "
-             "left the numbers), \"tunnelled\" (a node went through an obstacle), \"interrupted\" "
+             "diverged), \"tunnelled\" (a node went through an obstacle), \"interrupted\" "
              "(Ctrl-C), \"memory\" or \"internal\"",
              [](const ErrorValue& error) { return error.kind; });
   type.table_field("node", "integer",
-                   "first node that left the numbers or went through an obstacle; or nil",
+                   "first node that diverged or went through an obstacle; or nil",
                    [](lua_State* L, const ErrorValue& error) {
                      error.node ? push(L, *error.node) : lua_pushnil(L);
                    });
@@ -66,12 +67,12 @@ std::shared_ptr<const ErrorValue> current_error(lua_State* L) {
   } catch (const UnstableError& e) {
     error->kind = "unstable";
     error->message = e.what();
-    error->node = static_cast<long long>(e.node()) + 1;
+    error->node = static_cast<long long>(script_number(e.node()));
     error->time = e.time();
   } catch (const TunnelError& e) {
     error->kind = "tunnelled";
     error->message = e.what();
-    error->node = static_cast<long long>(e.node()) + 1;
+    error->node = static_cast<long long>(script_number(e.node()));
     error->time = e.time();
     error->obstacle = e.obstacle();
   } catch (const IoError& e) {

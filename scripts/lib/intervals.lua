@@ -1,7 +1,6 @@
 -- Means and medians of small samples with their intervals: {value =, low =, high =}.
 
 local s = require "springlod"
-local averages = require "lib.averages"
 
 local intervals = {}
 
@@ -22,7 +21,7 @@ function intervals.mean(values)
     return {value = m.mean, low = m.mean_low, high = m.mean_high}
   end
   local list = sorted(values)
-  return {value = averages.mean(list), low = list[1], high = list[#list]}
+  return {value = s.mean(list), low = list[1], high = list[#list]}
 end
 
 -- How many of n sorted numbers can be dropped at either end so that the range of the others

@@ -9,7 +9,6 @@ local paper_studies = require "studies.paper.studies"
 local paper_tables = require "studies.paper.tables"
 local paper_variants = require "studies.paper.variants"
 local run_store = require "lib.run_store"
-local save_text = require "lib.save_text"
 
 local parser = command.parser("paper", "Reproduce the tables and figures of Kot, Nagahashi and "
   .. "Gracki, \"Simplification of mass spring models\", from many runs each. Writes CSV files, "
@@ -173,5 +172,5 @@ end
 
 local ok, reason = command.try(paper)
 if not ok then command.fail("paper: %s", reason) end
-save_text(args.out .. "/tables.md", table.concat(page, "\n") .. "\n")
+s.save_text(args.out .. "/tables.md", table.concat(page, "\n") .. "\n")
 s.say("tables.md, CSV files, charts and figures are in " .. args.out)

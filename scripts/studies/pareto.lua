@@ -1,9 +1,7 @@
 -- Chart cost against error for all simplification methods and integrators.
 
 local s = require "springlod"
-local body_size = require "lib.body_size"
 local command = require "lib.command"
-local file_checksum = require "lib.file_checksum"
 local pareto_chains = require "studies.pareto.chains"
 local pareto_charts = require "studies.pareto.charts"
 local pareto_ensembles = require "studies.pareto.ensembles"
@@ -88,7 +86,7 @@ end
 -- Everything that kept results depend on. The axes and the number of seeds may change between runs.
 local function store_settings(settings, scene)
   return {
-    springlod = s.version, asset = file_checksum(args.asset), scene = scene, keep = settings.keep,
+    springlod = s.version, asset = s.hash{file = args.asset}, scene = scene, keep = settings.keep,
     starts = settings.starts, jitter = settings.jitter, seed = settings.seed,
     repeats = settings.repeats, implicit_step = settings.implicit_step,
     surface_time = settings.surface_time or "first contact",
@@ -209,7 +207,7 @@ local function pareto()
   -- Before the store opens: either may be wrong.
   local settings, scenario = settings_of(asset), s.scenario(scene)
   local study = {
-    base = asset[0], size = body_size(asset[0]), scene = scene, scenario = scenario,
+    base = asset[0], size = asset[0].bounds.diagonal, scene = scene, scenario = scenario,
     settings = settings, folder = args.out,
     store = run_store.open(args.out .. "/runs", store_settings(settings, scene)),
   }

@@ -2,7 +2,6 @@
 
 local s = require "springlod"
 local command = require "lib.command"
-local size_of = require "lib.body_size"
 local vibration = require "studies.precision.vibration"
 
 local parser = command.parser("precision", "Compare single and double precision: bodies vibrate in "
@@ -113,7 +112,7 @@ end
 
 local function vibrate_body(body)
   body.model = body.make(0)
-  body.nodes, body.size = body.model:nodes(), size_of(body.model)
+  body.nodes, body.size = body.model:nodes(), body.model.bounds.diagonal
   body.modes = s.modes(body.model, {count = mode_count, accuracy = 1e-10, seed = s.seed})
   body.vibrations = {}
   for i, mode in ipairs(body.modes) do

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/script_number.hpp"
+
 namespace springlod::sim {
 namespace {
 
@@ -71,8 +73,8 @@ void ContactPoints::end_point(const MassSpringModel& model, std::uint32_t number
 }
 
 std::string ContactPoints::name(std::size_t point) const {
-  return fmt::format("{} {}{}", skin_ ? "the surface at node" : "node", number(point),
-                     skin_ ? " of the base" : "");
+  return fmt::format("{} {}{}", skin_ ? "the surface at node" : "node",
+                     script_number(number(point)), skin_ ? " of the base" : "");
 }
 
 }  // namespace springlod::sim

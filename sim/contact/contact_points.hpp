@@ -50,9 +50,9 @@ class ContactPoints {
   std::span<const Share> shares(std::size_t point) const {
     return {shares_.data() + start_[point], start_[point + 1] - start_[point]};
   }
-  /// For messages: which node it is, of the model or of the base.
+  /// Which node it is, of the model or of the base; counted from 0.
   std::uint32_t number(std::size_t point) const { return number_[point]; }
-  /// "node 7", "the surface at node 7 of the base".
+  /// For messages, counted from 1: "node 7", "the surface at node 7 of the base".
   std::string name(std::size_t point) const;
 
   /// Of positions or velocities of the nodes.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/stable_step.hpp"
 #include "lod/transfer.hpp"
 
@@ -75,12 +76,12 @@ void validate(const ContactSkin& skin, std::uint32_t node_count) {
   for (std::uint32_t p = 0; p < points; ++p) {
     if (!(std::isfinite(skin.area[p]) && skin.area[p] > 0))
       throw InputError(fmt::format("contact skin: the area of point {} is {}; it must be above 0",
-                                   p, skin.area[p]));
+                                   script_number(p), skin.area[p]));
     if (!(std::isfinite(skin.give[p]) && skin.give[p] >= 0))
       throw InputError(fmt::format("contact skin: the give of point {} is {}; it must be 0 or more",
-                                   p, skin.give[p]));
+                                   script_number(p), skin.give[p]));
     if (skin.of_nodes.start[p] == skin.of_nodes.start[p + 1])
-      throw InputError(fmt::format("contact skin: point {} hangs on no node", p));
+      throw InputError(fmt::format("contact skin: point {} hangs on no node", script_number(p)));
   }
 }
 

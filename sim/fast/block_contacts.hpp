@@ -1,65 +1,45 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "sim/contact/contact.hpp"
-#include "sim/contact/tunnel_watch.hpp"
-#include "sim/fast/fast_body.hpp"
-#include "sim/fast/passage.hpp"
+#include "sim/fast/fast_contacts.hpp"
 
 namespace springlod::sim {
 
-/// What the nodes of one block touch. An obstacle costs nothing while the block's bounds are clear
-/// of it.
-class BlockContacts {
+/// The contacts of the nodes of one block: the thread that works on the block needs no others. An
+/// obstacle costs nothing while the block's bounds are clear of it.
+class BlockContacts final : public FastContacts {
  public:
-  /// `points`: nodes with an area; `numbers`: which of them are the block's. Finder and watch are
-  /// those of the whole body, which the blocks share; all but the numbers must outlive this.
-  BlockContacts(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
-                std::uint32_t block, std::vector<std::uint32_t> numbers, FastBody& body,
-                ContactFinder& finder, TunnelWatch& walls);
+  /// `numbers`: which of the body's contact points, all of them nodes, belong to the block.
+  BlockContacts(const Shared& shared, std::uint32_t block, std::vector<std::uint32_t> numbers);
 
-  /// Finds the contacts at the places of step number n, and adds their normal forces to the body.
-  /// `step`: dt [s].
-  void press(std::uint64_t n, const MovingFrame& frame, double step);
-  /// Adds friction to the forces that the body is about to be kicked with, over `kick` seconds;
-  /// `frame` as of after the kick.
-  void rub(const MovingFrame& frame, double kick, double step);
-  /// Before the drift: keeps the bounds.
-  void leave() { bounds_before_ = body_->bounds(block_); }
-  /// After the drift to step number n: whether nodes went through a wall. `before`, `after`: the
-  /// frame at its ends.
-  void watch(std::uint64_t n, const MovingFrame& before, const MovingFrame& after, double step);
-
-  const std::vector<Contact>& now() const { return contacts_; }
-  /// Number of the first step with a contact.
-  const std::optional<std::uint64_t>& first_step() const { return first_step_; }
-  /// The first node that went through a wall.
-  const std::optional<Passage>& passage() const { return passage_; }
-  /// Of the node of a contact [m/s].
-  Vec3 velocity(const Contact& contact, const MovingFrame& frame) const;
+  void apply(const Step& step) override;
+  /// Call it before the drift: keeps the bounds.
+  void start_drift() { bounds_before_ = body().bounds(block_); }
+  /// After the drift to step number n of `length` [s]: checks whether nodes went through a wall.
+  /// `before`, `after`: the frame at its ends.
+  void end_drift(std::uint64_t n, const MovingFrame& before, const MovingFrame& after,
+                 double length);
 
  private:
-  void press_node(std::uint64_t n, std::size_t obstacle, std::uint32_t index,
-                  const MovingFrame& frame, double step);
+  Vec3 velocity_before_kick(std::size_t contact) const override;
+  Vec3 velocity_after_kick(std::size_t contact) const override;
+  Vec3 kicked_velocity(const Contact& contact, const Step& step) const override;
+  Vec3 velocity(const Contact& contact, const Vec3& of_frame) const;
 
-  Place place(std::uint32_t point) const { return body_->place(points_->number(point)); }
+  void find_contacts(const Step& step);
+  void find_contact(const Step& step, std::size_t obstacle, std::uint32_t index);
 
-  const ContactPoints* points_;
-  const std::vector<Obstacle>* obstacles_;
+  Place place(std::uint32_t point) const { return body().place(points().number(point)); }
+
   std::uint32_t block_;
-  FastBody* body_;
-  ContactFinder* finder_;
-  TunnelWatch* walls_;
-  std::vector<std::uint32_t> numbers_;                 // which points are the block's
-  std::vector<std::uint32_t> number_of_;               // by index in the block; kNone
-  std::vector<std::vector<std::uint64_t>> looked_at_;  // by obstacle and index: last step, plus 1
-  std::vector<std::uint32_t> found_;                   // indices, kept for their memory
-  std::vector<Contact> contacts_;
-  std::optional<std::uint64_t> first_step_;
-  std::optional<Passage> passage_;
+  std::vector<std::uint32_t> numbers_;                  // which points are the block's
+  std::vector<std::uint32_t> number_of_;                // by index in the block; kNone
+  std::vector<std::vector<std::uint64_t>> checked_at_;  // by obstacle and index: last step, plus 1
+  std::vector<std::uint32_t> found_;                    // indices, kept for their memory
+  Vec3 frame_velocity_ = Vec3::Zero();                  // of the last apply(), before the kick
+  Vec3 kicked_frame_velocity_ = Vec3::Zero();           // after the kick
   Box3 bounds_before_;
 };
 

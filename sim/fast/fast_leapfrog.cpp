@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "sim/contact/contact_losses.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -35,7 +34,7 @@ void add_losses(const LedgerEntry& more, LedgerEntry& sum) {
 }  // namespace
 
 FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenario,
-                           const State& start, double step, const StepperOptions& options)
+                           const State& start, double step, const FastOptions& options)
     : Stepper(model, scenario, start, step, options.skin.get()),
       layout_(options.layout ? options.layout : make_fast_model(model, options.precision)),
       body_(layout_->new_body(options.ledger)),
@@ -46,15 +45,16 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
       sums_(body_->block_count()),
       v_minus_(start.v),
       v_plus_(start.v) {
+  const FastContacts::Shared shared{&points_, &scenario.obstacles, body_.get(), &finder_, &walls_};
+  if (options.skin) {
+    skin_.emplace(shared, model);
+    return;
+  }
   std::vector<std::vector<std::uint32_t>> numbers(body_->block_count());
-  if (options.skin)
-    skin_.emplace(model, points_, scenario.obstacles, *body_, finder_, walls_);
-  else
-    for (std::uint32_t p = 0; p < points_.count(); ++p)
-      numbers[body_->place(points_.number(p)).block].push_back(p);
+  for (std::uint32_t p = 0; p < points_.count(); ++p)
+    numbers[body_->place(points_.number(p)).block].push_back(p);
   for (std::uint32_t b = 0; b < body_->block_count(); ++b)
-    contacts_of_.emplace_back(points_, scenario.obstacles, b, std::move(numbers[b]), *body_,
-                              finder_, walls_);
+    block_contacts_.emplace_back(shared, b, std::move(numbers[b]));
 }
 
 void FastLeapfrog::prepare() {
@@ -198,29 +198,28 @@ void FastLeapfrog::find_touch_and_move(const Pass& pass, const MovingFrame& fram
     for (std::uint32_t b = share.first; b < share.end; ++b) body_->collect_forces(b);
     share.member.meet();
   }
-  const MovingFrame kicked{frame.origin, after(pass, frame).velocity};
-  if (share.member.number == 0) touch_with_skin(pass, frame, kicked);
+  if (share.member.number == 0) apply_skin_contacts(pass, frame);
   share.member.meet();
-  for (std::uint32_t b = share.first; b < share.end; ++b) move_block(pass, frame, kicked, b);
+  for (std::uint32_t b = share.first; b < share.end; ++b) move_block(pass, b);
 }
 
-void FastLeapfrog::touch_with_skin(const Pass& pass, const MovingFrame& frame,
-                                   const MovingFrame& kicked) {
-  skin_->act({.number = pass.number,
-              .frame = frame,
-              .kicked = kicked,
-              .kick = pass.kick,
-              .length = step_});
-  if (!with_ledger_) return;
-  if (pass.kick != 0)
-    for (std::size_t i = 0; i < skin_->now().size(); ++i) {
-      const Contact& c = skin_->now()[i];
-      const double mass = points_.mass(c.point);
-      if (pass.number > start_n_)
-        book_contact(c, mass, step_, skin_->velocities_before()[i], -step_, skin_losses_.until_now);
-      book_contact(c, mass, step_, skin_->velocities_after()[i], step_, skin_losses_.next);
+FastContacts::Step FastLeapfrog::contact_step(const Pass& pass, const MovingFrame& frame) const {
+  return {.number = pass.number,
+          .frame = frame,
+          .kicked = {frame.origin, after(pass, frame).velocity},
+          .kick = pass.kick,
+          .length = step_};
+}
+
+void FastLeapfrog::apply_skin_contacts(const Pass& pass, const MovingFrame& frame) {
+  if (pass.kick != 0) {
+    skin_->apply(contact_step(pass, frame));
+    if (with_ledger_) {
+      if (pass.number > start_n_) skin_->book_before_kick(step_, skin_losses_.until_now);
+      skin_->book_after_kick(step_, skin_losses_.next);
     }
-  if (pass.drift != 0) take_next(skin_losses_);
+  }
+  if (with_ledger_ && pass.drift != 0) take_next(skin_losses_);
 }
 
 void FastLeapfrog::wait_for_others(std::uint32_t block, const Share& share) const {
@@ -230,38 +229,35 @@ void FastLeapfrog::wait_for_others(std::uint32_t block, const Share& share) cons
 }
 
 void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block) {
-  BlockContacts& contacts = contacts_of_[block];
-  const MovingFrame next = after(pass, frame);
-  const MovingFrame kicked{frame.origin, next.velocity};
+  BlockContacts& contacts = block_contacts_[block];
+  const FastContacts::Step step = contact_step(pass, frame);
   if (pass.kick != 0) {
     body_->collect_forces(block);
-    contacts.press(pass.number, frame, step_);
-    contacts.rub(kicked, pass.kick, step_);
+    contacts.apply(step);
   }
-  contacts.leave();
-  move_block(pass, frame, kicked, block);
-  if (pass.drift != 0) contacts.watch(pass.number + 1, kicked, next, step_);
+  contacts.start_drift();
+  move_block(pass, block);
+  if (pass.drift != 0) contacts.end_drift(pass.number + 1, step.kicked, after(pass, frame), step_);
 }
 
-void FastLeapfrog::move_block(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
-                              std::uint32_t block) {
+void FastLeapfrog::move_block(const Pass& pass, std::uint32_t block) {
   if (!with_ledger_) return body_->move(block, pass.kick, pass.drift);
-  if (pass.kick != 0) kick_and_book(pass, frame, kicked, block);
+  if (pass.kick != 0) kick_and_book(pass, block);
   if (pass.drift != 0) drift_and_book(pass, block);
 }
 
-void FastLeapfrog::kick_and_book(const Pass& pass, const MovingFrame& frame,
-                                 const MovingFrame& kicked, std::uint32_t block) {
-  BlockContacts& contacts = contacts_of_[block];
+void FastLeapfrog::kick_and_book(const Pass& pass, std::uint32_t block) {
   Losses& losses = losses_[block];
-  const auto book = [&](const MovingFrame& at, double step, LedgerEntry& entry) {
+  const auto book_damping = [&](LedgerEntry& entry) {
     entry.lost_damping -= 0.5 * step_ * body_->damping_power(block);
-    for (const Contact& c : contacts.now())
-      book_contact(c, points_.mass(c.point), step_, contacts.velocity(c, at), step, entry);
   };
-  if (pass.number > start_n_) book(frame, -step_, losses.until_now);
+  if (pass.number > start_n_) {
+    book_damping(losses.until_now);
+    if (!skin_) block_contacts_[block].book_before_kick(step_, losses.until_now);
+  }
   body_->move(block, pass.kick, 0);
-  book(kicked, step_, losses.next);
+  book_damping(losses.next);
+  if (!skin_) block_contacts_[block].book_after_kick(step_, losses.next);
 }
 
 void FastLeapfrog::drift_and_book(const Pass& pass, std::uint32_t block) {
@@ -274,27 +270,31 @@ void FastLeapfrog::take_next(Losses& losses) {
   losses.next = {};
 }
 
+std::vector<const FastContacts*> FastLeapfrog::contact_sets() const {
+  std::vector<const FastContacts*> sets;
+  for (const BlockContacts& block : block_contacts_) sets.push_back(&block);
+  if (skin_) sets.push_back(&*skin_);
+  return sets;
+}
+
 void FastLeapfrog::gather_contacts() {
   contacts_.clear();
   std::optional<std::uint64_t> first;
-  const auto gather = [&](const auto& part) {
-    contacts_.insert(contacts_.end(), part.now().begin(), part.now().end());
-    const auto& step = part.first_step();
+  for (const FastContacts* set : contact_sets()) {
+    contacts_.insert(contacts_.end(), set->now().begin(), set->now().end());
+    const std::optional<std::uint64_t>& step = set->first_step();
     if (step && (!first || *step < *first)) first = step;
-  };
-  for (const BlockContacts& block : contacts_of_) gather(block);
-  if (skin_) gather(*skin_);
+  }
   if (first && !first_contact_) first_contact_ = time_of(*first);
 }
 
 void FastLeapfrog::throw_if_tunnelled() const {
   const Passage* earliest = nullptr;
   const auto rank = [](const Passage& p) { return std::tuple(p.step, p.wall, p.number); };
-  const auto look_at = [&](const std::optional<Passage>& passage) {
+  for (const FastContacts* set : contact_sets()) {
+    const std::optional<Passage>& passage = set->passage();
     if (passage && (earliest == nullptr || rank(*passage) < rank(*earliest))) earliest = &*passage;
-  };
-  for (const BlockContacts& block : contacts_of_) look_at(block.passage());
-  if (skin_) look_at(skin_->passage());
+  }
   if (earliest != nullptr)
     walls_.throw_tunnelled(earliest->wall, earliest->number, earliest->from, earliest->to,
                            time_of(earliest->step), step_);

@@ -14,6 +14,16 @@
 
 namespace springlod::sim {
 
+struct FastOptions {
+  bool ledger = true;  ///< keep account of the losses
+  Precision precision = Precision::double_precision;
+  std::uint32_t threads = 1;  ///< at most; 0: as many as the body is worth. Never change the result
+  /// The model laid out for `precision`, shared by many runs; null: made for this run.
+  std::shared_ptr<const FastModel> layout = nullptr;
+  /// Where the body touches obstacles; null: at its nodes.
+  std::shared_ptr<const ContactSkin> skin = nullptr;
+};
+
 /// The scheme of Leapfrog with symplectic Euler's damping, on a body laid out for speed: the same
 /// steps to rounding, in single or double precision, on one thread or several, which changes no
 /// bit.
@@ -25,7 +35,7 @@ namespace springlod::sim {
 class FastLeapfrog final : public Stepper {
  public:
   FastLeapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
-               double step, const StepperOptions& options);
+               double step, const FastOptions& options);
 
   void prepare() override;
   void advance(std::uint64_t steps) override;
@@ -73,20 +83,21 @@ class FastLeapfrog final : public Stepper {
   void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
   /// The same for a body whose skin joins nodes of several blocks: blocks wait for it.
   void find_touch_and_move(const Pass& pass, const MovingFrame& frame, const Share& share);
-  void touch_with_skin(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked);
+  void apply_skin_contacts(const Pass& pass, const MovingFrame& frame);
   /// For the forces of the blocks of others that this one needs.
   void wait_for_others(std::uint32_t block, const Share& share) const;
 
   void kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block);
-  void move_block(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
-                  std::uint32_t block);
-  void kick_and_book(const Pass& pass, const MovingFrame& frame, const MovingFrame& kicked,
-                     std::uint32_t block);
+  void move_block(const Pass& pass, std::uint32_t block);
+  void kick_and_book(const Pass& pass, std::uint32_t block);
   void drift_and_book(const Pass& pass, std::uint32_t block);
   static void take_next(Losses& losses);
   MovingFrame after(const Pass& pass, const MovingFrame& frame) const;
+  FastContacts::Step contact_step(const Pass& pass, const MovingFrame& frame) const;
   void finish_look();
   double kinetic() const;
+  /// Those of the blocks, or that of the skin.
+  std::vector<const FastContacts*> contact_sets() const;
   void gather_contacts();
   void throw_if_tunnelled() const;
 
@@ -96,7 +107,7 @@ class FastLeapfrog final : public Stepper {
   Milestones found_;  // kicks for which each block has found its forces
   bool with_ledger_;
   MovingFrame frame_;
-  std::vector<BlockContacts> contacts_of_;  // by block; of no points if there is a skin
+  std::vector<BlockContacts> block_contacts_;  // by block; empty if there is a skin
   std::optional<SkinContacts> skin_;
   std::vector<Losses> losses_;  // by block
   Losses skin_losses_;

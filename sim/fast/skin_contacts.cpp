@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "sim/fast/regions.hpp"
@@ -9,63 +10,57 @@
 namespace springlod::sim {
 namespace {
 
-// Bounds and ways are widened by this part [1], so that rounding to single precision leaves no
-// point out.
+// Bounds and displacements are widened by this fraction [1], so that rounding to single precision
+// leaves no point out.
 constexpr double kRounding = 1e-6;
 
 }  // namespace
 
-SkinContacts::SkinContacts(const MassSpringModel& model, const ContactPoints& points,
-                           const std::vector<Obstacle>& obstacles, FastBody& body,
-                           ContactFinder& finder, TunnelWatch& walls)
-    : model_(&model),
-      points_(&points),
-      obstacles_(&obstacles),
-      body_(&body),
-      finder_(&finder),
-      walls_(&walls),
+SkinContacts::SkinContacts(const Shared& shared, const MassSpringModel& model)
+    : FastContacts(shared),
+      model_(&model),
+      numbers_(points().count()),
       x_(model.rest),
       v_(model.node_count(), Vec3::Zero()),
-      views_(obstacles.size()) {
-  for (std::uint32_t p = 0; p < points.count(); ++p) reach_ = std::max(reach_, points.reach(p));
-  for (View& view : views_) view.due.resize(points.count());
+      views_(obstacles().size()) {
+  std::iota(numbers_.begin(), numbers_.end(), 0U);
+  for (const std::uint32_t p : numbers_) reach_ = std::max(reach_, points().reach(p));
+  for (View& view : views_) view.due.resize(points().count());
 }
 
-void SkinContacts::act(const Step& step) {
-  const bool arrives = arrived_ != step.number;
-  if (!arrives && step.kick == 0) return;
+void SkinContacts::apply(const Step& step) {
   const Box3 here = bounds(step.frame);
   const Box3 swept = arrived_ ? here.merged(bounds_) : here;
   const bool near = near_anything(swept);
   if (near)
-    for (std::uint32_t b = 0; b < body_->block_count(); ++b) {
-      body_->get_x(b, step.frame, x_);
-      body_->get_v(b, step.frame, v_);
+    for (std::uint32_t b = 0; b < body().block_count(); ++b) {
+      body().get_x(b, step.frame, x_);
+      body().get_v(b, step.frame, v_);
     }
   bounds_ = here;
-  if (arrives) arrive(step, near, swept);
-  if (step.kick == 0) return;
-  // The step may be made once more, shorter: then the one before is still the one before.
+  if (arrived_ != step.number) arrive(step, near, swept);
+  // A step may be repeated with another length: the contacts before it stay the same.
   if (kicked_ != step.number) contacts_before_ = std::move(contacts_);
   kicked_ = step.number;
   contacts_.clear();
   if (near)
-    for (std::size_t o = 0; o < obstacles_->size(); ++o) press(step, o);
+    for (std::size_t o = 0; o < obstacles().size(); ++o) find_contacts(step, o);
   keep_grips(contacts_before_, contacts_);
-  if (!first_step_ && !contacts_.empty()) first_step_ = step.number;
-  rub(step);
+  add_friction(step);
+  after_kick_.clear();
+  for (const Contact& c : contacts_) after_kick_.push_back(kicked_velocity(c, step));
 }
 
 // A point lies at most its reach times half the size of the nodes' box from the middle of that.
 Box3 SkinContacts::bounds(const MovingFrame& frame) const {
   Box3 nodes;
-  for (std::uint32_t b = 0; b < body_->block_count(); ++b) nodes.extend(body_->bounds(b));
+  for (std::uint32_t b = 0; b < body().block_count(); ++b) nodes.extend(body().bounds(b));
   const Vec3 half = (1 + kRounding) * reach_ / 2 * nodes.sizes();
   return moved(Box3(nodes.center() - half, nodes.center() + half), frame.origin);
 }
 
 bool SkinContacts::near_anything(const Box3& region) const {
-  return std::any_of(obstacles_->begin(), obstacles_->end(), [&](const Obstacle& obstacle) {
+  return std::any_of(obstacles().begin(), obstacles().end(), [&](const Obstacle& obstacle) {
     return !region_touching(obstacle, region).isEmpty();
   });
 }
@@ -78,68 +73,44 @@ void SkinContacts::arrive(const Step& step, bool near, const Box3& swept) {
   for (const Vec3& v : v_) fastest = std::max(fastest, v.squaredNorm());
   travel_before_ = travel_;
   travel_ += (1 + kRounding) * step.length * std::sqrt(fastest);
-  watch(step, swept);
+  check_walls(step.number, step.length, swept, numbers_,
+              [&](std::uint32_t point) { return motion(point); });
 }
 
-void SkinContacts::watch(const Step& step, const Box3& swept) {
-  for (std::size_t w = 0; w < walls_->wall_count(); ++w) {
-    if (!bounds_of(walls_->wall(w)).intersects(swept)) continue;
-    for (std::uint32_t p = 0; p < points_->count(); ++p) {
-      const Vec3 to = points_->carried(p, x_);
-      const Vec3 from = to - step.length * points_->carried(p, v_);
-      if (!walls_->goes_through(w, p, from, to) || passage_) continue;
-      passage_ = Passage{step.number, w, p, from, to};
-    }
-  }
-}
-
-void SkinContacts::press(const Step& step, std::size_t obstacle) {
-  const Obstacle& thing = (*obstacles_)[obstacle];
+void SkinContacts::find_contacts(const Step& step, std::size_t obstacle) {
+  const Obstacle& thing = obstacles()[obstacle];
   if (region_touching(thing, bounds_).isEmpty()) return;
   View& view = views_[obstacle];
   const bool afresh = !view.last || *view.last + 1 < step.number;
-  // The step is made once more, shorter: what is inside by now came from the sides it has.
+  // If the step is repeated with another length, a point that is inside by now keeps its sides.
   const bool again = view.last == step.number;
   view.last = step.number;
-  for (std::uint32_t p = 0; p < points_->count(); ++p) {
+  for (const std::uint32_t p : numbers_) {
     if (!afresh && travel_ < view.due[p]) continue;
-    const Vec3 x = points_->carried(p, x_);
-    const Vec3 v = points_->carried(p, v_);
+    const Motion now = motion(p);
     if (afresh || (!again && travel_before_ < view.due[p]))
-      finder_->take_sides(obstacle, p, x - step.length * v);
-    const std::optional<Contact> contact = finder_->find_one(obstacle, p, x, v);
+      finder().take_sides(obstacle, p, now.x - step.length * now.v);
     view.due[p] = travel_;
-    if (!contact) {
-      view.due[p] += std::max(0.0, surface_distance(thing, x).distance) / points_->reach(p);
-      continue;
-    }
-    contacts_.push_back(*contact);
-    for (const ContactPoints::Share& share : points_->shares(p))
-      body_->add_force(body_->place(share.node),
-                       share.weight * contact->normal_force * contact->normal);
+    if (!add_contact(obstacle, p, now))
+      view.due[p] += std::max(0.0, surface_distance(thing, now.x).distance) / points().reach(p);
   }
 }
 
-void SkinContacts::rub(const Step& step) {
-  before_.clear();
-  after_.clear();
-  for (Contact& c : contacts_) {
-    before_.push_back(points_->carried(c.point, v_));
-    const double mass = points_->mass(c.point);
-    sim::rub(c, mass, step.length, kicked_velocity(c, step));
-    for (const ContactPoints::Share& share : points_->shares(c.point))
-      body_->add_force(body_->place(share.node), share.weight * mass / step.kick * c.slip_change);
-  }
-  for (const Contact& c : contacts_) after_.push_back(kicked_velocity(c, step));
+FastContacts::Motion SkinContacts::motion(std::uint32_t point) const {
+  return {points().carried(point, x_), points().carried(point, v_)};
+}
+
+Vec3 SkinContacts::velocity_before_kick(std::size_t contact) const {
+  return points().carried(contacts_[contact].point, v_);
 }
 
 Vec3 SkinContacts::kicked_velocity(const Contact& contact, const Step& step) const {
   const Vec3 fall = step.kicked.velocity - step.frame.velocity;
   Vec3 sum = Vec3::Zero();
-  for (const ContactPoints::Share& share : points_->shares(contact.point))
+  for (const ContactPoints::Share& share : points().shares(contact.point))
     sum += share.weight *
            (v_[share.node] + fall +
-            step.kick / model_->mass[share.node] * body_->force(body_->place(share.node)));
+            step.kick / model_->mass[share.node] * body().force(body().place(share.node)));
   return sum;
 }
 

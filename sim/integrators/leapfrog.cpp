@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/contact/contact_losses.hpp"
+#include "sim/integrators/contact_losses.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {

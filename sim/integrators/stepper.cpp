@@ -2,13 +2,6 @@
 
 #include <numeric>
 
-#include "sim/fast/fast_leapfrog.hpp"
-#include "sim/integrators/backward_euler.hpp"
-#include "sim/integrators/leapfrog.hpp"
-#include "sim/integrators/projective_dynamics.hpp"
-#include "sim/integrators/runge_kutta.hpp"
-#include "sim/integrators/xpbd.hpp"
-
 namespace springlod::sim {
 
 Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -34,16 +27,11 @@ void StepByStep::advance(std::uint64_t steps) {
 }
 
 Vec3 Stepper::center_of_mass() const {
-  Vec3 moment = Vec3::Zero();
-  for (std::size_t i = 0; i < x_.size(); ++i) moment += model_->mass[i] * x_[i];
-  return moment / total_mass_;
+  return springlod::center_of_mass(*model_, x_);
 }
 
 Vec3 Stepper::center_velocity() const {
-  const std::vector<Vec3>& v = velocities_after();
-  Vec3 momentum = Vec3::Zero();
-  for (std::size_t i = 0; i < v.size(); ++i) momentum += model_->mass[i] * v[i];
-  return momentum / total_mass_;
+  return springlod::center_of_mass(*model_, velocities_after());
 }
 
 double Stepper::gravity_energy() const {
@@ -63,27 +51,6 @@ double Stepper::kinetic_after(std::uint32_t* fastest) const {
     }
   }
   return sum;
-}
-
-std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenario& scenario,
-                                      const State& start, double step,
-                                      const StepperOptions& options) {
-  switch (options.integrator) {
-    case Integrator::symplectic_euler:
-      return std::make_unique<FastLeapfrog>(model, scenario, start, step, options);
-    case Integrator::velocity_verlet:
-      return std::make_unique<Leapfrog>(model, scenario, start, step, options);
-    case Integrator::runge_kutta_4:
-      return std::make_unique<RungeKutta>(model, scenario, start, step, options);
-    case Integrator::backward_euler_cg:
-    case Integrator::backward_euler_direct:
-      return std::make_unique<BackwardEuler>(model, scenario, start, step, options);
-    case Integrator::xpbd:
-      return std::make_unique<Xpbd>(model, scenario, start, step, options);
-    case Integrator::projective_dynamics:
-      return std::make_unique<ProjectiveDynamics>(model, scenario, start, step, options);
-  }
-  return nullptr;
 }
 
 }  // namespace springlod::sim

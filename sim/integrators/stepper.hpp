@@ -9,14 +9,11 @@
 #include "sim/contact/contact.hpp"
 #include "sim/contact/contact_points.hpp"
 #include "sim/contact/tunnel_watch.hpp"
-#include "sim/fast/layout.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/ledger.hpp"
 #include "sim/scenario.hpp"
 
 namespace springlod::sim {
-
-class FastModel;
 
 /// One scheme at work on one body, step by step, as `run` drives it:
 ///
@@ -107,17 +104,9 @@ class StepByStep : public Stepper {
 struct StepperOptions {
   Integrator integrator = Integrator::symplectic_euler;
   SolverOptions solver = {};
-  bool ledger = true;                                 ///< keep account of the losses
-  Precision precision = Precision::double_precision;  ///< of symplectic Euler
-  std::uint32_t threads = 1;  ///< for symplectic Euler; never change the result
-  /// The model laid out for `precision`, for many runs of it; made for this one if there is none.
-  std::shared_ptr<const FastModel> layout = nullptr;
+  bool ledger = true;  ///< keep account of the losses
   /// Where the body touches obstacles; none: at its nodes.
   std::shared_ptr<const ContactSkin> skin = nullptr;
 };
-
-std::unique_ptr<Stepper> make_stepper(const MassSpringModel& model, const Scenario& scenario,
-                                      const State& start, double step,
-                                      const StepperOptions& options);
 
 }  // namespace springlod::sim

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -43,7 +44,8 @@ void EnergyWatch::look(const Stepper& body, double gravity_work) {
     throw UnstableError(
         fmt::format("the run became unstable: at t = {:.6g} s the kinetic energy is {:.3g} J, of "
                     "at most {:.3g} J that were there, most of it in node {}; {}",
-                    body.time(), kinetic, available_ + most_gravity_work_, node, advice()),
+                    body.time(), kinetic, available_ + most_gravity_work_, script_number(node),
+                    advice()),
         node, body.time());
 }
 
@@ -53,8 +55,8 @@ void EnergyWatch::throw_not_finite(const Stepper& body) const {
   while (node + 1 < state.x.size() && state.x[node].allFinite() && state.v[node].allFinite())
     ++node;
   throw UnstableError(
-      fmt::format("the run became unstable: node {} is not finite at t = {:.6g} s; {}", node,
-                  body.time(), advice()),
+      fmt::format("the run became unstable: node {} is not finite at t = {:.6g} s; {}",
+                  script_number(node), body.time(), advice()),
       node, body.time());
 }
 

@@ -8,6 +8,7 @@
 
 #include "sim/integrators/stepper.hpp"
 #include "sim/run/energy_watch.hpp"
+#include "sim/run/make_stepper.hpp"
 #include "sim/run/recorder.hpp"
 #include "sim/run/rest_watch.hpp"
 #include "sim/run/spring_watch.hpp"
@@ -30,14 +31,7 @@ class Integration {
       : duration_(scenario.duration),
         first_step_(trajectory.step),
         trajectory_(&trajectory),
-        body_(make_stepper(model, scenario, start, trajectory.step,
-                           {.integrator = options.integrator,
-                            .solver = options.solver,
-                            .ledger = options.ledger,
-                            .precision = options.precision,
-                            .threads = options.threads,
-                            .layout = plan.layout,
-                            .skin = options.skin})),
+        body_(make_stepper(model, scenario, start, trajectory.step, options, plan)),
         recorder_(options.frame_rate, options.ledger, trajectory),
         weight_(scenario.gravity * std::accumulate(model.mass.begin(), model.mass.end(), 0.0)),
         first_center_(body_->center_of_mass()),

@@ -38,16 +38,13 @@ ProbeMotion probe_motion(const MassSpringModel& base, double omega, double durat
 
 State probe_state(const MassSpringModel& model, const ProbeMotion& motion) {
   State state = rest_state(model);
-  Vec3 momentum = Vec3::Zero();
-  double mass = 0;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     const double place = motion.along.dot(model.rest[i] - motion.center) / motion.half_length;
     state.v[i] =
         motion.speed * (place * motion.along + (place * place - kMeanSquare) * motion.across);
-    momentum += model.mass[i] * state.v[i];
-    mass += model.mass[i];
   }
-  for (Vec3& v : state.v) v -= momentum / mass;
+  const Vec3 drift = center_of_mass(model, state.v);
+  for (Vec3& v : state.v) v -= drift;
   // The turning that stretching and bending bring along goes, so that only the spin is left.
   const Vec3 center = mass_properties(model).center;
   const Vec3 turn = motion.spin - angular_velocity(model, state);

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "tests/model/sample_assets.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace springlod {
 namespace {

@@ -1,9 +1,5 @@
-#include <algorithm>
-#include <stdexcept>
-
 #include <catch2/catch.hpp>
 
-#include "scripting/engine/call.hpp"
 #include "scripting/engine/help.hpp"
 #include "scripting/engine/state.hpp"
 #include "tests/cli/program.hpp"
@@ -20,14 +16,6 @@ TEST_CASE("everything a script can reach is described") {
   CAPTURE(missing);
   CHECK(missing.empty());
   CHECK(api->functions().size() > 25);
-}
-
-TEST_CASE("the check of descriptions detects missing entries") {
-  scripting::Api api;
-  api.add(springlod::FunctionEntry{.name = "mute", .options = {{.name = "x", .type = "number"}}});
-  const std::vector<std::string> missing = scripting::undocumented(api);
-  for (const char* hole : {"mute: summary", "mute: returns", "mute: binding", "mute.x: help"})
-    CHECK(std::count(missing.begin(), missing.end(), hole) == 1);
 }
 
 TEST_CASE("docs/api.md equals the output of the program") {
@@ -65,16 +53,4 @@ TEST_CASE("help explains functions, values, types, tables and refuses the rest w
   const Ran unknown = springlod_run({"-e", "help('voxelise')"});
   CHECK(unknown.exit_code == 1);
   CHECK_THAT(unknown.err, Contains("did you mean 'voxelize'?"));
-}
-
-TEST_CASE("a binding that reads what is not listed, or not all that is, fails hard") {
-  scripting::ScriptState state({}, scripting::make_api());
-  const std::vector<scripting::Parameter> listed{{.name = "size"}, {.name = "speed"}};
-  scripting::TableReader reader(state.lua(), 0, listed, "test");
-  double value = 0;
-  CHECK_THROWS_AS(reader.read("colour", value), std::logic_error);
-  reader.read("size", value);
-  CHECK_THROWS_AS(reader.finish(), std::logic_error);
-  reader.read("speed", value);
-  CHECK_NOTHROW(reader.finish());
 }

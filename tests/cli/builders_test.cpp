@@ -37,7 +37,7 @@ TEST_CASE("a script builds a random model, simplifies it and reads the measureme
 }
 
 TEST_CASE("the depth of cells is available in scripts and .vdb files") {
-  const springlod::test::Scratch scratch;
+  const springlod::test::TemporaryFolder scratch;
   const Ran ran = with_grid("local path = '" + (scratch / "grid.vdb").string() + "'\n" + R"(
     local cored = s.voxelize(mesh, {cell = "10 cm", core = {depth = "15 cm",
                                                             material = {young = "1 MPa"}}})

@@ -9,11 +9,11 @@
 using Catch::Matchers::Contains;
 using springlod::test::obj_of_boxes;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::springlod_interrupted;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -47,6 +47,7 @@ TEST_CASE("scripts set regions of interest and weights") {
     refused{regions = {{nodes = foot}}, targets = "modes"}
     refused{regions = {{nodes = foot}}, anchored = foot}
     refused{load_weight = -2}
+    refused{store = "out/kept", keep_every = "-1 s"}
     refused{mode_weight = 0, load_weight = 0}
     local many = {}
     for i = 1, 50 do many[i] = {nodes = {1}, patches = 1} end
@@ -60,12 +61,13 @@ TEST_CASE("scripts set regions of interest and weights") {
         "regions[1]: nodes[1] must be a node number", "regions must be a list of Region tables",
         "left out beside targets = \"modes\"",
         "nodes of region 1 is a border node that is free to move", "load_weight = -2 must be 0 or",
-        "nothing is left to be fitted", "many\t2", "certify: within[1] must be a node number"})
+        "keep_every = -1 must be 0 or more", "nothing is left to be fitted", "many\t2",
+        "certify: within[1] must be a node number"})
     CHECK_THAT(ran.out, Contains(reason));
 }
 
 TEST_CASE("calibration keeps its state in a store and reports stores that it cannot use") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "file", "no folder");
   const std::string code = std::string(kBar) +
                            "local options = {store = arg[1], iterations = 4, patches = 5}\n"
@@ -83,7 +85,7 @@ TEST_CASE("calibration keeps its state in a store and reports stores that it can
 }
 
 TEST_CASE("convert resumes an interrupted calibration and ends with the same levels") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
   const auto arguments = [&](const std::string& name, const std::vector<std::string>& more) {
     std::vector<std::string> all{"convert",     (scratch / "bar.obj").string(),
@@ -97,15 +99,15 @@ TEST_CASE("convert resumes an interrupted calibration and ends with the same lev
     return all;
   };
   const auto bytes = [&](const std::string& name) { return slurp(scratch / name); };
-  const std::string mark = "its state is kept in";
   const Ran whole = springlod_run(arguments("whole.glb", {}));
   CAPTURE(whole.err);
   REQUIRE(whole.exit_code == 0);
   CHECK_FALSE(fs::exists(scratch / "whole.calibration"));
 
-  const Ran stopped = springlod_interrupted(arguments("bar.glb", {}), mark);
+  const Ran stopped = springlod_interrupted(arguments("bar.glb", {"-v"}), "level 1, step 3:");
   CAPTURE(stopped.err);
   CHECK(stopped.exit_code == 130);
+  CHECK_THAT(stopped.err, Contains("its state is kept in"));
   CHECK(fs::exists(scratch / "bar.calibration/level-1-part-1.bin"));
   CHECK_FALSE(fs::exists(scratch / "bar.glb"));
   const Ran resumed = springlod_run(arguments("bar.glb", {}));
@@ -117,7 +119,7 @@ TEST_CASE("convert resumes an interrupted calibration and ends with the same lev
 
 TEST_CASE(
     "convert keeps a calibration in a folder of the user's own, and uses none of another base") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto convert = [&](double length) {
     spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, length}}));
     return springlod_run({"convert", (scratch / "bar.obj").string(), "-o",

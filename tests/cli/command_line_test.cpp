@@ -5,10 +5,10 @@
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::spit;
 using springlod::test::springlod_interrupted;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 TEST_CASE("the options --version and --help go to stdout and exit 0") {
   const Ran version = springlod_run({"--version"});
@@ -67,7 +67,7 @@ TEST_CASE("code comes from -e, a script, or a pipe") {
   CHECK(springlod_run({"-e", "print(...)", "a", "b"}).out == "a\tb\n");
   CHECK(springlod_run({}, "print('piped')").out == "piped\n");
 
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "helper.lua", "return {word = 'from beside'}");
   spit(scratch / "main.lua", "print(require('helper').word, arg[0] ~= nil, #arg, ...)");
   const std::string script = (scratch / "main.lua").string();
@@ -82,7 +82,7 @@ TEST_CASE("global flags stand before the command or after it") {
   CHECK(springlod_run({"--seed", "7", "--threads", "2", "-v", "-e", code}).out == "7\t2\t1\n");
   CHECK(springlod_run({"-q", "-e", code}).out == "1\t0\t-1\n");
 
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "seed.lua", code);
   const std::string script = (scratch / "seed.lua").string();
   CHECK(springlod_run({"run", script, "--seed", "9", "-q"}).out == "9\t0\t-1\n");
@@ -90,7 +90,7 @@ TEST_CASE("global flags stand before the command or after it") {
 }
 
 TEST_CASE("a failing script exits 1 with its line and a traceback") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "bad.lua",
        "local s = require 'springlod'\n"
        "local function build()\n"

@@ -10,10 +10,10 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using springlod::test::make_bar_asset;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -23,12 +23,12 @@ const char* const kScenario =
     "return {name = 'drop', duration = 0.2, throw = {velocity = {1, 0, 0}},\n"
     "        obstacles = {{plane = {0, 0, 1, -0.05}, name = 'floor', friction = 0.4}}}\n";
 
-void make_asset(const Scratch& scratch) {
+void make_asset(const TemporaryFolder& scratch) {
   make_bar_asset(scratch / "bar.glb", 3, {"--cell", "0.25", "--lattice", "centers"});
   spit(scratch / "drop.lua", kScenario);
 }
 
-std::vector<std::string> compare_arguments(const Scratch& scratch, const std::string& out) {
+std::vector<std::string> compare_arguments(const TemporaryFolder& scratch, const std::string& out) {
   return {"compare",    (scratch / "bar.glb").string(),
           "--scenario", (scratch / "drop.lua").string(),
           "--out",      (scratch / out).string(),
@@ -51,7 +51,7 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 }  // namespace
 
 TEST_CASE("compare writes table, chart, frames and timings, with identical results in every run") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(compare_arguments(scratch, "one"));
   CAPTURE(ran.err);
@@ -85,7 +85,7 @@ TEST_CASE("compare writes table, chart, frames and timings, with identical resul
 }
 
 TEST_CASE("compare reports errors of asset and scenario in one line") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   make_asset(scratch);
   const auto refused = [&](const std::string& scenario, const std::string& reason) {
     spit(scratch / "drop.lua", scenario);
@@ -105,7 +105,7 @@ TEST_CASE("compare reports errors of asset and scenario in one line") {
 }
 
 TEST_CASE("a diverging simulation fails with node and time") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Ran ran = springlod_run({"-e", R"(
     local s = require "springlod"
     local m = s.model{nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 1}},

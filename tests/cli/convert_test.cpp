@@ -10,10 +10,10 @@ using nlohmann::json;
 using springlod::test::obj_of_boxes;
 using springlod::test::obj_of_open_box;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -31,7 +31,7 @@ std::string small_dumbbell() {
 }  // namespace
 
 TEST_CASE("convert writes an asset and prints its levels; info prints its contents") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "bar.obj", small_dumbbell());
   spit(scratch / "materials.lua", kMaterials);
   const std::string asset = (scratch / "out/bar.glb").string();
@@ -79,7 +79,7 @@ TEST_CASE("convert writes an asset and prints its levels; info prints its conten
 }
 
 TEST_CASE("convert writes identical files for any number of threads") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "bar.obj", small_dumbbell());
   const auto convert = [&](const std::string& name, const std::string& threads) {
     const Ran ran =
@@ -95,7 +95,7 @@ TEST_CASE("convert writes identical files for any number of threads") {
 }
 
 TEST_CASE("convert calibrates and certifies levels with --calibrate") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));
   const auto convert = [&](const std::string& name, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"convert", (scratch / "bar.obj").string(), "-o",
@@ -120,7 +120,7 @@ TEST_CASE("convert calibrates and certifies levels with --calibrate") {
 }
 
 TEST_CASE("convert prints the default cell size and unit") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));
   const Ran ran = springlod_run({"convert", (scratch / "bar.obj").string(), "-o",
                                  (scratch / "bar.glb").string(), "--levels", "1"});
@@ -130,7 +130,7 @@ TEST_CASE("convert prints the default cell size and unit") {
 }
 
 TEST_CASE("convert reports an invalid mesh in one line") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "empty.obj", "");
   spit(scratch / "picture.png", "\x89PNG\r\n\x1a\n nothing");
   spit(scratch / "open.obj", obj_of_open_box());
@@ -165,7 +165,7 @@ TEST_CASE("convert reports an invalid mesh in one line") {
 }
 
 TEST_CASE("a batch continues after a bad mesh and ends with a table") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "meshes/a.obj", obj_of_boxes({{"a", 0, 2}}));
   spit(scratch / "meshes/b.obj", "this is no mesh\n");
   spit(scratch / "meshes/c.obj", obj_of_boxes({{"c", 0, 1}}));
@@ -191,7 +191,7 @@ TEST_CASE("a batch continues after a bad mesh and ends with a table") {
 }
 
 TEST_CASE("info prints the certificates of levels") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string path = (scratch / "asset.glb").string();
   springlod::LodAsset asset = springlod::test::sample_asset();
   asset.chain.levels[1].certificate = springlod::test::sample_certificate();
@@ -242,7 +242,7 @@ TEST_CASE("info prints the certificates of levels") {
 }
 
 TEST_CASE("info refuses files that are not assets") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "x.glb", "not an asset");
   for (const char* name : {"x.glb", "none.glb"}) {
     const Ran ran = springlod_run({"info", (scratch / name).string()});

@@ -24,8 +24,8 @@ std::size_t colour_count(const springlod::Image& image) {
 }  // namespace
 
 TEST_CASE("all figures of the paper are drawn, and none is blank") {
-  const Scratch scratch;
-  const Ran ran = springlod_run({"-q", "figures", "--quick", scratch.folder().string()});
+  const TemporaryFolder scratch;
+  const Ran ran = springlod_run({"-q", "figures", "--quick", scratch.path().string()});
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
   std::set<std::string> pictures;

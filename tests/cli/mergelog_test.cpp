@@ -7,12 +7,12 @@
 using Catch::Matchers::Contains;
 using springlod::test::make_bar_asset;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 TEST_CASE("mergelog reports where to stop and writes tables, charts and a picture") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto asset = scratch / "bar.glb";
   make_bar_asset(asset, 4, {"--cell", "0.25", "--levels", "1"});
   const auto run = [&](const std::string& folder, std::vector<std::string> options) {
@@ -44,7 +44,7 @@ TEST_CASE("mergelog reports where to stop and writes tables, charts and a pictur
 }
 
 TEST_CASE("mergelog reports invalid requests") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Ran none = springlod_run({"mergelog", (scratch / "none.glb").string()});
   CHECK(none.exit_code == 1);
   CHECK_THAT(none.err, Contains("mergelog: ") && Contains("none.glb"));

@@ -56,7 +56,7 @@ std::vector<std::vector<std::string>> commands_of(const fs::path& page) {
 }
 
 // A folder with samples/, like the root of the repository, for scripts that write to out/.
-void lay_out(const Scratch& scratch) {
+void lay_out(const TemporaryFolder& scratch) {
   fs::create_directory_symlink(kSource / "samples", scratch / "samples");
 }
 
@@ -72,10 +72,10 @@ TEST_CASE("the Lua of every page runs") {
     const std::string script = script_of(page);
     if (script.empty()) continue;
     ++scripts;
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     lay_out(scratch);
     spit(scratch / "page.lua", script);
-    const Ran ran = springlod_run({"-q", "run", "page.lua"}, "", scratch.folder());
+    const Ran ran = springlod_run({"-q", "run", "page.lua"}, "", scratch.path());
     CAPTURE(page.filename().string(), ran.err);
     CHECK(ran.exit_code == 0);
   }
@@ -100,7 +100,7 @@ TEST_CASE("every option that a page gives to a stock command is one of its optio
 }
 
 TEST_CASE("the sample scripts run and write their documented files") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto wrote = [&](const std::string& sample, const std::vector<std::string>& files) {
     const std::string folder = (scratch / sample).string();
     const Ran ran = springlod_run({"-q", "run", "samples/" + sample + ".lua", "--", folder});
@@ -114,7 +114,7 @@ TEST_CASE("the sample scripts run and write their documented files") {
 }
 
 TEST_CASE("the demo reports correct node counts and writes table, chart, video and assets") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const fs::path folder = scratch / "demo";
   const Ran ran = springlod_run({"-q", "run", "scripts/demo.lua", "--", folder.string(), "1", "2"});
   CAPTURE(ran.err);

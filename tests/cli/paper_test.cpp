@@ -8,11 +8,11 @@
 
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::springlod_interrupted;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace {
 
@@ -25,8 +25,9 @@ std::vector<std::string> paper(const std::filesystem::path& folder, const std::s
 
 }  // namespace
 
-TEST_CASE("paper resumes after an interruption, with the same tables for any number of threads") {
-  const Scratch scratch;
+TEST_CASE("paper resumes after an interruption, with the same tables for any number of threads",
+          "[long]") {
+  const TemporaryFolder scratch;
   const Ran whole = springlod_run(paper(scratch / "whole", "5", "2"));
   REQUIRE(whole.exit_code == 0);
   for (const char* part : {"Table 1", "LOD-hb-2", "Table 2", "base at half the step", "die"})
@@ -66,7 +67,7 @@ TEST_CASE("paper resumes after an interruption, with the same tables for any num
 }
 
 TEST_CASE("paper identifies the materials of kept runs by content, independent of the path") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto with_materials = [&](const std::string& file, const std::string& shell) {
     // Soft, for a long time step. The name of the unused material has all characters that CSV
     // quotes.

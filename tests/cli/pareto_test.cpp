@@ -17,7 +17,7 @@ const char* const kScenario =
     "return {name = 'drop', duration = 0.2, throw = {velocity = {1, 0, 0}},\n"
     "        obstacles = {{plane = {0, 0, 1, -0.05}, name = 'floor', friction = 0.4}}}\n";
 
-std::vector<std::string> arguments(const Scratch& scratch,
+std::vector<std::string> arguments(const TemporaryFolder& scratch,
                                    const std::vector<std::string>& more = {}) {
   std::vector<std::string> all{
       "pareto", (scratch / "bar.glb").string(), "--scenario", (scratch / "drop.lua").string(),
@@ -26,7 +26,7 @@ std::vector<std::string> arguments(const Scratch& scratch,
   return all;
 }
 
-void make_asset(const Scratch& scratch) {
+void make_asset(const TemporaryFolder& scratch) {
   make_bar_asset(scratch / "bar.glb", 3, {"--cell", "0.34", "--keep", "0.5,0.3"});
   spit(scratch / "drop.lua", kScenario);
 }
@@ -47,8 +47,9 @@ std::string printed(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat kept runs") {
-  const Scratch scratch;
+TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat kept runs",
+          "[long]") {
+  const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(scratch));
   CAPTURE(ran.err);
@@ -133,7 +134,7 @@ TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat 
 
 TEST_CASE(
     "pareto skips levels that cannot be built, with the reason; wrong use fails before any run") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(
       scratch, {"--groupings", "compact", "--borders", "none,strong", "--calibrations", "none",
@@ -184,7 +185,7 @@ TEST_CASE("a single start can be run, and a level's trajectory compared with its
     assert(#list == base.frame_count and list[1].surface < 1e-12)
     assert(list[#list].surface > 1e-4 and list[#list].shape <= list[#list].surface)
     assert(s.deviation(base, base)[#list].surface == 0)
-    assert(base.planning_seconds > 0 and base.planning_seconds < base.wall_seconds)
+    assert(base.planning_seconds >= 0 and base.planning_seconds <= base.wall_seconds)
     print(pcall(s.deviation, base, s.run(chain[1], scene)))
     print(pcall(s.jittered, scene, chain[0], {jitter = 1}))
     print(pcall(s.jittered, scene, chain[0], {number = 0})))"});

@@ -11,13 +11,13 @@ using springlod::test::number;
 using springlod::test::Ran;
 using springlod::test::Row;
 using springlod::test::rows_of;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
-TEST_CASE("precision --quick: single precision agrees with double within bounds") {
-  const Scratch out;
-  const Ran ran = springlod_run({"-q", "precision", out.folder().string(), "--quick"});
+TEST_CASE("precision --quick: single precision agrees with double within bounds", "[long]") {
+  const TemporaryFolder out;
+  const Ran ran = springlod_run({"-q", "precision", out.path().string(), "--quick"});
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace springlod::test {
 
 /// Exit code and output of one run of the program.
@@ -17,7 +19,9 @@ struct Ran {
 Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input = "",
                   const std::filesystem::path& folder = SPRINGLOD_SOURCE_DIR);
 
-/// Runs it, sends SIGINT as soon as `mark` appears on its stderr, and waits for its end.
+/// Runs it, interrupts it (SIGINT) as soon as `mark` shows on its stderr, and waits for its end.
+/// However slowly the test reads, the program is still at work then if it has more than two lines
+/// left to write after the mark: its stderr is a pipe that holds one line.
 Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark);
 
 /// The program in a pseudo-terminal with simulated keyboard input.
@@ -30,11 +34,12 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
 
   void type(const std::string& keys);
-  /// Waits until `text` appears in the output since the last wait; false after 20 s without it.
+  /// Waits until `text` shows in what came since the last wait; false if nothing more comes, for
+  /// the program ended or hangs.
   bool shows(const std::string& text);
   /// All terminal output so far.
   const std::string& screen() const { return screen_; }
-  /// Waits for the program to exit and returns its exit code; -1 after 20 s.
+  /// Waits for the program to leave; -1 if it hangs.
   int exit_code();
 
  private:
@@ -44,20 +49,6 @@ class Terminal {
   int process_ = -1;
   std::size_t seen_ = 0;
   std::string screen_;
-};
-
-/// A temporary folder, removed with its contents at the end.
-class Scratch {
- public:
-  Scratch();
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-  const std::filesystem::path& folder() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
 };
 
 std::string slurp(const std::filesystem::path& path);

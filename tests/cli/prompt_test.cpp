@@ -4,14 +4,14 @@
 
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 using springlod::test::Terminal;
 
 TEST_CASE("the prompt prints the value of an expression and exits on Ctrl-D") {
-  const Scratch scratch;
-  Terminal terminal({}, scratch.folder());
+  const TemporaryFolder scratch;
+  Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
   terminal.type("6 * 7\n");
   CHECK(terminal.shows("\n42"));
@@ -27,8 +27,8 @@ TEST_CASE("the prompt prints the value of an expression and exits on Ctrl-D") {
 }
 
 TEST_CASE("the prompt accepts a chunk of several lines") {
-  const Scratch scratch;
-  Terminal terminal({}, scratch.folder());
+  const TemporaryFolder scratch;
+  Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
   terminal.type("for i = 1, 2 do\n");
   REQUIRE(terminal.shows(">> "));
@@ -40,8 +40,8 @@ TEST_CASE("the prompt accepts a chunk of several lines") {
 }
 
 TEST_CASE("the prompt continues after an error") {
-  const Scratch scratch;
-  Terminal terminal({}, scratch.folder());
+  const TemporaryFolder scratch;
+  Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
   terminal.type("s.simplfy()\n");
   CHECK(terminal.shows("springlod has no 'simplfy'; did you mean 'simplify'?"));
@@ -52,8 +52,8 @@ TEST_CASE("the prompt continues after an error") {
 }
 
 TEST_CASE("Ctrl-C at the prompt abandons the line, or the chunk, or the computation") {
-  const Scratch scratch;
-  Terminal terminal({}, scratch.folder());
+  const TemporaryFolder scratch;
+  Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
   terminal.type("broken = 'never");
   REQUIRE(terminal.shows("never"));
@@ -76,8 +76,8 @@ TEST_CASE("Ctrl-C at the prompt abandons the line, or the chunk, or the computat
 }
 
 TEST_CASE("Tab completes names of the API, of values and of globals") {
-  const Scratch scratch;
-  Terminal terminal({}, scratch.folder());
+  const TemporaryFolder scratch;
+  Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
   terminal.type("s.simpl\t(1)\n");
   CHECK(terminal.shows("bad argument 1 (model) of simplify"));
@@ -90,9 +90,9 @@ TEST_CASE("Tab completes names of the API, of values and of globals") {
 }
 
 TEST_CASE("the prompt remembers its lines for the next session") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   {
-    Terminal terminal({}, scratch.folder());
+    Terminal terminal({}, scratch.path());
     REQUIRE(terminal.shows("> "));
     terminal.type("'first ' .. 'session'\n");
     REQUIRE(terminal.shows("\nfirst session"));
@@ -101,15 +101,15 @@ TEST_CASE("the prompt remembers its lines for the next session") {
     REQUIRE(terminal.exit_code() == 0);
   }
   CHECK_THAT(slurp(scratch / "springlod/history"), Contains("session"));
-  Terminal terminal({}, scratch.folder());
+  Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
   terminal.type("\x10\n");  // Ctrl-P: previous line
   CHECK(terminal.shows("\nfirst session"));
 }
 
 TEST_CASE("-i opens a prompt after the code, with its globals") {
-  const Scratch scratch;
-  Terminal terminal({"-i", "-e", "answer = 42"}, scratch.folder());
+  const TemporaryFolder scratch;
+  Terminal terminal({"-i", "-e", "answer = 42"}, scratch.path());
   REQUIRE(terminal.shows("> "));
   terminal.type("answer\n");
   CHECK(terminal.shows("\n42"));

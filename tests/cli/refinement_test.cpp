@@ -11,9 +11,9 @@
 
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace {
 
@@ -63,8 +63,8 @@ Ran with_bar(const std::string& script) {
 }  // namespace
 
 TEST_CASE("refinement --quick: errors decrease with the cell size, with order 2 for corners") {
-  const Scratch out;
-  const Ran ran = springlod_run({"refinement", out.folder().string(), "--quick"});
+  const TemporaryFolder out;
+  const Ran ran = springlod_run({"refinement", out.path().string(), "--quick"});
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
   const std::string table = slurp(out / "table.csv");
@@ -87,9 +87,10 @@ TEST_CASE("refinement --quick: errors decrease with the cell size, with order 2 
   CHECK(slurp(out / "orders.csv").find("nan") == std::string::npos);
 }
 
-TEST_CASE("refinement: with eight cells across, all values are within 2 % of Timoshenko") {
-  const Scratch out;
-  const Ran ran = springlod_run({"-q", "refinement", out.folder().string(), "--finest", "8"});
+TEST_CASE("refinement: with eight cells across, all values are within 2 % of Timoshenko",
+          "[long]") {
+  const TemporaryFolder out;
+  const Ran ran = springlod_run({"-q", "refinement", out.path().string(), "--finest", "8"});
   REQUIRE(ran.exit_code == 0);
   const auto corners = errors_of(slurp(out / "table.csv"), "corners");
   check_falling(corners);

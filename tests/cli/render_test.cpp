@@ -11,20 +11,20 @@ using namespace springlod::test;
 namespace {
 
 // Runs `call`, which may use s, m (a model of two nodes), run (0.1 s of it) and folder.
-Ran draw(const std::string& call, const Scratch& scratch) {
+Ran draw(const std::string& call, const TemporaryFolder& scratch) {
   const std::string script = R"(
     local s = require "springlod"
     local folder = ...
     local m = s.model{nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 2}}, springs = {{1, 2, k = 100}}}
     local run = s.run(m, {duration = 0.1})
   )";
-  return springlod_run({"-q", "-e", script + call, scratch.folder().string()});
+  return springlod_run({"-q", "-e", script + call, scratch.path().string()});
 }
 
 }  // namespace
 
 TEST_CASE("invalid options of render are reported with the valid ones") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto refuses = [&](const std::string& arguments, const std::string& message) {
     const Ran ran = draw("s.render(folder .. '/a.png', " + arguments + ")", scratch);
     CAPTURE(arguments, ran.err);
@@ -51,7 +51,7 @@ TEST_CASE("invalid options of render are reported with the valid ones") {
 }
 
 TEST_CASE("panels of one picture can show different things and times, in rows") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Ran ran = draw(R"lua(
     s.render(folder .. "/a.png", {
       {m, node_colour = "mass", title = "mass\nof two nodes"}, {m, node_values = {3, 4}},

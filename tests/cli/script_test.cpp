@@ -5,9 +5,9 @@
 using Catch::Matchers::Contains;
 using springlod::test::obj_of_boxes;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::spit;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace {
 
@@ -20,7 +20,7 @@ Ran run_lua(const std::string& code, const std::vector<std::string>& arguments =
 }  // namespace
 
 TEST_CASE("the script of the architecture page runs, and so does every function of the API") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   spit(scratch / "dumbbell.obj",
        obj_of_boxes({{"rod", 0, 9}, {"rubber", 9, 14}, {"rod_2", 14, 23}}, 4));
   const Ran ran = run_lua(R"(
@@ -67,6 +67,8 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     s.chart(folder .. "/out/line.svg",
             {{name = "line", points = {{1, 2, label = "a"}, {2, 3, low = 2.5, high = 3.5}}}},
             {title = "t", log_y = true})
+    s.save_text(folder .. "/out/mean.txt", "" .. s.mean{1, 2, 6})
+    assert(s.hash{file = folder .. "/out/mean.txt"} == s.hash{text = "3.0"})
     s.csv(folder .. "/out/rows.csv", {{1, "two"}, {3, "four, five"}}, {columns = {"a", "b"}})
     local trajectory = s.run(chain[1], scene, {frame_rate = 100})
     print(trajectory)
@@ -113,7 +115,7 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     for name, value in pairs(s) do
       if type(value) == "function" and not called[name] then print("NEVER CALLED", name) end
     end)",
-                          {scratch.folder().string()});
+                          {scratch.path().string()});
   CAPTURE(ran.out, ran.err);
   CHECK(ran.exit_code == 0);
   CHECK(ran.err.empty());
@@ -138,6 +140,7 @@ TEST_CASE("a model from tables reads back node by node and spring by spring") {
     local n = m:nodes()
     print(#n, n[1].mass, n[1].material, n[2].material, n[2].border, n[2].x, n[3].volume,
           n[3].contact_area)
+    print(s.inspect(m.bounds))
     -- What it gives, it takes.
     local again = s.model{materials = m.materials, nodes = m:nodes(), springs = m:springs()}
     print(s.inspect(again:springs()) == s.inspect(m:springs()),
@@ -147,6 +150,7 @@ TEST_CASE("a model from tables reads back node by node and spring by spring") {
         "1\t2\t100.0\t1.0\t0.2\n"
         "1\t3\t50.0\t0.25\t0.1\n"
         "3\t0.5\tsoft\thard\ttrue\t0.1\t0.5\t0.01\n"
+        "{diagonal = 0.14142135623731, high = {0.1, 0.1, 0}, low = {0, 0, 0}}\n"
         "true\ttrue\n");
 }
 

@@ -8,21 +8,21 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
 using springlod::test::make_bar_asset;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
 namespace {
 
-void make_asset(const Scratch& scratch) {
+void make_asset(const TemporaryFolder& scratch) {
   make_bar_asset(scratch / "bar.glb", 3,
                  {"--cell", "0.5", "--lattice", "corners", "--levels", "1"});
 }
 
-std::vector<std::string> arguments(const Scratch& scratch, const std::string& out,
+std::vector<std::string> arguments(const TemporaryFolder& scratch, const std::string& out,
                                    const std::vector<std::string>& more = {}) {
   std::vector<std::string> all{"stability",
                                (scratch / "bar.glb").string(),
@@ -44,7 +44,7 @@ std::vector<std::string> arguments(const Scratch& scratch, const std::string& ou
 
 TEST_CASE(
     "stability writes map, bodies, timings and picture, identical for any number of threads") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(scratch, "one"));
   CAPTURE(ran.err);
@@ -71,7 +71,7 @@ TEST_CASE(
 }
 
 TEST_CASE("stability reports invalid options and assets in one line") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   make_asset(scratch);
   const auto refused = [&](const std::vector<std::string>& more, int code,
                            const std::string& reason) {
@@ -90,7 +90,7 @@ TEST_CASE("stability reports invalid options and assets in one line") {
 }
 
 TEST_CASE("stability reports the mechanism of a bar one cell thick and does not run it") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   make_bar_asset(scratch / "bar.glb", 6, {"--cell", "1", "--lattice", "centers", "--levels", "0"});
   const Ran ran = springlod_run(arguments(scratch, "out"));
   CAPTURE(ran.err);

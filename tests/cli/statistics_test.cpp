@@ -43,6 +43,16 @@ TEST_CASE("statistics of one sample, two samples and a noise floor in a script")
                                "replacement)\ntrue\tfalse\n2000\ttrue\t4\n"));
 }
 
+TEST_CASE("the mean of a list takes any number of values but none") {
+  const Ran ran = run_lua(R"(
+    print(s.mean(base), s.mean{0.1, 0.2, 0.3} == (0.1 + 0.2 + 0.3) / 3, s.mean{7})
+    print(pcall(s.mean, {}))
+    print(pcall(s.mean, {1, "x"})))");
+  CAPTURE(ran.err);
+  CHECK_THAT(ran.out, Contains("4.5\ttrue\t7.0\n") && Contains("has 0 values") &&
+                          Contains("sample[2] must be a number"));
+}
+
 TEST_CASE("statistics are identical for the same seed") {
   const char* code =
       "print(s.inspect(s.compare_samples(base, other, {margin = 0.5, seed = 3})),"

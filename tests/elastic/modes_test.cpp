@@ -204,10 +204,10 @@ TEST_CASE("Models that are not finite are refused at once, by the node or spring
       CHECK_THROWS_WITH(lowest_modes(m), Catch::Contains("the spring of the nodes"));
       m = sound;
       m.mass[3] = wrong;
-      CHECK_THROWS_WITH(lowest_modes(m), Catch::Contains("node 3 (counted from 0)"));
+      CHECK_THROWS_WITH(lowest_modes(m), Catch::Contains("node 4 "));
       m = sound;
       m.rest[2].y() = wrong;
-      CHECK_THROWS_WITH(lowest_modes(m), Catch::Contains("node 2 (counted from 0)"));
+      CHECK_THROWS_WITH(lowest_modes(m), Catch::Contains("node 3 "));
     }
     ElasticBody body = elastic_body(sound);
     body.parts.front().stiffness.coeffRef(0, 0) = nan;

@@ -4,6 +4,9 @@
 
 #include "base/error.hpp"
 #include "elastic/zero_modes.hpp"
+#include "lod/grouping/grouping.hpp"
+#include "lod/merging/guard.hpp"
+#include "lod/merging/merge.hpp"
 #include "lod/transfer.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/support/models.hpp"

@@ -23,7 +23,7 @@ TEST_CASE("Maps of merges made level by level compose") {
 
 TEST_CASE("Group numbers must be below the count, and every group has a node") {
   CHECK_NOTHROW(validate(Groups{{1, 0, 1}, 2}));
-  CHECK_THROWS_WITH(validate(Groups{{0, 2}, 2}), Contains("node 1") && Contains("group 2"));
+  CHECK_THROWS_WITH(validate(Groups{{0, 2}, 2}), Contains("node 2") && Contains("group 3"));
   CHECK_THROWS_WITH(validate(Groups{{0, 2}, 3}), Contains("group 1 is empty"));
 }
 
@@ -41,7 +41,7 @@ TEST_CASE("A broken asset is refused, the level named") {
   CHECK_NOTHROW(validate(asset));
   SECTION("a model") {
     asset.chain.levels[2].model.stiffness[1] = 0;
-    CHECK_THROWS_WITH(validate(asset), Contains("level 2") && Contains("spring 1"));
+    CHECK_THROWS_WITH(validate(asset), Contains("level 2") && Contains("spring 2"));
   }
   SECTION("a map of the wrong length") {
     asset.chain.levels[1].of_base.of.pop_back();
@@ -57,7 +57,7 @@ TEST_CASE("A broken asset is refused, the level named") {
   }
   SECTION("a vertex that hangs on a node that is not there") {
     asset.surface_of_base.node[5] = 80;
-    CHECK_THROWS_WITH(validate(asset), Contains("entry 5") && Contains("node 80"));
+    CHECK_THROWS_WITH(validate(asset), Contains("entry 6") && Contains("node 81"));
   }
   SECTION("rows of the binding out of order") {
     std::swap(asset.surface_of_base.start[2], asset.surface_of_base.start[3]);

@@ -1,36 +1,11 @@
 #pragma once
 
 #include <cmath>
-#include <filesystem>
-
-#include <unistd.h>
 
 #include "model/chain.hpp"
 #include "tests/model/sample_models.hpp"
 
 namespace springlod::test {
-
-/// A fresh folder, removed with everything in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static int count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            ("springlod_test_" + std::to_string(getpid()) + "_" + std::to_string(++count));
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Closed box from the origin to `size`, in two parts.
 inline TriangleMesh box_mesh(const Vec3& size) {

@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "tests/render/golden.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
 using namespace springlod::render;
@@ -27,7 +28,7 @@ Image grey(std::uint8_t level) {
 }  // namespace
 
 TEST_CASE("images are written in order and equal those of save_png") {
-  const TemporaryFolder folder("writer");
+  const TemporaryFolder folder;
   constexpr std::uint32_t kFrames = 20;
   FrameWriter writer;
   for (std::uint32_t k = 0; k < kFrames; ++k)

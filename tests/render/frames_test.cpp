@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "tests/render/golden.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
 using namespace springlod::render;
@@ -25,7 +26,7 @@ Image gradient(std::uint32_t width, std::uint32_t height) {
 }  // namespace
 
 TEST_CASE("an image read from a PNG file equals the written one") {
-  const TemporaryFolder folder("frames");
+  const TemporaryFolder folder;
   const Image image = gradient(61, 47);
   save_png(image, folder.path() / "new" / "picture.png");  // creates the folder
   const Image back = load_png(folder.path() / "new" / "picture.png");
@@ -35,7 +36,7 @@ TEST_CASE("an image read from a PNG file equals the written one") {
 }
 
 TEST_CASE("pictures that cannot be written or read are refused") {
-  const TemporaryFolder folder("frames");
+  const TemporaryFolder folder;
   CHECK_THROWS_AS(save_png(Image{}, folder.path() / "a.png"), InputError);
   CHECK_THROWS_AS(save_png(Image{2, 2, {1, 2, 3}}, folder.path() / "a.png"), InputError);
   CHECK_THROWS_AS(load_png(folder.path() / "missing.png"), IoError);
@@ -46,7 +47,7 @@ TEST_CASE("pictures that cannot be written or read are refused") {
 }
 
 TEST_CASE("a damaged PNG file is an error, not a crash") {
-  const TemporaryFolder folder("frames");
+  const TemporaryFolder folder;
   const auto path = folder.path() / "a.png";
   save_png(gradient(40, 40), path);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);

@@ -40,25 +40,4 @@ inline void check_golden(const render::Image& picture, const std::string& name) 
   SUCCEED();
 }
 
-/// A temporary folder, removed at the end.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& name) {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / ("springlod_" + name + "_XXXXXX")).string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace springlod::test

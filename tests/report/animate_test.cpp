@@ -9,6 +9,7 @@
 #include "report/playback.hpp"
 #include "tests/render/bodies.hpp"
 #include "tests/render/golden.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
 using namespace springlod::report;
@@ -81,7 +82,7 @@ TEST_CASE("smoothing keeps straight paths and their ends") {
 }
 
 TEST_CASE("base and level are drawn side by side, synchronized") {
-  const TemporaryFolder folder("animate");
+  const TemporaryFolder folder;
   const Film film;
   const Animation animation = animate(film.asset, film.comparison, folder.path(), small());
   CHECK(animation.frames == 16);  // 0.5 s at 30 frames per second, first and last included
@@ -94,7 +95,7 @@ TEST_CASE("base and level are drawn side by side, synchronized") {
 }
 
 TEST_CASE("a frame of an animation matches its golden image") {
-  const TemporaryFolder folder("animate");
+  const TemporaryFolder folder;
   const Film film;
   AnimateOptions options = small();
   options.width = 240;
@@ -105,7 +106,7 @@ TEST_CASE("a frame of an animation matches its golden image") {
 }
 
 TEST_CASE("slow motion makes more frames, a limit fewer, and surplus old frames are removed") {
-  const TemporaryFolder folder("animate");
+  const TemporaryFolder folder;
   const Film film;
   AnimateOptions options = small();
   options.width = 32;
@@ -121,7 +122,7 @@ TEST_CASE("slow motion makes more frames, a limit fewer, and surplus old frames 
 }
 
 TEST_CASE("a run that ended early holds its last frame") {
-  const TemporaryFolder folder("animate");
+  const TemporaryFolder folder;
   Film film;
   film.comparison.levels[1].first.frames.resize(3);
   film.comparison.levels[1].base_frames.resize(3);
@@ -143,7 +144,7 @@ TEST_CASE("a run that ended early holds its last frame") {
 }
 
 TEST_CASE("follow camera, nodes and springs, and an asset without surface can be drawn") {
-  const TemporaryFolder folder("animate");
+  const TemporaryFolder folder;
   Film film;
   film.asset.surface = {};
   film.asset.surface_of_base = {};
@@ -157,7 +158,7 @@ TEST_CASE("follow camera, nodes and springs, and an asset without surface can be
 }
 
 TEST_CASE("the camera avoids a wall that would hide the motion") {
-  const TemporaryFolder folder("animate");
+  const TemporaryFolder folder;
   const Film film;  // its wall is at +x, facing -x; the default eye is at +x
   AnimateOptions options = small();
   options.frames = 1;
@@ -172,7 +173,7 @@ TEST_CASE("the camera avoids a wall that would hide the motion") {
 }
 
 TEST_CASE("runs that do not fit the asset are refused") {
-  const TemporaryFolder folder("animate");
+  const TemporaryFolder folder;
   const Film film;
   const auto refused = [&](const sim::Comparison& comparison, const char* why) {
     CHECK_THROWS_WITH(animate(film.asset, comparison, folder.path(), small()),
@@ -199,7 +200,7 @@ TEST_CASE("runs that do not fit the asset are refused") {
 }
 
 TEST_CASE("a frame that cannot be written ends the animation with its name") {
-  const TemporaryFolder folder("animate");
+  const TemporaryFolder folder;
   const Film film;
   // A folder that is not empty cannot be replaced by a file.
   std::filesystem::create_directories(render::frame_path(folder.path(), 3) / "in the way");

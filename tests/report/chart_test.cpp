@@ -13,6 +13,7 @@
 #include "report/chart_layout.hpp"
 #include "tests/render/golden.hpp"
 #include "tests/report/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
 using namespace springlod::report;
@@ -35,7 +36,7 @@ TEST_CASE("a chart is drawn with its labels, and script and data are kept beside
     WARN("gnuplot is not installed: not tested");
     return;
   }
-  const TemporaryFolder folder("chart");
+  const TemporaryFolder folder;
   const auto path = folder.path() / "it's here" / "cost.svg";
   const ChartFiles files = draw_chart(some_series(), kOptions, path);
   REQUIRE(files.drawn);
@@ -62,7 +63,7 @@ TEST_CASE("a chart can be a PNG") {
     WARN("gnuplot is not installed: not tested");
     return;
   }
-  const TemporaryFolder folder("chart");
+  const TemporaryFolder folder;
   REQUIRE(draw_chart(some_series(), kOptions, folder.path() / "cost.png").drawn);
   const render::Image image = render::load_png(folder.path() / "cost.png");
   CHECK(image.width == 900);
@@ -70,7 +71,7 @@ TEST_CASE("a chart can be a PNG") {
 }
 
 TEST_CASE("points have intervals in x and y, and series have their own styles") {
-  const TemporaryFolder folder("chart");
+  const TemporaryFolder folder;
   const PathIs nothing("");  // gnuplot is not found: the test reads the script
   ChartOptions options{"Looks", "x", "y", true, true};
   options.width = 1200;
@@ -106,7 +107,7 @@ TEST_CASE("points have intervals in x and y, and series have their own styles") 
 }
 
 TEST_CASE("without gnuplot a chart keeps script, data and the command") {
-  const TemporaryFolder folder("chart");
+  const TemporaryFolder folder;
   const PathIs nothing("");
   const ChartFiles files = draw_chart(some_series(), kOptions, folder.path() / "cost.svg");
   CHECK_FALSE(files.drawn);
@@ -117,7 +118,7 @@ TEST_CASE("without gnuplot a chart keeps script, data and the command") {
 }
 
 TEST_CASE("a failing gnuplot is reported with what it said") {
-  const TemporaryFolder folder("chart");
+  const TemporaryFolder folder;
   const auto fake = folder.path() / "gnuplot";
   std::ofstream(fake) << "#!/bin/sh\necho no such terminal >&2\nexit 3\n";
   std::filesystem::permissions(fake, std::filesystem::perms::owner_all);
@@ -128,7 +129,7 @@ TEST_CASE("a failing gnuplot is reported with what it said") {
 }
 
 TEST_CASE("charts without points, with NaN or with another extension are refused") {
-  const TemporaryFolder folder("chart");
+  const TemporaryFolder folder;
   ChartPoint nowhere;
   nowhere.y = NAN;
   CHECK_THROWS_AS(draw_chart({}, kOptions, folder.path() / "a.svg"), InputError);

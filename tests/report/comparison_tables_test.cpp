@@ -1,5 +1,6 @@
-#include <cstdlib>
+#include <cstdint>
 #include <string>
+#include <variant>
 
 #include <catch2/catch.hpp>
 
@@ -47,7 +48,11 @@ sim::Comparison comparison() {
 
 double number(const Table& table, std::size_t row, const std::string& column) {
   for (std::size_t c = 0; c < table.columns.size(); ++c)
-    if (table.columns[c] == column) return std::strtod(table.rows.at(row).at(c).c_str(), nullptr);
+    if (table.columns[c] == column) {
+      const Cell& cell = table.rows.at(row).at(c);
+      const auto* whole_number = std::get_if<std::int64_t>(&cell);
+      return whole_number != nullptr ? static_cast<double>(*whole_number) : std::get<double>(cell);
+    }
   FAIL("no column " + column);
   return 0;
 }

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "tests/render/golden.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
 using namespace springlod::report;
@@ -25,22 +26,37 @@ TEST_CASE("numbers have their shortest text that parses to the same value") {
 }
 
 TEST_CASE("cells with commas, quotes and line breaks are quoted by RFC 4180") {
-  const TemporaryFolder folder("csv");
+  const TemporaryFolder folder;
   const auto path = folder.path() / "table.csv";
-  save_csv({{"name", "value"}, {{"a,b", "1"}, {"say \"hi\"", "2\n3"}, {"plain", ""}}}, path);
+  save_csv({{"name", "value"}, {{"a,b", whole(1)}, {"say \"hi\"", "2\n3"}, {"plain", Cell()}}},
+           path);
   CHECK(read_file(path) == "name,value\r\n\"a,b\",1\r\n\"say \"\"hi\"\"\",\"2\n3\"\r\nplain,\r\n");
 }
 
-TEST_CASE("a ragged table is refused") {
+TEST_CASE("a CSV file has numbers in full, a terminal four digits of them") {
   const TemporaryFolder folder("csv");
+  const auto path = folder.path() / "table.csv";
+  const Table table{{"n", "x"}, {{whole(123456789), 1. / 3}, {Cell(), 2.0}}};
+  save_csv(table, path);
+  CHECK(read_file(path) == "n,x\r\n123456789,0.3333333333333333\r\n,2\r\n");
+  CHECK(format_table(table) ==
+        "        n       x\n"
+        "─────────  ──────\n"
+        "123456789  0.3333\n"
+        "                2\n");
+}
+
+TEST_CASE("a ragged table is refused") {
+  const TemporaryFolder folder;
   const Table ragged{{"a", "b"}, {{"1", "2"}, {"3"}}};
   CHECK_THROWS_WITH(save_csv(ragged, folder.path() / "t.csv"), Catch::Contains("row 2"));
   CHECK_THROWS_AS(format_table(ragged), InputError);
 }
 
 TEST_CASE("a terminal table right-aligns numbers and counts characters, not bytes") {
-  const Table table{{"name", "nodes", "error"},
-                    {{"größe", "368", "12.5 %"}, {"LOD-1", "67", "-"}, {"x", "", "3 %"}}};
+  const Table table{
+      {"name", "nodes", "error"},
+      {{"größe", whole(368), "12.5 %"}, {"LOD-1", whole(67), "-"}, {"x", Cell(), "3 %"}}};
   CHECK(format_table(table) ==
         "name   nodes   error\n"
         "─────  ─────  ──────\n"

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include <boost/math/distributions/normal.hpp>
+
 #include "base/chance.hpp"
-#include "report/stats/probability.hpp"
 
 namespace springlod::test {
 
@@ -14,7 +15,7 @@ using Values = std::vector<double>;
 
 inline double normal_draw(ChanceStream& chance) {
   // The middle of one of 2^53 cells of (0, 1), which excludes both ends.
-  return report::normal_quantile(chance.unit() + 0x1p-54);
+  return quantile(boost::math::normal(), chance.unit() + 0x1p-54);
 }
 
 inline Values normal_sample(ChanceStream& chance, int size, double mean = 0, double deviation = 1) {

@@ -10,6 +10,7 @@
 #include "render/frames.hpp"
 #include "tests/render/golden.hpp"
 #include "tests/report/programs.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
 using namespace springlod::report;
@@ -32,7 +33,7 @@ TEST_CASE("frames are encoded as mp4 and gif, also with odd sides and unusual fo
     WARN("ffmpeg is not installed: not tested");
     return;
   }
-  const TemporaryFolder folder("video");
+  const TemporaryFolder folder;
   const auto frames = folder.path() / "100%d it's";
   write_frames(frames, 6);
   for (const char* name : {"a.mp4", "a.gif"}) {
@@ -53,7 +54,7 @@ TEST_CASE("frames are encoded as mp4 and gif, also with odd sides and unusual fo
 }
 
 TEST_CASE("without ffmpeg the frames are kept and the command is reported") {
-  const TemporaryFolder folder("video");
+  const TemporaryFolder folder;
   write_frames(folder.path(), 2);
   const PathIs nothing("");
   const VideoResult result = encode_video(folder.path(), 25, folder.path() / "a.mp4");
@@ -65,7 +66,7 @@ TEST_CASE("without ffmpeg the frames are kept and the command is reported") {
 }
 
 TEST_CASE("a video that cannot be made is refused with a reason") {
-  const TemporaryFolder folder("video");
+  const TemporaryFolder folder;
   CHECK_THROWS_WITH(encode_video(folder.path(), 30, folder.path() / "a.mp4"),
                     Catch::Contains("draw the frames first"));
   write_frames(folder.path(), 1);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "sim/fast/fast_leapfrog.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/integrators/stepper.hpp"
 #include "tests/sim/bodies.hpp"
@@ -57,9 +59,14 @@ struct Outcome {
   std::optional<double> first_contact;
 };
 
+/// The options of a stepper of this type.
+template <class Scheme>
+using OptionsOf = std::conditional_t<std::is_same_v<Scheme, sim::FastLeapfrog>, sim::FastOptions,
+                                     sim::StepperOptions>;
+
 template <class Scheme>
 Outcome after(const MassSpringModel& model, const sim::Scenario& scene, std::uint64_t steps,
-              const sim::StepperOptions& options, std::uint64_t stride) {
+              const OptionsOf<Scheme>& options, std::uint64_t stride) {
   const double step = 0.5 * sim::predicted_step(model, scene, sim::Integrator::symplectic_euler,
                                                 options.skin.get());
   Scheme body(model, scene, sim::initial_state(model, scene.start), step, options);

@@ -7,8 +7,8 @@
 #include "base/error.hpp"
 #include "tests/voxelize/grids.hpp"
 
-using namespace springlod;
-using namespace springlod::voxelize;
+namespace springlod::voxelize {
+
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 
@@ -43,3 +43,5 @@ TEST_CASE("a grid with wrong sizes, numbers or edges is refused") {
   refused([](MaterialGrid& g) { g.materials[0].young = -1; });
   refused([](MaterialGrid& g) { g.cells[3] = {0, 0, std::numeric_limits<std::int32_t>::max()}; });
 }
+
+}  // namespace springlod::voxelize

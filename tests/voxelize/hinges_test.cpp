@@ -7,8 +7,8 @@
 #include "tests/voxelize/grids.hpp"
 #include "voxelize/lattice.hpp"
 
-using namespace springlod;
-using namespace springlod::voxelize;
+namespace springlod::voxelize {
+
 using namespace springlod::test;
 
 namespace {
@@ -112,3 +112,5 @@ TEST_CASE("both policies leave no hinge in a random heap of cells") {
   CHECK_NOTHROW(validate(grid));
   CHECK(find_hinges(grid, corner_nodes(grid.cells)).empty());
 }
+
+}  // namespace springlod::voxelize

@@ -7,31 +7,24 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <catch2/catch.hpp>
-#include <unistd.h>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "voxelize/solid.hpp"
 
-using namespace springlod;
-using namespace springlod::voxelize;
+namespace springlod::voxelize {
+
 using Catch::Matchers::Contains;
+using springlod::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("springlod-import-" + std::to_string(getpid()));
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path write(const std::string& name, const std::string& text) const {
-    write_text_file(path / name, text);
-    return path / name;
-  }
-};
+fs::path write(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
+  write_text_file(folder / name, text);
+  return folder / name;
+}
 
 // A box 1 x 2 x 3 of two materials, and a tetrahedron; z up.
 const std::string kBoxObj = R"(mtllib box.mtl
@@ -64,19 +57,20 @@ f 11 9 12
 )";
 const std::string kBoxMtl = "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n";
 
-fs::path write_box(const Folder& folder) {
-  folder.write("box.mtl", kBoxMtl);
-  return folder.write("box.obj", kBoxObj);
+fs::path write_box(const TemporaryFolder& folder) {
+  write(folder, "box.mtl", kBoxMtl);
+  return write(folder, "box.obj", kBoxObj);
 }
 
 // The box of write_box in another format, through assimp's exporter.
-fs::path export_box(const Folder& folder, const std::string& format, const std::string& name) {
+fs::path export_box(const TemporaryFolder& folder, const std::string& format,
+                    const std::string& name) {
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(write_box(folder).string(), aiProcess_Triangulate);
   REQUIRE(scene != nullptr);
   Assimp::Exporter exporter;
-  REQUIRE(exporter.Export(scene, format, (folder.path / name).string()) == aiReturn_SUCCESS);
-  return folder.path / name;
+  REQUIRE(exporter.Export(scene, format, (folder / name).string()) == aiReturn_SUCCESS);
+  return folder / name;
 }
 
 double total_volume(const TriangleMesh& mesh) {
@@ -99,7 +93,7 @@ const double kBoxVolume = 6 + 1.0 / 6;
 }  // namespace
 
 TEST_CASE("an OBJ file keeps the names and materials of its parts") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const ImportedMesh imported = import_mesh(write_box(folder));
   const auto& parts = imported.mesh.parts;
   REQUIRE(parts.size() == 3);
@@ -120,7 +114,7 @@ TEST_CASE("an OBJ file keeps the names and materials of its parts") {
 }
 
 TEST_CASE("the same box comes out of every format, in metres and z up") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Vec3 z_up(6, 2, 3);
   const Vec3 y_up(6, 0, 2);  // y became z, z became -y
   struct Case {
@@ -161,10 +155,10 @@ TEST_CASE("the same box comes out of every format, in metres and z up") {
 }
 
 TEST_CASE("an OFF file is read, and an unnamed part gets a number") {
-  const Folder folder;
-  const auto path = folder.write("tip.off",
-                                 "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
-                                 "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+  const TemporaryFolder folder;
+  const auto path = write(folder, "tip.off",
+                          "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                          "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
   const ImportedMesh imported = import_mesh(path);
   CHECK(imported.report.format == "OFF");
   REQUIRE(imported.mesh.parts.size() == 1);
@@ -174,7 +168,7 @@ TEST_CASE("an OFF file is read, and an unnamed part gets a number") {
 }
 
 TEST_CASE("the caller's unit and up axis win and are not called assumed") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const ImportedMesh imported = import_mesh(write_box(folder), {.unit = 0.01, .up = UpAxis::y});
   CHECK(imported.report.unit == 0.01);
   CHECK_FALSE(imported.report.unit_assumed);
@@ -189,50 +183,50 @@ TEST_CASE("the caller's unit and up axis win and are not called assumed") {
 }
 
 TEST_CASE("FBX says its unit and up axis") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = read_file(export_box(folder, "fbxa", "box.fbx"));
   replace(text, R"("UpAxis", "int", "Integer", "", 1)", R"("UpAxis", "int", "Integer", "", 2)");
   replace(text, R"("UnitScaleFactor", "double", "Number", "", 1)",
           R"("UnitScaleFactor", "double", "Number", "", 2.54)");
-  const ImportedMesh imported = import_mesh(folder.write("inch.fbx", text));
+  const ImportedMesh imported = import_mesh(write(folder, "inch.fbx", text));
   CHECK(imported.report.unit == Approx(0.0254));
   CHECK(imported.report.up == UpAxis::z);
   CHECK(bounds(imported.mesh).max().isApprox(0.0254 * Vec3(6, 2, 3), 1e-6));
   // The caller knows better.
-  const ImportedMesh forced = import_mesh(folder.path / "inch.fbx", {.unit = 1, .up = UpAxis::y});
+  const ImportedMesh forced = import_mesh(folder / "inch.fbx", {.unit = 1, .up = UpAxis::y});
   CHECK(bounds(forced.mesh).max().isApprox(Vec3(6, 0, 2), 1e-6));
 }
 
 TEST_CASE("Collada says its unit and up axis") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = read_file(export_box(folder, "collada", "box.dae"));
   replace(text, R"(meter="1")", R"(meter="0.001")");
   replace(text, "Y_UP", "Z_UP");
-  const ImportedMesh imported = import_mesh(folder.write("mm.dae", text));
+  const ImportedMesh imported = import_mesh(write(folder, "mm.dae", text));
   CHECK(imported.report.unit == Approx(0.001));
   CHECK(imported.report.up == UpAxis::z);
   CHECK(bounds(imported.mesh).max().isApprox(0.001 * Vec3(6, 2, 3), 1e-6));
-  const ImportedMesh forced = import_mesh(folder.path / "mm.dae", {.unit = 1, .up = {}});
+  const ImportedMesh forced = import_mesh(folder / "mm.dae", {.unit = 1, .up = {}});
   CHECK(bounds(forced.mesh).max().isApprox(Vec3(6, 2, 3), 1e-6));
 }
 
 TEST_CASE("node transforms are applied, a mirror turns the winding back") {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = read_file(export_box(folder, "gltf2", "box.gltf"));
   const std::size_t at = text.find("\"name\"", text.find("\"nodes\""));
   REQUIRE(at != text.npos);
   // The first node is the root: twice as large, mirrored in x, moved by 10 along glTF's y.
   text.insert(at, R"("scale": [-2, 2, 2], "translation": [0, 10, 0], )");
-  const ImportedMesh imported = import_mesh(folder.write("mirrored.gltf", text));
+  const ImportedMesh imported = import_mesh(write(folder, "mirrored.gltf", text));
   CHECK(total_volume(imported.mesh) == Approx(8 * kBoxVolume));
   CHECK(bounds(imported.mesh).min().isApprox(Vec3(-12, -6, 10), 1e-6));
 }
 
 TEST_CASE("faces with doubled vertices are dropped, doubled positions welded") {
-  const Folder folder;
-  const auto path = folder.write("tip.obj",
-                                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -0 0 0\nv 1 0 0\n"
-                                 "f 1 3 2\nf 5 6 4\nf 2 3 4\nf 3 1 4\nf 1 5 4\n");
+  const TemporaryFolder folder;
+  const auto path = write(folder, "tip.obj",
+                          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -0 0 0\nv 1 0 0\n"
+                          "f 1 3 2\nf 5 6 4\nf 2 3 4\nf 3 1 4\nf 1 5 4\n");
   const ImportedMesh imported = import_mesh(path);
   CHECK(imported.mesh.positions.size() == 4);
   CHECK(imported.mesh.triangles.size() == 4);
@@ -241,36 +235,36 @@ TEST_CASE("faces with doubled vertices are dropped, doubled positions welded") {
 }
 
 TEST_CASE("what is no mesh is refused with the formats that are read") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto refused = [](const fs::path& path, const std::string& with) {
     INFO(path);
     CHECK_THROWS_AS(import_mesh(path), IoError);
     CHECK_THROWS_WITH(import_mesh(path), Contains(with));
   };
-  refused(folder.path / "nowhere.obj", "nowhere.obj: No such file");
-  refused(folder.path, "is a folder");
-  refused(folder.write("empty.stl", ""), "is empty");
-  refused(folder.write("picture.png", "\x89PNG\r\n\x1a\n1234"), ".obj, .stl, .ply");
-  refused(folder.write("table.3mf", "PK"), ".obj, .stl, .ply");
+  refused(folder / "nowhere.obj", "nowhere.obj: No such file");
+  refused(folder.path(), "is a folder");
+  refused(write(folder, "empty.stl", ""), "is empty");
+  refused(write(folder, "picture.png", "\x89PNG\r\n\x1a\n1234"), ".obj, .stl, .ply");
+  refused(write(folder, "table.3mf", "PK"), ".obj, .stl, .ply");
   const std::string text = "this is a letter, not a mesh\n";
   for (const char* ending : {"obj", "stl", "ply", "glb", "gltf", "fbx", "off", "dae"})
-    refused(folder.write(std::string("letter.") + ending, text), "cannot read");
-  refused(folder.write("picture.obj", "\x89PNG\r\n\x1a\n1234"), "cannot read");
+    refused(write(folder, std::string("letter.") + ending, text), "cannot read");
+  refused(write(folder, "picture.obj", "\x89PNG\r\n\x1a\n1234"), "cannot read");
 }
 
 TEST_CASE("vertices that are not finite and meshes without faces are refused") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string faces = "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   for (const char* bad : {"v 0 0 nan\n", "v 0 inf 0\n"}) {
-    const auto path = folder.write("bad.obj", bad + faces);
+    const auto path = write(folder, "bad.obj", bad + faces);
     CHECK_THROWS_AS(import_mesh(path), InputError);
     CHECK_THROWS_WITH(import_mesh(path), Contains("not finite"));
   }
-  CHECK_THROWS_AS(import_mesh(folder.write("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")), InputError);
+  CHECK_THROWS_AS(import_mesh(write(folder, "line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")), InputError);
 }
 
 TEST_CASE("the report says in words what was assumed") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string assumed = describe(import_mesh(write_box(folder)).report);
   CHECK_THAT(assumed,
              Contains("assumed 1 unit = 1 m (OBJ does not say; the option unit changes it)"));
@@ -280,3 +274,5 @@ TEST_CASE("the report says in words what was assumed") {
   CHECK_THAT(given, !Contains("assumed"));
   CHECK_THAT(given, Contains("0.001 m"));
 }
+
+}  // namespace springlod::voxelize

@@ -9,8 +9,8 @@
 #include "base/error.hpp"
 #include "tests/voxelize/grids.hpp"
 
-using namespace springlod;
-using namespace springlod::voxelize;
+namespace springlod::voxelize {
+
 using namespace springlod::test;
 
 namespace {
@@ -195,3 +195,5 @@ TEST_CASE("a lattice of 100 thousand nodes has the counts of its cube") {
   CHECK(lattice.model.spring_count() == 3 * (n - 1) * n * n + 6 * (n - 1) * (n - 1) * n);
   CHECK(lattice.parts == 1);
 }
+
+}  // namespace springlod::voxelize

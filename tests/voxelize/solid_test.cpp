@@ -4,8 +4,8 @@
 
 #include "tests/voxelize/shapes.hpp"
 
-using namespace springlod;
-using namespace springlod::voxelize;
+namespace springlod::voxelize {
+
 using namespace springlod::test;
 
 namespace {
@@ -111,3 +111,5 @@ TEST_CASE("a wall inside a box gives edges with three triangles") {
   add_part(mesh, "box", box_corners({0, 0, 0}, {1, 1, 1}), triangles);
   CHECK(check_solid(mesh)[0].nonmanifold_edges >= 2);
 }
+
+}  // namespace springlod::voxelize

@@ -1,29 +1,20 @@
 #include "voxelize/vdb_file.hpp"
 
 #include <catch2/catch.hpp>
-#include <unistd.h>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/voxelize/grids.hpp"
 #include "tests/voxelize/shapes.hpp"
 
-using namespace springlod;
-using namespace springlod::voxelize;
+namespace springlod::voxelize {
+
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("springlod-vdb-" + std::to_string(getpid()));
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-};
 
 void check_same(const MaterialGrid& l, const MaterialGrid& r) {
   CHECK(l.cell == r.cell);
@@ -38,59 +29,61 @@ void check_same(const MaterialGrid& l, const MaterialGrid& r) {
 }  // namespace
 
 TEST_CASE("a voxelized mesh comes back from a .vdb file as it was") {
-  const Folder folder;
+  const TemporaryFolder folder;
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0.1, 0.2, 0.3}, 1);
   VoxelizeOptions options;
   options.fallback = {"shell", 1.1e5, 333, 0.00123, {0.1F, 0.2F, 0.3F}};
   options.core_shell = {0.3, {"core", 7.7e6, 1234.5, 0.004, {0.9F, 0.8F, 0.7F}}};
-  const MaterialGrid grid = voxelize(mesh, options).grid;
-  save_vdb(grid, folder.path / "made/ball.vdb");
-  const MaterialGrid loaded = load_vdb(folder.path / "made/ball.vdb");
+  const MaterialGrid grid = voxelize::voxelize(mesh, options).grid;
+  save_vdb(grid, folder / "made/ball.vdb");
+  const MaterialGrid loaded = load_vdb(folder / "made/ball.vdb");
   check_same(grid, loaded);
   // What was loaded can be saved again, its level set included.
-  save_vdb(loaded, folder.path / "again.vdb");
-  check_same(grid, load_vdb(folder.path / "again.vdb"));
+  save_vdb(loaded, folder / "again.vdb");
+  check_same(grid, load_vdb(folder / "again.vdb"));
 }
 
 TEST_CASE("a grid from a table comes back too, with negative cells and without depths") {
-  const Folder folder;
+  const TemporaryFolder folder;
   MaterialGrid grid = grid_of({{-70, 3, 900}, {0, 0, 0}, {-1, -1, -1}, {-1, 0, 0}}, 0.013);
   grid.origin = Vec3(0.1, -0.7, 1.0 / 3);
   grid.material[2] = 1;
   grid.depth.clear();
-  save_vdb(grid, folder.path / "table.vdb");
-  check_same(grid, load_vdb(folder.path / "table.vdb"));
+  save_vdb(grid, folder / "table.vdb");
+  check_same(grid, load_vdb(folder / "table.vdb"));
 }
 
 TEST_CASE("what is no .vdb file of ours is refused") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto refused = [](const fs::path& path, const std::string& with) {
     CHECK_THROWS_AS(load_vdb(path), IoError);
     CHECK_THROWS_WITH(load_vdb(path), Contains(with));
   };
-  refused(folder.path / "nowhere.vdb", "no such file");
-  refused(folder.path, "is a folder");
-  write_text_file(folder.path / "text.vdb", "hello, this is not a grid");
-  refused(folder.path / "text.vdb", "is not a .vdb file");
-  write_text_file(folder.path / "empty.vdb", "");
-  refused(folder.path / "empty.vdb", "is not a .vdb file");
+  refused(folder / "nowhere.vdb", "no such file");
+  refused(folder.path(), "is a folder");
+  write_text_file(folder / "text.vdb", "hello, this is not a grid");
+  refused(folder / "text.vdb", "is not a .vdb file");
+  write_text_file(folder / "empty.vdb", "");
+  refused(folder / "empty.vdb", "is not a .vdb file");
 }
 
 TEST_CASE("a .vdb file that ends too early is refused") {
-  const Folder folder;
-  save_vdb(box_grid(20, 20, 20), folder.path / "whole.vdb");
-  const std::string bytes = read_file(folder.path / "whole.vdb");
+  const TemporaryFolder folder;
+  save_vdb(box_grid(20, 20, 20), folder / "whole.vdb");
+  const std::string bytes = read_file(folder / "whole.vdb");
   for (const std::size_t length : {std::size_t{8}, std::size_t{40}, bytes.size() / 2}) {
-    write_text_file(folder.path / "cut.vdb", bytes.substr(0, length));
-    CHECK_THROWS_AS(load_vdb(folder.path / "cut.vdb"), IoError);
+    write_text_file(folder / "cut.vdb", bytes.substr(0, length));
+    CHECK_THROWS_AS(load_vdb(folder / "cut.vdb"), IoError);
   }
 }
 
 TEST_CASE("a grid that breaks its rules is not saved") {
-  const Folder folder;
+  const TemporaryFolder folder;
   MaterialGrid grid = box_grid(2, 2, 2);
   grid.material[0] = 9;
-  CHECK_THROWS_AS(save_vdb(grid, folder.path / "bad.vdb"), InputError);
-  CHECK_FALSE(fs::exists(folder.path / "bad.vdb"));
+  CHECK_THROWS_AS(save_vdb(grid, folder / "bad.vdb"), InputError);
+  CHECK_FALSE(fs::exists(folder / "bad.vdb"));
 }
+
+}  // namespace springlod::voxelize

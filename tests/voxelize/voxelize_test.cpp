@@ -9,8 +9,8 @@
 #include "voxelize/depth.hpp"
 #include "voxelize/grid.hpp"
 
-using namespace springlod;
-using namespace springlod::voxelize;
+namespace springlod::voxelize {
+
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 
@@ -384,3 +384,5 @@ TEST_CASE("an interrupt ends the filling of many parts") {
   CHECK_THROWS_AS(voxelize(mesh, options), InterruptedError);
   CHECK(progress.seen == 3);
 }
+
+}  // namespace springlod::voxelize

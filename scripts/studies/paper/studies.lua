@@ -3,7 +3,6 @@
 -- sensitivity of the scenes.
 
 local s = require "springlod"
-local averages = require "lib.averages"
 local cut = require "lib.cut_scene"
 local paper_numbers = require "studies.paper.numbers"
 local paper_runs = require "studies.paper.runs"
@@ -12,7 +11,13 @@ local paper_variants = require "studies.paper.variants"
 
 local paper_studies = {}
 
-local mean, standard_deviation = averages.mean, averages.standard_deviation
+local mean = s.mean
+
+local function standard_deviation(list)
+  local middle, sum = mean(list), 0
+  for _, value in ipairs(list) do sum = sum + (value - middle) ^ 2 end
+  return math.sqrt(sum / (#list - 1))
+end
 
 -- The name of a study in the store; it depends on the variants, which may change between calls.
 local function kept_as(name, settings)

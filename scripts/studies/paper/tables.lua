@@ -2,13 +2,12 @@
 -- confidence intervals, noise floor and equivalence tests.
 
 local s = require "springlod"
-local averages = require "lib.averages"
 local by_start = require "lib.by_start"
 local paper_numbers = require "studies.paper.numbers"
 local paper_runs = require "studies.paper.runs"
 local paper_variants = require "studies.paper.variants"
 
-local mean = averages.mean
+local mean = s.mean
 
 local paper_tables = {}
 

@@ -1,7 +1,6 @@
 -- The tables of springlod pareto.
 
 local s = require "springlod"
-local save_text = require "lib.save_text"
 
 local pareto_tables = {}
 
@@ -13,7 +12,7 @@ function pareto_tables.save_command(path)
     if word:find("[^%w%-_./,=]") then word = "'" .. word:gsub("'", "'\\''") .. "'" end
     words[#words + 1] = word
   end
-  save_text(path, table.concat(words, " ") .. "\n")
+  s.save_text(path, table.concat(words, " ") .. "\n")
 end
 
 local function add_interval(row, interval)

@@ -1,7 +1,6 @@
 -- Wall-clock cost of a simulated second, relative to that of the base measured alternately.
 
 local s = require "springlod"
-local averages = require "lib.averages"
 local cut_scene = require "lib.cut_scene"
 local intervals = require "lib.intervals"
 local timed_run = require "lib.timed_run"
@@ -55,7 +54,7 @@ function Times:cost_of(variant, chains)
   end
   table.move(values.base_seconds, 1, #rows, #self.base_costs + 1, self.base_costs)
   return {ratio = intervals.median(values.ratio), seconds = intervals.median(values.seconds),
-          spring_updates = averages.mean(values.spring_updates), step = rows[1].step,
+          spring_updates = s.mean(values.spring_updates), step = rows[1].step,
           repeats = #rows}
 end
 

@@ -69,7 +69,7 @@ TEST_CASE("Products and solutions are those of plain matrices, of blocks and of 
   CHECK((c + square.triangularView<Eigen::Lower>().toDenseMatrix()).norm() <= kRounding);
 }
 
-TEST_CASE("Products of several threads are those of one") {
+TEST_CASE("Products of several threads are those of one", "[threaded]") {
   constexpr int kThreads = 4, kRounds = 2000;
   std::vector<int> wrong(kThreads, 0);
   std::vector<std::thread> threads;

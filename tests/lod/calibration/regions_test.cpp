@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "lod/build.hpp"
+#include "lod/calibration/calibrate.hpp"
 #include "lod/calibration/elastic_fit.hpp"
 #include "lod/quality/certify.hpp"
 #include "lod/quality/compared_loads.hpp"
@@ -46,7 +47,8 @@ double error_within(const MassSpringModel& base, const std::vector<std::uint32_t
 
 }  // namespace
 
-TEST_CASE("Loads that no fit has seen come nearer to the base within a region that was named") {
+TEST_CASE("Loads that no fit has seen come nearer to the base within a region that was named",
+          "[long]") {
   const MassSpringModel base = block(5, 5, 14);
   const std::vector<std::uint32_t> face = below(base, kCell);
   const double without = error_within(base, face, {});
@@ -55,7 +57,7 @@ TEST_CASE("Loads that no fit has seen come nearer to the base within a region th
   CHECK(with < 0.6 * without);
 }
 
-TEST_CASE("A region beside an anchored end is fitted too") {
+TEST_CASE("A region beside an anchored end is fitted too", "[long]") {
   const MassSpringModel base = block(5, 5, 14);
   const std::vector<std::uint32_t> near = below(base, 4.4 * kCell);
   TargetOptions options{.anchored = below(base, kCell)};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +14,11 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "lod/build.hpp"
+#include "lod/calibration/calibrate.hpp"
 #include "lod/calibration/calibration_store.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/model/sample_assets.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
 using namespace springlod::lod;
@@ -27,28 +30,49 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Stands for a program that is killed: nothing is kept when it comes up.
+struct Killed {};
+
 /// Stops the calibration when it goes on for so many times, and remembers what it was told.
 class Watcher : public Progress {
  public:
-  explicit Watcher(std::uint64_t stop_after = std::numeric_limits<std::uint64_t>::max())
-      : left_(stop_after) {}
+  enum class End { interrupt, kill };
 
-  void begin(std::string_view task, std::uint64_t /*total*/) override { tasks.emplace_back(task); }
+  explicit Watcher(std::uint64_t stop_after = std::numeric_limits<std::uint64_t>::max(),
+                   End end = End::interrupt)
+      : left_(stop_after), end_(end) {}
+
+  void begin(std::string_view task, std::uint64_t /*total*/) override {
+    const std::lock_guard lock(mutex_);
+    tasks.emplace_back(task);
+  }
   void advance(std::uint64_t count) override {
+    const std::lock_guard lock(mutex_);
     if (tasks.empty() || tasks.back() != "calibrating" || count == 0) return;
+    if (left_ == 0 && end_ == End::kill) throw Killed();
     if (left_ == 0) throw InterruptedError();
     --left_;
     ++steps;
+    if (first_advance == 0) first_advance = count;
   }
-  void detail(std::string_view text) override { last_detail = text; }
-  void say(std::string_view text) override { said += std::string(text) + "\n"; }
+  void detail(std::string_view text) override {
+    const std::lock_guard lock(mutex_);
+    last_detail = text;
+  }
+  void say(std::string_view text) override {
+    const std::lock_guard lock(mutex_);
+    said += std::string(text) + "\n";
+  }
 
   std::vector<std::string> tasks;
   std::string said, last_detail;
   std::uint64_t steps = 0;
+  std::uint64_t first_advance = 0;  // what was kept of the first level, where something was
 
  private:
+  std::mutex mutex_;
   std::uint64_t left_;
+  End end_;
 };
 
 LodChain plain() {
@@ -108,7 +132,30 @@ TEST_CASE("A calibration that is stopped again and again ends with the bits of o
   }
 }
 
-TEST_CASE("Threads do not matter to a calibration that goes on") {
+TEST_CASE("A calibration that is killed goes on from the last state that was due to be kept") {
+  const LodChain whole = calibrated(options_with(kNoStore, nullptr));
+  const TemporaryFolder folder;
+  const fs::path fit = folder / "store/level-1-part-1.bin";
+  const auto killed_after = [&](std::uint64_t steps, double keep_every) {
+    Watcher watcher(steps, Watcher::End::kill);
+    CalibrateOptions options = options_with(folder / "store", &watcher);
+    options.keep_every = keep_every;
+    CHECK_THROWS_AS(calibrated(options), Killed);
+    return watcher.said;
+  };
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  CHECK(killed_after(5, kNever).empty());
+  CHECK_FALSE(fs::exists(fit));
+  CHECK_THAT(killed_after(5, 0), Contains("its state is kept in " + (folder / "store").string()));
+  CHECK(fs::exists(fit));
+
+  Watcher watcher;
+  CHECK(same_bits(calibrated(options_with(folder / "store", &watcher)), whole));
+  CHECK(watcher.first_advance == 5);
+  CHECK_THROWS_WITH(calibrated({.keep_every = -1}), Contains("keep_every = -1 must be 0 or more"));
+}
+
+TEST_CASE("Threads do not matter to a calibration that goes on", "[threaded]") {
   const LodChain whole = calibrated(options_with(kNoStore, nullptr));
   const TemporaryFolder folder;
   Watcher watcher(6);

@@ -88,6 +88,7 @@ TEST_CASE("Compact groups refuse more than the nodes and fewer than the material
   CHECK_THROWS_AS(compact_groups(rods(), {.count = 369}), InputError);
 }
 
+#ifdef SPRINGLOD_HAS_METIS
 TEST_CASE("METIS groups are as many as asked for and hold together") {
   for (const MassSpringModel& base : {ball(), rods(), block(6, 5, 4)})
     for (const std::uint32_t count : {1U, 30U, base.node_count() / 2}) {
@@ -99,6 +100,13 @@ TEST_CASE("METIS groups are as many as asked for and hold together") {
   CHECK(metis_groups(ball(), 50, 2).of == metis_groups(ball(), 50, 2).of);
   CHECK_THROWS_AS(metis_groups(ball(), 0, 1), InputError);
 }
+#else
+TEST_CASE("A build without METIS says so when its groups are asked for") {
+  CHECK_THROWS_AS(metis_groups(ball(), 50, 1), InputError);
+  CHECK_THROWS_WITH(metis_groups(ball(), 50, 1),
+                    Catch::Contains("without METIS") && Catch::Contains("libmetis-dev"));
+}
+#endif
 
 TEST_CASE("A torn group is mended by giving its stray to a neighbour") {
   const MassSpringModel rope =

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "lod/build.hpp"
+#include "lod/grouping/grouping.hpp"
+#include "lod/merging/merge.hpp"
 #include "tests/lod/bodies.hpp"
 #include "tests/support/models.hpp"
 

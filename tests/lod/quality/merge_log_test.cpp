@@ -11,6 +11,7 @@
 #include "elastic/modes.hpp"
 #include "elastic/stiffness.hpp"
 #include "lod/build.hpp"
+#include "lod/grouping/grouping.hpp"
 #include "lod/quality/certify.hpp"
 #include "lod/quality/compliance_change.hpp"
 #include "tests/lod/bodies.hpp"
@@ -224,7 +225,8 @@ TEST_CASE("a level that hardly gives way is off by a finite amount") {
   CHECK(mean_error(step, Answer::Kind::smooth) > 1);
 }
 
-TEST_CASE("a log is the same on any number of threads, and refuses what has no merges") {
+TEST_CASE("a log is the same on any number of threads, and refuses what has no merges",
+          "[threaded]") {
   const LodChain chain = simplify(ball(), {.levels = 2});
   const MergeLog one = log_merges(chain, {.local_loads = 4, .threads = 1});
   const MergeLog two = log_merges(chain, {.local_loads = 4, .threads = 2});

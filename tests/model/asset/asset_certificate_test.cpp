@@ -10,6 +10,7 @@
 #include "model/asset/asset.hpp"
 #include "tests/model/asset/glb_text.hpp"
 #include "tests/model/sample_assets.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace springlod {
 namespace {

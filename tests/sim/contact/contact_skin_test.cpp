@@ -7,10 +7,12 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/stable_step.hpp"
 #include "sim/contact/contact.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
 #include "sim/integrators/leapfrog.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
 #include "sim/study/compare.hpp"
 #include "tests/sim/side_by_side.hpp"
@@ -185,7 +187,7 @@ TEST_CASE("Friction on a skin takes what it says from the kinetic energy, grips 
   CHECK((left - contacts[0].normal.dot(left) * contacts[0].normal).norm() < 1e-12);
 }
 
-TEST_CASE("A base with the skin of its own is the base without, to the bit") {
+TEST_CASE("A base with the skin of its own is the base without, to the bit", "[long]") {
   const LodChain& chain = small_chain();
   const MassSpringModel& base = chain.levels[0].model;
   Scenario scene = small_scene(0.8);
@@ -319,8 +321,9 @@ TEST_CASE("A skin that goes through a wall is stopped, by the base's node, under
           {.integrator = integrator, .step = 2e-4, .skin = skin_of(chain, 1)});
       FAIL("no point went through");
     } catch (const TunnelError& e) {
-      CHECK_THAT(e.what(), Catch::Contains("the surface at node " + std::to_string(e.node()) +
-                                           " of the base went through obstacle \"thin wall\""));
+      CHECK_THAT(e.what(),
+                 Catch::Contains("the surface at node " + std::to_string(script_number(e.node())) +
+                                 " of the base went through obstacle \"thin wall\""));
       CHECK(e.node() < chain.levels[0].model.node_count());
     }
   }
@@ -367,7 +370,8 @@ TEST_CASE("Fast steps with a skin are those of the plain kernel, whatever the la
           Approx(plain.ledger.*part).margin(1e-8 * std::abs(plain.ledger.total())));
 }
 
-TEST_CASE("Fast steps with a skin give the same bits at any stride, on any number of threads") {
+TEST_CASE("Fast steps with a skin give the same bits at any stride, on any number of threads",
+          "[threaded]") {
   const LodChain chain = lod::simplify(two_material_block(33), {.levels = 1});
   const MassSpringModel& model = chain.levels[1].model;
   REQUIRE(model.node_count() > 16'000);  // worth two threads

@@ -102,7 +102,7 @@ TEST_CASE("Fast steps give the same bits, however many are taken at once, with a
   const MassSpringModel model =
       merged ? lod::simplify(lattice, {.levels = 1}).levels[1].model : lattice;
   const Scenario scene = rough_scene(model);
-  const StepperOptions with_ledger{.precision = precision};
+  const FastOptions with_ledger{.precision = precision};
   const Outcome one = after<FastLeapfrog>(model, scene, kSteps, with_ledger, 1);
   check_same_bits(one, after<FastLeapfrog>(model, scene, kSteps, with_ledger, 37));
   check_same_bits(one, after<FastLeapfrog>(model, scene, kSteps, with_ledger, 1000));
@@ -112,7 +112,7 @@ TEST_CASE("Fast steps give the same bits, however many are taken at once, with a
   check_same_bits(one, without);
 }
 
-TEST_CASE("Fast steps give the same bits on any number of threads") {
+TEST_CASE("Fast steps give the same bits on any number of threads", "[threaded]") {
   const bool merged = GENERATE(false, true);
   const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
   const MassSpringModel lattice = two_material_block(merged ? 38 : 31);
@@ -135,7 +135,7 @@ TEST_CASE("A lattice laid out as any shape moves as it does in rows, to rounding
   const Scenario scene = rough_scene(model);
   constexpr std::uint64_t kFew = 50;
   const auto in = [&](Layout layout) {
-    const StepperOptions options{.layout =
+    const FastOptions options{.layout =
                                      make_fast_model(model, Precision::double_precision, layout)};
     return after<FastLeapfrog>(model, scene, kFew, options, 1000);
   };

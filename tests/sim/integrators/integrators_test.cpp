@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "sim/integrators/runge_kutta.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
 #include "tests/sim/bodies.hpp"
 #include "tests/support/models.hpp"
@@ -75,7 +76,7 @@ TEST_CASE("Every scheme follows a damped swing at its order") {
   }
 }
 
-TEST_CASE("Every scheme keeps momentum and, thrown free, the parabola within its order") {
+TEST_CASE("Every scheme keeps momentum and, thrown free, the parabola within its order", "[long]") {
   const MassSpringModel model = bodies::rods();
   Scenario scene;
   scene.duration = 0.2;
@@ -175,7 +176,7 @@ TEST_CASE("Runge-Kutta is stable below its predicted step and diverges above it"
   CHECK_THROWS_AS(run(model, scene, with(Integrator::runge_kutta_4, 1.03 * limit)), UnstableError);
 }
 
-TEST_CASE("Runge-Kutta closes the ledger of the rods thrown at the wall") {
+TEST_CASE("Runge-Kutta closes the ledger of the rods thrown at the wall", "[long]") {
   const auto model = bodies::rods();
   const Scenario scene = bodies::rods_scene();
   RunOptions options;

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "elastic/stable_step.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
 #include "tests/sim/bodies.hpp"
 

@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "sim/study/deviation.hpp"
 #include "sim/study/ensemble.hpp"
 #include "tests/sim/bodies.hpp"
@@ -49,7 +48,7 @@ class CountingProgress : public Progress {
 
 }  // namespace
 
-TEST_CASE("One and two threads give the same bits") {
+TEST_CASE("One and two threads give the same bits", "[threaded]") {
   CompareOptions options;
   options.starts = 3;
   options.variant = "hb";
@@ -224,18 +223,6 @@ TEST_CASE("Wrong compare options are refused by name") {
                     Catch::Contains("starts"));
   CHECK_THROWS_WITH(compare(bodies::small_chain(), small_scene(), {.jitter = 1}),
                     Catch::Contains("jitter"));
-}
-
-TEST_CASE("Jobs run once each and the lowest failure wins") {
-  const std::uint32_t threads = GENERATE(1U, 2U, 5U);
-  std::vector<std::atomic<int>> runs(50);
-  run_jobs(50, threads, [&](std::uint64_t job, const auto&) { ++runs[job]; });
-  for (const auto& r : runs) CHECK(r == 1);
-  const auto failing = [](std::uint64_t job, const std::function<bool()>&) {
-    if (job == 7 || job == 8 || job == 30) throw InputError(std::to_string(job));
-  };
-  CHECK_THROWS_WITH(run_jobs(50, threads, failing), "7");
-  CHECK_NOTHROW(run_jobs(0, threads, failing));
 }
 
 TEST_CASE("The energy difference is none between equal models and some between levels") {

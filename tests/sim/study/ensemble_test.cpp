@@ -1,3 +1,4 @@
+#include "sim/integrators/step_limit.hpp"
 #include "sim/study/ensemble.hpp"
 
 #include <string>
@@ -5,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "sim/integrators/step_limit.hpp"
 #include "sim/study/compare.hpp"
 #include "tests/sim/bodies.hpp"
 
@@ -38,7 +40,7 @@ TEST_CASE("An ensemble runs the starts that compare runs") {
   }
 }
 
-TEST_CASE("An ensemble is the same in parts and for any number of threads") {
+TEST_CASE("An ensemble is the same in parts and for any number of threads", "[threaded]") {
   const MassSpringModel& model = bodies::small_chain().levels[1].model;
   EnsembleOptions options;
   options.starts = 6;

@@ -1,4 +1,4 @@
-#include "sim/contact/contact_losses.hpp"
+#include "sim/integrators/contact_losses.hpp"
 
 #include <cmath>
 

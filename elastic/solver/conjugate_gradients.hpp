@@ -1,0 +1,56 @@
+#pragma once
+
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace springlod::elastic {
+
+struct ConjugateGradientSolution {
+  Eigen::MatrixXd x;
+  Eigen::VectorXd last_step;  ///< squared norm of the last update of each column
+};
+
+/// Preconditioned conjugate gradients (Hestenes & Stiefel 1952) for A X = B, A symmetric positive
+/// semidefinite. Each column has its own step lengths; A and the preconditioner M are applied to
+/// all columns at once, so that a sparse factor is read once per step and not once per column.
+///
+///   apply(P)         A P
+///   precondition(R)  M^-1 R
+///   first_direction  M^-1 B, which the caller may know already
+///   converged(column, solution, residual)
+///
+/// Stops when all columns have converged, or after `most_steps`.
+template <class Apply, class Precondition, class Converged>
+ConjugateGradientSolution conjugate_gradients(const Eigen::MatrixXd& right,
+                                              Eigen::MatrixXd first_direction, int most_steps,
+                                              const Apply& apply, const Precondition& precondition,
+                                              const Converged& converged) {
+  ConjugateGradientSolution solution{Eigen::MatrixXd::Zero(right.rows(), right.cols()),
+                                     Eigen::VectorXd::Zero(right.cols())};
+  Eigen::MatrixXd direction = std::move(first_direction);
+  Eigen::MatrixXd residual = right;
+  Eigen::VectorXd work = residual.cwiseProduct(direction).colwise().sum();
+  for (int step = 0; step < most_steps; ++step) {
+    const Eigen::MatrixXd product = apply(direction);
+    bool done = true;
+    for (Eigen::Index c = 0; c < right.cols(); ++c) {
+      const double energy = direction.col(c).dot(product.col(c));
+      const double length = energy > 0 ? work[c] / energy : 0;
+      solution.last_step[c] = length * length * direction.col(c).squaredNorm();
+      solution.x.col(c) += length * direction.col(c);
+      residual.col(c) -= length * product.col(c);
+      done = converged(c, solution, residual) && done;
+    }
+    if (done) break;
+    const Eigen::MatrixXd preconditioned = precondition(residual);
+    const Eigen::VectorXd next = residual.cwiseProduct(preconditioned).colwise().sum();
+    for (Eigen::Index c = 0; c < right.cols(); ++c)
+      direction.col(c) =
+          preconditioned.col(c) + (work[c] > 0 ? next[c] / work[c] : 0) * direction.col(c);
+    work = next;
+  }
+  return solution;
+}
+
+}  // namespace springlod::elastic

@@ -1,0 +1,86 @@
+#include "model/asset/glb.hpp"
+
+#include <cstring>
+#include <initializer_list>
+
+#include <fmt/format.h>
+
+namespace springlod::inline model {
+namespace {
+
+constexpr std::string_view kMagic = "glTF";
+constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kJson = 0x4E4F534A;
+constexpr std::uint32_t kBinary = 0x004E4942;
+constexpr std::size_t kHeader = 12;
+constexpr std::size_t kChunkHeader = 8;
+
+std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + offset, sizeof word);
+  return word;
+}
+
+/// Takes one chunk (length, type, data) off the front.
+std::string_view take_chunk(std::string_view& rest, std::uint32_t type, const char* name) {
+  if (rest.size() < kChunkHeader || word_at(rest, 4) != type)
+    throw Damage(fmt::format("its {} chunk is missing", name));
+  const std::size_t length = word_at(rest, 0);
+  if (length > rest.size() - kChunkHeader)
+    throw Damage(fmt::format("its {} chunk is cut short", name));
+  const std::string_view chunk = rest.substr(kChunkHeader, length);
+  rest.remove_prefix(kChunkHeader + length);
+  return chunk;
+}
+
+void write_words(std::ostream& out, std::initializer_list<std::size_t> words) {
+  for (const std::size_t each : words) {
+    const auto word = static_cast<std::uint32_t>(each);
+    out.write(reinterpret_cast<const char*>(&word), sizeof word);
+  }
+}
+
+/// Chunks are multiples of 4 bytes.
+std::size_t padded(std::size_t size) {
+  return (size + 3) / 4 * 4;
+}
+
+void write_chunk(std::ostream& out, std::uint32_t type, std::string_view bytes, char padding) {
+  write_words(out, {padded(bytes.size()), type});
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  for (std::size_t i = bytes.size(); i < padded(bytes.size()); ++i) out.put(padding);
+}
+
+}  // namespace
+
+bool is_glb(std::string_view file) {
+  return file.size() >= kHeader + kChunkHeader && file.starts_with(kMagic);
+}
+
+GlbChunks split_glb(std::string_view file) {
+  if (word_at(file, 4) != kVersion)
+    throw Damage(fmt::format("it says glTF version {}, not 2", word_at(file, 4)));
+  if (word_at(file, 8) != file.size())
+    throw Damage(fmt::format("it has {} bytes and should have {}", file.size(), word_at(file, 8)));
+  std::string_view rest = file.substr(kHeader);
+  GlbChunks chunks;
+  chunks.json = take_chunk(rest, kJson, "JSON");
+  chunks.binary = take_chunk(rest, kBinary, "binary");
+  return chunks;
+}
+
+std::string json_text(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void write_glb(std::ostream& out, const nlohmann::json& document,
+               const std::vector<unsigned char>& binary) {
+  const std::string text = json_text(document);
+  out << kMagic;
+  write_words(out,
+              {kVersion, kHeader + 2 * kChunkHeader + padded(text.size()) + padded(binary.size())});
+  write_chunk(out, kJson, text, ' ');
+  write_chunk(out, kBinary, {reinterpret_cast<const char*>(binary.data()), binary.size()}, '\0');
+}
+
+}  // namespace springlod::inline model

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace springlod::inline model {
+
+// The container of binary glTF 2.0: a header of 12 bytes, a chunk of JSON text and a chunk of
+// binary data.
+
+/// What is wrong with a .glb file, without its name.
+class Damage : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct GlbChunks {
+  std::string_view json;
+  std::string_view binary;
+};
+
+/// Whether the bytes begin as a .glb file does.
+bool is_glb(std::string_view file);
+
+/// Throws Damage unless `file`, for which is_glb holds, is whole. The chunks refer to it.
+GlbChunks split_glb(std::string_view file);
+
+/// JSON without white space, keys sorted. Names from mesh files may have any encoding, JSON is
+/// UTF-8: other bytes become U+FFFD.
+std::string json_text(const nlohmann::json& value);
+
+void write_glb(std::ostream& out, const nlohmann::json& document,
+               const std::vector<unsigned char>& binary);
+
+}  // namespace springlod::inline model

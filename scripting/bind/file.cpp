@@ -1,0 +1,64 @@
+// Files as a whole: written, and told apart by their content.
+
+#include "base/file.hpp"
+
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/call.hpp"
+
+namespace springlod::scripting {
+
+namespace {
+
+constexpr const char* kGroup = "Session";
+
+int save_text(Call& call) {
+  write_text_file(call.path(1), call.text(2));
+  return 0;
+}
+
+int hash(Call& call) {
+  TableReader options = call.options(1);
+  std::optional<std::string> file, text;
+  options.read("file", file);
+  options.read("text", text);
+  options.finish();
+  if (file.has_value() == text.has_value()) throw InputError("hash: give either file or text");
+  return call.give(content_hash(file ? read_file(*file) : *text));
+}
+
+}  // namespace
+
+void describe_files(Api& api) {
+  api.add(FunctionEntry{
+      .name = "save_text",
+      .group = kGroup,
+      .summary = "Writes text as a file; an older file stays whole until the new one is.",
+      .arguments = {{.name = "path",
+                     .type = "string",
+                     .help = "file to write; missing folders are made"},
+                    {.name = "text", .type = "string", .help = "all of the content"}},
+      .returns = "nothing",
+      .errors = "The file cannot be written.",
+      .example = "s.save_text(\"out/info.json\", s.json(s.info(chain)))",
+      .call = save_text});
+  api.add(FunctionEntry{
+      .name = "hash",
+      .group = kGroup,
+      .summary = "Hashes the content of a file, or text, with xxh3 (64 bits): the same content "
+                 "gives the same hash.",
+      .options = {{.name = "file",
+                   .type = "string",
+                   .fallback = "none",
+                   .help = "path of the file to hash"},
+                  {.name = "text", .type = "string", .fallback = "none", .help = "text to hash"}},
+      .returns = "string: 16 hexadecimal digits",
+      .errors = "The file cannot be read; both options or none are given.",
+      .example = "print(s.hash{file = \"out/dumbbell.glb\"})",
+      .call = hash});
+}
+
+}  // namespace springlod::scripting

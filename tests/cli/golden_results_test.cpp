@@ -1,0 +1,136 @@
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "base/file.hpp"
+#include "model/asset/asset.hpp"
+#include "tests/cli/program.hpp"
+
+using springlod::test::Ran;
+using springlod::test::Scratch;
+using springlod::test::slurp;
+using springlod::test::springlod_run;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Results that hold on every processor, beside those of one kind of processors.
+const char* const kAny = "any";
+
+/// The kind of this processor, as far as results depend on it: the vectors that steps are computed
+/// with, and the fused multiply-add in the mathematical functions of the C library. Empty if it is
+/// none of those that are told apart here.
+std::string processor_kind() {
+#if defined(__x86_64__)
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return "";
+  const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                    __builtin_cpu_supports("avx512cd");
+  return wide ? "avx512" : "avx2";
+#else
+  return "";
+#endif
+}
+
+template <class T>
+void append(std::string& bytes, const std::vector<T>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+/// The numbers of all levels; neither provenance nor how they lie in the file.
+std::string hash_of_levels(const fs::path& asset) {
+  std::string bytes;
+  for (const springlod::Level& level : springlod::load_asset(asset).chain.levels) {
+    const springlod::MassSpringModel& model = level.model;
+    append(bytes, model.rest);
+    append(bytes, model.mass);
+    append(bytes, model.volume);
+    append(bytes, model.contact_area);
+    append(bytes, model.border);
+    append(bytes, model.material);
+    append(bytes, model.a);
+    append(bytes, model.b);
+    append(bytes, model.rest_length);
+    append(bytes, model.stiffness);
+    append(bytes, model.damping);
+    append(bytes, level.of_base.of);
+  }
+  return springlod::content_hash(bytes);
+}
+
+/// (processor kind, result) -> hash
+using Hashes = std::map<std::pair<std::string, std::string>, std::string>;
+
+Hashes read_hashes(const fs::path& file) {
+  Hashes hashes;
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind, result, hash;
+    if (line.rfind('#', 0) != 0 && words >> kind >> result >> hash) hashes[{kind, result}] = hash;
+  }
+  return hashes;
+}
+
+void write_hashes(const fs::path& file, const Hashes& hashes) {
+  std::ofstream out(file);
+  out << "# Hashes of what tests/golden/main_job.lua computes: processor kind, result, xxh3-64.\n"
+         "# SPRINGLOD_BLESS=1 writes those of this processor; CHANGELOG.md says why they "
+         "changed.\n";
+  for (const auto& [key, hash] : hashes)
+    out << key.first << ' ' << key.second << ' ' << hash << '\n';
+}
+
+}  // namespace
+
+TEST_CASE("The main job has the results whose hashes are kept") {
+  // Each of OpenBLAS's kernels rounds differently; this one runs on every processor with AVX2.
+  const std::string kind = processor_kind();
+  if (!kind.empty()) setenv("OPENBLAS_CORETYPE", "Haswell", 1);
+  const Scratch scratch;
+  const std::string script = std::string(SPRINGLOD_SOURCE_DIR) + "/tests/golden/main_job.lua";
+  const Ran ran = springlod_run({"-q", "run", script, "--", scratch.folder().string()});
+  unsetenv("OPENBLAS_CORETYPE");
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+
+  // What is only merged needs neither vectors nor BLAS.
+  Hashes found{{{kAny, "merged-levels"}, hash_of_levels(scratch / "merged.glb")}};
+  if (!kind.empty()) {
+    found[{kind, "merged-comparison"}] = springlod::content_hash(slurp(scratch / "merged.csv"));
+    found[{kind, "calibrated-levels"}] = hash_of_levels(scratch / "calibrated.glb");
+    found[{kind, "calibrated-comparison"}] =
+        springlod::content_hash(slurp(scratch / "calibrated.csv"));
+  }
+
+  const fs::path kept = fs::path(SPRINGLOD_SOURCE_DIR) / "tests" / "golden" / "results.txt";
+  Hashes wanted = read_hashes(kept);
+  const char* bless = std::getenv("SPRINGLOD_BLESS");
+  if (bless != nullptr && std::string(bless) == "1") {
+    for (const auto& [key, hash] : found) wanted[key] = hash;
+    write_hashes(kept, wanted);
+    WARN("blessed " << kept.string());
+    return;
+  }
+  for (const auto& [key, hash] : found) {
+    const auto known = wanted.find(key);
+    if (known == wanted.end()) {
+      WARN("no hash of " << key.second << " is kept for processors of kind " << key.first
+                         << ": it is not compared");
+      continue;
+    }
+    INFO(key.second << " changed (processor kind " << key.first
+                    << "). If that is meant, say in CHANGELOG.md what changed and why, and run "
+                       "again with SPRINGLOD_BLESS=1");
+    CHECK(hash == known->second);
+  }
+  if (kind.empty()) WARN("this processor has no AVX2: only the merged levels are compared");
+}

@@ -1,0 +1,189 @@
+// Arguments and tables of options, checked against what is described.
+
+#include "scripting/engine/call.hpp"
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <lua.hpp>
+
+#include "base/error.hpp"
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/state.hpp"
+
+using namespace springlod;
+using namespace springlod::scripting;
+using Catch::Matchers::Contains;
+
+namespace {
+
+enum class Way { slow, fast };
+
+/// A reader of the Lua table `text` for a function "test".
+class Options {
+ public:
+  Options(std::vector<Parameter> listed, const std::string& text) : listed_(std::move(listed)) {
+    REQUIRE(luaL_dostring(state_.lua(), ("return " + text).c_str()) == LUA_OK);
+    reader_.emplace(state_.lua(), lua_gettop(state_.lua()), listed_, "test");
+  }
+  TableReader* operator->() { return &*reader_; }
+
+ private:
+  ScriptState state_{{}, make_api()};
+  std::vector<Parameter> listed_;
+  std::optional<TableReader> reader_;
+};
+
+template <class T>
+T read_as(const std::string& text, Dimension dimension = Dimension::number, T value = {}) {
+  Options options({{.name = "x", .dimension = dimension}}, "{x = " + text + "}");
+  options->read("x", value);
+  options->finish();
+  return value;
+}
+
+}  // namespace
+
+TEST_CASE("Options are read by their type; what is not given stays") {
+  CHECK(read_as<bool>("true"));
+  CHECK(read_as<double>("2.5") == 2.5);
+  CHECK(read_as<int>("-3") == -3);
+  CHECK(read_as<std::string>("'text'") == "text");
+  CHECK(read_as<Vec3>("{1, 2, 3}") == Vec3(1, 2, 3));
+  CHECK(read_as<std::vector<std::string>>("{'a', 'b'}") == std::vector<std::string>{"a", "b"});
+  CHECK(read_as<std::vector<double>>("{}").empty());
+  CHECK(read_as<std::optional<double>>("1") == 1);
+  CHECK(read_as<std::optional<double>>("nil") == std::nullopt);
+  CHECK(read_as<double>("nil", Dimension::number, 7) == 7);
+  CHECK(read_as<Colour>("'#ff0000'") == Colour{1, 0, 0});
+  CHECK(read_as<Colour>("{0, 0.5, 1}") == Colour{0, 0.5F, 1});
+}
+
+TEST_CASE("Quantities are numbers in SI units or text with a unit of their dimension") {
+  CHECK(read_as<double>("'5 mm'", Dimension::length) == Approx(0.005));
+  CHECK(read_as<double>("0.25", Dimension::length) == 0.25);
+  CHECK(read_as<double>("'2ms'", Dimension::time) == Approx(0.002));
+  CHECK(read_as<double>("'1 MPa'", Dimension::pressure) == Approx(1e6));
+  CHECK(read_as<Vec3>("{'1 cm', 2, '3 m'}", Dimension::length).isApprox(Vec3(0.01, 2, 3)));
+  CHECK(read_as<std::vector<double>>("{'1 ms', 1}", Dimension::time).front() == Approx(1e-3));
+  CHECK_THROWS_AS(read_as<double>("'5 kg'", Dimension::length), InputError);
+  CHECK_THROWS_WITH(read_as<double>("{}", Dimension::length),
+                    Contains("test: x must be a number (in m) or text with a unit, got a table"));
+  CHECK_THROWS_WITH(read_as<double>("0/0"), Contains("x must be finite"));
+  CHECK_THROWS_WITH(read_as<double>("1/0", Dimension::time), Contains("x must be finite"));
+}
+
+TEST_CASE("Wrong values are refused with what was expected and what came") {
+  CHECK_THROWS_WITH(read_as<bool>("1"), "test: x must be true or false, got 1");
+  CHECK_THROWS_WITH(read_as<std::string>("{}"), "test: x must be text, got a table");
+  CHECK_THROWS_WITH(read_as<int>("1.5"), "test: x must be a whole number, got 1.5");
+  CHECK_THROWS_WITH(read_as<int>("'7'"), Contains("must be a whole number, got \"7\""));
+  CHECK_THROWS_WITH(read_as<std::uint8_t>("300"),
+                    "test: x must be a whole number of 0 to 255, got 300");
+  CHECK_THROWS_WITH(read_as<std::uint64_t>("-1"),
+                    "test: x must be a whole number, 0 or more, got -1");
+  CHECK_THROWS_WITH(read_as<Vec3>("{1, 2}"), Contains("three numbers") && Contains("table of 2"));
+  CHECK_THROWS_WITH(read_as<Vec3>("{1, 2, {}}"), Contains("x[3] must be a number"));
+  CHECK_THROWS_WITH(read_as<std::vector<std::string>>("{'a', 2}"), Contains("entry 2 is 2"));
+  CHECK_THROWS_WITH(read_as<std::vector<double>>("{1, 'a'}"), Contains("x[2]"));
+  for (const char* colour : {"'#ff00'", "'red'", "'#gg0000'"})
+    CHECK_THROWS_WITH(read_as<Colour>(colour), Contains("\"#rrggbb\" or {r, g, b}"));
+  CHECK_THROWS_WITH(read_as<Colour>("{0, 0, 2}"), Contains("of 0..1"));
+}
+
+TEST_CASE("Words are chosen from those that are listed") {
+  const std::vector<Parameter> listed{{.name = "way", .choices = {"slow", "fast"}}};
+  Way way = Way::slow;
+  Options fast(listed, "{way = 'fast'}");
+  fast->choose("way", way, {{"slow", Way::slow}, {"fast", Way::fast}});
+  CHECK(way == Way::fast);
+  Options wrong(listed, "{way = 'fats'}");
+  CHECK_THROWS_WITH(wrong->choose("way", way, {{"slow", Way::slow}, {"fast", Way::fast}}),
+                    "test: way must be one of slow, fast, got \"fats\"; did you mean 'fast'?");
+  Options unlisted(listed, "{}");
+  CHECK_THROWS_AS(unlisted->choose("way", way, {{"slow", Way::slow}}), std::logic_error);
+}
+
+TEST_CASE("Keys that are not listed, and entries without one, are refused") {
+  const std::vector<Parameter> listed{{.name = "size"}, {.name = "speed"}};
+  CHECK_THROWS_WITH(Options(listed, "{sped = 1}"),
+                    "unknown option 'sped'; did you mean 'speed'? test takes: size, speed");
+  CHECK_THROWS_WITH(Options(listed, "{3}"), Contains("options have names, but there is 1 without"));
+  CHECK_THROWS_WITH(Options(listed, "3"), Contains("expected a table of options such as {size ="));
+  CHECK_NOTHROW(Options(listed, "nil"));
+}
+
+TEST_CASE("A binding that reads what is not listed, or not all that is, fails hard") {
+  Options options({{.name = "size"}, {.name = "speed"}}, "{size = 1}");
+  double value = 0;
+  CHECK_THROWS_AS(options->read("colour", value), std::logic_error);
+  CHECK(options->has("size"));
+  CHECK_THROWS_AS(options->finish(), std::logic_error);
+  CHECK_FALSE(options->has("speed"));
+  CHECK_NOTHROW(options->finish());
+}
+
+TEST_CASE("Arguments are checked by number and type, and errors name them") {
+  ScriptState state({}, make_api());
+  lua_State* L = state.lua();
+  FunctionEntry entry{
+      .name = "grow", .arguments = {{.name = "size"}, {.name = "name"}}, .call = [](Call& call) {
+        const double size = call.number(1);
+        const std::string name = call.text(2);
+        return call.give(size + 1, name + "!", call.integer(1, 0, 9), call.has(2));
+      }};
+  push_function(L, entry);
+  CHECK(entry_of_function(L, -1) == &entry);
+  lua_setglobal(L, "grow");
+  lua_getglobal(L, "print");
+  CHECK(entry_of_function(L, -1) == nullptr);
+  lua_pop(L, 1);
+
+  CHECK(
+      state
+          .run_text("local a, b, c, d = grow(2, 'x') assert(a == 3 and b == 'x!' and c == 2 and d)",
+                    "test", {})
+          .done);
+  const auto refused = [&](const std::string& call) {
+    const Outcome outcome = state.run_text(call, "test", {});
+    CHECK_FALSE(outcome.done);
+    return outcome.message;
+  };
+  CHECK_THAT(refused("grow('a', 'x')"),
+             Contains("bad argument 1 (size) of grow: expected a number, got \"a\""));
+  CHECK_THAT(refused("grow(2)"), Contains("bad argument 2 (name) of grow: expected text"));
+  CHECK_THAT(refused("grow(20, 'x')"), Contains("a whole number of 0 to 9"));
+  CHECK_THAT(refused("grow(1, 'x', 3)"), Contains("grow takes 2 arguments, got 3"));
+}
+
+TEST_CASE("Errors of every cause reach a script with their kind") {
+  ScriptState state({}, make_api());
+  FunctionEntry entry{
+      .name = "fail", .arguments = {{.name = "cause"}}, .call = [](Call& call) -> int {
+        const std::string cause = call.text(1);
+        if (cause == "input") throw InputError("said");
+        if (cause == "io") throw IoError("said");
+        if (cause == "unstable") throw UnstableError("said", 4, 0.5);
+        if (cause == "tunnelled") throw TunnelError("said", 4, "wall", 0.5);
+        if (cause == "interrupted") throw InterruptedError();
+        if (cause == "memory") throw std::bad_alloc();
+        throw std::logic_error("said");
+      }};
+  push_function(state.lua(), entry);
+  lua_setglobal(state.lua(), "fail");
+  const Outcome outcome = state.run_text(
+      "for _, cause in ipairs{'input', 'io', 'unstable', 'tunnelled', 'interrupted', 'memory',\n"
+      "                       'internal'} do\n"
+      "  local ok, failure = pcall(fail, cause)\n"
+      "  assert(not ok and failure.kind == cause, cause)\n"
+      "  local ran = cause == 'unstable' or cause == 'tunnelled'\n"
+      "  assert((failure.node == 5) == ran and (failure.time == 0.5) == ran, cause)\n"
+      "  assert((failure.obstacle == 'wall') == (cause == 'tunnelled'), cause)\n"
+      "end",
+      "test", {});
+  CHECK(outcome.message.empty());
+}

@@ -1,0 +1,71 @@
+// How the prompt shows a value.
+
+#include "scripting/engine/inspect.hpp"
+
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <lua.hpp>
+
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/state.hpp"
+
+using namespace springlod;
+using namespace springlod::scripting;
+
+namespace {
+
+std::string shown(const std::string& expression, const InspectOptions& options = {}) {
+  ScriptState state({}, make_api());
+  lua_State* L = state.lua();
+  REQUIRE(luaL_dostring(L, ("return " + expression).c_str()) == LUA_OK);
+  const int height = lua_gettop(L);
+  std::string text = inspect(L, -1, options);
+  CHECK(lua_gettop(L) == height);
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("Plain values are shown as tostring has them; text is quoted in tables only") {
+  CHECK(shown("nil") == "nil");
+  CHECK(shown("true") == "true");
+  CHECK(shown("1.5") == "1.5");
+  CHECK(shown("'two words'") == "two words");
+  CHECK(shown("{'two words'}") == "{\"two words\"}");
+  CHECK(shown(R"({'a "quote", a \\ and\na line'})") == R"({"a \"quote\", a \\ and\na line"})");
+}
+
+TEST_CASE("Tables are shown with the list first, then keys in order, nested") {
+  CHECK(shown("{}") == "{}");
+  CHECK(shown("{3, 2, 1}") == "{3, 2, 1}");
+  CHECK(shown("{b = 1, a = {c = 2}, 7}") == "{7, a = {c = 2}, b = 1}");
+  CHECK(shown("{[10] = 'x', [2.5] = 'y', [true] = 'z', ['two words'] = 1, ['2nd'] = 2}") ==
+        "{[2.5] = \"y\", [10] = \"x\", [\"2nd\"] = 2, [\"two words\"] = 1, [true] = \"z\"}");
+}
+
+TEST_CASE("A table that holds itself, or lies too deep, is cut off") {
+  CHECK(shown("(function() local t = {} t.self = t return t end)()") == "{self = {...}}");
+  CHECK(shown("{{{1}}}", {.depth = 2}) == "{{{...}}}");
+  // The same table twice is no loop.
+  CHECK(shown("(function() local t = {1} return {t, t} end)()") == "{{1}, {1}}");
+}
+
+TEST_CASE("Long tables are cut off and say by how much; wide ones stand on lines") {
+  const InspectOptions few{.entries = 2};
+  CHECK(shown("{1, 2, 3, 4, 5}", few) == "{1, 2, ... 3 more}");
+  CHECK(shown("{a = 1, b = 2, c = 3}", few) == "{a = 1, b = 2, ... 1 more}");
+  CHECK(shown("{alpha = {1, 2, 3}, beta = 2}", {.line_width = 20}) ==
+        "{\n  alpha = {1, 2, 3},\n  beta = 2,\n}");
+}
+
+TEST_CASE("A __tostring of the user's is used, and may fail") {
+  CHECK(shown("setmetatable({}, {__tostring = function() return 'mine' end})") == "mine");
+  ScriptState state({}, make_api());
+  const Outcome outcome = state.run_text(
+      "local s = require 'springlod'\n"
+      "s.inspect(setmetatable({}, {__tostring = function() error('broken') end}))",
+      "test", {});
+  CHECK_FALSE(outcome.done);
+  CHECK_THAT(outcome.message, Catch::Contains("broken"));
+}

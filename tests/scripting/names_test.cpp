@@ -1,0 +1,84 @@
+// Near names for what was mistyped, and what the prompt completes a word to.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <lua.hpp>
+
+#include "scripting/bind/topics.hpp"
+#include "scripting/engine/repl.hpp"
+#include "scripting/engine/suggest.hpp"
+
+using namespace springlod;
+using namespace springlod::scripting;
+using Names = std::vector<std::string>;
+
+namespace {
+
+const Names kNames{"levels", "border", "grouping", "keep"};
+
+bool has(const Names& names, const std::string& name) {
+  return std::count(names.begin(), names.end(), name) == 1;
+}
+
+}  // namespace
+
+TEST_CASE("A near name is one with few edits: insert, drop, change, swap") {
+  for (const char* typo : {"levles", "level", "levelss", "lefels", "lev"})
+    CHECK(nearest_name(typo, kNames) == "levels");
+  CHECK(nearest_name("kep", kNames) == "keep");
+  CHECK(nearest_name("border", kNames) == "border");
+}
+
+TEST_CASE("A name too far from all, or no name, has none near it") {
+  for (const char* name : {"", "x", "colour", "velsle"}) CHECK(nearest_name(name, kNames).empty());
+  CHECK(nearest_name("levels", {}).empty());
+  // The first of equals.
+  CHECK(nearest_name("cat", {"bat", "hat"}) == "bat");
+}
+
+TEST_CASE("Hints ask for the near name and list all there are") {
+  CHECK(did_you_mean("keeep", kNames) == "; did you mean 'keep'?");
+  CHECK(did_you_mean("colour", kNames).empty());
+  CHECK(name_hint("keeep", {"keep", "seed"}, "simplify takes") ==
+        "; did you mean 'keep'? simplify takes: keep, seed");
+  CHECK(name_hint("colour", {"keep", "seed"}, "simplify takes") == "; simplify takes: keep, seed");
+  CHECK(comma_list({}).empty());
+  CHECK(comma_list({"one"}) == "one");
+}
+
+TEST_CASE("A word is completed from globals and keywords, a path from what it leads to") {
+  ScriptState state({}, make_api());
+  REQUIRE(state
+              .run_text("s = require 'springlod'\n"
+                        "mine = {inner = {leaf = 1, leave = 2, [3] = 4}}\n"
+                        "m = s.model{nodes = {{0, 0, 0, mass = 1}}}",
+                        "test", {})
+              .done);
+  CHECK(completions(state, "mi") == Names{"mine"});
+  CHECK(completions(state, "print(mine.inner.lea") == Names{"leaf", "leave"});
+  CHECK(completions(state, "mine.") == Names{"inner"});
+  CHECK(has(completions(state, "x = whi"), "while"));
+  CHECK(completions(state, "s.vox") == Names{"voxelize"});
+  CHECK(completions(state, "m:node_").empty() == false);
+  CHECK(has(completions(state, "m:"), "springs"));
+  CHECK(has(completions(state, "m.node_"), "node_count"));
+  CHECK(has(completions(state, ""), "s"));
+}
+
+TEST_CASE("What leads nowhere is completed to nothing, and no metamethod runs") {
+  ScriptState state({}, make_api());
+  REQUIRE(state
+              .run_text("trap = setmetatable({}, {__index = function() touched = true end})\n"
+                        "number = 3",
+                        "test", {})
+              .done);
+  const int height = lua_gettop(state.lua());
+  for (const char* text : {"trap.x.", "nothing.here.", "number.", "trap.inner.le", "1.5."})
+    CHECK(completions(state, text).empty());
+  CHECK(lua_gettop(state.lua()) == height);
+  lua_getglobal(state.lua(), "touched");
+  CHECK(lua_isnil(state.lua(), -1));
+}
