@@ -104,6 +104,12 @@ const Unit* find_unit(std::span<const Unit> units, std::string_view name) {
 
 }  // namespace
 
+std::vector<std::string> unit_names(Dimension dimension) {
+  std::vector<std::string> found;
+  for (const Unit& unit : units_of(dimension)) found.emplace_back(unit.name);
+  return found;
+}
+
 std::string_view si_unit(Dimension dimension) {
   const auto units = units_of(dimension);
   return units.empty() ? std::string_view{} : units.front().name;

@@ -2,6 +2,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "base/choice.hpp"
 
 namespace springlod::inline base {
 
@@ -18,6 +21,19 @@ enum class Dimension {
   angle,             ///< rad: rad deg
   angular_velocity,  ///< rad/s: rad/s deg/s rpm
 };
+
+inline constexpr Choice<Dimension> kDimensions[] = {
+    {Dimension::number, "number", ""},     {Dimension::length, "length", ""},
+    {Dimension::time, "time", ""},         {Dimension::mass, "mass", ""},
+    {Dimension::pressure, "pressure", ""}, {Dimension::density, "density", ""},
+    {Dimension::velocity, "velocity", ""}, {Dimension::acceleration, "acceleration", ""},
+    {Dimension::angle, "angle", ""},       {Dimension::angular_velocity, "angular_velocity", ""}};
+constexpr ChoiceTable<Choice<Dimension>> choices(Dimension) {
+  return {"dimension", kDimensions};
+}
+
+/// Names of the units of a dimension, the SI unit first.
+std::vector<std::string> unit_names(Dimension dimension);
 
 /// Name of the SI unit, e.g. "Pa".
 std::string_view si_unit(Dimension dimension);

@@ -17,9 +17,9 @@ void calibrate_cube(benchmark::State& state, int side) {
   const MassSpringModel base = bench::lattice_cube(side);
   lod::SimplifyOptions options{.keep = {0.45, 0.2},
                                .grouping = {.grouping = lod::Grouping::compact},
-                               .calibration = lod::Calibration::modes};
-  options.calibrate.threads = 2;
-  if (!bench::reset_peak_memory()) state.SkipWithError("the peak memory counter cannot be reset");
+                               .calibrate = lod::Calibrate::modes};
+  options.calibration.threads = 2;
+  if (!bench::reset_peak_memory()) state.SkipWithError("the peak of the memory cannot be reset");
   for (auto _ : state)
     benchmark::DoNotOptimize(lod::simplify(base, options).levels[2].model.node_count());
   constexpr double kGigabyte = 1e9;

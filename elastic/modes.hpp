@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/option.hpp"
 #include "base/progress.hpp"
 #include "elastic/elastic_body.hpp"
 #include "model/mass_spring.hpp"
@@ -17,6 +18,13 @@ struct ModeOptions {
   std::uint64_t seed = 1;        ///< of the start vectors
   Progress* progress = nullptr;  ///< may be null
 };
+constexpr auto option_rows(const ModeOptions*) {
+  return std::tuple(option("count", &ModeOptions::count,
+                           "modes wanted; motions that no spring resists are not among them"),
+                    option("accuracy", &ModeOptions::accuracy,
+                           "bound of the relative error of each squared frequency"),
+                    option("seed", &ModeOptions::seed, "of the start of the iteration"));
+}
 
 /// One way in which a body swings about rest; anchored nodes do not move in it.
 struct Mode {

@@ -8,18 +8,18 @@
 
 #include "base/error.hpp"
 #include "lod/calibration/calibrate.hpp"
+#include "lod/calibration/elastic_targets.hpp"
 #include "lod/calibration/rescale_moduli.hpp"
-#include "lod/grouping/compact_groups.hpp"
 #include "lod/grouping/exact_count.hpp"
 #include "lod/grouping/grouping.hpp"
-#include "lod/grouping/metis_groups.hpp"
 #include "lod/merging/guard.hpp"
 #include "lod/merging/merge.hpp"
+#include "lod/quality/certify.hpp"
 
 namespace springlod::lod {
 namespace {
 
-std::string told_from(const SimplifyOptions& options) {
+std::string summary_of(const SimplifyOptions& options) {
   const GroupingOptions& g = options.grouping;
   std::string grouping = to_string(g.grouping);
   if (options.groups) grouping = "groups of the script";
@@ -29,44 +29,27 @@ std::string told_from(const SimplifyOptions& options) {
                      options.guards ? "" : ", no guards");
 }
 
-std::string told_calibration(Calibration calibration) {
-  switch (calibration) {
-    case Calibration::none:
-      return "";
-    case Calibration::moduli:
-      return ", moduli rescaled";
-    case Calibration::modes:
-      return ", calibrated";
-  }
-  return "";
-}
-
 bool straight_from_base(const SimplifyOptions& options) {
-  return options.straight || (!options.groups && (options.grouping.grouping == Grouping::compact ||
-                                                  options.grouping.grouping == Grouping::metis));
+  return options.straight ||
+         (!options.groups && choice_of(options.grouping.grouping).traits.from_base);
 }
 
-/// 0 if the grouping decides.
+/// Requested number of nodes of a level; 0: the grouping determines it.
 std::uint32_t wanted_nodes(std::uint32_t base_nodes, const SimplifyOptions& options,
                            std::uint32_t level) {
   if (options.keep.empty() && !straight_from_base(options)) return 0;
-  constexpr double kUsual = 0.45;  // what pairs and triples come to (spec 3)
+  constexpr double kUsual = 0.45;  // average fraction that groups of 2 or 3 nodes leave
   const double part = options.keep.empty() ? std::pow(kUsual, level) : options.keep[level - 1];
   return std::max(1U, static_cast<std::uint32_t>(std::lround(part * base_nodes)));
 }
 
-/// Groups of nodes of `finer`, `wanted` of them unless that is 0.
+/// Groups of the nodes of `finer`, before guards: `wanted` groups unless that is 0.
 Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
                   std::uint32_t level, std::uint32_t wanted) {
   if (options.groups) return options.groups(finer.model, finer.of_base, level);
-  if (options.grouping.grouping == Grouping::compact)
-    return compact_groups(finer.model, {.count = wanted,
-                                        .border = options.grouping.border,
-                                        .grading = options.grouping.grading,
-                                        .seed = options.grouping.seed});
-  if (options.grouping.grouping == Grouping::metis)
-    return metis_groups(finer.model, wanted, options.grouping.seed);
-  Groups groups = group_nodes(finer.model, springs, options.grouping);
+  const GroupingChoice& grouping = choice_of(options.grouping.grouping);
+  Groups groups = grouping.make({finer.model, springs, wanted, options.grouping});
+  if (grouping.traits.from_base) return groups;
   while (wanted > 0 && groups.count > wanted) {
     const MassSpringModel merged = merge(finer.model, groups);
     Groups more = group_nodes(merged, options.grouping);
@@ -94,27 +77,28 @@ Step guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
   return {std::move(sound.groups), std::move(sound.links)};
 }
 
-/// The guards fuse some of the groups: for an exact number of them as many more are asked for as
-/// were fused, and what is too many then is fused by size.
+/// Exactly `wanted` groups after the guards. The guards fuse some groups, and the next attempt
+/// requests as many more; surplus groups are fused, the smallest first.
 Step exact_step(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
                 std::uint32_t level, std::uint32_t wanted) {
   constexpr int kTries = 20;
-  std::uint32_t asked = wanted, found = 0;
+  std::uint32_t requested = wanted, found = 0;
   for (int i = 0; i < kTries; ++i) {
-    Step step =
-        guarded_step(finer, springs, raw_groups(finer, springs, options, level, asked), options);
+    Step step = guarded_step(finer, springs, raw_groups(finer, springs, options, level, requested),
+                             options);
     if (step.groups.count > wanted) {
       fuse_to_count(finer.model, options.grouping.border, wanted, step.groups);
       step = guarded_step(finer, springs, std::move(step.groups), options);
     }
     if (step.groups.count == wanted) return step;
     found = step.groups.count;
-    // One more each time, or the same groups might come back for ever.
-    asked = std::min(asked + (found < wanted ? wanted - found : 0) + 1, finer.model.node_count());
+    // One more each time; otherwise the same groups could recur.
+    requested =
+        std::min(requested + (found < wanted ? wanted - found : 0) + 1, finer.model.node_count());
   }
   throw InputError(fmt::format(
-      "simplify: level {} comes to {} nodes where {} were asked for: the guards, or the border "
-      "rule, allow no other; ask for {} or leave keep out",
+      "simplify: level {} has {} nodes instead of {}, because of the guards or the border rule; "
+      "set keep to {} nodes or leave it out",
       level, found, wanted, found));
 }
 
@@ -129,10 +113,10 @@ void require_coarser(const Level& finer, const Groups& groups, const SimplifyOpt
                      std::uint32_t level) {
   if (groups.count < finer.model.node_count()) return;
   throw InputError(fmt::format(
-      "simplify: level {} would be the same as level {} ({} nodes): no two nodes may merge any "
-      "more; ask for levels = {}{}",
-      level, level - 1, groups.count, level - 1,
-      options.grouping.border == BorderRule::strong ? " or for border = \"weak\"" : ""));
+      "simplify: level {} is the coarsest possible one, because no two of its {} nodes can merge; "
+      "use levels = {}{}",
+      level - 1, groups.count, level - 1,
+      options.grouping.border == BorderRule::strong ? " or border = \"weak\"" : ""));
 }
 
 Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uint32_t level) {
@@ -143,8 +127,8 @@ Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uin
   require_coarser(chain.levels.back(), step.groups, options, level);
   return {merge(finer.model, step.groups, std::move(step.links)),
           compose(finer.of_base, step.groups),
-          (options.made_by.empty() ? told_from(options) : options.made_by) +
-              told_calibration(options.calibration)};
+          (options.made_by.empty() ? summary_of(options) : options.made_by) +
+              choice_of(options.calibrate).remark};
 }
 
 void check(const SimplifyOptions& options) {
@@ -152,23 +136,26 @@ void check(const SimplifyOptions& options) {
   for (const double part : options.keep) {
     if (!(part > 0 && part < before))
       throw InputError(
-          fmt::format("simplify: keep = {} must fall from level to level, between 1 and 0", part));
+          fmt::format("simplify: keep has {}; its numbers must fall from level to level and be "
+                      "between 1 and 0",
+                      part));
     before = part;
   }
   if (!options.keep.empty() && options.keep.size() != options.levels)
-    throw InputError(fmt::format("simplify: keep names {} levels and levels = {}; leave one out",
+    throw InputError(fmt::format("simplify: keep is for {} levels, but levels = {}; leave one out",
                                  options.keep.size(), options.levels));
   if (options.groups && !options.keep.empty())
-    throw InputError(
-        "simplify: keep asks for numbers of nodes, which groups named by hand already have; leave "
-        "one out");
-  if (!options.groups && options.grouping.grouping == Grouping::metis &&
+    throw InputError("simplify: keep and groups both determine the number of nodes; leave one out");
+  const GroupingChoice& grouping = choice_of(options.grouping.grouping);
+  if (!options.groups && !grouping.traits.follows_border &&
       options.grouping.border != BorderRule::none)
+    throw InputError(fmt::format(
+        "simplify: grouping = \"{}\" has no border rules; leave border out or use grouping = "
+        "\"compact\"",
+        grouping.name));
+  if (options.calibrate == Calibrate::modes && options.mass == MassRule::proximity)
     throw InputError(
-        "simplify: grouping = \"metis\" knows no borders; leave border out or take compact");
-  if (options.calibration == Calibration::modes && options.mass == MassRule::proximity)
-    throw InputError(
-        "simplify: calibrate = \"modes\" finds the masses itself; leave out mass = \"proximity\"");
+        "simplify: calibrate = \"modes\" determines the masses; leave out mass = \"proximity\"");
 }
 
 }  // namespace
@@ -187,13 +174,18 @@ LodChain simplify(MassSpringModel base, const SimplifyOptions& options) {
       task.advance();
     }
   }
-  if (options.calibration == Calibration::moduli)
+  if (options.calibrate == Calibrate::moduli)
     for (std::uint32_t level = 1; level <= options.levels; ++level)
       rescale_moduli(chain.levels.front().model, chain.levels[level].model);
-  if (options.calibration == Calibration::modes) {
-    CalibrateOptions calibration = options.calibrate;
+  if (options.calibrate == Calibrate::modes) {
+    CalibrateOptions calibration = options.calibration;
     calibration.progress = options.progress;
     calibrate(chain, calibration);
+    certify(chain, {.modes = std::max(1U, mode_count(calibration.targets)),
+                    .anchored = calibration.targets.anchored,
+                    .tolerance = calibration.fit.tolerance,
+                    .threads = calibration.threads,
+                    .progress = options.progress});
   }
   return chain;
 }

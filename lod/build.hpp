@@ -11,9 +11,10 @@
 
 namespace springlod::lod {
 
-/// Level 0 = `base`, level n merged from level n-1 (or straight from the base), then all
-/// of them calibrated against the base if asked for. Throws InputError if a level cannot get any
-/// coarser (says which and why), or not have as many nodes as it should keep.
+/// Builds a chain: level 0 is `base`, level n is merged from level n - 1 or straight from the base.
+/// Then the levels are calibrated by `options.calibrate`; Calibrate::modes also certifies them.
+/// Throws InputError if a level cannot be coarser than the one before, or cannot have the number of
+/// nodes that `options.keep` requests.
 LodChain simplify(MassSpringModel base, const SimplifyOptions& options);
 
 }  // namespace springlod::lod

@@ -10,10 +10,11 @@
 namespace springlod::lod {
 namespace {
 
-// Enough for smooth weights; more neighbours only blur and cost time.
+// Largest number of nodes per interpolated point: enough for smooth weights. More nodes smooth the
+// field further and take time.
 constexpr std::size_t kMostNodes = 12;
 
-// The group's own node first, then its nearest spring neighbours.
+// The group's own node, then its spring neighbours in the order of their distance to `point`.
 std::vector<std::uint32_t> nearest_neighbourhood(const MassSpringModel& model,
                                                  const SpringRows& springs, std::uint32_t node,
                                                  const Vec3& point) {
@@ -45,7 +46,7 @@ Binding identity_binding(std::uint32_t count) {
 
 Binding base_from_level(const LodChain& chain, std::uint32_t level) {
   if (level >= chain.levels.size())
-    throw InputError(fmt::format("there is no level {}; the chain has levels 0 to {}", level,
+    throw InputError(fmt::format("transfer: there is no level {}; use a level from 0 to {}", level,
                                  chain.levels.size() - 1));
   const MassSpringModel& base = chain.levels[0].model;
   if (level == 0) return identity_binding(base.node_count());

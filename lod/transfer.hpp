@@ -7,8 +7,10 @@
 
 namespace springlod::lod {
 
-/// Level-0 nodes from the nodes of level `level`: each hangs on its group's node and that node's
-/// spring neighbours. Identity for level 0. Linear: positions and velocities alike.
+/// Weights that interpolate a field on the nodes of level `level` to the base nodes, each from its
+/// group's node and that node's spring neighbours (docs/method.md, eq. 26). The map is linear, so
+/// it holds for positions and velocities; it is the identity for level 0. Throws InputError for a
+/// level that the chain does not have.
 Binding base_from_level(const LodChain& chain, std::uint32_t level);
 
 }  // namespace springlod::lod

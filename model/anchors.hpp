@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/option.hpp"
 #include "model/mass_spring.hpp"
 
 namespace springlod::inline model {
@@ -13,5 +14,14 @@ namespace springlod::inline model {
 /// 1 for each anchored node, N. Throws InputError for a node that the model does not have.
 std::vector<std::uint8_t> anchor_flags(const MassSpringModel& model,
                                        const std::vector<std::uint32_t>& anchored);
+
+/// The option row of nodes that are held.
+template <class S>
+constexpr NodesOption<S> anchored_option(std::vector<std::uint32_t> S::*member) {
+  return nodes_option("anchored", member,
+                      "nodes that are held where they are: their numbers, or a function of a Node "
+                      "that returns true for them",
+                      "none");
+}
 
 }  // namespace springlod::inline model

@@ -9,8 +9,8 @@
 #include <nanoflann.hpp>
 
 #include "base/error.hpp"
-#include "model/spring_rows.hpp"
 #include "base/script_number.hpp"
+#include "model/spring_rows.hpp"
 
 namespace springlod::inline model {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/choice.hpp"
 #include "model/chain.hpp"
 #include "model/mesh.hpp"
 #include "model/vec.hpp"
@@ -15,12 +16,47 @@
 namespace springlod::render {
 
 enum class SpringColour { material, strain };
-/// What the colour of a ball shows: the material, Young's modulus or density of the node by eq. 2
-/// of the paper (docs/method.md), or its mass.
+
+inline constexpr Choice<SpringColour> kSpringColours[] = {
+    {SpringColour::material, "material", "of its nodes"},
+    {SpringColour::strain, "strain", "red where stretched, blue where compressed"}};
+constexpr ChoiceTable<Choice<SpringColour>> choices(SpringColour) {
+  return {"spring_colour", kSpringColours};
+}
+
+/// Besides their material, balls can tell what eq. 2 of the paper says of their node (Young's
+/// modulus, density) or its mass.
 enum class NodeColour { material, young, density, mass };
+
+inline constexpr Choice<NodeColour> kNodeColours[] = {
+    {NodeColour::material, "material", "its colour"},
+    {NodeColour::young, "young", "Young's modulus, as s.estimate has it"},
+    {NodeColour::density, "density", "as s.estimate has it"},
+    {NodeColour::mass, "mass", "of the node"}};
+constexpr ChoiceTable<Choice<NodeColour>> choices(NodeColour) {
+  return {"node_colour", kNodeColours};
+}
+
 enum class NodeSize { even, mass };
-/// automatic: logarithmic if all values are positive and span more than two decades, else linear.
+
+inline constexpr Choice<NodeSize> kNodeSizes[] = {
+    {NodeSize::even, "even", "one radius"},
+    {NodeSize::mass, "mass", "volumes in proportion to the masses"}};
+constexpr ChoiceTable<Choice<NodeSize>> choices(NodeSize) {
+  return {"node_size", kNodeSizes};
+}
+
+/// automatic: logarithmic if all values are above 0 and span more than two decades.
 enum class ValueScaling { automatic, linear, logarithmic };
+
+inline constexpr Choice<ValueScaling> kValueScalings[] = {
+    {ValueScaling::automatic, "automatic",
+     "logarithmic if all values are above 0 and span more than two decades, else linear"},
+    {ValueScaling::linear, "linear", ""},
+    {ValueScaling::logarithmic, "logarithmic", ""}};
+constexpr ChoiceTable<Choice<ValueScaling>> choices(ValueScaling) {
+  return {"value_scale", kValueScalings};
+}
 
 struct Camera {
   Vec3 eye{3, -6, 2};

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/choice.hpp"
+#include "base/option.hpp"
 #include "base/progress.hpp"
 #include "model/chain.hpp"
 #include "render/scene.hpp"
@@ -13,6 +15,14 @@
 namespace springlod::report {
 
 enum class CameraMode { fixed, follow };
+
+inline constexpr Choice<CameraMode> kCameraModes[] = {
+    {CameraMode::fixed, "fixed",
+     "one view of all panels, so that one sees how far apart the bodies are"},
+    {CameraMode::follow, "follow", "each panel keeps its body in the middle"}};
+constexpr ChoiceTable<Choice<CameraMode>> choices(CameraMode) {
+  return {"camera", kCameraModes};
+}
 
 struct AnimateOptions {
   std::uint32_t width = 640;  ///< of one panel [px]
@@ -29,6 +39,20 @@ struct AnimateOptions {
   render::DrawStyle style = {};
   Progress* progress = nullptr;
 };
+constexpr auto option_rows(const AnimateOptions*) {
+  using Options = AnimateOptions;
+  return std::tuple(option("width", &Options::width, "pixels of one panel"),
+                    option("height", &Options::height, "pixels of one panel"),
+                    option("frame_rate", &Options::frame_rate, "pictures a second of the film"),
+                    option("slow", &Options::slow, "4: four times slower than life"),
+                    option("frames", &Options::frames, "pictures at most").by_default("all"),
+                    option("camera", &Options::camera, "whether the camera follows the body"),
+                    option("azimuth", &Options::azimuth,
+                           "where the camera stands, in degrees about the vertical from x"),
+                    option("elevation", &Options::elevation, "how high it stands, in degrees"),
+                    option("avoid_walls", &Options::avoid_walls,
+                           "mirror the azimuth where a wall would stand before the action"));
+}
 
 struct Animation {
   std::uint32_t frames = 0;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/choice.hpp"
+
 namespace springlod::report {
 
 struct ChartPoint {
@@ -24,8 +26,30 @@ struct ChartPoint {
 /// no symbol.
 enum class ChartSymbol { disc, square, triangle, diamond, triangle_down, pentagon, ring, none };
 
-/// In the default order of series; black is used only if a series sets it.
+inline constexpr Choice<ChartSymbol> kChartSymbols[] = {
+    {ChartSymbol::disc, "disc", ""},
+    {ChartSymbol::square, "square", ""},
+    {ChartSymbol::triangle, "triangle", ""},
+    {ChartSymbol::diamond, "diamond", ""},
+    {ChartSymbol::triangle_down, "triangle_down", ""},
+    {ChartSymbol::pentagon, "pentagon", ""},
+    {ChartSymbol::ring, "ring", "goes around other points"},
+    {ChartSymbol::none, "none", ""}};
+constexpr ChoiceTable<Choice<ChartSymbol>> choices(ChartSymbol) {
+  return {"symbol", kChartSymbols};
+}
+
+/// In the order in which series take them; black is for those that ask for it.
 enum class ChartColour { blue, orange, green, pink, amber, sky, grey, black };
+
+inline constexpr Choice<ChartColour> kChartColours[] = {
+    {ChartColour::blue, "blue", ""},   {ChartColour::orange, "orange", ""},
+    {ChartColour::green, "green", ""}, {ChartColour::pink, "pink", ""},
+    {ChartColour::amber, "amber", ""}, {ChartColour::sky, "sky", ""},
+    {ChartColour::grey, "grey", ""},   {ChartColour::black, "black", ""}};
+constexpr ChoiceTable<Choice<ChartColour>> choices(ChartColour) {
+  return {"colour", kChartColours};
+}
 
 struct ChartSeries {
   std::string name;

@@ -52,24 +52,11 @@ Scheme scheme_of(const sim::StabilityPoint& point) {
 }
 
 std::pair<std::string, std::string> heading(const Scheme& scheme) {
-  switch (scheme.integrator) {
-    case sim::Integrator::symplectic_euler:
-      return {"symplectic", "Euler"};
-    case sim::Integrator::velocity_verlet:
-      return {"velocity", "Verlet"};
-    case sim::Integrator::runge_kutta_4:
-      return {"Runge-Kutta", "4"};
-    case sim::Integrator::backward_euler_cg:
-      return {"backward Euler", "conj. gradients"};
-    case sim::Integrator::backward_euler_direct:
-      return {"backward Euler", "factorized"};
-    case sim::Integrator::xpbd:
-      return {"XPBD",
-              fmt::format("{} sweep{}", scheme.iterations, scheme.iterations == 1 ? "" : "s")};
-    case sim::Integrator::projective_dynamics:
-      return {"projective dyn.", fmt::format("{} turns", scheme.iterations)};
-  }
-  return {};
+  const sim::IntegratorChoice::Traits& traits = choice_of(scheme.integrator).traits;
+  const auto& [first, second] = traits.heading;
+  if (!traits.swept) return {first, second};
+  return {first,
+          fmt::format("{} {}{}", scheme.iterations, second, scheme.iterations == 1 ? "" : "s")};
 }
 
 template <class T>

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/choice.hpp"
 #include "base/progress.hpp"
 
 // Statistics of samples of runs: the public header of stats/, which depends only on base/.
@@ -65,7 +66,14 @@ enum class SeedDesign {
   nested    ///< different seeds for every start
 };
 
-/// Four starts have only 35 different resamples, too few for tail probabilities.
+inline constexpr Choice<SeedDesign> kSeedDesigns[] = {
+    {SeedDesign::crossed, "crossed", "the same seeds in every start: one chain a seed"},
+    {SeedDesign::nested, "nested", "other seeds in every start"}};
+constexpr ChoiceTable<Choice<SeedDesign>> choices(SeedDesign) {
+  return {"seeds", kSeedDesigns};
+}
+
+/// Of four starts there are but 35 different resamples, too few for the tail of anything.
 constexpr std::size_t kLeastStarts = 5;
 
 /// Throws InputError for fewer than kLeastStarts starts, values that are not finite, and incomplete
@@ -181,12 +189,25 @@ Equivalence bootstrap_equivalence(const StartSample& base, const StartSample& ot
 
 // Two samples compared (sample_comparison.cpp).
 
+/// How means are tested for equivalence.
+enum class MeanTest {
+  student,    ///< test_equivalence
+  bootstrap,  ///< bootstrap_equivalence
+};
+
+inline constexpr Choice<MeanTest> kMeanTests[] = {
+    {MeanTest::student, "student", "Student's t"},
+    {MeanTest::bootstrap, "bootstrap", "for values far from normal"}};
+constexpr ChoiceTable<Choice<MeanTest>> choices(MeanTest) {
+  return {"test", kMeanTests};
+}
+
 struct SampleComparisonOptions {
   BootstrapOptions resampling = {};   ///< pairing and design also apply to the test
   double confidence = 0.95;           ///< of the intervals; the test is at 1 - confidence
   std::optional<double> margin = {};  ///< of the equivalence test; none: no test
   std::optional<double> spread = {};  ///< see EquivalenceOptions
-  bool bootstrap_test = false;        ///< bootstrap_equivalence instead of test_equivalence
+  MeanTest test = MeanTest::student;
 };
 
 /// A value and its confidence interval.
@@ -212,6 +233,13 @@ SampleComparison compare_samples(const StartSample& base, const StartSample& oth
 // The noise floor (noise_floor.cpp).
 
 enum class SampleDistance { wasserstein, energy };
+
+inline constexpr Choice<SampleDistance> kSampleDistances[] = {
+    {SampleDistance::wasserstein, "wasserstein", "1-Wasserstein distance"},
+    {SampleDistance::energy, "energy", "energy distance, without a root"}};
+constexpr ChoiceTable<Choice<SampleDistance>> choices(SampleDistance) {
+  return {"distance", kSampleDistances};
+}
 
 /// wasserstein_distance or energy_distance.
 double distance_between(const std::vector<double>& base, const std::vector<double>& other,

@@ -15,31 +15,29 @@ parser:option("-o", "asset to write, NAME.glb; in a batch, a folder")
   :target("output"):argname("<asset>"):count(1)
 parser:option("--cell", "cell size, such as 2mm (default: longest side / 32)")
   :convert(command.quantity("--cell", "length"))
-parser:option("--unit", "length unit of the file (default: as the file declares, else m)")
-  :choices{"nm", "um", "mm", "cm", "dm", "m", "km", "in", "ft"}
-parser:option("--up", "up axis of the file (default: as the file or its format defines)")
-  :choices{"x", "y", "z"}
-parser:option("--materials", "Lua file that returns {part = {young = ..., density = ...}, ...}")
+parser:option("--unit", "unit of length of the file (default: the file's, else m)")
+  :choices(s.choices.unit)
+parser:option("--up", "axis of the file that points up (default: the file's or its format's)")
+  :choices(s.choices.up)
+parser:option("--materials", "Lua file that returns {part = {young = ..., density = ...}}")
   :argname("<file.lua>")
-parser:option("--lattice", "place nodes at cell corners or cell centers")
-  :choices{"corners", "centers"}:default("corners")
-parser:option("--hinges", "treatment of cells that touch only along an edge or at a corner")
-  :choices{"report", "fill", "separate"}:default("report")
-parser:option("--levels", "number of coarser levels (default: 2, or one per --keep value)")
+parser:option("--lattice", "where the nodes sit"):choices(s.choices.lattice):default("corners")
+parser:option("--hinges", "what to do where cells touch only along an edge or at a corner")
+  :choices(s.choices.hinges):default("report")
+parser:option("--levels", "levels besides the base (default: 2, or as --keep tells)")
   :convert(command.whole("--levels", 0))
-parser:option("--grouping", "how nodes are grouped for merging")
-  :choices{"standard", "priority", "priority_hard", "compact", "metis"}:default("standard")
-parser:option("--border", "merging rule for border nodes")
-  :choices{"none", "weak", "strong"}:default("none")
-parser:option("--keep", "node count of each level as a fraction of the base, reached exactly, "
-  .. "such as 0.45,0.2 (default: determined by the grouping)")
-  :argname("<fractions>"):convert(command.numbers("--keep", 0))
-parser:option("--calibrate", "fit the coarser levels to the base. moduli: to its elastic moduli. "
-  .. "modes: to its natural frequencies and static compliances at the longest possible stable "
-  .. "step; also certifies the levels")
-  :choices{"none", "moduli", "modes"}:default("none")
-parser:option("--tolerance", "allowed mean relative error of the ten lowest frequencies of a "
-  .. "calibrated level, such as 0.005 (default: 0.002 * sqrt(base nodes / nodes))")
+parser:option("--grouping", "which nodes merge")
+  :choices(s.choices.grouping):default("standard")
+parser:option("--border", "how border nodes merge")
+  :choices(s.choices.border):default("none")
+parser:option("--keep", "nodes of each level over those of the base, met exactly, such as "
+  .. "0.45,0.2 (default: as the grouping makes)")
+  :argname("<parts>"):convert(command.numbers("--keep", 0))
+parser:option("--calibrate", "fit the coarser levels to the base: its moduli, or its frequencies "
+  .. "and loads with as long a step as that allows (modes); modes certifies them too")
+  :choices(s.choices.calibrate):default("none")
+parser:option("--tolerance", "mean error of the ten lowest frequencies that calibrated levels may "
+  .. "have, such as 0.005 (default: 0.002 times the root of base nodes over nodes)")
   :convert(command.number("--tolerance", 0))
 parser:option("--resume", "folder for the intermediate results of --calibrate modes; it is kept "
   .. "(default: NAME.calibration beside the asset, removed when the asset is written)")

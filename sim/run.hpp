@@ -45,6 +45,26 @@ struct RunOptions {
   std::shared_ptr<const ContactSkin> skin = nullptr;
   Progress* progress = nullptr;
 };
+constexpr auto option_rows(const RunOptions*) {
+  return std::tuple(
+      option("integrator", &RunOptions::integrator, "how a step is made"),
+      nested(&RunOptions::solver),
+      option("step", &RunOptions::step, "time step")
+          .in(Dimension::time)
+          .by_default("safety times the predicted stable step; 1 ms for the implicit schemes"),
+      option("safety", &RunOptions::safety, "part of the predicted stable step that is taken"),
+      option("precision", &RunOptions::precision,
+             "of the numbers symplectic_euler moves a body with"),
+      option("layout", &RunOptions::layout, "of the springs for symplectic_euler"),
+      option("sleep", &RunOptions::sleep,
+             "a body that touches something sleeps, at no cost, once its mean speed stays below "
+             "this part of that of a fall through its own size; 0: never"),
+      option("frame_rate", &RunOptions::frame_rate,
+             "frames kept a simulated second; 0: first and last only"),
+      option("ledger", &RunOptions::ledger, "keep account of the energy"));
+}
+
+inline constexpr const char* kThreadsHelp = "0: all cores; never changes a result";
 
 /// Two nodes joined by a spring that went past each other: it turned over between two looks at the
 /// body, beyond what the body as a whole turned.

@@ -4,11 +4,18 @@
 #include <optional>
 #include <string>
 
+#include "base/choice.hpp"
 #include "model/mesh.hpp"
 
 namespace springlod::voxelize {
 
 enum class UpAxis { x, y, z };
+
+inline constexpr Choice<UpAxis> kUpAxes[] = {
+    {UpAxis::x, "x", "x is up"}, {UpAxis::y, "y", "y is up"}, {UpAxis::z, "z", "z is up"}};
+constexpr ChoiceTable<Choice<UpAxis>> choices(UpAxis) {
+  return {"up", kUpAxes};
+}
 
 struct ImportOptions {
   std::optional<double> unit;  ///< metres in one unit of the file; left out: the file's, or metres

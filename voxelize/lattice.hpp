@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/choice.hpp"
+#include "base/option.hpp"
 #include "model/mass_spring.hpp"
 #include "voxelize/grid.hpp"
 
@@ -21,12 +23,27 @@ enum class LatticeStyle {
   centers,
 };
 
+inline constexpr Choice<LatticeStyle> kLatticeStyles[] = {
+    {LatticeStyle::corners, "corners", "nodes at the corners of the cells: no border error"},
+    {LatticeStyle::centers, "centers", "nodes at the centers of the cells, as in the paper"}};
+constexpr ChoiceTable<Choice<LatticeStyle>> choices(LatticeStyle) {
+  return {"lattice", kLatticeStyles};
+}
+
 /// What to do where cells touch only along an edge or at a corner (a hinge).
 enum class HingePolicy {
   report,    ///< leave it and say so
   fill,      ///< fill a neighbouring cell until the contact has a face
   separate,  ///< double the shared nodes, so that the cells come apart
 };
+
+inline constexpr Choice<HingePolicy> kHingePolicies[] = {
+    {HingePolicy::report, "report", "leave them and report them"},
+    {HingePolicy::fill, "fill", "fill a neighbouring cell"},
+    {HingePolicy::separate, "separate", "double the shared nodes, so that the cells come apart"}};
+constexpr ChoiceTable<Choice<HingePolicy>> choices(HingePolicy) {
+  return {"hinges", kHingePolicies};
+}
 
 struct Hinge {
   Vec3 position = Vec3::Zero();  ///< of the shared corner, or the middle of the shared edge [m]
@@ -37,6 +54,11 @@ struct LatticeOptions {
   LatticeStyle style = LatticeStyle::corners;
   HingePolicy hinges = HingePolicy::report;
 };
+constexpr auto option_rows(const LatticeOptions*) {
+  return std::tuple(option("style", &LatticeOptions::style, "where the nodes sit"),
+                    option("hinges", &LatticeOptions::hinges,
+                           "what to do where cells touch only along an edge or at a corner"));
+}
 
 struct LatticeModel {
   MassSpringModel model;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/option.hpp"
 #include "base/progress.hpp"
 #include "model/mass_spring.hpp"
 #include "voxelize/grid.hpp"
@@ -27,6 +28,23 @@ struct RandomOptions {
   bool rescale = true;
   Progress* progress = nullptr;
 };
+inline constexpr const char* kEndsHelp =
+    "ends of springs a node on average, at least 14; every node of a random model has 14";
+inline constexpr const char* kPlacesHelp =
+    "of the random places; the same seed gives the same bits";
+constexpr auto option_rows(const RandomOptions*) {
+  return std::tuple(
+      option("nodes", &RandomOptions::nodes, "how many, at least 15")
+          .by_default("as spacing tells"),
+      option("spacing", &RandomOptions::spacing, "edge of the cube that a node stands for")
+          .in(Dimension::length)
+          .by_default("the grid's cell"),
+      option("ends", &RandomOptions::ends, kEndsHelp),
+      option("seed", &RandomOptions::seed, kPlacesHelp),
+      option("rescale", &RandomOptions::rescale,
+             "one factor for all springs from a solved stretch test, so that the model shows its "
+             "E; false: k by eq. 2 of the paper alone"));
+}
 
 /// A random model and what was measured of its network, the same nodes and springs all of one
 /// material: in a box of cells the mean of the stretch tests along its three edges, in any other

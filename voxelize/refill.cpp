@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "model/point_bins.hpp"
 #include "voxelize/corner_nodes.hpp"
 #include "voxelize/index_lookup.hpp"
 #include "voxelize/random.hpp"
@@ -92,38 +91,7 @@ void fit(MassSpringModel& model, const GridSums& target) {
   }
 }
 
-/// Every node of the base to the nearest of `nodes`.
-Groups nearest_groups(const MassSpringModel& base, const std::vector<Vec3>& nodes) {
-  const Box3 box = bounds(base.rest).merged(bounds(nodes));
-  const auto count = static_cast<std::uint32_t>(nodes.size());
-  const double spacing = box.sizes().norm() / std::cbrt(count);
-  const PointBins bins(nodes, box, spacing);
-  Groups groups{std::vector<std::uint32_t>(base.rest.size()), count};
-  std::vector<std::uint32_t> size(count, 0);
-  for (std::size_t i = 0; i < base.rest.size(); ++i) {
-    groups.of[i] = bins.nearest(base.rest[i]).point;
-    ++size[groups.of[i]];
-  }
-  for (std::uint32_t g = 0; g < count; ++g) {
-    if (size[g] > 0) continue;
-    std::size_t best = base.rest.size();
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < base.rest.size(); ++i) {
-      const double squared = (base.rest[i] - nodes[g]).squaredNorm();
-      if (size[groups.of[i]] < 2 || squared >= least) continue;
-      best = i;
-      least = squared;
-    }
-    // There are fewer groups than nodes, so one has two.
-    --size[groups.of[best]];
-    groups.of[best] = g;
-    size[g] = 1;
-  }
-  return groups;
-}
-
-Level refilled_level(const MassSpringModel& base, const MaterialGrid& grid, std::uint32_t nodes,
-                     const RefillOptions& options) {
+Level refilled_level(const MaterialGrid& grid, std::uint32_t nodes, const RefillOptions& options) {
   Level level;
   if (options.style == RefillStyle::random) {
     level.model = build_random(grid, {.nodes = nodes,
@@ -135,12 +103,9 @@ Level refilled_level(const MassSpringModel& base, const MaterialGrid& grid, std:
         fmt::format("refill random, {} nodes, {} ends, seed {}", nodes, options.ends, options.seed);
   } else {
     level.model = lattice_of_about(grid, nodes, options.lattice);
-    level.made_by = fmt::format("refill {}, {} nodes of {} wanted",
-                                options.lattice == LatticeStyle::corners ? "corners" : "centers",
+    level.made_by = fmt::format("refill {}, {} nodes of {} wanted", to_string(options.lattice),
                                 level.model.node_count(), nodes);
   }
-  if (level.model.node_count() < base.node_count())
-    level.of_base = nearest_groups(base, level.model.rest);
   return level;
 }
 
@@ -174,25 +139,16 @@ MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes,
   return model;
 }
 
-LodChain refill(const MassSpringModel& base, const MaterialGrid& grid,
-                const RefillOptions& options) {
+std::vector<Level> refill_levels(const MaterialGrid& grid, const RefillOptions& options) {
   if (options.nodes.empty())
     throw InputError("refill: say how many nodes each level shall have, as in nodes = {161, 78}");
   Task task(options.progress, "refilling", options.nodes.size());
-  LodChain chain;
-  chain.levels.push_back({base, identity_groups(base.node_count()), "base"});
+  std::vector<Level> levels;
   for (const std::uint32_t nodes : options.nodes) {
-    Level level = refilled_level(base, grid, nodes, options);
-    const std::uint32_t before = chain.levels.back().model.node_count();
-    if (level.model.node_count() >= before)
-      throw InputError(
-          fmt::format("refill: level {} would have {} nodes and the level before has {}; ask for "
-                      "fewer",
-                      chain.levels.size(), level.model.node_count(), before));
-    chain.levels.push_back(std::move(level));
+    levels.push_back(refilled_level(grid, nodes, options));
     task.advance();
   }
-  return chain;
+  return levels;
 }
 
 }  // namespace springlod::voxelize

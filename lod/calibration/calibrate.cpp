@@ -20,13 +20,13 @@
 namespace springlod::lod {
 namespace {
 
-/// A part of the base with its targets.
+/// A connected component of the base with its targets.
 struct PartTargets {
   ModelPart part;
   ElasticTargets targets;
 };
 
-/// The nodes of a part among some of the model's, as the part numbers them.
+/// The chosen nodes that lie in the component, numbered within it.
 std::vector<std::uint32_t> nodes_of_part(const ModelPart& part,
                                          const std::vector<std::uint8_t>& chosen) {
   std::vector<std::uint32_t> nodes;
@@ -39,17 +39,19 @@ void require_surface(const MassSpringModel& base, const TargetOptions& options) 
   for (std::size_t r = 0; r < options.regions.size(); ++r) {
     for (const std::uint32_t node : options.regions[r].nodes)
       if (node >= base.node_count())
-        throw InputError(fmt::format("calibration: region {} names node {}; the base has {}",
-                                     script_number(r), script_number(node), base.node_count()));
+        throw InputError(
+            fmt::format("calibration: region {} contains node {}; the base has {} nodes",
+                        script_number(r), script_number(node), base.node_count()));
     if (movable_nodes(base, options.regions[r], options.anchored).empty())
       throw InputError(
           fmt::format("calibration: none of the {} nodes of region {} is a border node that is "
-                      "free to move; name nodes of the surface, beside the anchored ones",
+                      "free to move; use nodes of the surface that are not anchored",
                       options.regions[r].nodes.size(), script_number(r)));
   }
 }
 
-/// The options for a part of the base: its own anchored nodes and regions.
+/// The options for a component of the base: those of the call with its own anchored nodes and
+/// regions.
 TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint8_t>& anchored,
                               const std::vector<std::vector<std::uint8_t>>& regions,
                               const CalibrateOptions& options) {
@@ -62,15 +64,15 @@ TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint
   return of_part;
 }
 
-BaseAnswers answers_of(const MassSpringModel& part, std::size_t number,
-                       const TargetOptions& options, const std::vector<LoadTarget>& asked,
-                       const CalibrationStore* store) {
-  if (store == nullptr) return measure_base(part, options, asked);
+BaseMeasurements measure_or_load(const MassSpringModel& part, std::size_t number,
+                                 const TargetOptions& options, const std::vector<LoadTarget>& loads,
+                                 const CalibrationStore* store) {
+  if (store == nullptr) return measure_base(part, options, loads);
   const std::string fingerprint = fingerprint_of(part, options);
-  if (std::optional<BaseAnswers> kept = store->answers(number, fingerprint)) return *kept;
-  BaseAnswers answers = measure_base(part, options, asked);
-  store->keep(number, fingerprint, answers);
-  return answers;
+  if (std::optional<BaseMeasurements> kept = store->measurements(number, fingerprint)) return *kept;
+  BaseMeasurements measured = measure_base(part, options, loads);
+  store->keep(number, fingerprint, measured);
+  return measured;
 }
 
 std::vector<PartTargets> measure_parts(const MassSpringModel& base, const CalibrateOptions& options,
@@ -83,15 +85,16 @@ std::vector<PartTargets> measure_parts(const MassSpringModel& base, const Calibr
   std::vector<PartTargets> all;
   for (ModelPart& part : split_parts(base, connected_components(base))) {
     const TargetOptions of_part = options_of_part(part, anchored, regions, options);
-    std::vector<LoadTarget> asked = asked_loads(part.model, of_part);
-    const BaseAnswers answers = answers_of(part.model, all.size(), of_part, asked, store);
-    ElasticTargets targets = targets_of(part.model, of_part, std::move(asked), answers);
+    std::vector<LoadTarget> loads = target_loads(part.model, of_part);
+    const BaseMeasurements measured =
+        measure_or_load(part.model, all.size(), of_part, loads, store);
+    ElasticTargets targets = make_targets(part.model, of_part, std::move(loads), measured);
     all.push_back({std::move(part), std::move(targets)});
   }
   return all;
 }
 
-/// Nodes of a part of the base -> nodes of the part of the level that they went into.
+/// The map from the nodes of a component of the base to those of the level's component.
 Groups groups_of_part(const ModelPart& base, const ModelPart& level, const Groups& of_base) {
   Groups groups{{}, level.model.node_count()};
   std::vector<std::uint32_t> place(of_base.count);
@@ -108,11 +111,11 @@ void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpring
   }
 }
 
-/// Keeps the state of one fit, each time that an interval [s] is over.
-class FitKeeper {
+/// Saves the state of one fit at intervals [s].
+class FitCheckpoint {
  public:
-  FitKeeper(const CalibrationStore& store, std::size_t level, std::size_t part,
-            std::string fingerprint, double interval)
+  FitCheckpoint(const CalibrationStore& store, std::size_t level, std::size_t part,
+                std::string fingerprint, double interval)
       : store_(store),
         level_(level),
         part_(part),
@@ -120,16 +123,16 @@ class FitKeeper {
         interval_(interval),
         due_(Clock::now() + interval_) {}
 
-  std::optional<FitState> kept() const { return store_.fit(level_, part_, fingerprint_); }
+  std::optional<FitState> load() const { return store_.fit(level_, part_, fingerprint_); }
 
-  /// True if it was due.
-  bool offer(const FitState& state) {
+  /// Saves a finished fit at once, another one if the interval has passed; true if it saved.
+  bool save_if_due(const FitState& state) {
     if (!state.finished && Clock::now() < due_) return false;
-    keep(state);
+    save(state);
     return true;
   }
 
-  void keep(const FitState& state) {
+  void save(const FitState& state) {
     store_.keep(level_, part_, fingerprint_, state);
     due_ = Clock::now() + interval_;
   }
@@ -147,10 +150,10 @@ class FitKeeper {
 
 std::string detail_of(std::size_t level, const FitState& state, double base_frequency) {
   constexpr double kPercent = 100;
-  std::string text = fmt::format("level {}, step {}: f1..10 off by {:.2g} %", level,
-                                 state.iteration, kPercent * state.frequency_error);
+  std::string text = fmt::format("level {}, step {}: f1..10 error {:.2g} %", level, state.iteration,
+                                 kPercent * state.frequency_error);
   if (state.best_frequency > 0)
-    text += fmt::format(", omega_max {:.2f} of the base's", state.best_frequency / base_frequency);
+    text += fmt::format(", omega_max / base {:.2f}", state.best_frequency / base_frequency);
   return text;
 }
 
@@ -175,7 +178,7 @@ class Calibrator {
                  fit_level(job + 1, stopped, task);
                });
     } catch (const InterruptedError&) {
-      if (store_ && !said_) say_where();
+      if (store_ && !reported_store_) report_store();
       throw;
     }
   }
@@ -207,45 +210,45 @@ class Calibrator {
     options.iterations = steps_of(level);
     options.threads = options_.threads;
     FitProgress progress;
-    std::optional<FitKeeper> keeper;
+    std::optional<FitCheckpoint> checkpoint;
     if (store_) {
-      keeper.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options),
-                     options_.keep_every);
-      progress.from = keeper->kept();
+      checkpoint.emplace(*store_, level, part, fingerprint_of(targets, start, groups, options),
+                         options_.keep_every);
+      progress.from = checkpoint->load();
     }
-    std::uint32_t told = 0;  // steps that the task knows of
-    const auto tell = [&](const FitState& state) {
+    std::uint32_t reported = 0;  // steps already counted by the task
+    const auto report = [&](const FitState& state) {
       if (stopped()) throw InterruptedError();
       task.detail(detail_of(level, state, targets.highest_frequency));
       const std::uint32_t done = state.finished ? options.iterations : state.iteration;
-      task.advance(done - std::exchange(told, done));
+      task.advance(done - std::exchange(reported, done));
     };
     if (progress.from) {
       if (!resumed_.exchange(true))
-        say(fmt::format("calibration: goes on from what is kept in {}", store_->folder().string()));
-      tell(*progress.from);
+        say(fmt::format("calibration: resumes from {}", store_->folder().string()));
+      report(*progress.from);
     }
     progress.on_iteration = [&](const FitState& state) {
       try {
-        tell(state);
+        report(state);
       } catch (const InterruptedError&) {
-        if (keeper) keeper->keep(state);
+        if (checkpoint) checkpoint->save(state);
         throw;
       }
-      if (keeper && keeper->offer(state) && !state.finished && !said_.exchange(true)) say_where();
+      if (checkpoint && checkpoint->save_if_due(state) && !state.finished &&
+          !reported_store_.exchange(true))
+        report_store();
     };
     return fit_part(start, groups, targets, options, progress);
   }
 
-  /// At most, of each part.
+  /// Largest number of steps of each component.
   std::uint32_t steps_of(std::size_t level) const {
     return fit_steps(options_.fit, chain_.levels[level].model.node_count());
   }
 
-  void say_where() const {
-    say(
-        fmt::format("calibration: its state is kept in {}; if it is stopped, the same call goes on "
-                    "from there",
+  void report_store() const {
+    say(fmt::format("calibration: its state is saved in {}; repeat the call to resume after a stop",
                     store_->folder().string()));
   }
   void say(const std::string& text) const {
@@ -256,7 +259,7 @@ class Calibrator {
   const CalibrateOptions& options_;
   std::optional<CalibrationStore> store_;
   std::vector<PartTargets> base_;
-  std::atomic<bool> said_{false}, resumed_{false};
+  std::atomic<bool> reported_store_{false}, resumed_{false};
 };
 
 }  // namespace

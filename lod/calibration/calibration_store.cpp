@@ -17,14 +17,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// To be raised whenever a fit would go another way from the same state, or a file look otherwise:
-/// what an older program kept is then not used.
-constexpr std::uint32_t kFormat = 2;
+/// Format version. Raise it whenever a fit continues differently from the same state or the format
+/// changes; files of other versions are ignored.
+constexpr std::uint32_t kFormat = 3;
 constexpr std::size_t kChecksumSize = 16;  // of content_hash [bytes]
 
 const char* const kAbout =
-    "What a calibration of springlod has found so far. The call that was stopped goes on from here "
-    "when it is made again; without this folder it begins anew.\n";
+    "State of a springlod calibration. A stopped call resumes from here when it is repeated; "
+    "without "
+    "this folder it starts from the beginning.\n";
 
 void pack(Packer& to, const MassSpringModel& model) {
   to.add(model.rest);
@@ -72,13 +73,13 @@ void take(Unpacker& from, std::optional<FitPoint>& point) {
   if (from.take<bool>()) take(from, point.emplace());
 }
 
-/// Visits all that a state is, in the order in which it stands in a file.
+/// Visits the members of a state in the order of the file.
 template <class State, class Visit>
 void visit_members(State& state, const Visit& visit) {
   visit(state.iteration);
-  visit(state.tries);
+  visit(state.steps_outside);
   visit(state.finished);
-  visit(state.limit);
+  visit(state.bound);
   visit(state.damping);
   visit(state.tighten);
   visit(state.now);
@@ -87,7 +88,31 @@ void visit_members(State& state, const Visit& visit) {
   visit(state.frequency_error);
 }
 
-std::string name_of_answers(std::size_t part) {
+/// Adds the values of an options struct, row by row; the weights only if `with_weights`.
+template <HasOptions S>
+void pack_options(Packer& to, const S& all, bool with_weights) {
+  for_each_option(all, [&](const auto& row, const auto& member) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    if constexpr (requires { row.is_weight; })
+      if (row.is_weight && !with_weights) return;
+    if constexpr (std::is_enum_v<Member>) {
+      to.add(static_cast<int>(member));
+    } else if constexpr (requires {
+                           typename Member::value_type;
+                           requires HasOptions<typename Member::value_type>;
+                         }) {
+      to.add(member.size());
+      for (const auto& each : member) pack_options(to, each, with_weights);
+    } else if constexpr (requires { member.has_value(); }) {
+      to.add(member.has_value());
+      if (member) to.add(*member);
+    } else {
+      to.add(member);
+    }
+  });
+}
+
+std::string name_of_measurements(std::size_t part) {
   return fmt::format("base-part-{}", part + 1);
 }
 
@@ -100,15 +125,9 @@ std::string name_of_fit(std::size_t level, std::size_t part) {
 std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options) {
   Packer all;
   pack(all, base_part);
-  all.add(options.modes);
-  all.add(options.smooth_loads);
-  all.add(patch_count(options, base_part.node_count()));
-  all.add(options.seed);
-  all.add(options.anchored);
-  for (const TargetRegion& region : options.regions) {
-    all.add(region.nodes);
-    all.add(region.patches);
-  }
+  TargetOptions measured = options;
+  measured.patches = patch_count(options, base_part.node_count());
+  pack_options(all, measured, false);
   return content_hash(all.bytes());
 }
 
@@ -129,10 +148,7 @@ std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel&
   pack(all, level_part);
   all.add(of_base.of);
   all.add(of_base.count);
-  all.add(options.iterations);
-  all.add(options.tolerance);
-  all.add(options.least_frequency);
-  all.add(static_cast<int>(options.moments));
+  pack_options(all, options, true);
   return content_hash(all.bytes());
 }
 
@@ -142,31 +158,31 @@ CalibrationStore::CalibrationStore(fs::path folder, Progress* progress)
     write_text_file(folder_ / "about.txt", kAbout);
   } catch (const IoError& error) {
     throw IoError(
-        fmt::format("calibration: its state cannot be kept in {}: {}; name a folder that can be "
-                    "written to, or none",
+        fmt::format("calibration: its state cannot be saved in {}: {}; use a writable folder or "
+                    "none",
                     folder_.string(), error.what()));
   }
 }
 
-std::optional<BaseAnswers> CalibrationStore::answers(std::size_t part,
-                                                     const std::string& fingerprint) const {
-  const std::optional<std::string> payload = read(name_of_answers(part), fingerprint);
+std::optional<BaseMeasurements> CalibrationStore::measurements(
+    std::size_t part, const std::string& fingerprint) const {
+  const std::optional<std::string> payload = read(name_of_measurements(part), fingerprint);
   if (!payload) return std::nullopt;
   Unpacker from(*payload);
-  BaseAnswers answers;
-  answers.squared_frequency = from.take_list<double>();
-  answers.compliance = from.take_list<double>();
-  answers.highest_frequency = from.take<double>();
-  return answers;
+  BaseMeasurements measured;
+  measured.squared_frequency = from.take_list<double>();
+  measured.compliance = from.take_list<double>();
+  measured.highest_frequency = from.take<double>();
+  return measured;
 }
 
 void CalibrationStore::keep(std::size_t part, const std::string& fingerprint,
-                            const BaseAnswers& answers) const {
+                            const BaseMeasurements& measured) const {
   Packer to;
-  to.add(answers.squared_frequency);
-  to.add(answers.compliance);
-  to.add(answers.highest_frequency);
-  write(name_of_answers(part), fingerprint, to.bytes());
+  to.add(measured.squared_frequency);
+  to.add(measured.compliance);
+  to.add(measured.highest_frequency);
+  write(name_of_measurements(part), fingerprint, to.bytes());
 }
 
 std::optional<FitState> CalibrationStore::fit(std::size_t level, std::size_t part,
@@ -196,8 +212,7 @@ std::optional<std::string> CalibrationStore::read(const std::string& name,
   if (!fs::exists(place(name), error)) return std::nullopt;
   const auto refuse = [&](const char* why) {
     if (progress_ != nullptr)
-      progress_->say(
-          fmt::format("calibration: {} {}; that part begins anew", place(name).string(), why));
+      progress_->say(fmt::format("calibration: {} {} and is ignored", place(name).string(), why));
     return std::nullopt;
   };
   const std::string bytes = read_file(place(name));
@@ -206,9 +221,10 @@ std::optional<std::string> CalibrationStore::read(const std::string& name,
   if (size == 0 || bytes.substr(size) != content_hash(body)) return refuse("is damaged");
   try {
     Unpacker from(body);
-    if (from.take<std::uint32_t>() != kFormat) return refuse("is by another version of springlod");
+    if (from.take<std::uint32_t>() != kFormat)
+      return refuse("has the format of another version of springlod");
     if (from.take_text() != fingerprint)
-      return refuse("is of another base, another level or other options");
+      return refuse("belongs to another base, another level or other options");
     return from.take_text();
   } catch (const IoError&) {
     return refuse("is damaged");

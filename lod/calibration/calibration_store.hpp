@@ -13,19 +13,20 @@
 
 namespace springlod::lod {
 
-/// A folder that keeps what a calibration has found so far, so that one that was stopped goes on
-/// where it was: what was measured of each part of the base, and for each level and part the state
-/// of its fit. Files are binary, for this machine; each holds the fingerprint of all that it
-/// depends on, and a checksum. One that is of something else, or damaged, is not used, which is
-/// said, and written anew. Different files may be used from several threads.
+/// A folder with the state of a calibration, from which a stopped calibration resumes: the
+/// measurements of each component of the base, and the state of the fit of each level and
+/// component. The files are binary, in the format of the machine. Each holds a fingerprint of its
+/// inputs and a checksum. A file with another fingerprint, or a damaged one, is reported, ignored
+/// and replaced. Several threads may use different files.
 class CalibrationStore {
  public:
-  /// Makes the folder if it is missing. Throws IoError if nothing can be written there, as all that
-  /// write do.
+  /// Makes the folder if it is missing. Throws IoError if it cannot be written, as `keep` does.
   CalibrationStore(std::filesystem::path folder, Progress* progress);
 
-  std::optional<BaseAnswers> answers(std::size_t part, const std::string& fingerprint) const;
-  void keep(std::size_t part, const std::string& fingerprint, const BaseAnswers& answers) const;
+  std::optional<BaseMeasurements> measurements(std::size_t part,
+                                               const std::string& fingerprint) const;
+  void keep(std::size_t part, const std::string& fingerprint,
+            const BaseMeasurements& measured) const;
 
   std::optional<FitState> fit(std::size_t level, std::size_t part,
                               const std::string& fingerprint) const;
@@ -36,7 +37,7 @@ class CalibrationStore {
 
  private:
   std::filesystem::path place(const std::string& name) const;
-  /// What is in a file, without what is around it.
+  /// The payload of a file; none if there is no valid file with this fingerprint.
   std::optional<std::string> read(const std::string& name, const std::string& fingerprint) const;
   void write(const std::string& name, const std::string& fingerprint,
              const std::string& payload) const;
@@ -45,9 +46,9 @@ class CalibrationStore {
   Progress* progress_;
 };
 
-/// Of all that the answers of a part of the base depend on.
+/// Hash of all inputs of the measurements of a component of the base.
 std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options);
-/// Of all that the fit of a part of a level depends on; `level_part` as the fit starts from it.
+/// Hash of all inputs of the fit of a component of a level; `level_part` is its start.
 std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel& level_part,
                            const Groups& of_base, const FitOptions& options);
 

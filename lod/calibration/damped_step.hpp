@@ -5,21 +5,24 @@
 
 namespace springlod::lod {
 
-/// The step d of least |d| that makes up for misses, damped (Levenberg 1944):
-///   min |J^T d - miss|^2 + sum over the active limits of w^2 (H d + excess)^2 + damping |d|^2.
-/// A limit is active if it is above 0 at `near`, or would be after the step.
+/// Linearized least-squares problem with penalized constraints (docs/method.md, eqs. 40 and 41):
+///   min_d |G^T d - r|^2 + w^2 sum over active i of (h_i + H_i d)^2 + epsilon |d|^2.
+/// A constraint is active if it is violated at `linearized_at`, or would be after the step.
 struct StepProblem {
-  const Eigen::MatrixXd& slopes;                               ///< J: n x R, dense, R few
-  const Eigen::MatrixXd& normal;                               ///< J^T J
-  const Eigen::VectorXd& miss;                                 ///< R
-  const Eigen::SparseMatrix<double, Eigen::RowMajor>& limits;  ///< H: L x n, L may be many
-  const Eigen::VectorXd& excess;                               ///< L, at d = 0
-  Eigen::VectorXd near{};                                      ///< n, none: 0
-  double limit_weight = 1;                                     ///< w
-  double most_rms = 0.2;  ///< of d: the damping is raised until it holds
+  const Eigen::MatrixXd& jacobian;  ///< G = -dr/dtheta: n x R, dense, R much less than n
+  const Eigen::MatrixXd& normal;    ///< G^T G
+  const Eigen::VectorXd& residual;  ///< r, R
+  const Eigen::SparseMatrix<double, Eigen::RowMajor>&
+      constraint_jacobian;                  ///< H = dh/dtheta: L x n, sparse
+  const Eigen::VectorXd& constraint_value;  ///< h, L, extrapolated to d = 0
+  Eigen::VectorXd linearized_at{};          ///< d at which h was linearized, n; empty: 0
+  double constraint_weight = 1;             ///< w
+  double most_rms = 0.2;                    ///< bound on the root mean square of d
 };
 
-/// `damping` is relative to the mean of J's columns' squared norms; it comes back as it was raised.
+/// Levenberg-Marquardt step d, n (Levenberg 1944, Marquardt 1963). `damping` is epsilon over the
+/// mean diagonal of G^T G [1]; it is raised until the root mean square of d is at most `most_rms`,
+/// and returned as raised.
 Eigen::VectorXd damped_step(const StepProblem& problem, double& damping);
 
 }  // namespace springlod::lod

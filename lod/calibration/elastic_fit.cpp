@@ -10,13 +10,13 @@
 namespace springlod::lod {
 namespace {
 
-/// Squared frequencies of the base nearer than this count as one.
+/// Squared frequencies of the base count as equal within this fraction.
 constexpr double kSameFrequency = 0.01;
-/// Of squared frequencies, as a bound; what they really miss by is about the square of it.
+/// Relative error bound of the squared frequencies; the error itself is about its square.
 constexpr double kAccuracy = 1e-3;
 
-/// Weights of the modes, where a smooth load has 1: the lowest ten carry most of a motion, and each
-/// kind of miss counts about as much at its tolerance.
+/// Weight of a mode, relative to that of a smooth load. The ten lowest modes carry most of a
+/// motion. With these weights each kind of residual counts about equally at its tolerance.
 double mode_weight(std::size_t mode) {
   constexpr double kLow = 3.75, kHigh = 1;
   return mode < kLowestModes ? kLow : kHigh;
@@ -39,7 +39,7 @@ Eigen::VectorXd dots(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
   return dot;
 }
 
-/// As which the load accelerates the nodes if nothing deforms [m/s2].
+/// Acceleration of the nodes of the undeformed body under the load [m/s2].
 std::vector<Vec3> rigid_acceleration(const elastic::ElasticBody& body,
                                      const elastic::StaticLoad& load) {
   std::vector<Vec3> acceleration(body.node_count, Vec3::Zero());
@@ -59,7 +59,8 @@ ElasticFit::ElasticFit(const MassSpringModel& level, const Groups& of_base,
       threads_(threads),
       anchored_(carried(of_base, targets.anchored)),
       stretch_(level.spring_count(), 3 * static_cast<Eigen::Index>(level.node_count())) {
-  for (const LoadTarget& target : targets.loads) loads_.push_back(carried(of_base, target.load));
+  for (const LoadTarget& target : targets.loads)
+    loads_.push_back(summed_over_groups(of_base, target.load));
   std::vector<Eigen::Triplet<double>> entries;
   for (std::uint32_t s = 0; s < level.spring_count(); ++s) {
     const Vec3 u = spring_direction(level, s);
@@ -82,13 +83,13 @@ std::vector<std::pair<std::size_t, std::size_t>> ElasticFit::mode_pairs() const 
   return pairs;
 }
 
-ElasticMisses ElasticFit::misses(const MassSpringModel& level) const {
+ElasticResiduals ElasticFit::residuals(const MassSpringModel& level) const {
   const elastic::ElasticBody body = held_body(level, anchored_);
   const auto of_modes = static_cast<Eigen::Index>(mode_pairs().size());
   const Eigen::Index rows = of_modes + static_cast<Eigen::Index>(loads_.size());
-  ElasticMisses all;
-  all.miss = Eigen::VectorXd::Zero(rows);
-  all.slopes = Eigen::MatrixXd::Zero(level.spring_count() + level.node_count(), rows);
+  ElasticResiduals all;
+  all.weighted = Eigen::VectorXd::Zero(rows);
+  all.jacobian = Eigen::MatrixXd::Zero(level.spring_count() + level.node_count(), rows);
   run_jobs(2, threads_, [&](std::uint64_t job, const std::function<bool()>&) {
     if (job == 0 && of_modes > 0) add_modes(level, body, 0, all);
     if (job == 1 && !loads_.empty()) add_loads(level, body, of_modes, all);
@@ -97,7 +98,7 @@ ElasticMisses ElasticFit::misses(const MassSpringModel& level) const {
 }
 
 void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticBody& body,
-                           Eigen::Index first, ElasticMisses& all) const {
+                           Eigen::Index first, ElasticResiduals& all) const {
   const std::vector<double>& wanted = targets_.squared_frequency;
   const std::vector<elastic::Mode> found =
       elastic::lowest_modes(
@@ -106,24 +107,24 @@ void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticB
   std::vector<Eigen::VectorXd> stretch;
   for (std::size_t i = 0; i < found.size(); ++i) {
     stretch.emplace_back(stretch_ * flat(found[i].shape));
-    all.frequency.push_back(std::abs(found[i].angular_frequency / std::sqrt(wanted[i]) - 1));
+    all.frequency_error.push_back(std::abs(found[i].angular_frequency / std::sqrt(wanted[i]) - 1));
   }
   const auto k = as_vector(level.stiffness).array();
   const auto m = as_vector(level.mass).array();
   Eigen::Index row = first;
   for (const auto& [i, j] : mode_pairs()) {
-    if (j >= found.size()) break;  // a level of very few nodes
+    if (j >= found.size()) break;  // a level of very few nodes has fewer modes
     const double scale = found[i].angular_frequency * found[j].angular_frequency;
     const double weight = targets_.mode_weight * mode_weight(i);
-    all.slopes.col(row) << weight / scale * k * stretch[i].array() * stretch[j].array(),
+    all.jacobian.col(row) << weight / scale * k * stretch[i].array() * stretch[j].array(),
         -weight * m * dots(found[i].shape, found[j].shape).array();
-    if (i == j) all.miss[row] = weight * std::log(wanted[i] / scale);
+    if (i == j) all.weighted[row] = weight * std::log(wanted[i] / scale);
     ++row;
   }
 }
 
 void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticBody& body,
-                           Eigen::Index first, ElasticMisses& all) const {
+                           Eigen::Index first, ElasticResiduals& all) const {
   const std::vector<elastic::StaticSolution> solved =
       elastic::solve_static(body, loads_, {.balance = kLoadBalance});
   const auto k = as_vector(level.stiffness).array();
@@ -131,14 +132,14 @@ void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticB
   for (std::size_t l = 0; l < loads_.size(); ++l) {
     const LoadTarget& target = targets_.loads[l];
     const double c = solved[l].compliance;
-    all.compliance.push_back(std::abs(c / target.compliance - 1));
-    if (!(c > 0)) continue;  // the groups took the load into themselves
+    all.compliance_error.push_back(std::abs(c / target.compliance - 1));
+    if (!(c > 0)) continue;  // the forces cancel within the groups
     const Eigen::VectorXd stretch = stretch_ * flat(solved[l].displacement);
     const Eigen::Index row = first + static_cast<Eigen::Index>(l);
-    all.slopes.col(row) << -target.weight / c * k * stretch.array().square(),
+    all.jacobian.col(row) << -target.weight / c * k * stretch.array().square(),
         -2 * target.weight / c * m *
             dots(solved[l].displacement, rigid_acceleration(body, loads_[l])).array();
-    all.miss[row] = target.weight * std::log(target.compliance / c);
+    all.weighted[row] = target.weight * std::log(target.compliance / c);
   }
 }
 

@@ -14,40 +14,39 @@
 
 namespace springlod::lod {
 
-/// How a level misses its targets: weighted misses r and their slopes by ln k of each spring and
-/// ln m of each node.
-struct ElasticMisses {
-  Eigen::VectorXd miss;            ///< ln(wanted / found), weighted [1], R
-  Eigen::MatrixXd slopes;          ///< (S + N) x R: by how much each unknown lessens each miss
-  std::vector<double> frequency;   ///< |found / wanted - 1| of each mode, not weighted
-  std::vector<double> compliance;  ///< the same of each load
+/// Weighted residuals r of a level against its targets and their Jacobian with respect to ln k of
+/// each spring and ln m of each node (docs/method.md, eqs. 30 to 34).
+struct ElasticResiduals {
+  Eigen::VectorXd weighted;              ///< r, R [1]
+  Eigen::MatrixXd jacobian;              ///< G = -dr / d(ln k, ln m), (S + N) x R [1]
+  std::vector<double> frequency_error;   ///< |omega / omega0 - 1| of each mode, unweighted [1]
+  std::vector<double> compliance_error;  ///< the same of each load
 };
 
-/// Compares a level with the targets of its base, as often as its stiffnesses and masses change;
-/// nodes and springs stay. The level must be one connected part.
+/// Evaluates the residuals of one level for any stiffnesses and masses; positions and springs are
+/// fixed. The level must be connected.
 class ElasticFit {
  public:
-  /// On two of the threads, if there are, modes and loads are found side by side.
+  /// With two threads or more, modes and loads are solved concurrently.
   ElasticFit(const MassSpringModel& level, const Groups& of_base, const ElasticTargets& targets,
              std::uint32_t threads = 1);
 
-  /// Squared frequencies in the order of their size, lambda = omega^2:
+  /// Modes are matched in ascending order of lambda = omega^2. The derivatives are
   ///   d ln lambda / d ln k = k (b.phi)^2 / lambda,   d ln lambda / d ln m = -m |phi|^2,
-  /// and of modes whose frequencies the base has within 1 % of each other also that the level's
-  /// should not mix as they change, phi_i^T (dK - lambda dM) phi_j = 0: near-double modes are not
-  /// differentiable one by one. Compliances:
-  ///   d ln c / d ln k = -k (b.u)^2 / c,   d ln c / d ln m = -2 m u.a / c,
-  /// a the acceleration of the free body, whose inertia balances the load.
-  ElasticMisses misses(const MassSpringModel& level) const;
+  ///   d ln c / d ln k = -k (b.u)^2 / c,              d ln c / d ln m = -2 m u.a / c,
+  /// with the compliance c = f.u of a load f and the rigid acceleration a of the free body under f.
+  /// Modes of nearly equal frequency (lambda within 1 %) are not differentiable one by one. Each
+  /// pair of them adds a row with residual 0, which keeps the two modes from mixing.
+  ElasticResiduals residuals(const MassSpringModel& level) const;
 
  private:
-  /// Pairs of modes, each with itself and those of its own frequency.
+  /// Pairs (i, j >= i) of modes of nearly equal frequency; each mode is paired with itself.
   std::vector<std::pair<std::size_t, std::size_t>> mode_pairs() const;
-  /// Fill the rows from `first` on.
+  /// Fill the rows of modes or loads from index `first` on.
   void add_modes(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
-                 ElasticMisses& all) const;
+                 ElasticResiduals& all) const;
   void add_loads(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
-                 ElasticMisses& all) const;
+                 ElasticResiduals& all) const;
 
   const ElasticTargets& targets_;
   std::uint32_t threads_;

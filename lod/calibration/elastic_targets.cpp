@@ -18,8 +18,8 @@
 namespace springlod::lod {
 namespace {
 
-/// Loads solved for together: enough for the factors to be read seldom, few enough for a large
-/// base, of which each takes as much memory as six copies of the positions.
+/// Number of load cases solved together. A larger block reads the factors less often, but each load
+/// case needs the memory of six copies of the positions.
 constexpr std::size_t kTogether = 32;
 
 void check_weight(const char* name, double weight) {
@@ -34,10 +34,14 @@ void check(const TargetOptions& options) {
   check_weight("load_weight", options.load_weight);
   for (const TargetRegion& region : options.regions)
     check_weight("weight of a region", region.weight);
-  const bool any_load = options.smooth_loads || options.patches != 0U || !options.regions.empty();
-  if ((options.modes == 0 || options.mode_weight == 0) && (!any_load || options.load_weight == 0))
+  const bool any_load = options.kinds != TargetKinds::modes;
+  if (!any_load && !options.regions.empty())
     throw InputError(
-        "calibration: nothing is left to be fitted; ask for modes or loads, with a weight above 0");
+        "calibration: targets = \"modes\" excludes the loads of regions; leave out regions, or use "
+        "targets = \"loads\" or \"both\"");
+  if ((mode_count(options) == 0 || options.mode_weight == 0) &&
+      (!any_load || options.load_weight == 0))
+    throw InputError("calibration: no targets are left; use modes or loads with a weight above 0");
 }
 
 std::vector<elastic::StaticLoad> region_loads(const MassSpringModel& base,
@@ -56,14 +60,14 @@ std::vector<elastic::StaticLoad> region_loads(const MassSpringModel& base,
 }
 
 std::vector<double> compliances(const elastic::ElasticBody& body,
-                                const std::vector<LoadTarget>& asked,
+                                const std::vector<LoadTarget>& targets,
                                 const std::function<bool()>& stopped) {
   std::vector<double> all;
-  for (std::size_t first = 0; first < asked.size(); first += kTogether) {
+  for (std::size_t first = 0; first < targets.size(); first += kTogether) {
     if (stopped()) throw InterruptedError();
-    const std::size_t last = std::min(asked.size(), first + kTogether);
+    const std::size_t last = std::min(targets.size(), first + kTogether);
     std::vector<elastic::StaticLoad> loads;
-    for (std::size_t l = first; l < last; ++l) loads.push_back(asked[l].load);
+    for (std::size_t l = first; l < last; ++l) loads.push_back(targets[l].load);
     for (const elastic::StaticSolution& solution :
          elastic::solve_static(body, loads, {.balance = kLoadBalance}))
       all.push_back(solution.compliance);
@@ -77,11 +81,11 @@ elastic::ElasticBody held_body(const MassSpringModel& model,
                                const std::vector<std::uint32_t>& anchored, Progress* progress) {
   elastic::ElasticBody body =
       elastic::elastic_body(model, {.anchored = anchored, .progress = progress});
-  body.anchored.clear();  // solve_static refuses to push at free motions only if there are any
+  body.anchored.clear();  // without anchors solve_static balances free motions by inertia
   return body;
 }
 
-elastic::StaticLoad carried(const Groups& of_base, const elastic::StaticLoad& load) {
+elastic::StaticLoad summed_over_groups(const Groups& of_base, const elastic::StaticLoad& load) {
   elastic::StaticLoad coarse{load.name, std::vector<Vec3>(of_base.count, Vec3::Zero())};
   for (std::size_t i = 0; i < load.force.size(); ++i) coarse.force[of_base.of[i]] += load.force[i];
   return coarse;
@@ -96,69 +100,74 @@ std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const Targ
   return nodes;
 }
 
+std::uint32_t mode_count(const TargetOptions& options) {
+  return options.kinds == TargetKinds::loads ? 0 : options.modes;
+}
+
 std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes) {
+  if (options.kinds == TargetKinds::modes) return 0;
   if (options.patches) return *options.patches;
   constexpr double kMost = 150, kLeast = 60, kFew = 2000;
   return static_cast<std::uint32_t>(std::clamp(kMost * std::sqrt(kFew / nodes), kLeast, kMost));
 }
 
-std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOptions& options) {
+std::vector<LoadTarget> target_loads(const MassSpringModel& base, const TargetOptions& options) {
   check(options);
-  std::vector<LoadTarget> asked;
-  const auto ask = [&](LoadKind kind, double weight, std::vector<elastic::StaticLoad> loads) {
+  std::vector<LoadTarget> targets;
+  const auto add = [&](LoadKind kind, double weight, std::vector<elastic::StaticLoad> loads) {
     for (elastic::StaticLoad& load : loads)
-      asked.push_back({kind, std::move(load), 0, weight * options.load_weight});
+      targets.push_back({kind, std::move(load), 0, weight * options.load_weight});
   };
-  if (options.smooth_loads) {
-    ask(LoadKind::smooth, 1, elastic::smooth_loads(base));
-    ask(LoadKind::piece, options.piece_weight, elastic::piece_loads(base));
+  if (options.kinds != TargetKinds::modes) {
+    add(LoadKind::smooth, 1, elastic::smooth_loads(base));
+    add(LoadKind::piece, options.piece_weight, elastic::piece_loads(base));
   }
   const std::uint32_t patches = patch_count(options, base.node_count());
   if (patches > 0 && border_count(base) > 0)
-    ask(LoadKind::patch, options.patch_weight,
+    add(LoadKind::patch, options.patch_weight,
         elastic::patch_pairs(base, {.count = patches, .seed = options.seed}));
   for (std::size_t r = 0; r < options.regions.size(); ++r)
-    ask(LoadKind::region, options.regions[r].weight,
+    add(LoadKind::region, options.regions[r].weight,
         region_loads(base, options.regions[r], options, r + 1));
-  return asked;
+  return targets;
 }
 
-BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options,
-                         const std::vector<LoadTarget>& asked) {
+BaseMeasurements measure_base(const MassSpringModel& base, const TargetOptions& options,
+                              const std::vector<LoadTarget>& loads) {
   const elastic::ElasticBody body = held_body(base, options.anchored, options.progress);
-  BaseAnswers answers;
+  BaseMeasurements measured;
   run_jobs(2, options.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
-    if (job == 0 && options.modes > 0)
+    const std::uint32_t modes = mode_count(options);
+    if (job == 0 && modes > 0)
       for (const elastic::Mode& mode :
-           elastic::lowest_modes(body, {.count = options.modes, .progress = options.progress})
-               .modes)
-        answers.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
-    if (job == 1) answers.compliance = compliances(body, asked, stopped);
+           elastic::lowest_modes(body, {.count = modes, .progress = options.progress}).modes)
+        measured.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
+    if (job == 1) measured.compliance = compliances(body, loads, stopped);
   });
-  answers.highest_frequency = elastic::largest_frequency(base);
-  return answers;
+  measured.highest_frequency = elastic::largest_frequency(base);
+  return measured;
 }
 
-ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& options,
-                          std::vector<LoadTarget> asked, const BaseAnswers& answers) {
+ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& options,
+                            std::vector<LoadTarget> loads, const BaseMeasurements& measured) {
   ElasticTargets targets;
-  targets.squared_frequency = answers.squared_frequency;
+  targets.squared_frequency = measured.squared_frequency;
   targets.mode_weight = options.mode_weight;
-  targets.loads = std::move(asked);
+  targets.loads = std::move(loads);
   for (std::size_t l = 0; l < targets.loads.size(); ++l)
-    targets.loads[l].compliance = answers.compliance.at(l);
-  // Those that find nothing to pull at go.
+    targets.loads[l].compliance = measured.compliance.at(l);
+  // A load without effect on the base, such as a stretch across a flat model, is dropped.
   std::erase_if(targets.loads, [](const LoadTarget& target) { return !(target.compliance > 0); });
-  targets.highest_frequency = answers.highest_frequency;
+  targets.highest_frequency = measured.highest_frequency;
   targets.nodes = base.node_count();
   targets.anchored = options.anchored;
   return targets;
 }
 
 ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options) {
-  std::vector<LoadTarget> asked = asked_loads(base, options);
-  const BaseAnswers answers = measure_base(base, options, asked);
-  return targets_of(base, options, std::move(asked), answers);
+  std::vector<LoadTarget> loads = target_loads(base, options);
+  const BaseMeasurements measured = measure_base(base, options, loads);
+  return make_targets(base, options, std::move(loads), measured);
 }
 
 }  // namespace springlod::lod

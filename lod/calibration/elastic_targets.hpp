@@ -12,72 +12,76 @@
 
 namespace springlod::lod {
 
-/// What a load asks about. Each kind has a weight and a tolerance of its own.
+/// Kinds of static loads. Each kind has its own weight and tolerance.
 enum class LoadKind {
-  smooth,  ///< the whole body: smooth_loads
-  piece,   ///< pieces of one material: piece_loads
-  patch,   ///< the surface, anywhere: patch_pairs
-  region,  ///< a part of the surface that matters: patch_pairs and pushes within it
+  smooth,  ///< on the whole body: smooth_loads
+  piece,   ///< on one material region: piece_loads
+  patch,   ///< on patches anywhere on the surface: patch_pairs
+  region,  ///< within a TargetRegion of the surface: patch_pairs and pushes
 };
 
-/// A load and how far the base gives way to it.
+/// A static load and the base's compliance to it.
 struct LoadTarget {
   LoadKind kind = LoadKind::smooth;
   elastic::StaticLoad load;  ///< on the base's nodes
-  double compliance = 0;     ///< of the base [J] > 0
+  double compliance = 0;     ///< of the base, f.u [J], above 0
   double weight = 1;         ///< [1]
 };
 
-/// What a level shall have in common with its base (spec 4.1), measured on the base once.
+/// Targets of a fit: natural frequencies and static compliances of the base (docs/method.md, eq. 30
+/// and the table of weights below it).
 struct ElasticTargets {
-  std::vector<double> squared_frequency;  ///< of the lowest modes, rising [rad2/s2]
-  double mode_weight = 1;                 ///< of each of them, over the usual one [1]
+  std::vector<double> squared_frequency;  ///< omega^2 of the lowest modes, ascending [rad2/s2]
+  double mode_weight = 1;                 ///< factor on the default weight of each mode [1]
   std::vector<LoadTarget> loads;
   double highest_frequency = 0;         ///< omega_max of the base [rad/s]
-  std::uint32_t nodes = 0;              ///< of the base
-  std::vector<std::uint32_t> anchored;  ///< nodes of the base
+  std::uint32_t nodes = 0;              ///< number of nodes of the base
+  std::vector<std::uint32_t> anchored;  ///< anchored nodes of the base
 };
 
-/// Pairs of patches for a base of so many nodes: 150, and fewer for more than 2000 nodes, which a
-/// fit does not bend for the loads of some patches as those of a small body, down to 60.
+/// Number of modes to fit: 0 if options.kinds is loads.
+std::uint32_t mode_count(const TargetOptions& options);
+/// Number of patch pairs for a base of `nodes` nodes: options.patches if set, otherwise 150,
+/// falling to 60 for large bases (docs/method.md, eq. 31). Large models do not overfit to a few
+/// patches, so fewer patch load cases suffice.
 std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes);
 
-/// StaticOptions::balance of loads in a calibration: leaves compliances right to a hundredth of a
-/// percent and better.
+/// StaticOptions::balance in a calibration: a relative residual that leaves less than 0.01 % of
+/// error in a compliance.
 constexpr double kLoadBalance = 1e-8;
 
-/// What is measured of a base, which takes long where it is large.
-struct BaseAnswers {
-  std::vector<double> squared_frequency;  ///< as in ElasticTargets
-  std::vector<double> compliance;         ///< of every load asked, also where it is 0 [J]
+/// Measured values of a base. Measuring a large base takes minutes.
+struct BaseMeasurements {
+  std::vector<double> squared_frequency;  ///< as in ElasticTargets [rad2/s2]
+  std::vector<double> compliance;         ///< of every target load; 0: it does not act [J]
   double highest_frequency = 0;           ///< omega_max [rad/s]
 };
 
-/// Of a region half the loads are pairs of patches if there is room for two of them, the others
-/// patches that are pushed against the inertia of the body, or whatever holds it. A region without
-/// border nodes that are free to move adds none.
+/// Measures the targets of a base. Half of the loads of a region are patch pairs, if two patches
+/// fit into it; the others push one patch against the inertia of the body or against its anchors. A
+/// region without free border nodes adds no loads.
 /// Throws InputError for weights below 0, and where elastic_body does.
 ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options = {});
 
-/// Its parts, for those who keep the answers: the loads, whose compliances are yet to be measured;
-/// what is measured of the base, in which the weights have no part; and both together.
-std::vector<LoadTarget> asked_loads(const MassSpringModel& base, const TargetOptions& options);
-BaseAnswers measure_base(const MassSpringModel& base, const TargetOptions& options,
-                         const std::vector<LoadTarget>& asked);
-ElasticTargets targets_of(const MassSpringModel& base, const TargetOptions& options,
-                          std::vector<LoadTarget> asked, const BaseAnswers& answers);
+/// The three steps of measure_targets, for callers that store the measurements: the loads, with
+/// compliances still 0; the measurements, which do not depend on the weights; the targets.
+std::vector<LoadTarget> target_loads(const MassSpringModel& base, const TargetOptions& options);
+BaseMeasurements measure_base(const MassSpringModel& base, const TargetOptions& options,
+                              const std::vector<LoadTarget>& loads);
+ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& options,
+                            std::vector<LoadTarget> loads, const BaseMeasurements& measured);
 
-/// The body held at the anchored nodes; what they leave free is balanced by its inertia, as if
-/// there were none, and not refused.
+/// The linearized body held at the anchored nodes. Rigid motions that the anchors leave free are
+/// balanced by inertia as for a free body; they are no error.
 elastic::ElasticBody held_body(const MassSpringModel& model,
                                const std::vector<std::uint32_t>& anchored,
                                Progress* progress = nullptr);
 
-/// The region's nodes that loads can move: on the border and not anchored.
+/// Nodes of the region that loads can act on: border nodes that are not anchored.
 std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const TargetRegion& region,
                                          const std::vector<std::uint32_t>& anchored);
 
-/// Forces on the nodes of a level, from those on the base's nodes.
-elastic::StaticLoad carried(const Groups& of_base, const elastic::StaticLoad& load);
+/// The load on a level's nodes: the forces on the base nodes summed over each group [N].
+elastic::StaticLoad summed_over_groups(const Groups& of_base, const elastic::StaticLoad& load);
 
 }  // namespace springlod::lod

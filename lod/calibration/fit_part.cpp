@@ -11,36 +11,39 @@
 #include "elastic/stable_step.hpp"
 #include "lod/calibration/damped_step.hpp"
 #include "lod/calibration/elastic_fit.hpp"
-#include "lod/calibration/frequency_cap.hpp"
+#include "lod/calibration/frequency_constraints.hpp"
 #include "lod/calibration/tolerance.hpp"
 
 namespace springlod::lod {
 namespace {
 
-/// Bounds of the unknowns: of one step, its root mean square, and of all steps together.
+/// Bounds on each component of a step, on its root mean square, and on each component of theta.
 constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
-/// Damping over the mean of the slopes' squared norms: at the start, and bounds of it.
+/// Damping relative to the mean diagonal of G^T G: initial value, least and largest.
 constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
-/// What the damping is divided by after a step that helped, multiplied by after one that did not.
-constexpr double kTrust = 3, kDistrust = 4;
-/// Weight of a node above the limit, where a miss of a load that is fitted has 1. More nodes than
-/// so many share the weight of these, or the misses would not count beside them.
-constexpr double kLimitWeight = 0.5, kLimitNodes = 1000;
-/// How often a step follows the limits through their bends: they are cheap to tell anew, where
-/// misses take most of the time.
-constexpr int kBends = 4;
-/// What the limit of squared frequencies falls to while the level is good, at first; its root when
-/// a level did not become good again in so many steps, down to hardly any fall.
+/// Divisor of the damping after an accepted step, and factor on it after a rejected one.
+constexpr double kDampingDecrease = 3, kDampingIncrease = 4;
+/// Penalty weight of a constraint, relative to a smooth load. In a level of more than 1000 nodes
+/// the constraints weigh as much as those of 1000 nodes; they would outweigh the residuals
+/// otherwise (docs/method.md, eq. 39).
+constexpr double kConstraintWeight = 0.5, kConstraintNodes = 1000;
+/// Linearizations of the constraints per step. The constraints are strongly nonlinear and cheap;
+/// the residuals are nearly linear and costly, so they are linearized once (docs/method.md, eq.
+/// 42).
+constexpr int kRelinearizations = 4;
+/// Factor on the frequency bound each time the level is within tolerance (docs/method.md, eq. 45).
+/// If the level stays outside tolerance for kPatience steps, the factor becomes its own square
+/// root; the fit ends when the factor exceeds kLeastTighten.
 constexpr double kTighten = 0.8, kLeastTighten = 0.98;
 constexpr std::uint32_t kPatience = 10;
-/// The limit over the largest bound there is, at least: one farther below pulls at all nodes, and
-/// no longer at the ones that matter.
-constexpr double kLeastLimit = 0.68;
-/// Nodes that far below the limit are not looked at in a step (in ln of squared frequencies).
+/// Least ratio of the frequency bound to the largest squared node frequency. With a smaller ratio
+/// nearly all nodes would be constrained instead of the stiffest.
+constexpr double kLeastBound = 0.68;
+/// Nodes with ln(squared frequency / bound) below -kMargin have no constraint row.
 constexpr double kMargin = 1;
 
-/// What patch loads, and those of pieces, may be missed by, over the tolerance of the lowest
-/// frequencies; and those of regions, which are asked for because they matter.
+/// Tolerances of patch and piece loads, and of region loads, relative to that of the ten lowest
+/// frequencies (docs/method.md, eq. 44).
 constexpr double kPatchLoadsTolerance = 20, kRegionLoadsTolerance = 8;
 
 double mean(const std::vector<double>& values, std::size_t begin, std::size_t end) {
@@ -62,7 +65,8 @@ class PartFit {
         tolerance_(frequency_tolerance(options.tolerance, targets.nodes, level.node_count())),
         least_frequency_(options.least_frequency * targets.highest_frequency *
                          std::cbrt(static_cast<double>(level.node_count()) / targets.nodes)),
-        limit_weight_(kLimitWeight * std::sqrt(std::min(1.0, kLimitNodes / level.node_count()))),
+        constraint_weight_(kConstraintWeight *
+                           std::sqrt(std::min(1.0, kConstraintNodes / level.node_count()))),
         variables_(level, options.moments),
         fit_(level, of_base, targets, options.threads) {}
 
@@ -71,25 +75,25 @@ class PartFit {
       restore(*progress_.from);
     else
       begin();
-    for (; !finished_ && iteration_ < steps_; tell()) {
-      if (good(now_)) {
+    for (; !finished_ && iteration_ < steps_; report()) {
+      if (within_tolerance(now_)) {
         keep_if_better();
         if (best_->highest_frequency <= least_frequency_) break;
-        const double bound = largest_node_bound(now_.model);
-        limit_ = std::max(tighten_ * std::min(limit_, bound), kLeastLimit * bound);
-        tries_ = 0;
-      } else if (best_ && (tries_ >= kPatience || damping_ > kMostDamping)) {
+        const double largest = largest_node_bound(now_.model);
+        bound_ = std::max(tighten_ * std::min(bound_, largest), kLeastBound * largest);
+        steps_outside_ = 0;
+      } else if (best_ && (steps_outside_ >= kPatience || damping_ > kMostDamping)) {
         if (!back_off()) break;
-        tries_ = 0;
+        steps_outside_ = 0;
       }
-      ++tries_;
+      ++steps_outside_;
       ++iteration_;
       if (!advance() && !best_) break;
     }
     if (!finished_) {
-      if (good(now_)) keep_if_better();
+      if (within_tolerance(now_)) keep_if_better();
       finished_ = true;
-      tell();
+      report();
     }
     return best_ ? std::move(best_->model) : std::move(now_.model);
   }
@@ -98,8 +102,8 @@ class PartFit {
   struct Point {
     Eigen::VectorXd theta;
     MassSpringModel model;
-    ElasticMisses misses;    // slopes by theta, along changes that keep the moments
-    Eigen::MatrixXd normal;  // slopes^T slopes
+    ElasticResiduals residuals;  // Jacobian by theta, projected: see project_jacobian
+    Eigen::MatrixXd normal;      // G^T G
   };
   struct Best {
     Eigen::VectorXd theta;
@@ -109,14 +113,14 @@ class PartFit {
 
   void begin() {
     now_ = at(Eigen::VectorXd::Zero(variables_.count()));
-    limit_ = largest_node_bound(start_);
+    bound_ = largest_node_bound(start_);
   }
 
   void restore(const FitState& state) {
     iteration_ = state.iteration;
-    tries_ = state.tries;
+    steps_outside_ = state.steps_outside;
     finished_ = state.finished;
-    limit_ = state.limit;
+    bound_ = state.bound;
     damping_ = state.damping;
     tighten_ = state.tighten;
     now_ = {state.now.theta, variables_.model(state.now), {}, {}};
@@ -127,68 +131,70 @@ class PartFit {
 
   FitState state() const {
     FitState state{.iteration = iteration_,
-                   .tries = tries_,
+                   .steps_outside = steps_outside_,
                    .finished = finished_,
-                   .limit = limit_,
+                   .bound = bound_,
                    .damping = damping_,
                    .tighten = tighten_,
                    .now = {now_.theta, now_.model.mass},
                    .best = {},
                    .best_frequency = best_ ? best_->highest_frequency : 0,
-                   .frequency_error = mean(now_.misses.frequency, 0, kLowestModes)};
+                   .frequency_error = mean(now_.residuals.frequency_error, 0, kLowestModes)};
     if (best_) state.best = FitPoint{best_->theta, best_->model.mass};
     return state;
   }
 
-  void tell() const {
+  void report() const {
     if (progress_.on_iteration) progress_.on_iteration(state());
   }
 
   void measure(Point& point) const {
-    point.misses = fit_.misses(point.model);
-    variables_.turn_slopes(point.model.mass, point.misses.slopes);
-    point.normal = elastic::gram(point.misses.slopes);
+    point.residuals = fit_.residuals(point.model);
+    variables_.project_jacobian(point.model.mass, point.residuals.jacobian);
+    point.normal = elastic::gram(point.residuals.jacobian);
   }
 
   Point at(Eigen::VectorXd theta) const {
     Point point{std::move(theta), {}, {}, {}};
     point.model = variables_.model(point.theta);
-    variables_.take_masses(point.model.mass, point.theta);
+    variables_.masses_to_theta(point.model.mass, point.theta);
     measure(point);
     return point;
   }
 
-  /// The level a step further; none where it cannot be measured, or not in finite numbers.
+  /// The level after a step; none if it cannot be measured or is not finite.
   std::optional<Point> after(const Eigen::VectorXd& step) const {
     if (!step.allFinite()) return std::nullopt;
     try {
       Point point = at((now_.theta + step).cwiseMax(-kMostChange).cwiseMin(kMostChange));
       if (point.theta.allFinite() && point.normal.allFinite()) return point;
     } catch (const InputError&) {
-      // Stiffnesses too far apart to be factorised, or for modes to be found.
+      // The stiffnesses are too far apart for the factorization or the eigensolver.
     }
     return std::nullopt;
   }
 
   double merit(const Point& point) const {
-    return point.misses.miss.squaredNorm() +
-           limit_weight_ * limit_weight_ * squared_excess(point.model, limit_);
+    return point.residuals.weighted.squaredNorm() +
+           constraint_weight_ * constraint_weight_ * squared_violation(point.model, bound_);
   }
 
-  /// The step that suits the misses as they go on straight, and the limits as they bend.
+  /// Step with the residuals linearized once and the constraints re-linearized along the step.
   Eigen::VectorXd next_step() {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(variables_.count());
-    for (int bend = 0; bend < kBends && step.allFinite(); ++bend) {
-      const CapRows cap = cap_rows(variables_.model(now_.theta + step), limit_, kMargin);
-      const Eigen::SparseMatrix<double, Eigen::RowMajor> limits = variables_.turned(cap.slopes);
-      const Eigen::VectorXd excess = cap.excess - limits * step;
-      step = damped_step({.slopes = now_.misses.slopes,
+    for (int i = 0; i < kRelinearizations && step.allFinite(); ++i) {
+      const FrequencyConstraints constraints =
+          frequency_constraints(variables_.model(now_.theta + step), bound_, kMargin);
+      const Eigen::SparseMatrix<double, Eigen::RowMajor> constraint_jacobian =
+          variables_.scaled_jacobian(constraints.jacobian);
+      const Eigen::VectorXd constraint_value = constraints.value - constraint_jacobian * step;
+      step = damped_step({.jacobian = now_.residuals.jacobian,
                           .normal = now_.normal,
-                          .miss = now_.misses.miss,
-                          .limits = limits,
-                          .excess = excess,
-                          .near = step,
-                          .limit_weight = limit_weight_,
+                          .residual = now_.residuals.weighted,
+                          .constraint_jacobian = constraint_jacobian,
+                          .constraint_value = constraint_value,
+                          .linearized_at = step,
+                          .constraint_weight = constraint_weight_,
                           .most_rms = kMostRms},
                          damping_)
                  .cwiseMax(-kMostStep)
@@ -197,32 +203,32 @@ class PartFit {
     return step;
   }
 
-  /// One step; it is taken back if it did not help. False if none will any more.
+  /// One step, rejected if it does not lower the merit. False once the damping is at its upper end.
   bool advance() {
     std::optional<Point> next = after(next_step());
     if (next && merit(*next) < merit(now_)) {
       now_ = *std::move(next);
-      damping_ = std::max(kLeastDamping, damping_ / kTrust);
+      damping_ = std::max(kLeastDamping, damping_ / kDampingDecrease);
     } else {
-      damping_ *= kDistrust;
+      damping_ *= kDampingIncrease;
     }
     return damping_ <= kMostDamping;
   }
 
-  /// Returns to the best level, to go on from there in smaller steps. False if they would be too
-  /// small.
+  /// Restarts from the best level, to tighten the bound in smaller steps. False if these would be
+  /// too small.
   bool back_off() {
     tighten_ = std::sqrt(tighten_);
     if (tighten_ > kLeastTighten) return false;
     now_ = at(best_->theta);
-    limit_ = tighten_ * largest_node_bound(now_.model);
+    bound_ = tighten_ * largest_node_bound(now_.model);
     damping_ = kFirstDamping;
     return true;
   }
 
-  /// Whether all kinds of misses are within what is wanted.
-  bool good(const Point& point) const {
-    const std::vector<double>& frequency = point.misses.frequency;
+  /// Whether the mean errors of all kinds are within tolerance (docs/method.md, eq. 44).
+  bool within_tolerance(const Point& point) const {
+    const std::vector<double>& frequency = point.residuals.frequency_error;
     return mean(frequency, 0, kLowestModes) <= tolerance_ &&
            mean(frequency, kLowestModes, frequency.size()) <= kHigherModesTolerance * tolerance_ &&
            mean_of_loads(point, {LoadKind::smooth}) <= kSmoothLoadsTolerance * tolerance_ &&
@@ -231,12 +237,12 @@ class PartFit {
            mean_of_loads(point, {LoadKind::region}) <= kRegionLoadsTolerance * tolerance_;
   }
 
-  /// Mean miss of the loads of some kinds; 0 if there are none.
+  /// Mean compliance error of the loads of some kinds [1]; 0 if there are none.
   double mean_of_loads(const Point& point, std::initializer_list<LoadKind> kinds) const {
     std::vector<double> of_kinds;
     for (std::size_t l = 0; l < targets_.loads.size(); ++l)
       if (std::find(kinds.begin(), kinds.end(), targets_.loads[l].kind) != kinds.end())
-        of_kinds.push_back(point.misses.compliance[l]);
+        of_kinds.push_back(point.residuals.compliance_error[l]);
     return mean(of_kinds, 0, of_kinds.size());
   }
 
@@ -250,16 +256,16 @@ class PartFit {
   const FitOptions& options_;
   const FitProgress& progress_;
   std::uint32_t steps_;
-  double tolerance_, least_frequency_, limit_weight_;
+  double tolerance_, least_frequency_, constraint_weight_;
   LevelVariables variables_;
   ElasticFit fit_;
   Point now_;
   std::optional<Best> best_;
-  double limit_ = 0;  // of the nodes' own squared frequencies [rad2/s2]
+  double bound_ = 0;  // on the squared frequencies of the nodes [rad2/s2]
   double damping_ = kFirstDamping;
   double tighten_ = kTighten;
   std::uint32_t iteration_ = 0;
-  std::uint32_t tries_ = 0;  // steps since the level was good
+  std::uint32_t steps_outside_ = 0;  // since the level was last within tolerance
   bool finished_ = false;
 };
 

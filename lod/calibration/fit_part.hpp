@@ -12,39 +12,40 @@
 
 namespace springlod::lod {
 
-/// All that a fit goes on from: the same state leads to the same bits.
+/// State of a fit, complete enough to resume it with bit-identical results.
 struct FitState {
-  std::uint32_t iteration = 0;  ///< steps made
-  std::uint32_t tries = 0;      ///< of them, since the level was good
+  std::uint32_t iteration = 0;      ///< steps done
+  std::uint32_t steps_outside = 0;  ///< steps since the level was last within tolerance
   bool finished = false;
-  double limit = 0;    ///< of the nodes' own squared frequencies [rad2/s2]
-  double damping = 0;  ///< of the next step [1]
-  double tighten = 0;  ///< what the limit is multiplied by while the level is good [1]
-  FitPoint now;
-  std::optional<FitPoint> best;  ///< of those good enough that with the lowest largest frequency
-  double best_frequency = 0;     ///< that frequency [rad/s]
-  double frequency_error = 0;    ///< of now: mean of the ten lowest [1]; only to be shown
+  double bound = 0;    ///< tau, on the squared frequencies of the nodes [rad2/s2]
+  double damping = 0;  ///< of the next step, see StepProblem [1]
+  double tighten = 0;  ///< factor on the bound each time the level is within tolerance [1]
+  FitPoint now;        ///< the current level
+  std::optional<FitPoint> best;  ///< within tolerance, with the lowest omega_max so far
+  double best_frequency = 0;     ///< omega_max of `best` [rad/s]
+  double frequency_error = 0;    ///< mean of the ten lowest at `now` [1]; for display only
 };
 
-/// Where a fit begins, and who watches it.
+/// Start state and observer of a fit.
 struct FitProgress {
-  std::optional<FitState> from{};  ///< goes on from here, where a fit of the same things was
-  /// Called after each step, and once when the fit is finished. May throw to stop.
+  std::optional<FitState> from{};  ///< resumes from this state of a fit with the same input
+  /// Called after each step and when the fit has finished. May throw to stop the fit.
   std::function<void(const FitState&)> on_iteration{};
 };
 
-/// Steps that are made at most for a level of so many nodes: each takes the square of them in time,
-/// and what the last ones of many still gain is little.
+/// Largest number of steps for a level of `nodes` nodes: options.iterations if set, otherwise 90,
+/// falling to 10 for large levels. The time of a step grows as the square of the nodes, and late
+/// steps gain little.
 std::uint32_t fit_steps(const FitOptions& options, std::uint32_t nodes);
 
-/// Changes the stiffnesses and masses of a level until it swings and gives way as its base does,
-/// then lowers its largest frequency for as long as it still does (after spec 4.1): Gauss-Newton
-/// steps of least norm in ln k and ln m, damped (Levenberg-Marquardt), under a falling limit of the
-/// nodes' own frequencies. Moments of mass stay; c keeps its part of k. Comes back with the level
-/// of the lowest largest frequency of those good enough; if none was, with the best fit. A step to
-/// where the level cannot be measured, or not in finite numbers, counts as one that did not help.
+/// Levenberg-Marquardt fit of log-stiffnesses and log-masses to the base's natural frequencies and
+/// static compliances, while the bound on the level's highest frequency is tightened step by step
+/// (docs/method.md, eqs. 39 to 46: the step in 40 to 42, the tolerance in 43 and 44, tightening in
+/// 45, stopping in 46). Moments of mass and c / k of each spring are kept. Returns the level of
+/// lowest omega_max among those within tolerance; if there was none, the level of lowest merit. A
+/// step to a level that cannot be measured, or whose residuals are not finite, is rejected.
 ///
-/// `level` must be one connected part and have springs.
+/// `level` must be connected and have springs.
 MassSpringModel fit_part(const MassSpringModel& level, const Groups& of_base,
                          const ElasticTargets& targets, const FitOptions& options = {},
                          const FitProgress& progress = {});

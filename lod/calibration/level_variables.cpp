@@ -5,7 +5,7 @@
 namespace springlod::lod {
 namespace {
 
-/// What ln m changes for each unit of an unknown, where ln k changes by 1 (spec 4.1).
+/// Change of ln m per unit of theta; ln k changes by 1 (docs/method.md, eq. 29).
 constexpr double kMassScale = 0.5;
 
 }  // namespace
@@ -34,22 +34,24 @@ MassSpringModel LevelVariables::model(const FitPoint& point) const {
   return model;
 }
 
-void LevelVariables::take_masses(const std::vector<double>& mass, Eigen::VectorXd& theta) const {
+void LevelVariables::masses_to_theta(const std::vector<double>& mass,
+                                     Eigen::VectorXd& theta) const {
   for (std::uint32_t i = 0; i < start_.node_count(); ++i)
     theta[springs() + i] = std::log(mass[i] / start_.mass[i]) / kMassScale;
 }
 
-void LevelVariables::turn_slopes(const std::vector<double>& mass, Eigen::MatrixXd& slopes) const {
-  auto by_mass = slopes.bottomRows(nodes());
+void LevelVariables::project_jacobian(const std::vector<double>& mass,
+                                      Eigen::MatrixXd& jacobian) const {
+  auto by_mass = jacobian.bottomRows(nodes());
   by_mass *= kMassScale;
   moments_.project(mass, by_mass);
 }
 
-Eigen::SparseMatrix<double, Eigen::RowMajor> LevelVariables::turned(
-    const Eigen::SparseMatrix<double, Eigen::RowMajor>& slopes) const {
+Eigen::SparseMatrix<double, Eigen::RowMajor> LevelVariables::scaled_jacobian(
+    const Eigen::SparseMatrix<double, Eigen::RowMajor>& jacobian) const {
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(count());
   scale.tail(nodes()).setConstant(kMassScale);
-  return slopes * scale.asDiagonal();
+  return jacobian * scale.asDiagonal();
 }
 
 }  // namespace springlod::lod

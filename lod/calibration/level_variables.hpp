@@ -10,15 +10,16 @@
 
 namespace springlod::lod {
 
-/// A level on its way, beside what it started from.
+/// A level during its fit, relative to the level before it.
 struct FitPoint {
   Eigen::VectorXd theta;     ///< S + N, see LevelVariables
-  std::vector<double> mass;  ///< N [kg]: what theta says, to the last bit
+  std::vector<double> mass;  ///< N [kg], those of theta; stored because exp(theta) rounds
 };
 
-/// What a fit changes of a level: theta = changes of ln k of each spring, S, then of ln m of each
-/// node, N, in units of one half, as masses are better known. Damping keeps its part of stiffness,
-/// the masses the moments that are to be kept. Refers to the level, which must outlive it.
+/// Unknowns theta of a fit: the change of ln k of each spring, S, then the change of ln m of each
+/// node, N, in units of 0.5 (docs/method.md, eq. 29). The unit penalizes changes of mass more than
+/// changes of stiffness. c / k of each spring and the moments of mass are kept. Refers to the
+/// level, which must outlive it.
 class LevelVariables {
  public:
   LevelVariables(const MassSpringModel& start, KeptMoments kept)
@@ -28,17 +29,18 @@ class LevelVariables {
   Eigen::Index nodes() const { return start_.node_count(); }
   Eigen::Index count() const { return springs() + nodes(); }
 
-  /// The level changed by theta, with its moments of mass restored.
+  /// The level at theta, with its moments of mass restored.
   MassSpringModel model(const Eigen::VectorXd& theta) const;
   MassSpringModel model(const FitPoint& point) const;
-  /// Brings the part of the masses in theta to what they are once moments are restored.
-  void take_masses(const std::vector<double>& mass, Eigen::VectorXd& theta) const;
+  /// Sets the mass unknowns of theta from `mass`, N [kg].
+  void masses_to_theta(const std::vector<double>& mass, Eigen::VectorXd& theta) const;
 
-  /// From slopes by ln k and ln m, a row each, to slopes by theta along what keeps the moments.
-  void turn_slopes(const std::vector<double>& mass, Eigen::MatrixXd& slopes) const;
-  /// From slopes by ln k and ln m, a column each, to slopes by theta.
-  Eigen::SparseMatrix<double, Eigen::RowMajor> turned(
-      const Eigen::SparseMatrix<double, Eigen::RowMajor>& slopes) const;
+  /// Turns derivatives by ln k and ln m, one row each, into derivatives by theta, projected onto
+  /// the changes that keep the moments of `mass` to first order (docs/method.md, eq. 35).
+  void project_jacobian(const std::vector<double>& mass, Eigen::MatrixXd& jacobian) const;
+  /// Turns derivatives by ln k and ln m, one column each, into derivatives by theta.
+  Eigen::SparseMatrix<double, Eigen::RowMajor> scaled_jacobian(
+      const Eigen::SparseMatrix<double, Eigen::RowMajor>& jacobian) const;
 
  private:
   MassSpringModel with_springs(const Eigen::VectorXd& theta) const;

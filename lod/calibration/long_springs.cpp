@@ -3,7 +3,7 @@
 namespace springlod::lod {
 
 void favour_long_springs(MassSpringModel& model) {
-  // sum k L^2 before over after, the mean length cancelled out.
+  // The factor is sum k L^2 before over after; the mean length cancels.
   double after = 0;
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
     after +=

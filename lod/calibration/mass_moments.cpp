@@ -11,16 +11,17 @@
 namespace springlod::lod {
 namespace {
 
-/// A mass never falls below this part of itself in one correction.
+/// Least factor on a mass in one correction.
 constexpr double kLeastFactor = 0.2;
-/// The correction is linear in the masses: a second one takes out what rounding and kLeastFactor
-/// left.
+/// Passes of the correction. It is linear in the masses, so one pass would do but for rounding and
+/// kLeastFactor.
 constexpr int kCorrections = 3;
 
-/// Pieces of fewer nodes, twice the ten moments, would hardly be free to change [1].
+/// Least number of nodes of a material region with its own constraints: twice its ten moments. In a
+/// smaller region the constraints would nearly fix the masses.
 constexpr std::size_t kLeastPiece = 20;
 
-/// The nodes of each piece of one material, and those of all small ones together.
+/// The nodes of each large material region, then those of all small regions together.
 std::vector<std::vector<std::uint32_t>> pieces_of(const MassSpringModel& model) {
   std::vector<std::vector<std::uint32_t>> pieces = material_pieces(model);
   const auto small = std::stable_partition(
@@ -50,19 +51,19 @@ MassMoments::MassMoments(const MassSpringModel& model, KeptMoments kept) {
     std::iota(pieces_[0].nodes.begin(), pieces_[0].nodes.end(), 0U);
   }
   for (Piece& piece : pieces_)
-    for (const std::uint32_t i : piece.nodes) piece.wanted += model.mass[i] * monomials_[i];
+    for (const std::uint32_t i : piece.nodes) piece.target += model.mass[i] * monomials_[i];
 }
 
 void MassMoments::project(const std::vector<double>& mass,
                           Eigen::Ref<Eigen::MatrixXd> changes) const {
   for (const Piece& piece : pieces_) {
     const auto size = static_cast<Eigen::Index>(piece.nodes.size());
-    Eigen::Matrix<double, Eigen::Dynamic, 10> slopes(size, 10);
+    Eigen::Matrix<double, Eigen::Dynamic, 10> gradients(size, 10);
     for (Eigen::Index i = 0; i < size; ++i) {
       const std::uint32_t node = piece.nodes[static_cast<std::size_t>(i)];
-      slopes.row(i) = mass[node] * monomials_[node].transpose();
+      gradients.row(i) = mass[node] * monomials_[node].transpose();
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slopes);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(gradients);
     Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(size, qr.rank());
     basis = qr.householderQ() * basis;
     const Eigen::MatrixXd of_piece = changes(piece.nodes, Eigen::all);
@@ -77,7 +78,7 @@ void MassMoments::restore(std::vector<double>& mass) const {
 void MassMoments::restore(const Piece& piece, std::vector<double>& mass) const {
   for (int pass = 0; pass < kCorrections; ++pass) {
     Eigen::Matrix<double, 10, 10> response = Eigen::Matrix<double, 10, 10>::Zero();
-    Moments missing = piece.wanted;
+    Moments missing = piece.target;
     for (const std::uint32_t i : piece.nodes) {
       response += mass[i] * monomials_[i] * monomials_[i].transpose();
       missing -= mass[i] * monomials_[i];

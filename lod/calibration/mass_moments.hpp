@@ -10,31 +10,32 @@
 
 namespace springlod::lod {
 
-/// Total mass, centre of mass and second moments of a model, ten numbers, or of each of its pieces
-/// and of what is left, to be kept while masses shift between its nodes.
+/// Keeps total mass, centre of mass and second moments (ten numbers) while masses shift between
+/// nodes: those of the body, or those of each material region of at least 20 nodes and of all
+/// smaller regions together (docs/method.md, eqs. 35 and 36).
 class MassMoments {
  public:
   explicit MassMoments(const MassSpringModel& model, KeptMoments kept = KeptMoments::body);
 
-  /// Takes out of each column of changes of ln m [1], N rows, what would change the moments to
-  /// first order.
+  /// Projects each column of `changes` of ln m, N rows [1], onto the changes that keep the moments
+  /// to first order.
   void project(const std::vector<double>& mass, Eigen::Ref<Eigen::MatrixXd> changes) const;
 
-  /// Brings the moments back to what they were, exactly but for rounding: each mass times a
-  /// polynomial of second order in the place, one for all or one a piece.
+  /// Restores the moments to rounding: multiplies the masses, N [kg], by a quadratic polynomial of
+  /// the position, one for the body or one for each region.
   void restore(std::vector<double>& mass) const;
 
  private:
   using Moments = Eigen::Matrix<double, 10, 1>;
   struct Piece {
     std::vector<std::uint32_t> nodes;
-    Moments wanted = Moments::Zero();
+    Moments target = Moments::Zero();
   };
 
   void restore(const Piece& piece, std::vector<double>& mass) const;
 
-  std::vector<Moments> monomials_;  // 1, x, y, z, xx, ... of each node, scaled to the body's size
-  std::vector<Piece> pieces_;       // every node is in one
+  std::vector<Moments> monomials_;  // 1, x, y, z, xx, ... of each node, in half-diagonals
+  std::vector<Piece> pieces_;       // each node is in one
 };
 
 }  // namespace springlod::lod

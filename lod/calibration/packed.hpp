@@ -13,15 +13,15 @@
 
 namespace springlod::lod {
 
-/// Numbers one after the other as bytes, as this machine has them: for hashing, and for files that
-/// only this machine reads again.
+/// Serializes numbers to bytes in the byte order of the machine: for hashes, and for files that are
+/// read on the same machine.
 class Packer {
  public:
   template <class T>
   requires std::is_arithmetic_v<T>
   void add(T value) { append(&value, sizeof value); }
   void add(std::string_view text) { add(std::span<const char>(text.data(), text.size())); }
-  /// How many, then all of them.
+  /// Adds the count, then the values.
   template <class T>
   requires std::is_arithmetic_v<T>
   void add(std::span<const T> values) {
@@ -46,8 +46,8 @@ class Packer {
   std::string bytes_;
 };
 
-/// Takes out in the same order what a Packer put in. All throw IoError where the bytes end too
-/// soon.
+/// Reads values in the order in which a Packer added them. All members throw IoError if the bytes
+/// end too soon.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}

@@ -4,9 +4,9 @@
 
 namespace springlod::lod {
 
-/// Gives each material of a level the sum of k L^2 that it has in the base, and with it the Young's
-/// modulus of eq. 2 of the paper; a spring between two materials belongs half to each. For
-/// comparison: it leaves the frequencies worse than it found them (spec 4).
+/// Rescales k and c of each material so that its sum of k L^2, and with it Young's modulus by eq. 2
+/// of docs/method.md, is that of the base (eq. 47 there). A spring between two materials counts
+/// half for each. For comparison only: the errors of the frequencies grow (docs/accuracy.md).
 void rescale_moduli(const MassSpringModel& base, MassSpringModel& level);
 
 }  // namespace springlod::lod

@@ -8,17 +8,17 @@
 namespace springlod::lod {
 namespace {
 
-/// Moments below this part of the largest count as none.
+/// Moments below this fraction of the largest count as 0.
 constexpr double kFlat = 1e-9;
 
-/// Moments of one connected part.
+/// Moments of one connected component.
 struct Moments {
   double mass = 0;
   Vec3 center = Vec3::Zero();
   Mat3 second = Mat3::Zero();
 };
 
-/// `part` tells each node's part.
+/// `part` is the component of each node.
 std::vector<Moments> moments_of(const MassSpringModel& model,
                                 const std::vector<std::uint32_t>& part, std::uint32_t count) {
   std::vector<Moments> moments(count);
@@ -35,7 +35,7 @@ std::vector<Moments> moments_of(const MassSpringModel& model,
   return moments;
 }
 
-/// A^power of a symmetric matrix without its null space.
+/// A^power of a positive semidefinite matrix; 0 on its null space.
 Mat3 power_of(const Mat3& a, double power) {
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(a);
   Vec3 values = Vec3::Zero();

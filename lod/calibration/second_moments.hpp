@@ -5,15 +5,15 @@
 
 namespace springlod::lod {
 
-/// Second moments of mass about the centre, sum m (x - c)(x - c)^T [kg m2].
+/// Second moments of mass about the centre of mass c, sum m (x - c)(x - c)^T [kg m2].
 Mat3 second_moments(const MassSpringModel& model);
 
-/// Moves the nodes of a merged level by one linear map for each connected part, which gives every
-/// part the second moments of mass that it has in the base: merging takes out what the groups have
-/// within (12 to 15 % of a sphere at 20 % of the nodes). Of the maps that do it this is the one
-/// that moves the masses least (optimal transport between the two ellipsoids). k L and c L of every
-/// spring stay, as they do in a merge. What has no extent along some axis (a sheet, a rope) keeps
-/// none.
+/// Restores the second moments of mass of each connected component of a merged level by one linear
+/// map of its nodes (docs/method.md, eq. 27). Merging removes the moments within the groups: 12 to
+/// 15 % of a sphere's at 20 % of the nodes. Of all linear maps that restore the moments this one
+/// displaces the masses least (optimal transport between two ellipsoids). k L and c L of every
+/// spring are conserved as in a merge. A component that is flat along an axis (a sheet, a rope)
+/// stays flat.
 void restore_second_moments(const MassSpringModel& base, const Groups& of_base,
                             MassSpringModel& level);
 

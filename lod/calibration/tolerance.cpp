@@ -4,9 +4,10 @@
 
 namespace springlod::lod {
 
-double frequency_tolerance(double asked, std::uint32_t base_nodes, std::uint32_t level_nodes) {
+double frequency_tolerance(double requested, std::uint32_t base_nodes, std::uint32_t level_nodes) {
   constexpr double kOfBase = 0.002;
-  return asked > 0 ? asked : kOfBase * std::sqrt(static_cast<double>(base_nodes) / level_nodes);
+  return requested > 0 ? requested
+                       : kOfBase * std::sqrt(static_cast<double>(base_nodes) / level_nodes);
 }
 
 }  // namespace springlod::lod

@@ -22,47 +22,48 @@ namespace {
 
 using Nodes = std::vector<std::uint32_t>;
 
-/// Nodes that may share groups, but with none of another kind: connected part, material, border.
+/// Kinds of nodes: nodes of one connected component, material and border flag. A group lies within
+/// one kind.
 std::vector<Nodes> kinds_of(const MassSpringModel& model, BorderRule border) {
-  const Components parts = connected_components(model);
+  const Components components = connected_components(model);
   std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, Nodes> kinds;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     if (border == BorderRule::strong && model.border[i] != 0) continue;
     const bool apart = border == BorderRule::weak && model.border[i] != 0;
-    kinds[{parts.of_node[i], model.material[i], apart}].push_back(i);
+    kinds[{components.of_node[i], model.material[i], apart}].push_back(i);
   }
   std::vector<Nodes> nodes;
   for (auto& [kind, of_kind] : kinds) nodes.push_back(std::move(of_kind));
   return nodes;
 }
 
-/// With the median of what the nodes add to the bound of the largest squared frequency.
-std::vector<SharedNodes> frequencies_of(const MassSpringModel& model,
-                                        const std::vector<Nodes>& kinds) {
+/// The size of each kind and the median of its nodes' bounds on the squared frequency.
+std::vector<NodeKind> frequencies_of(const MassSpringModel& model,
+                                     const std::vector<Nodes>& kinds) {
   const std::vector<double> bounds = elastic::node_frequency_bounds(model, model.rest, {});
-  std::vector<SharedNodes> shared;
+  std::vector<NodeKind> shared;
   for (const Nodes& kind : kinds) {
     std::vector<double> of_kind;
     for (const std::uint32_t i : kind) of_kind.push_back(bounds[i]);
-    const auto middle = of_kind.begin() + static_cast<std::ptrdiff_t>(of_kind.size() / 2);
-    std::nth_element(of_kind.begin(), middle, of_kind.end());
-    shared.push_back({static_cast<std::uint32_t>(kind.size()), *middle});
+    const auto median = of_kind.begin() + static_cast<std::ptrdiff_t>(of_kind.size() / 2);
+    std::nth_element(of_kind.begin(), median, of_kind.end());
+    shared.push_back({static_cast<std::uint32_t>(kind.size()), *median});
   }
   return shared;
 }
 
-/// Groups of the nodes of one kind.
+/// The groups of one kind of nodes.
 class CompactKind {
  public:
   CompactKind(const MassSpringModel& model, const Nodes& nodes, std::uint32_t count,
               std::uint64_t seed)
       : model_(model), nodes_(nodes), of_(nodes.size(), 0), center_(count, Vec3::Zero()) {
     ChanceStream chance(seed);
-    // A lattice has many equal coordinates: which side of a cut they go to is left to chance.
-    const double blur = kBlur * bounds_of(nodes).diagonal().norm() / std::cbrt(nodes.size());
+    // A lattice has many equal coordinates; the jitter assigns them to a random side of a cut.
+    const double jitter = kJitter * bounds_of(nodes).diagonal().norm() / std::cbrt(nodes.size());
     for (const std::uint32_t i : nodes) {
-      const Vec3 away(chance.unit() - 0.5, chance.unit() - 0.5, chance.unit() - 0.5);
-      place_.emplace_back(model.rest[i] + blur * away);
+      const Vec3 offset(chance.unit() - 0.5, chance.unit() - 0.5, chance.unit() - 0.5);
+      position_.emplace_back(model.rest[i] + jitter * offset);
     }
     Nodes order(nodes.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -80,8 +81,8 @@ class CompactKind {
   const std::vector<std::uint32_t>& groups() const { return of_; }
 
  private:
-  /// Of the mean distance of nodes.
-  static constexpr double kBlur = 0.6;
+  /// Jitter of positions, in mean distances of nodes.
+  static constexpr double kJitter = 0.6;
 
   Box3 bounds_of(const Nodes& nodes) const {
     Box3 box;
@@ -96,7 +97,7 @@ class CompactKind {
       return;
     }
     Box3 box;
-    for (const std::uint32_t i : part) box.extend(place_[i]);
+    for (const std::uint32_t i : part) box.extend(position_[i]);
     Eigen::Index axis = 0;
     box.sizes().maxCoeff(&axis);
     const std::uint32_t low = count / 2;
@@ -104,8 +105,8 @@ class CompactKind {
                                                     part.size() - (count - low));
     std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(cut), part.end(),
                      [&](std::uint32_t p, std::uint32_t q) {
-                       const double x = place_[p][axis];
-                       const double y = place_[q][axis];
+                       const double x = position_[p][axis];
+                       const double y = position_[q][axis];
                        return x != y ? x < y : p < q;
                      });
     halve(part.first(cut), low, next);
@@ -122,7 +123,8 @@ class CompactKind {
     for (std::size_t g = 0; g < center_.size(); ++g) center_[g] = sum[g] / mass[g];
   }
 
-  /// False if nothing changed. A group never loses its last node.
+  /// Assigns each node to the nearest centre, unless its group would become empty. False if nothing
+  /// changed.
   bool assign() {
     Box3 box = bounds_of(nodes_);
     const double bin = std::max(std::cbrt(box.volume() / static_cast<double>(center_.size())),
@@ -146,7 +148,7 @@ class CompactKind {
 
   const MassSpringModel& model_;
   const Nodes& nodes_;
-  std::vector<Vec3> place_;        // of nodes_, blurred
+  std::vector<Vec3> position_;     // of nodes_, with jitter
   std::vector<std::uint32_t> of_;  // of nodes_
   std::vector<Vec3> center_;
 };
@@ -161,8 +163,8 @@ Groups compact_groups(const MassSpringModel& model, const CompactOptions& option
       if (model.border[i] != 0) groups.of[i] = groups.count++;
   if (wanted < groups.count)
     throw InputError(
-        fmt::format("compact grouping: {} groups are fewer than the {} border nodes, "
-                    "which stay single (border = \"strong\")",
+        fmt::format("compact grouping: {} groups are fewer than the {} border nodes, which stay "
+                    "single with border = \"strong\"; use more groups or border = \"weak\"",
                     wanted, groups.count));
   wanted -= groups.count;
   const std::vector<Nodes> kinds = kinds_of(model, options.border);
@@ -175,8 +177,15 @@ Groups compact_groups(const MassSpringModel& model, const CompactOptions& option
       groups.of[kinds[k][i]] = groups.count + kind.groups()[i];
     groups.count += share[k];
   }
-  mend_groups(model, groups);
+  connect_groups(model, groups);
   return groups;
+}
+
+Groups compact_groups(const GroupingTask& task) {
+  return compact_groups(task.model, {.count = task.count,
+                                     .border = task.options.border,
+                                     .grading = task.options.grading,
+                                     .seed = task.options.seed});
 }
 
 }  // namespace springlod::lod

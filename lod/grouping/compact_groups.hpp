@@ -9,24 +9,27 @@
 namespace springlod::lod {
 
 struct CompactOptions {
-  std::uint32_t count = 0;  ///< groups wanted
+  std::uint32_t count = 0;  ///< number of groups
   BorderRule border = BorderRule::none;
-  /// By how much stiff materials get larger groups than soft ones, for a longer step and more nodes
-  /// where they are missed: 0 not at all, 1 until they swing alike; see graded_shares.
+  /// Grading of group sizes by stiffness, 0 to 1: stiff materials get larger groups, which
+  /// lengthens the stable time step and leaves more nodes to soft ones. 0: equal sizes; 1: equal
+  /// highest frequencies. See graded_shares.
   double grading = 0.5;
   std::uint64_t seed = 1;
-  /// Of Lloyd's iteration; a few more change little.
+  /// Passes of Lloyd's iteration; more change little.
   std::uint32_t passes = 25;
 };
 
-/// Exactly `count` round groups, within a material of about equal size: the nodes are halved again
-/// and again across their longest extent until each piece is one group, and centroidal Voronoi
-/// cells relaxed from there (Lloyd 1982). A group never crosses from one material to another, nor,
-/// with BorderRule::weak, between border and inside; strong borders stay single. It holds together
-/// by springs.
+/// Makes exactly `count` compact groups, of about equal size within a material: recursive bisection
+/// across the longest extent, then centroidal Voronoi cells by Lloyd's iteration (Lloyd 1982;
+/// docs/method.md, eq. 24 and the text above it). A group is connected by springs and lies within
+/// one material and, with BorderRule::weak, within the border or the interior. With
+/// BorderRule::strong border nodes stay single.
 ///
-/// Linear in the nodes but for a logarithm. Throws InputError if `count` is less than the pieces
-/// that must stay apart, or more than the nodes.
+/// The time is N log N. Throws InputError if `count` is less than the number of kinds of nodes that
+/// must stay apart, or more than the nodes.
 Groups compact_groups(const MassSpringModel& model, const CompactOptions& options);
+/// The same with the options of a grouping.
+Groups compact_groups(const GroupingTask& task);
 
 }  // namespace springlod::lod

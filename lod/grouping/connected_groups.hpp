@@ -5,9 +5,10 @@
 
 namespace springlod::lod {
 
-/// Makes every group hang together by springs: what hangs on the rest of its group by none goes to
-/// the group that most of its springs lead to. The number of groups
-/// stays, but that a piece in a connected part of the body without any other group becomes one.
-void mend_groups(const MassSpringModel& model, Groups& groups);
+/// Makes every group connected by springs: the largest connected fragment of a group stays; each
+/// other fragment joins the neighbouring group that most of its springs lead to. The number of
+/// groups grows only by fragments in a component of the body where no group has its largest
+/// fragment.
+void connect_groups(const MassSpringModel& model, Groups& groups);
 
 }  // namespace springlod::lod

@@ -15,8 +15,8 @@
 namespace springlod::lod {
 namespace {
 
-/// The node of the group that a breadth-first walk within it, from its lowest node, comes to last:
-/// all others stay joined without it.
+/// The last node of a breadth-first search within the group from its first member. The other nodes
+/// stay connected without it.
 std::uint32_t last_reached(const SpringRows& springs, const Groups& groups,
                            const std::vector<std::uint32_t>& members) {
   std::vector<std::uint32_t> reached{members.front()};
@@ -29,7 +29,7 @@ std::uint32_t last_reached(const SpringRows& springs, const Groups& groups,
   return reached.back();
 }
 
-/// Groups as the nodes of the merged model, far enough to choose whom to fuse.
+/// The merged nodes, as far as the choice of partners needs them.
 struct Merged {
   std::vector<std::uint32_t> size;
   std::vector<Vec3> center;
@@ -57,7 +57,7 @@ bool may_fuse(const Merged& merged, BorderRule rule, std::uint32_t g, std::uint3
   return rule == BorderRule::none || (merged.border[g] == 0 && merged.border[h] == 0);
 }
 
-/// For each group the nearest that it may be fused with; itself if there is none.
+/// For each group the nearest joined group that it may be fused with; itself if there is none.
 std::vector<std::uint32_t> partners(const MassSpringModel& model, const Groups& groups,
                                     const Merged& merged, BorderRule rule) {
   std::vector<std::uint32_t> partner(groups.count);
@@ -105,11 +105,11 @@ void split_to_count(const MassSpringModel& model, const SpringRows& springs, std
                     Groups& groups) {
   if (groups.count >= count) return;
   if (count > model.node_count())
-    throw InputError(
-        fmt::format("simplify: {} groups of {} nodes; ask for fewer", count, model.node_count()));
+    throw InputError(fmt::format("simplify: {} nodes cannot form {} groups; use at most {}",
+                                 model.node_count(), count, model.node_count()));
   std::vector<std::vector<std::uint32_t>> members(groups.count);
   for (std::uint32_t i = 0; i < model.node_count(); ++i) members[groups.of[i]].push_back(i);
-  // Largest first, of equal ones the lower number.
+  // The largest group first; of equal ones the lowest number.
   std::priority_queue<std::pair<std::size_t, std::int64_t>> largest;
   for (std::uint32_t g = 0; g < groups.count; ++g)
     largest.emplace(members[g].size(), -static_cast<std::int64_t>(g));

@@ -9,15 +9,15 @@
 
 namespace springlod::lod {
 
-/// Takes single nodes out of the largest groups until there are `count` of them: always one far
-/// from where the group's springs meet, so that the rest of the group still holds together.
-/// Does nothing if there are as many already; throws InputError for more than the nodes.
+/// Splits single nodes off the largest groups until there are `count` groups. The node is one whose
+/// removal leaves the rest of its group connected. Does nothing if there are `count` groups or more
+/// already; throws InputError if `count` exceeds the number of nodes.
 void split_to_count(const MassSpringModel& model, const SpringRows& springs, std::uint32_t count,
                     Groups& groups);
 
-/// The other way: fuses the smallest groups with the nearest joined ones until there are `count`,
-/// or no two may be fused any more: groups of one material, with BorderRule::weak of one kind of
-/// nodes, with BorderRule::strong only inner ones.
+/// Fuses the smallest groups with the nearest joined groups until there are `count` groups or no
+/// two may be fused. Two groups may be fused if they have the same material, with BorderRule::weak
+/// if both or neither have border nodes, with BorderRule::strong if neither has.
 void fuse_to_count(const MassSpringModel& model, BorderRule border, std::uint32_t count,
                    Groups& groups);
 

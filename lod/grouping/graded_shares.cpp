@@ -11,9 +11,9 @@
 namespace springlod::lod {
 namespace {
 
-/// Part of the even share that a kind keeps at least; it gets at most its inverse.
-constexpr double kLeastPart = 0.5;
-/// Groups that give a kind a shape.
+/// Least share of a kind relative to the proportional share; the largest is its inverse.
+constexpr double kLeastFraction = 0.5;
+/// Groups that resolve the shape of a kind.
 constexpr double kShape = 24;
 
 double sum(const std::vector<double>& shares) {
@@ -22,13 +22,13 @@ double sum(const std::vector<double>& shares) {
   return all;
 }
 
-/// Groups of each kind before rounding: nodes * weight * scale within bounds, the scale bisected.
-std::vector<double> exact_shares(const std::vector<SharedNodes>& kinds, double count, double all,
+/// Shares before rounding: nodes * weight * scale within bounds; the scale is found by bisection.
+std::vector<double> exact_shares(const std::vector<NodeKind>& kinds, double count, double all,
                                  double grading) {
   const double even = count / all;
-  constexpr double kVolumeOfFrequency = -1.5;  // squared frequency goes with n^(-2/3)
+  constexpr double kVolumeOfFrequency = -1.5;  // the squared frequency scales as n^(-2/3)
   std::vector<double> weight;
-  for (const SharedNodes& kind : kinds)
+  for (const NodeKind& kind : kinds)
     weight.push_back(kind.squared_frequency > 0
                          ? std::pow(kind.squared_frequency, kVolumeOfFrequency * grading)
                          : 1);
@@ -36,14 +36,14 @@ std::vector<double> exact_shares(const std::vector<SharedNodes>& kinds, double c
     std::vector<double> share;
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const double nodes = kinds[k].nodes;
-      const double least = std::min(even, std::max(kLeastPart * even, kShape / nodes));
-      const double most = std::min(1.0, even / kLeastPart);
+      const double least = std::min(even, std::max(kLeastFraction * even, kShape / nodes));
+      const double most = std::min(1.0, even / kLeastFraction);
       share.push_back(nodes * std::clamp(weight[k] * scale, least, most));
     }
     return share;
   };
   const auto [lightest, heaviest] = std::minmax_element(weight.begin(), weight.end());
-  double low = kLeastPart * even / *heaviest;
+  double low = kLeastFraction * even / *heaviest;
   double high = 1 / *lightest;
   constexpr int kHalvings = 100;
   for (int i = 0; i < kHalvings; ++i) {
@@ -55,17 +55,17 @@ std::vector<double> exact_shares(const std::vector<SharedNodes>& kinds, double c
 
 }  // namespace
 
-std::vector<std::uint32_t> graded_shares(const std::vector<SharedNodes>& kinds, std::uint32_t count,
+std::vector<std::uint32_t> graded_shares(const std::vector<NodeKind>& kinds, std::uint32_t count,
                                          double grading) {
   std::size_t all = 0;
-  for (const SharedNodes& kind : kinds) all += kind.nodes;
+  for (const NodeKind& kind : kinds) all += kind.nodes;
   if (count < kinds.size() || count > all)
     throw InputError(fmt::format(
-        "compact grouping: {} groups cannot be made of {} nodes of {} kinds (connected parts, "
-        "materials, weak borders), which do not mix; ask for {} to {}",
+        "compact grouping: {} groups are impossible for {} nodes of {} kinds (components, "
+        "materials, weak borders), which cannot share groups; use {} to {}",
         count, all, kinds.size(), kinds.size(), all));
   if (!(grading >= 0 && grading <= 1))
-    throw InputError(fmt::format("compact grouping: grading = {} must be in 0 .. 1", grading));
+    throw InputError(fmt::format("compact grouping: grading = {} must be from 0 to 1", grading));
   const std::vector<double> exact = exact_shares(kinds, count, static_cast<double>(all), grading);
   // Largest remainders first.
   std::vector<std::uint32_t> share;

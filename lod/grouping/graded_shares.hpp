@@ -5,21 +5,22 @@
 
 namespace springlod::lod {
 
-/// Nodes that share groups among each other only.
-struct SharedNodes {
-  std::uint32_t nodes = 0;
-  double squared_frequency = 0;  ///< that they swing with by themselves [rad2/s2]; 0: unknown
+/// A kind of nodes: nodes that may be grouped with one another and with no others.
+struct NodeKind {
+  std::uint32_t nodes = 0;       ///< number of nodes
+  double squared_frequency = 0;  ///< median node bound on omega^2 [rad2/s2]; 0: unknown
 };
 
-/// `count` groups shared out among kinds of nodes, each 1 to as many as it has nodes.
+/// Distributes `count` groups over kinds of nodes; each kind gets at least 1 group and at most one
+/// for each node (docs/method.md, eq. 24).
 ///
-/// With `grading` 0 by the numbers of nodes. The stable step is that of the stiffest nodes, and a
-/// group of n nodes swings about n^(2/3) times slower (squared), so with `grading` 1 each kind gets
-/// so many that all come to swing alike; in between, in between. Never less than half nor more than
-/// twice as many as even, and not fewer for grading's sake than give a kind a shape (24).
-/// Throws InputError if `count` is less than the kinds or more than the nodes, or for a grading
-/// outside 0 .. 1.
-std::vector<std::uint32_t> graded_shares(const std::vector<SharedNodes>& kinds, std::uint32_t count,
+/// With `grading` 0 the shares are proportional to the numbers of nodes. The stiffest nodes
+/// determine the stable time step, and a group of n nodes has about n^(-2/3) of the squared
+/// frequency of one node. So with `grading` 1 all kinds get about the same highest frequency. A
+/// share is at least half and at most twice the proportional one; grading leaves a kind at least 24
+/// groups, or its proportional share if that is less. Throws InputError if `count` is less than the
+/// kinds or more than the nodes, or for a grading outside 0 .. 1.
+std::vector<std::uint32_t> graded_shares(const std::vector<NodeKind>& kinds, std::uint32_t count,
                                          double grading);
 
 }  // namespace springlod::lod

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "lod/options.hpp"
@@ -12,16 +10,27 @@
 
 namespace springlod::lod {
 
-/// Puts nodes that are joined by springs into groups of 2 or 3 (each drawn with probability 1/2);
-/// what is left over stays single. Same options, same bits.
+/// Input of a grouping.
+struct GroupingTask {
+  const MassSpringModel& model;
+  const SpringRows& springs;       ///< of the model
+  std::uint32_t count;             ///< requested number of groups
+  const GroupingOptions& options;  ///< `options.grouping` is not read
+};
+
+/// Groups of the nodes by `options.grouping`. The result is reproducible for equal options.
 Groups group_nodes(const MassSpringModel& model, const GroupingOptions& options);
-/// The same for whom has the rows of its springs at hand.
+/// The same with the spring rows of `model`.
 Groups group_nodes(const MassSpringModel& model, const SpringRows& springs,
                    const GroupingOptions& options);
 
-/// Groups named by hand: `sets` of node numbers; every other node stays single. Throws InputError:
-/// a node in two sets or out of range, a set that springs do not hold together.
+/// Groups from `sets` of node numbers; every other node stays single. Throws InputError for a node
+/// in two sets or out of range, and for a set that is not connected by springs.
 Groups groups_from_sets(const MassSpringModel& model,
                         const std::vector<std::vector<std::uint32_t>>& sets);
+
+/// Groups from `leader`, the first node of each node's group. They are numbered by their lowest
+/// node, so coarse nodes keep the order of the fine ones and neighbours stay close in memory.
+Groups groups_from_leaders(const std::vector<std::uint32_t>& leader);
 
 }  // namespace springlod::lod

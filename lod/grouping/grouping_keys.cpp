@@ -5,23 +5,21 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.hpp"
-
 namespace springlod::lod {
 namespace {
 
-// Weight of the gradient against the length in the soft key; the prototype's choice (spec 3).
+// Weight of the gradient relative to the length in the soft key (docs/method.md, eq. 23).
 constexpr double kGradientWeight = 4;
 
-// Keys that differ by less than this part of the mean are equal, and chance decides.
+// Keys that agree to this fraction of their mean are equal; a random number decides.
 constexpr double kTieFraction = 1e-9;
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// Young's modulus of a node up to a factor that is the same for all: the mean k weighted by L^2,
-// which a node on the border, with fewer springs, does not bias.
+// Young's modulus of a node up to a common factor: the mean of k weighted by L^2 (docs/method.md,
+// eq. 22). A mean has no bias at border nodes, which have fewer springs.
 std::vector<double> node_stiffness(const MassSpringModel& m) {
   std::vector<double> work(m.node_count(), 0);
   std::vector<double> weight(m.node_count(), 0);
@@ -83,7 +81,7 @@ std::vector<double> spring_gradients(const MassSpringModel& m) {
   return gradient;
 }
 
-PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options,
+PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options, PairOrder order,
                    std::vector<double> gradient)
     : own_(std::move(gradient)) {
   if (options.pair_cost) {
@@ -93,36 +91,31 @@ PairKeys::PairKeys(const MassSpringModel& model, const GroupingOptions& options,
     first_ = RoundedKeys(own_);
     return;
   }
-  switch (options.grouping) {
-    case Grouping::standard:
+  switch (order) {
+    case PairOrder::length:
       first_ = RoundedKeys(model.rest_length);
       break;
-    case Grouping::priority_soft:
+    case PairOrder::gradient_and_length:
       for (std::uint32_t s = 0; s < model.spring_count(); ++s)
         own_[s] = model.rest_length[s] * (1 + kGradientWeight * own_[s] * model.rest_length[s]);
       first_ = RoundedKeys(own_);
       break;
-    case Grouping::priority_hard:
+    case PairOrder::gradient_first:
       first_ = RoundedKeys(own_);
       second_ = RoundedKeys(model.rest_length);
       has_second_ = true;
       break;
-    case Grouping::compact:
-    case Grouping::metis:
-      throw InputError(
-          "group_nodes: compact and metis groups do not grow from pairs; see "
-          "compact_groups and metis_groups");
   }
 }
 
 std::vector<double> visit_priority(const MassSpringModel& model, const GroupingOptions& options,
-                                   const std::vector<double>& gradient) {
+                                   PairOrder order, const std::vector<double>& gradient) {
   if (options.node_priority) {
     std::vector<double> priority(model.node_count());
     for (std::uint32_t i = 0; i < model.node_count(); ++i) priority[i] = options.node_priority(i);
     return priority;
   }
-  if (options.grouping == Grouping::standard) return {};
+  if (order == PairOrder::length) return {};
   return node_gradients(model, gradient);
 }
 

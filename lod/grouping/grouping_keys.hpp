@@ -12,8 +12,9 @@ namespace springlod::lod {
 
 inline constexpr double kForbidden = std::numeric_limits<double>::infinity();
 
-/// Keys rounded as they are read, so that ties are ties: on a lattice equal lengths differ in their
-/// last bits, and rounding must not choose the groups. NaN reads as forbidden. Refers to the keys.
+/// Keys rounded on access, so that nearly equal keys tie: on a lattice equal lengths differ in
+/// their last bits, and rounding errors must not choose the groups. NaN becomes kForbidden. Refers
+/// to the keys, which must outlive it.
 class RoundedKeys {
  public:
   RoundedKeys() = default;
@@ -26,14 +27,18 @@ class RoundedKeys {
   double quantum_ = 0;
 };
 
-/// g of each spring: |dE| / mean E + |drho| / mean rho per length [1/m] (the paper, section 5.2).
+/// Gradient of each spring: |dE| / mean E + |drho| / mean rho per length [1/m] (the paper, section
+/// 5.2; docs/method.md, eq. 22).
 std::vector<double> spring_gradients(const MassSpringModel& model);
 
-/// What decides between neighbours: first key, then second, then chance.
+/// Order of the candidates for a pair, see the table below eq. 22 of docs/method.md.
+enum class PairOrder { length, gradient_and_length, gradient_first };
+
+/// Keys for choosing a neighbour: the first key, then the second, then a random number.
 class PairKeys {
  public:
-  /// `gradient` as spring_gradients tells; not needed for standard grouping.
-  PairKeys(const MassSpringModel& model, const GroupingOptions& options,
+  /// `gradient`: the result of spring_gradients; not used by PairOrder::length.
+  PairKeys(const MassSpringModel& model, const GroupingOptions& options, PairOrder order,
            std::vector<double> gradient);
   PairKeys(const PairKeys&) = delete;
   PairKeys& operator=(const PairKeys&) = delete;
@@ -52,8 +57,8 @@ class PairKeys {
   bool has_second_ = false;
 };
 
-/// Key of each node, lower goes first; empty if chance alone decides.
+/// Key of each node; nodes are visited in ascending order. Empty: random order.
 std::vector<double> visit_priority(const MassSpringModel& model, const GroupingOptions& options,
-                                   const std::vector<double>& gradient);
+                                   PairOrder order, const std::vector<double>& gradient);
 
 }  // namespace springlod::lod

@@ -20,10 +20,10 @@ namespace springlod::lod {
 
 namespace {
 
-/// METIS weighs edges by whole numbers: what the largest spring work becomes.
+/// Integer weight of the edge with the largest k L^2; METIS takes integer weights.
 constexpr double kLargestWeight = 10000;
 
-/// Groups that METIS left empty go.
+/// Renumbers the groups without those that METIS left empty.
 Groups without_gaps(const std::vector<idx_t>& part, std::uint32_t count) {
   std::vector<std::uint32_t> number(count, 0);
   for (const idx_t p : part) number[static_cast<std::size_t>(p)] = 1;
@@ -59,7 +59,7 @@ std::vector<idx_t> partition(const MassSpringModel& model, const SpringRows& spr
   if (count > 1 && METIS_PartGraphRecursive(&nodes, &constraints, start.data(), neighbour.data(),
                                             nullptr, nullptr, weight.data(), &parts, nullptr,
                                             nullptr, options.data(), &cut, part.data()) != METIS_OK)
-    throw InputError(fmt::format("metis grouping: METIS could not make {} groups of {} nodes",
+    throw InputError(fmt::format("metis grouping: METIS failed to make {} groups of {} nodes",
                                  count, model.node_count()));
   return part;
 }
@@ -68,11 +68,11 @@ std::vector<idx_t> partition(const MassSpringModel& model, const SpringRows& spr
 
 Groups metis_groups(const MassSpringModel& model, std::uint32_t count, std::uint64_t seed) {
   if (count == 0 || count > model.node_count())
-    throw InputError(fmt::format("metis grouping: {} groups of {} nodes; ask for 1 to {}", count,
-                                 model.node_count(), model.node_count()));
+    throw InputError(fmt::format("metis grouping: {} nodes cannot form {} groups; use 1 to {}",
+                                 model.node_count(), count, model.node_count()));
   const SpringRows springs(model);
   Groups groups = without_gaps(partition(model, springs, count, seed), count);
-  mend_groups(model, groups);
+  connect_groups(model, groups);
   split_to_count(model, springs, count, groups);
   return groups;
 }
@@ -87,5 +87,9 @@ Groups metis_groups(const MassSpringModel& /*model*/, std::uint32_t /*count*/,
 }
 
 #endif
+
+Groups metis_groups(const GroupingTask& task) {
+  return metis_groups(task.model, task.count, task.options.seed);
+}
 
 }  // namespace springlod::lod

@@ -18,7 +18,7 @@ std::size_t digit(std::uint64_t key, unsigned pass) {
 
 using Counts = std::array<std::uint32_t, kDigits>;
 
-// Places from which on the nodes of each digit go.
+// Turns counts into the index of the first node of each digit.
 void starts_from_counts(Counts& counts) {
   std::uint32_t start = 0;
   for (std::uint32_t& count : counts) {

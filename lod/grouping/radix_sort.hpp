@@ -10,11 +10,11 @@ struct KeyedNode {
   std::uint32_t node;
 };
 
-/// Brings nodes into rising order of their keys in linear time; equal keys keep their order (radix
-/// sort from the lowest digit up). Digits that all keys share cost nothing.
+/// Sorts nodes by ascending keys in linear time; the order of equal keys is kept (radix sort from
+/// the lowest digit up). Digits that are the same in all keys cost no pass.
 void radix_sort(std::vector<KeyedNode>& nodes);
 
-/// A key that orders as the number does; -0 is 0. Not for NaN.
+/// Integer key in the order of the numbers; -0 equals 0. NaN is not allowed.
 std::uint64_t radix_key(double number);
 
 }  // namespace springlod::lod

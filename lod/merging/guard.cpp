@@ -17,22 +17,22 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 // pair is joined, though each node has fewer than 4 springs.
 constexpr std::uint32_t kSimplexNodes = 4;
 
-// The fine model as far as the guards need it.
+// View of the fine model for the guards.
 struct FineGraph {
   const MassSpringModel& model;
-  const Components& parts;
+  const Components& components;
 
   std::uint32_t size() const { return model.node_count(); }
   double mass(std::uint32_t i) const { return model.mass[i]; }
   Vec3 moment(std::uint32_t i) const { return model.mass[i] * model.rest[i]; }
   Vec3 center(std::uint32_t i) const { return moment(i) / mass(i); }
   std::uint8_t border(std::uint32_t i) const { return model.border[i]; }
-  std::uint32_t part(std::uint32_t i) const { return parts.of_node[i]; }
+  std::uint32_t component(std::uint32_t i) const { return components.of_node[i]; }
   double tension(std::uint32_t s) const { return model.stiffness[s] * model.rest_length[s]; }
 };
 
-// The merged model as far as the guards need it. Fusing groups keeps k L of every spring, so that
-// the graph can be coarsened again and again without looking back at the fine model.
+// The merged model as the guards see it. Fusing groups conserves k L of every spring, so the graph
+// is coarsened repeatedly without the fine model.
 class CoarseGraph {
  public:
   CoarseGraph() = default;
@@ -49,7 +49,7 @@ class CoarseGraph {
   const Vec3& moment(std::uint32_t g) const { return moment_[g]; }
   const Vec3& center(std::uint32_t g) const { return center_[g]; }
   std::uint8_t border(std::uint32_t g) const { return border_[g]; }
-  std::uint32_t part(std::uint32_t g) const { return part_[g]; }
+  std::uint32_t component(std::uint32_t g) const { return component_[g]; }
   double tension(std::uint32_t e) const { return tension_[e]; }
   Vec3 offset(std::uint32_t g, std::uint32_t h) const { return center_[h] - center_[g]; }
 
@@ -59,13 +59,13 @@ class CoarseGraph {
     mass_.assign(groups.count, 0);
     moment_.assign(groups.count, Vec3::Zero());
     border_.assign(groups.count, 0);
-    part_.assign(groups.count, 0);
+    component_.assign(groups.count, 0);
     for (std::uint32_t i = 0; i < fine.size(); ++i) {
       const std::uint32_t g = groups.of[i];
       mass_[g] += fine.mass(i);
       moment_[g] += fine.moment(i);
       border_[g] |= fine.border(i);
-      part_[g] = fine.part(i);
+      component_[g] = fine.component(i);
     }
     center_.resize(groups.count);
     for (std::uint32_t g = 0; g < groups.count; ++g) center_[g] = moment_[g] / mass_[g];
@@ -75,16 +75,16 @@ class CoarseGraph {
   std::vector<Vec3> moment_;  // mass times centre [kg m]
   std::vector<Vec3> center_;
   std::vector<std::uint8_t> border_;
-  std::vector<std::uint32_t> part_;  // connected part of the fine model
-  std::vector<double> tension_;      // of each edge, sum of k L [N]
+  std::vector<std::uint32_t> component_;  // connected component of the fine model
+  std::vector<double> tension_;           // of each edge, sum of k L [N]
 };
 
-// Tells floppy nodes by their springs and the size of their part.
+// Decides whether a node is floppy from its springs and the size of its component.
 class FloppyRule {
  public:
   explicit FloppyRule(const GuardOptions& options) : options_(options) {}
-  bool floppy(const Rigidity& node, std::uint32_t part_size) const {
-    if (part_size <= kSimplexNodes) return node.springs() + 1 < part_size;
+  bool floppy(const Rigidity& node, std::uint32_t component_size) const {
+    if (component_size <= kSimplexNodes) return node.springs() + 1 < component_size;
     return node.springs() < options_.least_springs || !node.at_least(options_.least_rigidity);
   }
 
@@ -93,36 +93,36 @@ class FloppyRule {
 };
 
 template <class Graph>
-std::vector<std::uint32_t> part_sizes(const Graph& graph, std::uint32_t parts) {
-  std::vector<std::uint32_t> size(parts, 0);
-  for (std::uint32_t i = 0; i < graph.size(); ++i) ++size[graph.part(i)];
+std::vector<std::uint32_t> component_sizes(const Graph& graph, std::uint32_t components) {
+  std::vector<std::uint32_t> size(components, 0);
+  for (std::uint32_t i = 0; i < graph.size(); ++i) ++size[graph.component(i)];
   return size;
 }
 
-// Parts with at least one sound node. Springs are sorted by their lower end, so that a node has met
-// all its springs when those it is the lower end of are through: mostly the first few nodes tell.
-std::vector<bool> solid_parts(const FineGraph& fine, const FloppyRule& rule) {
-  const std::vector<std::uint32_t> part_size = part_sizes(fine, fine.parts.count);
-  std::vector<bool> solid(fine.parts.count, false);
-  std::uint32_t untold = fine.parts.count;
-  std::vector<Rigidity> nodes;  // grows as far as the springs met reach
+// Whether each component has a sound node. Springs are sorted by their lower end: once those
+// that start at a node are added, it has all its springs. Usually the first few nodes decide.
+std::vector<bool> sound_components(const FineGraph& fine, const FloppyRule& rule) {
+  const std::vector<std::uint32_t> component_size = component_sizes(fine, fine.components.count);
+  std::vector<bool> sound(fine.components.count, false);
+  std::uint32_t undecided = fine.components.count;
+  std::vector<Rigidity> nodes;  // grows to the highest node reached
   std::uint32_t s = 0;
-  for (std::uint32_t i = 0; i < fine.size() && untold > 0; ++i) {
+  for (std::uint32_t i = 0; i < fine.size() && undecided > 0; ++i) {
     if (nodes.size() <= i) nodes.resize(i + 1);
-    const std::uint32_t part = fine.part(i);
+    const std::uint32_t component = fine.component(i);
     for (; s < fine.model.spring_count() && fine.model.a[s] == i; ++s) {
-      if (solid[part]) continue;
+      if (sound[component]) continue;
       const std::uint32_t j = fine.model.b[s];
       if (nodes.size() <= j) nodes.resize(j + 1);
       const Vec3 d = fine.center(j) - fine.center(i);
       nodes[i].add_spring(d, fine.tension(s));
       nodes[j].add_spring(d, fine.tension(s));
     }
-    if (solid[part] || rule.floppy(nodes[i], part_size[part])) continue;
-    solid[part] = true;
-    --untold;
+    if (sound[component] || rule.floppy(nodes[i], component_size[component])) continue;
+    sound[component] = true;
+    --undecided;
   }
-  return solid;
+  return sound;
 }
 
 class Guard {
@@ -132,10 +132,10 @@ class Guard {
       : options_(options), rule_(options) {
     result_.links = relink(springs, groups);
     result_.groups = groups;
-    const Components parts = connected_components(fine);
-    const FineGraph base{fine, parts};
-    // A rope or a cloth is floppy by its nature; only parts that were solid are kept solid.
-    solid_part_ = solid_parts(base, rule_);
+    const Components components = connected_components(fine);
+    const FineGraph base{fine, components};
+    // A rope or a cloth is floppy from the start; only components that were sound are kept sound.
+    sound_component_ = sound_components(base, rule_);
     mean_length_ = mean_spring_length(fine);
     graph_ = CoarseGraph(base, groups, result_.links);
   }
@@ -176,7 +176,7 @@ class Guard {
     for (std::uint32_t e = 0; e < edge_count(); ++e) {
       const auto [a, b] = edge(e);
       if (!(graph_.offset(a, b).norm() < least)) continue;
-      // One fusion a node and pass: a fused pair has a new centre, which decides anew.
+      // At most one fusion for each node in a pass: a fused pair has a new centroid.
       if (taken[a] || taken[b] || !may_fuse(a) || !may_fuse(b)) continue;
       taken[a] = taken[b] = true;
       fused += clusters.unite(a, b) ? 1 : 0;
@@ -202,8 +202,9 @@ class Guard {
     return apply(clusters, fused);
   }
 
-  // Nearest neighbour each floppy node may fuse with. Under a weak border one of its own kind is
-  // taken before a nearer one of the other kind, so that the surface stays where it is.
+  // The nearest neighbour that each floppy node may fuse with. Under a weak border a neighbour of
+  // its own kind (border or inner) goes before a nearer one of the other kind, to preserve the
+  // surface.
   std::vector<std::uint32_t> partners(const std::vector<bool>& floppy) const {
     struct Best {
       std::uint32_t node = kNone;
@@ -239,12 +240,12 @@ class Guard {
       nodes[a].add_spring(d, graph_.tension(e));
       nodes[b].add_spring(d, graph_.tension(e));
     }
-    const std::vector<std::uint32_t> part_size =
-        part_sizes(graph_, static_cast<std::uint32_t>(solid_part_.size()));
+    const std::vector<std::uint32_t> component_size =
+        component_sizes(graph_, static_cast<std::uint32_t>(sound_component_.size()));
     std::vector<bool> floppy(graph_.size(), false);
     for (std::uint32_t g = 0; g < graph_.size(); ++g) {
-      const std::uint32_t part = graph_.part(g);
-      floppy[g] = solid_part_[part] && rule_.floppy(nodes[g], part_size[part]);
+      const std::uint32_t component = graph_.component(g);
+      floppy[g] = sound_component_[component] && rule_.floppy(nodes[g], component_size[component]);
     }
     return floppy;
   }
@@ -253,7 +254,7 @@ class Guard {
   FloppyRule rule_;
   CoarseGraph graph_;
   double mean_length_ = 0;  // of the fine model [m]
-  std::vector<bool> solid_part_;
+  std::vector<bool> sound_component_;
   GuardedGroups result_;
 };
 

@@ -12,18 +12,18 @@ namespace springlod::lod {
 
 struct GuardedGroups {
   Groups groups;
-  Relinking links;                     ///< of the fine springs by `groups`
-  std::uint32_t fused_coincident = 0;  ///< fusions of near centroids
-  std::uint32_t fused_floppy = 0;      ///< fusions of floppy nodes
+  Relinking links;                     ///< relinking of the fine springs by `groups`
+  std::uint32_t fused_coincident = 0;  ///< number of fusions of near centroids
+  std::uint32_t fused_floppy = 0;      ///< number of fusions of floppy nodes
 };
 
-/// Fuses groups until the merged model has neither coincident centroids nor floppy nodes. Parts
-/// that had no sound node before merging (a rope, a cloth) may stay floppy; a part of at most 4
-/// nodes is sound when all its pairs are joined. The rule is local: see zero_modes for the check of
-/// a whole part.
+/// Fuses groups until the merged model has neither coincident centroids nor floppy nodes
+/// (docs/method.md, eqs. 20 and 21). A connected component without a sound node before merging (a
+/// rope, a cloth) may stay floppy. A component of at most 4 nodes is sound when all its pairs are
+/// joined. The rule looks at single nodes; zero_modes checks whole components.
 GuardedGroups guard_groups(const MassSpringModel& fine, const Groups& groups,
                            const GuardOptions& options);
-/// The same for whom has the rows of its springs at hand.
+/// The same with the spring rows of `fine`.
 GuardedGroups guard_groups(const MassSpringModel& fine, const SpringRows& springs,
                            const Groups& groups, const GuardOptions& options);
 

@@ -17,7 +17,7 @@ std::vector<std::uint32_t> group_sizes(const Groups& groups) {
   return size;
 }
 
-// The material with most of the group's volume; the lower number wins a tie.
+// The material with most of the group's volume; the lowest number in a tie.
 std::vector<std::uint32_t> main_materials(const MassSpringModel& fine, const Groups& groups) {
   const std::size_t kinds = fine.materials.size();
   std::vector<double> volume(groups.count * kinds, 0);
@@ -48,16 +48,16 @@ void merge_nodes(const MassSpringModel& fine, const Groups& groups,
     coarse.border[g] |= fine.border[i];
   }
   for (std::uint32_t g = 0; g < groups.count; ++g) coarse.rest[g] /= coarse.mass[g];
-  // m x / m is not x to the last bit; what was not merged keeps its bits.
+  // m x / m differs from x by rounding; positions of single nodes are copied.
   for (std::uint32_t i = 0; i < fine.node_count(); ++i)
     if (size[groups.of[i]] == 1) coarse.rest[groups.of[i]] = fine.rest[i];
   coarse.material = main_materials(fine, groups);
 }
 
-// A spring none of whose ends merged stays the only one of its pair and keeps its length; the
-// others run from centre to centre.
-void lay_springs(const MassSpringModel& fine, const std::vector<std::uint32_t>& into,
-                 const std::vector<std::uint32_t>& size, MassSpringModel& coarse) {
+// The rest length is the distance of the centres. A spring between two single nodes is the only one
+// of its pair and keeps its rest length bit for bit.
+void set_rest_lengths(const MassSpringModel& fine, const std::vector<std::uint32_t>& into,
+                      const std::vector<std::uint32_t>& size, MassSpringModel& coarse) {
   coarse.rest_length.resize(coarse.spring_count());
   for (std::uint32_t p = 0; p < coarse.spring_count(); ++p) {
     const std::uint32_t a = coarse.a[p];
@@ -66,7 +66,7 @@ void lay_springs(const MassSpringModel& fine, const std::vector<std::uint32_t>& 
     if (!(coarse.rest_length[p] > 0))
       throw InputError(fmt::format(
           "merge: groups {} and {} are joined and have the same centre of mass, so their spring "
-          "would be infinitely stiff; fuse them (guards = true does)",
+          "would be infinitely stiff; use guards = true, which fuses them",
           a, b));
   }
   for (std::uint32_t s = 0; s < fine.spring_count(); ++s) {
@@ -77,7 +77,8 @@ void lay_springs(const MassSpringModel& fine, const std::vector<std::uint32_t>& 
   }
 }
 
-// The paper: k = k0 L0 / L. For a spring that keeps its length the factor is exactly 1.
+// k = k0 L0 / L (the paper, section 4.2). The factor is exactly 1 for a spring that keeps its
+// length.
 void add_up_springs(const MassSpringModel& fine, const std::vector<std::uint32_t>& into,
                     MassSpringModel& coarse) {
   coarse.stiffness.assign(coarse.spring_count(), 0);
@@ -104,7 +105,7 @@ MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinki
   merge_nodes(fine, groups, size, coarse);
   coarse.a = std::move(links.a);
   coarse.b = std::move(links.b);
-  lay_springs(fine, links.into, size, coarse);
+  set_rest_lengths(fine, links.into, size, coarse);
   add_up_springs(fine, links.into, coarse);
   return coarse;
 }

@@ -7,22 +7,23 @@
 
 namespace springlod::lod {
 
-/// Merges each group into one node (the paper, section 4.2): masses, volumes and contact areas add
-/// up, the node sits at the centre of mass, it is a border node if any was. A spring to another
-/// group is reattached with k = k0 L0 / L (c likewise), L0 its own old rest length and L the
-/// distance of the new ends; parallel springs are added up. A spring neither of whose ends merged
-/// keeps its bits.
+/// Merges each group into one node (the paper, section 4.2; docs/method.md, eqs. 18 and 19).
+/// Masses, volumes and contact areas add up; the node lies at the centre of mass; it is a border
+/// node if any node of the group is. A spring to another group is reattached with k = k0 L0 / L (c
+/// likewise), where L0 is its old rest length and L the distance of its new ends; parallel springs
+/// add up. A spring is copied bit for bit if neither of its ends was merged.
 ///
-/// This is the raw merge, without guards. Throws InputError if two joined groups have the same
-/// centre of mass (L = 0): see guard_groups.
+/// No guards are applied. Throws InputError if two joined groups have the same centre of mass
+/// (L = 0): see guard_groups.
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups);
-/// The same with what relink told of the springs of `fine` and these groups.
+/// The same with the result of relink for `fine` and `groups`.
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links);
 
-/// MassRule::proximity: masses and volumes of `base`, cut into pieces, shared out anew among the
-/// nodes of `coarse`, which stay where they are. The pieces are those of the nodes of `base`, each
-/// a cube of its volume cut into eight; a node nearest to none gets its nearest. Total mass and
-/// volume stay, the centre of mass does not. Contact areas and springs stay too.
+/// MassRule::proximity (docs/method.md, eq. 25): redistributes masses and volumes of `base` to the
+/// nodes of `coarse`. Each base node is a cube of its volume, cut into eight pieces; each piece
+/// goes to the nearest coarse node. A coarse node without a piece gets the nearest one that another
+/// node can spare. Total mass and volume are conserved, the centre of mass is not. Positions,
+/// contact areas and springs are unchanged.
 void share_by_proximity(const MassSpringModel& base, MassSpringModel& coarse);
 
 }  // namespace springlod::lod

@@ -8,12 +8,12 @@
 namespace springlod::lod {
 namespace {
 
-// Of a node's cube: a piece lies a quarter of the edge off its middle along each axis.
+// Offset of a piece from the centre of its cube along each axis, in edge lengths.
 constexpr double kPieceOffset = 0.25;
 constexpr std::size_t kPieces = 8;
 
 struct Pieces {
-  std::vector<Vec3> at;                ///< eight a node, node by node
+  std::vector<Vec3> at;                ///< centres, eight for each base node [m]
   std::vector<std::uint32_t> nearest;  ///< coarse node of each
 };
 

@@ -12,13 +12,14 @@
 namespace springlod::lod {
 namespace {
 
-// The nodes of each group, rising.
+// The nodes of each group, ascending.
 class Members {
  public:
   explicit Members(const Groups& groups) : start_(groups.count + 1, 0), node_(groups.of.size()) {
     for (const std::uint32_t g : groups.of) ++start_[g];
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    // Ends of the groups by now, which come down to their starts as they are filled from behind.
+    // start_ holds the ends of the groups; filling each group from its end moves them to the
+    // starts.
     for (auto i = static_cast<std::uint32_t>(node_.size()); i-- > 0;)
       node_[--start_[groups.of[i]]] = i;
   }
@@ -33,7 +34,7 @@ class Members {
 
 struct RowEntry {
   std::uint32_t spring;
-  std::uint32_t high;  // group at its other end
+  std::uint32_t high;  // group of its other end
 };
 
 // The springs from the nodes of group `low` to higher groups.
@@ -52,8 +53,9 @@ void gather_row(const SpringRows& springs, const Groups& groups,
   row.resize(count);
 }
 
-// Numbers the pairs of a row from highs.size() on by their higher group, which are appended sorted,
-// and sets pair_end of each to one more than its number. What is lower there is of rows before.
+// Appends the higher groups of a row to `highs`, sorted and without duplicates; the index in
+// `highs` is the number of the pair. Sets pair_end of each higher group to the number plus one;
+// smaller values of pair_end belong to earlier rows.
 void append_pairs(const std::vector<RowEntry>& row, std::vector<std::uint32_t>& highs,
                   std::vector<std::uint32_t>& pair_end) {
   const std::size_t first = highs.size();
@@ -61,7 +63,7 @@ void append_pairs(const std::vector<RowEntry>& row, std::vector<std::uint32_t>& 
   highs.resize(first + row.size());
   for (const RowEntry& entry : row) {
     highs[end] = entry.high;
-    end += pair_end[entry.high] > first ? 0 : 1;  // no branch: it would be a toss-up
+    end += pair_end[entry.high] > first ? 0 : 1;  // no branch: it would be mispredicted often
     pair_end[entry.high] = static_cast<std::uint32_t>(first) + 1;
   }
   highs.resize(end);
@@ -74,10 +76,10 @@ void append_pairs(const std::vector<RowEntry>& row, std::vector<std::uint32_t>& 
 
 Relinking relink(const SpringRows& springs, const Groups& groups) {
   if (groups.of.size() != springs.node_count())
-    throw InputError(fmt::format("groups: they are of {} nodes, the model has {}", groups.of.size(),
-                                 springs.node_count()));
+    throw InputError(fmt::format("groups: they map {} nodes, but the model has {}",
+                                 groups.of.size(), springs.node_count()));
   validate(groups);
-  constexpr std::uint32_t kAhead = 8;  // rows from the request for memory to its use
+  constexpr std::uint32_t kAhead = 8;  // prefetch distance in rows
   const Members members(groups);
   Relinking links;
   links.into.assign(springs.spring_count(), Relinking::kInside);

@@ -5,20 +5,21 @@
 namespace springlod::lod {
 namespace {
 
-// The closed form of the eigenvalues is off by up to some 1e-8 of the trace (a root of the
-// rounding, where two coincide); what lies closer to the limit than this is left to it.
-constexpr double kDoubt = 1e-6;
+// The closed-form eigenvalues have an error of up to about 1e-8 of the trace where two coincide,
+// the square root of the rounding. Nodes within this margin of the bound are decided by the
+// eigenvalues.
+constexpr double kRoundingMargin = 1e-6;
 
 }  // namespace
 
-// From the determinant and the trace t alone: the two larger eigenvalues have a product of at most
-// t^2 / 4, so that lambda_min >= 4 det / t^2, and lambda_max <= t. Nearly all nodes pass, without
-// the eigenvalues being found.
+// Sufficient condition from the determinant and the trace t: the product of the two larger
+// eigenvalues is at most t^2 / 4, so lambda_min >= 4 det / t^2, and lambda_max <= t. Nearly all
+// nodes pass, which saves the eigenvalues.
 bool Rigidity::surely_at_least(double ratio) const {
   const double trace = xx_ + yy_ + zz_;
   const double det =
       xx_ * (yy_ * zz_ - zy_ * zy_) - yx_ * (yx_ * zz_ - zy_ * zx_) + zx_ * (yx_ * zy_ - yy_ * zx_);
-  return det > (ratio / 2 + kDoubt) * (trace * trace * trace);
+  return det > (ratio / 2 + kRoundingMargin) * (trace * trace * trace);
 }
 
 bool Rigidity::at_least(double ratio) const {

@@ -6,10 +6,12 @@
 
 namespace springlod::lod {
 
-/// How a node is held by its springs: their number and sum k u u^T, a symmetric tensor [N/m].
+/// Stiffness of a node with its neighbours held: the number of its springs and the symmetric tensor
+/// A = sum k u u^T [N/m].
 class Rigidity {
  public:
-  /// A spring along `d` [m] of tension k |d| [N]; one of no length counts but holds nothing.
+  /// Adds a spring along `d` [m] with k |d| = `tension` [N]. A spring of length 0 is counted but
+  /// adds no stiffness.
   void add_spring(const Vec3& d, double tension) {
     ++springs_;
     const double length = d.norm();
@@ -24,7 +26,7 @@ class Rigidity {
   }
 
   std::uint32_t springs() const { return springs_; }
-  /// Whether lambda_min is at least `ratio` times lambda_max; 0 is at least 0 (no springs).
+  /// Whether lambda_min(A) >= `ratio` lambda_max(A); true without springs, where both are 0.
   bool at_least(double ratio) const;
 
  private:

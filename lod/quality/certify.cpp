@@ -22,15 +22,15 @@
 namespace springlod::lod {
 namespace {
 
-/// Frequencies of the base nearer than this belong to one mode of several shapes, as a sphere has
-/// them: which of the shapes a level takes is left to chance.
+/// Base frequencies within this fraction of each other count as one multiple eigenvalue, such as a
+/// sphere has. The mode shapes of a multiple eigenvalue are not unique.
 constexpr double kSameFrequency = 0.05;
-/// What local loads may be off, over the tolerance of the lowest frequencies.
+/// Tolerance of local loads, relative to that of the lowest frequencies.
 constexpr double kLocalLoadsTolerance = 12;
-/// Masses and their moments are kept to rounding.
+/// Tolerance of the mass and its moments, which agree to rounding [1].
 constexpr double kExact = 1e-9;
 
-/// What is measured of the base and of each level in the same way.
+/// Values measured of the base and of each level.
 struct Measured {
   std::vector<elastic::Mode> modes;
   std::vector<elastic::StaticSolution> solutions;
@@ -85,7 +85,7 @@ void compare_loads(const ComparedLoads& loads, const Measured& base, const Measu
                    Certificate& certificate) {
   for (std::size_t l = 0; l < loads.all.size(); ++l) {
     const double compliance = base.solutions[l].compliance;
-    if (!(compliance > 0)) continue;  // nothing to pull at
+    if (!(compliance > 0)) continue;  // the load has no effect on the base
     certificate.loads.push_back({loads.all[l].name, loads.held_out(l), compliance,
                                  found.solutions[l].compliance / compliance - 1});
   }
@@ -113,14 +113,14 @@ void compare_masses(const MassSpringModel& base, const MassSpringModel& level,
       largest > 0 ? (second_moments(level) - moments).cwiseAbs().maxCoeff() / largest : 0;
 }
 
-void judge(const CertifyOptions& options, const LodChain& chain, const Level& level,
-           Certificate& c) {
+void check_tolerances(const CertifyOptions& options, const LodChain& chain, const Level& level,
+                      Certificate& c) {
   c.tolerance = frequency_tolerance(options.tolerance, chain.levels.front().model.node_count(),
                                     level.model.node_count());
   constexpr double kPercent = 100;
   const auto check = [&](const char* what, double error, double most) {
     if (error > most)
-      c.misses.push_back(fmt::format("{} off by {:.3g} %, asked for {:.3g} %", what,
+      c.misses.push_back(fmt::format("{}: error {:.3g} %, tolerance {:.3g} %", what,
                                      kPercent * error, kPercent * most));
   };
   check("lowest ten frequencies", mean_frequency_error(c, 0, kLowestModes), c.tolerance);
@@ -132,8 +132,8 @@ void judge(const CertifyOptions& options, const LodChain& chain, const Level& le
   check("centre of mass", c.center_shift, kExact);
   check("second moments of mass", c.second_moment_error, kExact);
   if (c.zero_modes > c.expected_zero_modes)
-    c.misses.push_back(fmt::format("{} motions that no spring resists, {} are sound", c.zero_modes,
-                                   c.expected_zero_modes));
+    c.misses.push_back(
+        fmt::format("{} zero modes instead of {}", c.zero_modes, c.expected_zero_modes));
 }
 
 }  // namespace
@@ -149,10 +149,10 @@ void certify(LodChain& chain, const CertifyOptions& options) {
            [&](std::uint64_t job, const std::function<bool()>& stopped) {
              Level& level = chain.levels[job + 1];
              if (stopped()) throw InterruptedError();
-             if (level.model.spring_count() == 0) return;  // a point: nothing to measure
+             if (level.model.spring_count() == 0) return;  // no elasticity to measure
              std::vector<elastic::StaticLoad> summed;
              for (const elastic::StaticLoad& load : loads.all)
-               summed.push_back(carried(level.of_base, load));
+               summed.push_back(summed_over_groups(level.of_base, load));
              const Measured found =
                  measure(level.model, summed, loads.smooth,
                          carried(level.of_base, options.anchored), options.modes);
@@ -171,7 +171,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
                c.zero_modes += part.zero_modes;
                c.expected_zero_modes += part.expected;
              }
-             judge(options, chain, level, c);
+             check_tolerances(options, chain, level, c);
              level.certificate = std::move(c);
              task.advance();
            });

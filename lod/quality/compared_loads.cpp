@@ -10,7 +10,7 @@ ComparedLoads compared_loads(const MassSpringModel& base, const ComparedLoadOpti
   ComparedLoads loads{elastic::smooth_loads(base), 0};
   loads.smooth = loads.all.size();
   if (options.count == 0 || (options.within.empty() && border_count(base) == 0)) return loads;
-  // The other bits of the seed: patches that are fitted have the seed itself.
+  // The complement of the seed: the patches of a fit are drawn from the seed itself.
   const elastic::LocalLoadOptions local{
       .count = options.count, .seed = ~options.seed, .within = options.within};
   for (auto kind : {elastic::pinches(base, local), elastic::pushes(base, local)}) {

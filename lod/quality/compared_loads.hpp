@@ -10,24 +10,24 @@
 namespace springlod::lod {
 
 struct ComparedLoadOptions {
-  std::uint32_t count = 40;  ///< of each kind of local loads: pinches and pushes
-  std::uint64_t seed = 1;    ///< of where they act
-  /// Nodes that local loads act on, see LocalLoadOptions; empty: anywhere on the surface.
+  std::uint32_t count = 40;  ///< number of pinches, and of pushes
+  std::uint64_t seed = 1;    ///< of the patches they act on
+  /// Nodes that local loads act on, see LocalLoadOptions; empty: the whole surface.
   std::vector<std::uint32_t> within = {};
 };
 
-/// Loads by which levels are told from their base, on the base's nodes: the nine smooth ones first,
-/// which calibration is fitted to, then local ones on other patches than it is fitted to, whatever
-/// the seeds.
+/// Static loads on the base nodes for comparing a level with its base: first the nine smooth loads,
+/// which a calibration fits, then local loads on other patches than those that a calibration fits,
+/// whatever the seeds.
 struct ComparedLoads {
   std::vector<elastic::StaticLoad> all;
-  std::size_t smooth = 0;  ///< how many of them, the first ones
+  std::size_t smooth = 0;  ///< number of smooth loads
 
   bool held_out(std::size_t load) const { return load >= smooth; }
 };
 
-/// Smooth ones alone of a model without border nodes. Throws InputError if nodes were chosen and
-/// none of them is a border node.
+/// The loads for `base`; smooth loads alone if it has no border nodes. Throws InputError if
+/// `within` is not empty and none of its nodes is a border node.
 ComparedLoads compared_loads(const MassSpringModel& base, const ComparedLoadOptions& options);
 
 }  // namespace springlod::lod

@@ -10,13 +10,13 @@
 namespace springlod::lod {
 namespace {
 
-Binding fine_from_coarse(const MergedPair& pair) {
+Binding make_binding(const MergedPair& pair) {
   const LodChain chain{
       {{pair.fine, identity_groups(pair.fine.node_count()), ""}, {pair.coarse, pair.groups, ""}}};
   return base_from_level(chain, 1);
 }
 
-/// x.Ky of one spring.
+/// Contribution of one spring to x.Ky [J].
 double work(const MassSpringModel& model, std::uint32_t spring, const std::vector<Vec3>& x,
             const std::vector<Vec3>& y) {
   const Vec3 along = spring_direction(model, spring);
@@ -24,45 +24,47 @@ double work(const MassSpringModel& model, std::uint32_t spring, const std::vecto
   return model.stiffness[spring] * along.dot(x[b] - x[a]) * along.dot(y[b] - y[a]);
 }
 
-/// The parts of the coarse nodes for one load after the other.
-class Parts {
+/// Contributions of the coarse nodes to the change of compliance of one load.
+class Contributions {
  public:
-  explicit Parts(const MergedPair& pair)
-      : pair_(pair), carry_(fine_from_coarse(pair)), members_(pair.groups.count, 0) {
+  explicit Contributions(const MergedPair& pair)
+      : pair_(pair), fine_from_coarse_(make_binding(pair)), members_(pair.groups.count, 0) {
     for (const std::uint32_t g : pair.groups.of) ++members_[g];
   }
 
   std::vector<double> of(const std::vector<Vec3>& u, const std::vector<Vec3>& coarse_u) const {
-    const std::vector<Vec3> v = carry(carry_, coarse_u);
+    const std::vector<Vec3> v = carry(fine_from_coarse_, coarse_u);
     const std::vector<Vec3> w = group_means(u, pair_.fine.mass, pair_.groups);
-    std::vector<double> part(pair_.groups.count, 0);
+    std::vector<double> contribution(pair_.groups.count, 0);
     for (std::uint32_t s = 0; s < pair_.fine.spring_count(); ++s)
       share(pair_.groups.of[pair_.fine.a[s]], pair_.groups.of[pair_.fine.b[s]],
-            work(pair_.fine, s, u, v), part);
+            work(pair_.fine, s, u, v), contribution);
     for (std::uint32_t s = 0; s < pair_.coarse.spring_count(); ++s)
-      share(pair_.coarse.a[s], pair_.coarse.b[s], -work(pair_.coarse, s, w, coarse_u), part);
+      share(pair_.coarse.a[s], pair_.coarse.b[s], -work(pair_.coarse, s, w, coarse_u),
+            contribution);
     std::vector<Vec3> force;
     elastic::apply_stiffness(pair_.fine, u, force);
     for (std::uint32_t i = 0; i < pair_.fine.node_count(); ++i)
-      part[pair_.groups.of[i]] -= force[i].dot(u[i] + v[i]);
+      contribution[pair_.groups.of[i]] -= force[i].dot(u[i] + v[i]);
     elastic::apply_stiffness(pair_.coarse, coarse_u, force);
     for (std::uint32_t g = 0; g < pair_.groups.count; ++g)
-      part[g] += force[g].dot(coarse_u[g] + w[g]);
-    return part;
+      contribution[g] += force[g].dot(coarse_u[g] + w[g]);
+    return contribution;
   }
 
  private:
-  void share(std::uint32_t a, std::uint32_t b, double amount, std::vector<double>& part) const {
+  void share(std::uint32_t a, std::uint32_t b, double amount,
+             std::vector<double>& contribution) const {
     const bool only_a = members_[a] > 1 && members_[b] == 1;
     const bool only_b = members_[b] > 1 && members_[a] == 1;
     constexpr double kHalf = 0.5;
     const double of_a = only_a ? 1 : only_b ? 0 : kHalf;
-    part[a] += of_a * amount;
-    part[b] += (1 - of_a) * amount;
+    contribution[a] += of_a * amount;
+    contribution[b] += (1 - of_a) * amount;
   }
 
   MergedPair pair_;
-  Binding carry_;
+  Binding fine_from_coarse_;
   std::vector<std::uint32_t> members_;  // fine nodes of each coarse one
 };
 
@@ -72,18 +74,20 @@ std::vector<std::vector<double>> compliance_changes(const MergedPair& pair,
                                                     const std::vector<std::vector<Vec3>>& fine,
                                                     const std::vector<std::vector<Vec3>>& coarse) {
   if (fine.size() != coarse.size())
-    throw InputError(fmt::format("compliance change: {} loads of the fine model, {} of the coarse",
-                                 fine.size(), coarse.size()));
-  const Parts parts(pair);
+    throw InputError(
+        fmt::format("compliance change: the fine model has {} loads, the coarse one {}",
+                    fine.size(), coarse.size()));
+  const Contributions contributions(pair);
   std::vector<std::vector<double>> changes;
   for (std::size_t load = 0; load < fine.size(); ++load) {
     if (fine[load].size() != pair.fine.node_count() ||
         coarse[load].size() != pair.coarse.node_count())
       throw InputError(fmt::format(
-          "compliance change: load {} has displacements of {} and {} nodes, the models {} and {}",
+          "compliance change: load {} has displacements of {} and {} nodes; the models have {} and "
+          "{} nodes",
           load, fine[load].size(), coarse[load].size(), pair.fine.node_count(),
           pair.coarse.node_count()));
-    changes.push_back(parts.of(fine[load], coarse[load]));
+    changes.push_back(contributions.of(fine[load], coarse[load]));
   }
   return changes;
 }

@@ -6,7 +6,7 @@
 
 namespace springlod::lod {
 
-/// A field on the fine nodes, N, as the mean over each group, weighted by `mass`, N.
+/// Means of a field on the fine nodes, N, over each group, weighted by `mass`, N [kg].
 std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<double>& mass,
                               const Groups& groups);
 

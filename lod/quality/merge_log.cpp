@@ -22,29 +22,29 @@
 namespace springlod::lod {
 namespace {
 
-/// A level that gives way less than this part of the base is rigid [1], as where all that a load
-/// pulls at is in one group: no farther off is told, for the logarithm of nothing has no end.
-constexpr double kRigid = 1e-3;
+/// Least compliance of a level, relative to the base. Clamped: the log-ratio diverges as the
+/// compliance tends to zero, as where a load acts within one group.
+constexpr double kLeastCompliance = 1e-3;
 
-/// What the base is asked.
+/// The modes and loads of a comparison.
 struct Questions {
   std::vector<elastic::Mode> modes;
   std::vector<elastic::StaticLoad> loads;  // on the base's nodes
-  std::vector<Answer> answers;             // to the modes, then to the loads
+  std::vector<Answer> answers;             // of the modes, then of the loads
 };
 
-/// How a level answers, question by question.
+/// The responses of a level, mode by mode and load by load.
 struct Answers {
   std::vector<std::vector<Vec3>> displacement;
   std::vector<double> compliance;
-  /// Of modes: the work of the inertia forces along the mode itself, node by node [J].
+  /// Work of the inertia forces of each mode along the mode itself, node by node [J].
   std::vector<std::vector<double>> work;
 };
 
-/// Static loads that find something to pull at: not the width of a flat model.
+/// The static loads that have an effect on the base; a stretch across a flat model has none.
 Questions loads_of(const MassSpringModel& base, const elastic::ElasticBody& body,
                    const MergeLogOptions& options) {
-  // Those that certify asks for.
+  // The loads of certify.
   ComparedLoads loads = compared_loads(base, {.count = options.local_loads, .seed = options.seed});
   Questions kept;
   const std::vector<elastic::StaticSolution> solved = elastic::solve_static(body, loads.all);
@@ -57,7 +57,7 @@ Questions loads_of(const MassSpringModel& base, const elastic::ElasticBody& body
   return kept;
 }
 
-/// The loads, and how the level swings.
+/// The loads and the lowest modes of the level, interpolated to the base.
 Questions questions_of(const LodChain& chain, std::uint32_t level, const elastic::ElasticBody& body,
                        const Questions& loads, std::uint32_t modes) {
   Questions questions;
@@ -78,7 +78,7 @@ Answers answer(const MassSpringModel& base, const Level& level, const elastic::E
   Answers answers;
   std::vector<elastic::StaticLoad> loads;
   for (const elastic::Mode& mode : questions.modes) {
-    // omega^2 M phi holds a body in the shape phi.
+    // The forces omega^2 M phi deform the body into the shape phi.
     elastic::StaticLoad inertia{"inertia", group_means(mode.shape, base.mass, level.of_base)};
     std::vector<double>& work = answers.work.emplace_back();
     const double squared = mode.angular_frequency * mode.angular_frequency;
@@ -89,7 +89,7 @@ Answers answer(const MassSpringModel& base, const Level& level, const elastic::E
     loads.push_back(std::move(inertia));
   }
   for (const elastic::StaticLoad& load : questions.loads)
-    loads.push_back(carried(level.of_base, load));
+    loads.push_back(summed_over_groups(level.of_base, load));
   for (elastic::StaticSolution& solution : elastic::solve_static(body, loads)) {
     answers.compliance.push_back(solution.compliance);
     answers.displacement.push_back(std::move(solution.displacement));
@@ -97,7 +97,7 @@ Answers answer(const MassSpringModel& base, const Level& level, const elastic::E
   return answers;
 }
 
-/// The map from a level to the next, if the next was merged from it.
+/// The map from a level to a coarser one; none if the coarser one was not merged from it.
 std::optional<Groups> groups_between(const Groups& finer, const Groups& coarser) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   Groups between{std::vector<std::uint32_t>(finer.count, kNone), coarser.count};
@@ -110,9 +110,9 @@ std::optional<Groups> groups_between(const Groups& finer, const Groups& coarser)
 }
 
 /// (ln to - ln from) / (to - from).
-double log_slope(double from, double to) {
+double log_difference_quotient(double from, double to) {
   const double relative = to / from - 1;
-  constexpr double kSmall = 1e-9;  // where the quotient is rounding
+  constexpr double kSmall = 1e-9;  // below, the quotient is rounding noise
   return (std::abs(relative) < kSmall ? 1 : std::log1p(relative) / relative) / from;
 }
 
@@ -120,16 +120,16 @@ double sum_of(const std::vector<double>& parts) {
   return std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
-/// How an answer changed from one level to another, ln f or ln C.
+/// Change of response l from one level to another, of ln f or ln C.
 double change_between(const Answers& from, const Answers& to, std::size_t l) {
   const double softer = std::log(to.compliance[l] / from.compliance[l]);
   if (l >= from.work.size()) return softer;
   return (std::log(sum_of(to.work[l]) / sum_of(from.work[l])) - softer) / 2;
 }
 
-/// A merge's part in the mean |error| of the answers of a kind.
-double part_of(const std::vector<Answer>& answers, Answer::Kind kind,
-               const std::vector<double>& error, const std::vector<double>& change) {
+/// Contribution of a change to the mean |error| of the responses of a kind.
+double contribution_to_mean(const std::vector<Answer>& answers, Answer::Kind kind,
+                            const std::vector<double>& error, const std::vector<double>& change) {
   double sum = 0;
   int count = 0;
   for (std::size_t l = 0; l < answers.size(); ++l) {
@@ -186,7 +186,8 @@ class Log {
     Answers from = step.from == 0 ? of_base : answers_of(step.from);
     for (Answers* answers : {&to, &from})
       for (std::size_t l = 0; l < of_base.compliance.size(); ++l)
-        answers->compliance[l] = std::max(answers->compliance[l], kRigid * of_base.compliance[l]);
+        answers->compliance[l] =
+            std::max(answers->compliance[l], kLeastCompliance * of_base.compliance[l]);
     step.answers = questions.answers;
     for (std::size_t l = 0; l < step.answers.size(); ++l) {
       step.change.push_back(change_between(from, to, l));
@@ -195,35 +196,35 @@ class Log {
     step.merges.resize(groups->count);
     for (std::uint32_t g = 0; g < groups->count; ++g) step.merges[g].node = g;
     for (const std::uint32_t g : groups->of) ++step.merges[g].pieces;
-    share_changes(*groups, from, to, step);
+    attribute_changes(*groups, from, to, step);
     return step;
   }
 
-  /// The changes of the step as a sum over its merges.
-  void share_changes(const Groups& groups, const Answers& from, const Answers& to,
-                     MergeStep& step) const {
+  /// Splits the changes of the step into contributions of its merges.
+  void attribute_changes(const Groups& groups, const Answers& from, const Answers& to,
+                         MergeStep& step) const {
     const auto changes = compliance_changes(
         {chain_.levels[step.from].model, chain_.levels[step.level].model, groups},
         from.displacement, to.displacement);
     for (std::size_t l = 0; l < changes.size(); ++l) {
-      const double softer = log_slope(from.compliance[l], to.compliance[l]);
+      const double softer = log_difference_quotient(from.compliance[l], to.compliance[l]);
       if (l >= from.work.size()) {
         for (Merge& merge : step.merges) merge.change.push_back(softer * changes[l][merge.node]);
         continue;
       }
-      const double work = log_slope(sum_of(from.work[l]), sum_of(to.work[l]));
+      const double work = log_difference_quotient(sum_of(from.work[l]), sum_of(to.work[l]));
       std::vector<double> lost = to.work[l];
       for (std::size_t i = 0; i < groups.of.size(); ++i) lost[groups.of[i]] -= from.work[l][i];
       for (Merge& merge : step.merges)
         merge.change.push_back((work * lost[merge.node] - softer * changes[l][merge.node]) / 2);
     }
     for (Merge& merge : step.merges) {
-      const auto part = [&](Answer::Kind kind) {
-        return part_of(step.answers, kind, step.error, merge.change);
+      const auto contribution = [&](Answer::Kind kind) {
+        return contribution_to_mean(step.answers, kind, step.error, merge.change);
       };
-      merge.frequencies = part(Answer::Kind::mode);
-      merge.smooth_loads = part(Answer::Kind::smooth);
-      merge.local_loads = part(Answer::Kind::local);
+      merge.frequencies = contribution(Answer::Kind::mode);
+      merge.smooth_loads = contribution(Answer::Kind::smooth);
+      merge.local_loads = contribution(Answer::Kind::local);
     }
   }
 
@@ -238,18 +239,18 @@ class Log {
 MergeLog log_merges(const LodChain& chain, const MergeLogOptions& options) {
   if (chain.levels.size() < 2)
     throw InputError(
-        "merge log: the chain is a base alone, in which nothing was merged; simplify "
-        "it first");
+        "merge log: the chain has no level above the base, so nothing was merged; simplify it "
+        "first");
   for (const Level& level : chain.levels)
     if (level.model.spring_count() == 0)
       throw InputError(fmt::format(
-          "merge log: level {} has no springs, so that no load can be asked of it; leave it out",
+          "merge log: level {} has no springs, so no load deforms it; remove this level",
           &level - chain.levels.data()));
   return Log(chain, options).make();
 }
 
 double mean_error(const MergeStep& step, Answer::Kind kind) {
-  return part_of(step.answers, kind, step.error, step.error);
+  return contribution_to_mean(step.answers, kind, step.error, step.error);
 }
 
 }  // namespace springlod::lod

@@ -28,7 +28,7 @@ SampleComparison compare_samples(const StartSample& base, const StartSample& oth
                                 .paired = options.resampling.paired,
                                 .design = options.resampling.design,
                                 .alpha = 1 - options.confidence};
-  result.equivalence = options.bootstrap_test
+  result.equivalence = options.test == MeanTest::bootstrap
                            ? bootstrap_equivalence(base, other, test, options.resampling)
                            : test_equivalence(base, other, test);
   return result;

@@ -14,6 +14,13 @@ namespace {
 
 enum class ErrorKind { surface, shape };
 
+constexpr Choice<ErrorKind> kErrorKinds[] = {
+    {ErrorKind::surface, "surface", "distance of the nodes from the base's"},
+    {ErrorKind::shape, "shape", "the same after the best rigid fit"}};
+constexpr ChoiceTable<Choice<ErrorKind>> choices(ErrorKind) {
+  return {"error", kErrorKinds};
+}
+
 // Sides of a chart [px]: room for its letters; what programs that show pictures take.
 constexpr double kLeastChart = 300;
 constexpr double kLargestChart = 8000;
@@ -52,26 +59,8 @@ report::ChartSeries read_series(Call& call, int table, const std::string& owner)
   reader.read("name", series.name);
   reader.read("joined", series.joined);
   reader.read("dashed", series.dashed);
-  if (reader.has("colour"))
-    reader.choose("colour", series.colour.emplace(),
-                  {{"blue", report::ChartColour::blue},
-                   {"orange", report::ChartColour::orange},
-                   {"green", report::ChartColour::green},
-                   {"pink", report::ChartColour::pink},
-                   {"amber", report::ChartColour::amber},
-                   {"sky", report::ChartColour::sky},
-                   {"grey", report::ChartColour::grey},
-                   {"black", report::ChartColour::black}});
-  if (reader.has("symbol"))
-    reader.choose("symbol", series.symbol.emplace(),
-                  {{"disc", report::ChartSymbol::disc},
-                   {"square", report::ChartSymbol::square},
-                   {"triangle", report::ChartSymbol::triangle},
-                   {"diamond", report::ChartSymbol::diamond},
-                   {"triangle_down", report::ChartSymbol::triangle_down},
-                   {"pentagon", report::ChartSymbol::pentagon},
-                   {"ring", report::ChartSymbol::ring},
-                   {"none", report::ChartSymbol::none}});
+  reader.read("colour", series.colour);
+  reader.read("symbol", series.symbol);
   const int points = reader.raw("points");
   if (points == 0 || !lua_istable(L, points)) reader.refuse("points", "a list of {x, y}");
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, points)); ++i) {
@@ -126,7 +115,7 @@ std::vector<std::string> sorted_keys(lua_State* L, int table) {
 
 report::ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader) {
   ErrorKind kind = ErrorKind::surface;
-  reader.choose("error", kind, {{"surface", ErrorKind::surface}, {"shape", ErrorKind::shape}});
+  reader.read("error", kind);
   const report::Table table =
       report::comparison_table(comparison.comparison, comparison.chain->chain);
   const auto column = [&](const char* name) {
@@ -221,7 +210,7 @@ std::vector<Parameter> chart_parameters() {
        .type = "one of",
        .fallback = "\"surface\"",
        .help = "which error of a comparison is shown",
-       .choices = {"surface", "shape"}}};
+       .choices = words_of<ErrorKind>()}};
 }
 
 void describe_series(Api& api) {
@@ -262,13 +251,12 @@ void describe_series(Api& api) {
                   .type = "one of",
                   .fallback = "another for each series",
                   .help = "of points and line",
-                  .choices = {"blue", "orange", "green", "pink", "amber", "sky", "grey", "black"}},
+                  .choices = words_of<report::ChartColour>()},
                  {.name = "symbol",
                   .type = "one of",
                   .fallback = "another for each series",
-                  .help = "of its points; a ring goes around other points",
-                  .choices = {"disc", "square", "triangle", "diamond", "triangle_down", "pentagon",
-                              "ring", "none"}}},
+                  .help = "of its points",
+                  .choices = words_of<report::ChartSymbol>()}},
       .example = "{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}"});
 }
 

@@ -11,6 +11,7 @@
 
 #include "report/tables.hpp"
 #include "scripting/bind/chart_table.hpp"
+#include "scripting/bind/options.hpp"
 #include "scripting/bind/run_options.hpp"
 #include "scripting/bind/scenario_table.hpp"
 #include "scripting/bind/topics.hpp"
@@ -48,29 +49,17 @@ void warn(Console& console, const std::vector<sim::RunSummary>& runs) {
         crossed, runs.size(), first));
 }
 
-/// What start_parameters lists; Options are those of compare or of an ensemble.
-template <class Options>
-void read_start_options(Call& call, TableReader& reader, Options& options) {
-  options.seed = call.session().settings().seed;
-  options.threads = call.session().settings().threads;
-  reader.read("starts", options.starts);
-  reader.read("jitter", options.jitter);
-  reader.read("seed", options.seed);
-  reader.read("threads", options.threads);
-  read_run_options(call, reader, options.run);
-  options.progress = call.progress();
-}
-
 int compare_binding(Call& call) {
   auto value = std::make_shared<ComparisonValue>();
   value->chain = call.value<LodAsset>(1);
   const auto scenario = scenario_argument(call, 2);
   sim::CompareOptions options;
+  options.seed = call.session().settings().seed;
+  options.threads = call.session().settings().threads;
+  options.progress = call.progress();
   TableReader reader = call.options(3);
-  read_start_options(call, reader, options);
+  read_options(call, reader, options);
   options.contact = read_contact(reader);
-  reader.read("error_window", options.error_window);
-  reader.read("variant", options.variant);
   reader.finish();
   value->comparison = sim::compare(value->chain->chain, *scenario, options);
   std::vector<sim::RunSummary> all;
@@ -84,12 +73,15 @@ int ensemble_binding(Call& call) {
   const auto model = call.value<ModelValue>(1);
   const auto scenario = scenario_argument(call, 2);
   sim::EnsembleOptions options;
+  options.seed = call.session().settings().seed;
+  options.threads = call.session().settings().threads;
+  options.progress = call.progress();
   TableReader reader = call.options(3);
   std::uint32_t first = options.first_start + 1;
   reader.read("first", first);
   if (first == 0) reader.refuse("first", "1 or more");
   options.first_start = first - 1;
-  read_start_options(call, reader, options);
+  read_options(call, reader, options);
   options.run.skin = skin_of(*model, read_contact(reader));
   reader.finish();
   const std::vector<sim::EnsembleRun> runs = sim::run_ensemble(*model->model, *scenario, options);
@@ -172,51 +164,23 @@ void describe_comparison(Api& api) {
   api.add(type.build());
 }
 
-std::vector<Parameter> start_parameters(std::uint32_t starts) {
-  const sim::CompareOptions usual;
-  return {{.name = "starts",
-           .type = "integer",
-           .fallback = fmt::format("{}", starts),
-           .help = "starts, the same for every level"},
-          {.name = "jitter",
-           .type = "number",
-           .fallback = fmt::format("{}", usual.jitter),
-           .help = "relative change of speed and height from start to start; the first has none"},
-          {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "of the jitter"},
-          {.name = "threads",
-           .type = "integer",
-           .fallback = "s.threads",
-           .help = "0: all cores; never changes a result"}};
-}
-
 std::vector<Parameter> compare_parameters() {
-  const sim::CompareOptions usual;
-  std::vector<Parameter> parameters = start_parameters(usual.starts);
-  parameters.push_back(
-      {.name = "error_window",
-       .type = "quantity",
-       .dimension = Dimension::time,
-       .fallback = fmt::format("{}", usual.error_window),
-       .help = "errors are averaged up to so long after the base's first contact"});
-  parameters.push_back({.name = "variant",
-                        .type = "string",
-                        .fallback = "none",
-                        .help = "goes into the labels: \"hb\" makes \"LOD-hb-1\""});
-  const std::vector<Parameter> run = run_parameters(sim::RunOptions{});
-  parameters.insert(parameters.end(), run.begin(), run.end());
+  std::vector<Parameter> parameters = parameters_of<sim::CompareOptions>();
+  use_session_defaults(parameters);
+  parameters.push_back(contact_parameter());
   return parameters;
 }
 
 std::vector<Parameter> ensemble_parameters() {
   const sim::EnsembleOptions usual;
-  std::vector<Parameter> parameters = start_parameters(usual.starts);
+  std::vector<Parameter> parameters = parameters_of(usual);
+  use_session_defaults(parameters);
   parameters.push_back(
       {.name = "first",
        .type = "integer",
        .fallback = fmt::format("{}", usual.first_start + 1),
        .help = "number of the first start: others than those of another ensemble"});
-  const std::vector<Parameter> run = run_parameters(usual.run);
-  parameters.insert(parameters.end(), run.begin(), run.end());
+  parameters.push_back(contact_parameter());
   return parameters;
 }
 

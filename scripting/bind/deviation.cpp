@@ -35,7 +35,7 @@ int jittered_binding(Call& call) {
   if (!(options.jitter >= 0 && options.jitter < 1)) reader.refuse("jitter", "in [0, 1)");
   reader.read("seed", options.seed);
   reader.finish();
-  scenario->start = sim::jittered(scenario->start, sim::center_of_mass(model, model.rest),
+  scenario->start = sim::jittered(scenario->start, center_of_mass(model, model.rest),
                                   options.jitter, options.seed, number - 1);
   return call.give(std::shared_ptr<const sim::Scenario>(scenario));
 }

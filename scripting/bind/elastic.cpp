@@ -12,6 +12,7 @@
 #include "elastic/stiffness.hpp"
 #include "elastic/zero_modes.hpp"
 #include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/options.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
@@ -22,11 +23,14 @@ namespace {
 
 constexpr const char* kGroup = "Models";
 
+constexpr Choice<int> kAxisRows[] = {{0, "x", ""}, {1, "y", ""}, {2, "z", ""}};
+constexpr ChoiceTable kAxes("axis", kAxisRows);
+
 int stretch_binding(Call& call) {
   const auto value = call.value<ModelValue>(1);
   elastic::StretchOptions options;
   TableReader reader = call.options(2);
-  reader.choose("axis", options.axis, {{"x", 0}, {"y", 1}, {"z", 2}});
+  reader.choose("axis", options.axis, kAxes);
   reader.read("cross_section", options.cross_section);
   reader.finish();
   const elastic::StretchResult result = elastic::stretch_test(*value->model, options);
@@ -66,9 +70,7 @@ int modes_binding(Call& call) {
   elastic::ModeOptions options;
   options.progress = call.progress();
   TableReader reader = call.options(2);
-  reader.read("count", options.count);
-  reader.read("accuracy", options.accuracy);
-  reader.read("seed", options.seed);
+  read_options(call, reader, options);
   const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
   reader.finish();
   const elastic::Modes found = elastic::lowest_modes(
@@ -141,7 +143,7 @@ void describe_measurements(Api& api, const Parameter& model) {
                    .type = "one of",
                    .fallback = "\"z\"",
                    .help = "along which the end planes are pulled apart",
-                   .choices = {"x", "y", "z"}},
+                   .choices = words_of(kAxes)},
                   {.name = "cross_section",
                    .type = "number",
                    .fallback = "volume / length",
@@ -166,26 +168,19 @@ void describe_measurements(Api& api, const Parameter& model) {
       .call = zero_modes_binding});
 }
 
+std::vector<Parameter> modes_parameters() {
+  std::vector<Parameter> parameters = parameters_of<elastic::ModeOptions>();
+  parameters.push_back(anchored_parameter());
+  return parameters;
+}
+
 void describe_modes(Api& api, const Parameter& model) {
-  const elastic::ModeOptions usual;
   api.add(FunctionEntry{
       .name = "modes",
       .group = kGroup,
       .summary = "The lowest frequencies at which the model swings, free or held at some nodes.",
       .arguments = {model},
-      .options = {{.name = "count",
-                   .type = "integer",
-                   .fallback = fmt::format("{}", usual.count),
-                   .help = "modes wanted; motions that no spring resists are not among them"},
-                  anchored_parameter(),
-                  {.name = "accuracy",
-                   .type = "number",
-                   .fallback = fmt::format("{}", usual.accuracy),
-                   .help = "bound of the relative error of each squared frequency"},
-                  {.name = "seed",
-                   .type = "integer",
-                   .fallback = fmt::format("{}", usual.seed),
-                   .help = "of the start of the iteration"}},
+      .options = modes_parameters(),
       .returns = "list of tables, lowest first: frequency [Hz], residual (bound of the relative "
                  "error of its square), shape (for each node {x, y, z}; sum of mass times square "
                  "= 1; zero where anchored)",

@@ -153,20 +153,36 @@ void read_grouping(TableReader& reader, lod::SimplifyOptions& options) {
                     "the pair)");
     (parameters == 1 ? node_priority : pair_cost) = given;
   } else {
-    reader.choose("grouping", options.grouping.grouping,
-                  {{"standard", lod::Grouping::standard},
-                   {"priority", lod::Grouping::priority_soft},
-                   {"priority_hard", lod::Grouping::priority_hard},
-                   {"compact", lod::Grouping::compact},
-                   {"metis", lod::Grouping::metis}});
+    reader.read("grouping", options.grouping.grouping);
   }
   if (node_priority == 0 && pair_cost == 0) return;
+  if (choice_of(options.grouping.grouping).traits.from_base)
+    reader.refuse("grouping", "one that grows pairs if node_priority or pair_cost is given");
   options.groups = function_groups(L, options.grouping, node_priority, pair_cost);
   options.made_by = fmt::format("{} of the script, border {}, seed {}",
                                 pair_cost == 0       ? "node_priority"
                                 : node_priority == 0 ? "pair_cost"
                                                      : "node_priority and pair_cost",
                                 to_string(options.grouping.border), options.grouping.seed);
+}
+
+void extend_grouping_parameter(Parameter& grouping) {
+  grouping.type = "function, list of lists of node numbers, or one of";
+  grouping.help +=
+      "; a function of one node gives its priority, of two nodes the cost of merging them; lists "
+      "name the groups of level 1 by hand, lists of such lists those of level 1, 2, ...";
+}
+
+std::vector<Parameter> grouping_function_parameters() {
+  return {{.name = "node_priority",
+           .type = "function(node) -> number",
+           .fallback = "none",
+           .help = "order in which nodes are visited, low first; node is a Node table"},
+          {.name = "pair_cost",
+           .type = "function(a, b) -> number",
+           .fallback = "none",
+           .help = "which neighbour merges first, low first; a and b are Node tables joined by a "
+                   "spring; math.huge forbids the pair"}};
 }
 
 }  // namespace springlod::scripting

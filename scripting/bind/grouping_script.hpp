@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "lod/build.hpp"
 #include "scripting/engine/call.hpp"
 
@@ -9,5 +11,10 @@ namespace springlod::scripting {
 /// `simplify`) into `options`. Lua functions become callbacks that call back into `L`, so the
 /// options are good for the duration of the call only.
 void read_grouping(TableReader& reader, lod::SimplifyOptions& options);
+
+/// Says of the option `grouping` what it takes besides words.
+void extend_grouping_parameter(Parameter& grouping);
+/// The options node_priority and pair_cost.
+std::vector<Parameter> grouping_function_parameters();
 
 }  // namespace springlod::scripting

@@ -8,10 +8,9 @@
 
 #include "base/error.hpp"
 #include "lod/build.hpp"
-#include "lod/quality/certify.hpp"
-#include "scripting/bind/calibration_option.hpp"
 #include "scripting/bind/grouping_script.hpp"
 #include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/options.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
@@ -22,51 +21,23 @@ namespace {
 
 constexpr const char* kGroup = "Levels of detail";
 
-void read_guard(Call& call, TableReader& reader, lod::GuardOptions& guard) {
-  const int table = reader.raw("guard");
-  if (table == 0) return;
-  TableReader limits = call.record(table, "Guard", "simplify: guard");
-  limits.read("coincident_fraction", guard.coincident_fraction);
-  limits.read("least_springs", guard.least_springs);
-  limits.read("least_rigidity", guard.least_rigidity);
-  limits.finish();
-}
-
 int simplify_binding(Call& call) {
   const auto base = call.value<ModelValue>(1);
   if (base->chain && base->level != 0)
     call.refuse(1, "a base model (level 0); a coarser level cannot be the base of a chain");
   lod::SimplifyOptions options;
-  TableReader reader = call.options(2);
-  reader.read("keep", options.keep);
-  if (!options.keep.empty()) options.levels = static_cast<std::uint32_t>(options.keep.size());
-  reader.read("levels", options.levels);
-  reader.choose("border", options.grouping.border,
-                {{"none", lod::BorderRule::none},
-                 {"weak", lod::BorderRule::weak},
-                 {"strong", lod::BorderRule::strong}});
-  reader.read("straight", options.straight);
   options.grouping.seed = call.session().settings().seed;
-  reader.read("seed", options.grouping.seed);
-  reader.read("grading", options.grouping.grading);
-  reader.choose(
-      "mass", options.mass,
-      {{"proportional", lod::MassRule::proportional}, {"proximity", lod::MassRule::proximity}});
-  reader.read("guards", options.guards);
-  read_guard(call, reader, options.guard);
-  read_grouping(reader, options);
-  read_calibration(call, reader, *base->model, options);
-  reader.finish();
+  options.calibration.threads = call.session().settings().threads;
   options.progress = call.progress();
+  TableReader reader = call.options(2);
+  read_options(call, reader, options, base->model.get(), "grouping");
+  if (!options.keep.empty() && !reader.has("levels"))
+    options.levels = static_cast<std::uint32_t>(options.keep.size());
+  read_grouping(reader, options);
+  reader.finish();
 
   auto asset = std::make_shared<LodAsset>();
   asset->chain = lod::simplify(*base->model, options);
-  if (options.calibration == lod::Calibration::modes)
-    lod::certify(asset->chain, {.modes = std::max(1U, options.calibrate.targets.modes),
-                                .anchored = options.calibrate.targets.anchored,
-                                .tolerance = options.calibrate.fit.tolerance,
-                                .threads = options.calibrate.threads,
-                                .progress = call.progress()});
   if (base->surface) {
     asset->surface = *base->surface;
     asset->surface_of_base = *base->surface_of_base;
@@ -175,103 +146,22 @@ void describe_chain(Api& api) {
 }
 
 std::vector<Parameter> simplify_options() {
-  const lod::SimplifyOptions usual;
-  return {{.name = "levels",
-           .type = "integer",
-           .fallback = fmt::format("{}", usual.levels),
-           .help = "levels besides the base, each merged from the one before"},
-          {.name = "keep",
-           .type = "list of numbers",
-           .fallback = "as the grouping makes; of compact and metis 0.45, 0.2, ...",
-           .help = "nodes of each level over those of the base, falling, met exactly; as many "
-                   "levels as there are numbers"},
-          {.name = "grouping",
-           .type = "function, list of lists of node numbers, or one of",
-           .fallback = "\"standard\"",
-           .help = "which nodes merge: nearest first in random order (standard), low gradient of "
-                   "material and short springs first (priority), gradient alone first "
-                   "(priority_hard), round groups straight from the base (compact), graph "
-                   "partitions that cut few springs (metis); a function of one node gives its "
-                   "priority, of two nodes the "
-                   "cost of merging them; lists name the groups of level 1 by hand, lists of such "
-                   "lists those of level 1, 2, ...",
-           .choices = {"standard", "priority", "priority_hard", "compact", "metis"}},
-          {.name = "straight",
-           .type = "boolean",
-           .fallback = "false; true of compact and metis",
-           .help = "each level is merged straight from the base, whatever the one before merged"},
-          {.name = "border",
-           .type = "one of",
-           .fallback = "\"none\"",
-           .help = "border nodes merge freely, only with each other (weak), or never (strong)",
-           .choices = {"none", "weak", "strong"}},
-          {.name = "seed",
-           .type = "integer",
-           .fallback = "s.seed",
-           .help = "of the random order; the same seed gives the same bits"},
-          {.name = "grading",
-           .type = "number",
-           .fallback = fmt::format("{}", lod::GroupingOptions{}.grading),
-           .help = "of compact: 0 .. 1, by how much stiff materials get larger groups than soft "
-                   "ones, for a longer step"},
-          {.name = "node_priority",
-           .type = "function(node) -> number",
-           .fallback = "none",
-           .help = "order in which nodes are visited, low first; node is a Node table"},
-          {.name = "pair_cost",
-           .type = "function(a, b) -> number",
-           .fallback = "none",
-           .help = "which neighbour merges first, low first; a and b are Node tables joined by a "
-                   "spring; math.huge forbids the pair"},
-          {.name = "mass",
-           .type = "one of",
-           .fallback = "\"proportional\"",
-           .help = "a node has the masses of its group, or each piece of the base goes to the "
-                   "nearest node",
-           .choices = {"proportional", "proximity"}},
-          {.name = "guards",
-           .type = "boolean",
-           .fallback = usual.guards ? "true" : "false",
-           .help = "fuse nodes that would coincide or be floppy; false: the raw merge"},
-          {.name = "guard",
-           .type = "Guard",
-           .fallback = "the limits of Guard",
-           .help = "when a node counts as coincident or floppy"},
-          {.name = "calibrate",
-           .type = "one of",
-           .fallback = "\"none\"",
-           .help = "levels stay as they were merged; get the moduli of eq. 2 of the paper; or "
-                   "swing and give way as the base does, with as long a step as that allows "
-                   "(modes), and carry a certificate of it",
-           .choices = {"none", "moduli", "modes"}},
-          {.name = "calibration",
-           .type = "Calibration",
-           .fallback = "that of Calibration",
-           .help = "what calibrate = \"modes\" aims at"}};
+  std::vector<Parameter> parameters = parameters_of<lod::SimplifyOptions>();
+  use_session_defaults(parameters);
+  extend_grouping_parameter(find_parameter(parameters, "grouping"));
+  const std::vector<Parameter> functions = grouping_function_parameters();
+  parameters.insert(parameters.end(), functions.begin(), functions.end());
+  return parameters;
 }
 
 }  // namespace
 
 void describe_lod(Api& api) {
   describe_chain(api);
-  const lod::GuardOptions guard;
-  api.add(RecordEntry{
-      .name = "Guard",
-      .summary = "Limits of the guards of simplify.",
-      .fields = {{.name = "coincident_fraction",
-                  .type = "number",
-                  .fallback = fmt::format("{}", guard.coincident_fraction),
-                  .help = "joined nodes nearer than this part of the mean spring length are fused"},
-                 {.name = "least_springs",
-                  .type = "integer",
-                  .fallback = fmt::format("{}", guard.least_springs),
-                  .help = "a node with fewer springs is floppy"},
-                 {.name = "least_rigidity",
-                  .type = "number",
-                  .fallback = fmt::format("{}", guard.least_rigidity),
-                  .help = "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T "
-                          "is below"}},
-      .example = "guard = {least_springs = 5}"});
+  api.add(RecordEntry{.name = "Guard",
+                      .summary = "Limits of the guards of simplify.",
+                      .fields = parameters_of<lod::GuardOptions>(),
+                      .example = "guard = {least_springs = 5}"});
   api.add(FunctionEntry{
       .name = "simplify",
       .group = kGroup,

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/options.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
@@ -18,24 +18,12 @@
 namespace springlod::scripting {
 namespace {
 
-std::string kind_name(lod::Answer::Kind kind) {
-  switch (kind) {
-    case lod::Answer::Kind::mode:
-      return "mode";
-    case lod::Answer::Kind::smooth:
-      return "smooth";
-    case lod::Answer::Kind::local:
-      return "local";
-  }
-  return "";
-}
-
 void push_answers(lua_State* L, const lod::MergeStep& step) {
   begin_list(L, step.answers.size());
   for (std::size_t i = 0; i < step.answers.size(); ++i) {
     begin_table(L);
     set_field(L, "name", step.answers[i].name);
-    set_field(L, "kind", kind_name(step.answers[i].kind));
+    set_field(L, "kind", to_string(step.answers[i].kind));
     set_field(L, "change", step.change[i]);
     set_field(L, "error", step.error[i]);
     end_list_entry(L, i + 1);
@@ -75,11 +63,7 @@ int merge_log_binding(Call& call) {
   options.threads = call.session().settings().threads;
   options.progress = call.progress();
   TableReader reader = call.options(2);
-  reader.read("modes", options.modes);
-  reader.read("local_loads", options.local_loads);
-  reader.read("seed", options.seed);
-  reader.read("from_base", options.from_base);
-  options.anchored = read_anchored(reader, asset->chain.levels.front().model);
+  read_options(call, reader, options, &asset->chain.levels.front().model);
   reader.finish();
   const lod::MergeLog log = lod::log_merges(asset->chain, options);
   lua_State* L = call.lua();
@@ -144,31 +128,13 @@ void describe_records(Api& api) {
 
 void describe_merge_log(Api& api) {
   describe_records(api);
-  const lod::MergeLogOptions usual;
   api.add(FunctionEntry{
       .name = "merge_log",
       .group = "Levels of detail",
       .summary = "Which merge cost which error, level by level: how each level answers to its own "
                  "lowest modes and to static loads beside its base, as a sum over its nodes.",
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels and their base"}},
-      .options = {{.name = "modes",
-                   .type = "integer",
-                   .fallback = fmt::format("{}", usual.modes),
-                   .help = "lowest modes of each level; 0: none"},
-                  {.name = "local_loads",
-                   .type = "integer",
-                   .fallback = fmt::format("{}", usual.local_loads),
-                   .help = "pinches, and as many pushes, on patches of the surface; 0: none"},
-                  {.name = "seed",
-                   .type = "integer",
-                   .fallback = fmt::format("{}", usual.seed),
-                   .help = "of where they act, as in certify"},
-                  {.name = "from_base",
-                   .type = "boolean",
-                   .fallback = "false",
-                   .help = "each step counts from the base, also where a level was merged from the "
-                           "one before"},
-                  anchored_parameter()},
+      .options = parameters_of<lod::MergeLogOptions>(),
       .returns = "list of MergeStep, one a level but the base",
       .errors = "A chain that is a base alone; a level without springs; hundreds of loose nodes in "
                 "a large part.",

@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "model/anchors.hpp"
 #include "scripting/bind/model_table.hpp"
 
 namespace springlod::scripting {
@@ -77,12 +78,14 @@ std::vector<std::uint32_t> read_anchored(TableReader& reader, const MassSpringMo
 }
 
 Parameter anchored_parameter() {
-  return {.name = "anchored",
+  struct AnyOptions {
+    std::vector<std::uint32_t> anchored;
+  };
+  constexpr auto row = anchored_option(&AnyOptions::anchored);
+  return {.name = row.name,
           .type = "list of integers or function",
-          .fallback = "none",
-          .help =
-              "nodes that are held where they are: their numbers, or a function of a Node that "
-              "returns true for them"};
+          .fallback = row.fallback,
+          .help = row.help};
 }
 
 std::vector<Vec3> read_forces(TableReader& reader, const MassSpringModel& model) {

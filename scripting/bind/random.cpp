@@ -9,6 +9,8 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "lod/refill.hpp"
+#include "scripting/bind/options.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
@@ -23,11 +25,7 @@ int random_binding(Call& call) {
   voxelize::RandomOptions options;
   options.seed = call.session().settings().seed;
   TableReader reader = call.options(2);
-  reader.read("nodes", options.nodes);
-  reader.read("spacing", options.spacing);
-  reader.read("ends", options.ends);
-  reader.read("seed", options.seed);
-  reader.read("rescale", options.rescale);
+  read_options(call, reader, options);
   reader.finish();
   options.progress = call.progress();
 
@@ -86,19 +84,12 @@ int refill_binding(Call& call) {
   options.seed = call.session().settings().seed;
   TableReader reader = call.options(3);
   options.nodes = read_counts(reader);
-  reader.choose(
-      "style", options.style,
-      {{"lattice", voxelize::RefillStyle::lattice}, {"random", voxelize::RefillStyle::random}});
-  reader.choose(
-      "lattice", options.lattice,
-      {{"corners", voxelize::LatticeStyle::corners}, {"centers", voxelize::LatticeStyle::centers}});
-  reader.read("ends", options.ends);
-  reader.read("seed", options.seed);
+  read_options(call, reader, options);
   reader.finish();
   options.progress = call.progress();
 
   auto asset = std::make_shared<LodAsset>();
-  asset->chain = voxelize::refill(*base->model, grid->grid, options);
+  asset->chain = lod::refill(*base->model, voxelize::refill_levels(grid->grid, options));
   for (std::size_t n = 0; n < options.nodes.size(); ++n) {
     const std::uint32_t reached = asset->chain.levels[n + 1].model.node_count();
     if (reached != options.nodes[n])
@@ -116,47 +107,32 @@ int refill_binding(Call& call) {
   return call.give(std::shared_ptr<const LodAsset>(asset));
 }
 
-Parameter ends_option() {
-  return {.name = "ends",
-          .type = "number",
-          .fallback = fmt::format("{}", voxelize::RandomOptions{}.ends),
-          .help =
-              "ends of springs a node on average, at least 14; every node of a random model has "
-              "14"};
+std::vector<Parameter> random_parameters() {
+  std::vector<Parameter> parameters = parameters_of<voxelize::RandomOptions>();
+  use_session_defaults(parameters);
+  return parameters;
 }
 
-Parameter seed_option() {
-  return {.name = "seed",
-          .type = "integer",
-          .fallback = "s.seed",
-          .help = "of the random places; the same seed gives the same bits"};
+std::vector<Parameter> refill_parameters() {
+  std::vector<Parameter> parameters{
+      {.name = "nodes",
+       .type = "integer or list of integers",
+       .help = "how many at level 1, 2, ...; a lattice comes as near as it can"}};
+  const std::vector<Parameter> more = parameters_of<voxelize::RefillOptions>();
+  parameters.insert(parameters.end(), more.begin(), more.end());
+  use_session_defaults(parameters);
+  return parameters;
 }
 
 }  // namespace
 
 void describe_random(Api& api) {
-  const voxelize::RandomOptions usual;
   api.add(FunctionEntry{
       .name = "random",
       .group = "From mesh to model",
       .summary = "Builds a model of randomly placed nodes in a grid, any number of them.",
       .arguments = {{.name = "grid", .type = "Grid", .help = "filled cells"}},
-      .options = {{.name = "nodes",
-                   .type = "integer",
-                   .fallback = "as spacing tells",
-                   .help = "how many, at least 15"},
-                  {.name = "spacing",
-                   .type = "quantity",
-                   .dimension = Dimension::length,
-                   .fallback = "the grid's cell",
-                   .help = "edge of the cube that a node stands for"},
-                  ends_option(),
-                  seed_option(),
-                  {.name = "rescale",
-                   .type = "boolean",
-                   .fallback = usual.rescale ? "true" : "false",
-                   .help = "one factor for all springs from a solved stretch test, so that the "
-                           "model shows its E; false: k by eq. 2 of the paper alone"}},
+      .options = random_parameters(),
       .returns = "Model: with the mesh's surface bound to its nodes; what was measured of it is in "
                  "its provenance",
       .errors = "An empty grid, fewer than 15 nodes or 14 ends, more nodes than there is room for.",
@@ -171,21 +147,7 @@ void describe_refill(Api& api) {
       .summary = "Global rescaling: a chain whose coarser levels are made anew in the same volume.",
       .arguments = {{.name = "model", .type = "Model", .help = "the base: level 0"},
                     {.name = "grid", .type = "Grid", .help = "the volume it was made on"}},
-      .options = {{.name = "nodes",
-                   .type = "integer or list of integers",
-                   .help = "how many at level 1, 2, ...; a lattice comes as near as it can"},
-                  {.name = "style",
-                   .type = "one of",
-                   .fallback = "\"lattice\"",
-                   .help = "what the levels are made of",
-                   .choices = {"lattice", "random"}},
-                  {.name = "lattice",
-                   .type = "one of",
-                   .fallback = "\"corners\"",
-                   .help = "where the nodes of a lattice sit, as in s.lattice",
-                   .choices = {"corners", "centers"}},
-                  ends_option(),
-                  seed_option()},
+      .options = refill_parameters(),
       .returns = "LodChain: each base node belongs to the nearest node of a level",
       .errors = "A level that would be no coarser than the one before.",
       .example = "local chain = s.refill(base, grid, {nodes = {161, 78}, style = \"random\"})",

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "render/frames.hpp"
 #include "render/scene.hpp"
+#include "report/animate.hpp"
 #include "scripting/bind/draw_style.hpp"
 #include "scripting/bind/picture.hpp"
 #include "scripting/bind/still_pictures.hpp"
@@ -20,14 +21,12 @@ namespace {
 
 constexpr const char* kGroup = "Pictures and reports";
 
-enum class StillCamera { follow, fixed };
-
 /// How a still picture is laid out and looked at.
 struct PictureOptions {
   std::uint32_t width = 640;  ///< of one panel [px]
   std::uint32_t height = 480;
   std::uint32_t columns = 0;  ///< 0: all panels in one row
-  StillCamera camera = StillCamera::follow;
+  report::CameraMode camera = report::CameraMode::follow;
   double azimuth = -70;  ///< [deg]
   double elevation = 15;
   std::vector<std::string> titles;
@@ -145,7 +144,8 @@ std::vector<render::Camera> cameras_of(const std::vector<std::unique_ptr<Picture
   std::vector<Vec3> all;
   for (const auto& panel : panels) {
     const std::vector<Vec3> points = panel->points();
-    centers.push_back(options.camera == StillCamera::follow ? middle(points) : Vec3(Vec3::Zero()));
+    centers.push_back(options.camera == report::CameraMode::follow ? middle(points)
+                                                                   : Vec3(Vec3::Zero()));
     for (const Vec3& point : points) all.emplace_back(point - centers.back());
   }
   const int height = static_cast<int>(options.height);
@@ -180,8 +180,7 @@ int render_binding(Call& call) {
   reader.read("width", options.width);
   reader.read("height", options.height);
   reader.read("columns", options.columns);
-  reader.choose("camera", options.camera,
-                {{"follow", StillCamera::follow}, {"fixed", StillCamera::fixed}});
+  reader.read("camera", options.camera);
   reader.read("azimuth", options.azimuth);
   reader.read("elevation", options.elevation);
   reader.read("titles", options.titles);
@@ -244,10 +243,8 @@ std::vector<Parameter> render_parameters() {
       {.name = "camera",
        .type = "one of",
        .fallback = "\"follow\"",
-       .help =
-           "all panels have one scale; follow: each looks at its own body; fixed: all look from "
-           "one place, so that one sees how far apart the bodies are",
-       .choices = {"follow", "fixed"}},
+       .help = "whether the camera follows the body; all panels have one scale",
+       .choices = words_of<report::CameraMode>()},
       {.name = "azimuth",
        .type = "number",
        .fallback = fmt::format("{}", usual.azimuth),

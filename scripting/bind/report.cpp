@@ -14,6 +14,7 @@
 #include "report/video.hpp"
 #include "scripting/bind/chart_table.hpp"
 #include "scripting/bind/draw_style.hpp"
+#include "scripting/bind/options.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
@@ -29,16 +30,7 @@ int animate_binding(Call& call) {
   const auto comparison = call.value<ComparisonValue>(2);
   report::AnimateOptions options;
   TableReader reader = call.options(3);
-  reader.read("width", options.width);
-  reader.read("height", options.height);
-  reader.read("frame_rate", options.frame_rate);
-  reader.read("slow", options.slow);
-  reader.read("frames", options.frames);
-  reader.choose("camera", options.camera,
-                {{"fixed", report::CameraMode::fixed}, {"follow", report::CameraMode::follow}});
-  reader.read("azimuth", options.azimuth);
-  reader.read("elevation", options.elevation);
-  reader.read("avoid_walls", options.avoid_walls);
+  read_options(call, reader, options);
   read_style(reader, options.style);
   reader.finish();
   options.progress = call.progress();
@@ -109,41 +101,7 @@ int format_table_binding(Call& call) {
 
 std::vector<Parameter> animate_parameters() {
   const report::AnimateOptions usual;
-  std::vector<Parameter> parameters{
-      {.name = "width",
-       .type = "integer",
-       .fallback = fmt::format("{}", usual.width),
-       .help = "pixels of one panel"},
-      {.name = "height",
-       .type = "integer",
-       .fallback = fmt::format("{}", usual.height),
-       .help = "pixels of one panel"},
-      {.name = "frame_rate",
-       .type = "number",
-       .fallback = fmt::format("{}", usual.frame_rate),
-       .help = "pictures a second of the film"},
-      {.name = "slow",
-       .type = "number",
-       .fallback = fmt::format("{}", usual.slow),
-       .help = "4: four times slower than life"},
-      {.name = "frames", .type = "integer", .fallback = "all", .help = "pictures at most"},
-      {.name = "camera",
-       .type = "one of",
-       .fallback = "\"fixed\"",
-       .help = "whether the camera follows the body",
-       .choices = {"fixed", "follow"}},
-      {.name = "azimuth",
-       .type = "number",
-       .fallback = fmt::format("{}", usual.azimuth),
-       .help = "where the camera stands, in degrees about the vertical from x"},
-      {.name = "elevation",
-       .type = "number",
-       .fallback = fmt::format("{}", usual.elevation),
-       .help = "how high it stands, in degrees"},
-      {.name = "avoid_walls",
-       .type = "boolean",
-       .fallback = usual.avoid_walls ? "true" : "false",
-       .help = "mirror the azimuth where a wall would stand before the action"}};
+  std::vector<Parameter> parameters = parameters_of(usual);
   const std::vector<Parameter> style = style_parameters(usual.style);
   parameters.insert(parameters.end(), style.begin(), style.end());
   return parameters;

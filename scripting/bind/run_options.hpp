@@ -10,11 +10,8 @@
 
 namespace springlod::scripting {
 
-/// The options of every function that runs models; `usual` is what it does without them.
-std::vector<Parameter> run_parameters(const sim::RunOptions& usual);
-/// All but `contact`, which takes a level to make sense of.
-void read_run_options(Call& call, TableReader& reader, sim::RunOptions& options);
-
+/// The option `contact` of what runs a level, which takes its chain to make sense of.
+Parameter contact_parameter();
 sim::ContactAt read_contact(TableReader& reader);
 /// For RunOptions: where the model touches obstacles. A model of its own is its own base.
 std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::ContactAt contact);

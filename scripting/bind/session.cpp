@@ -51,26 +51,26 @@ int inspect_value(Call& call) {
   return call.give(inspect(call.lua(), call.index(1)));
 }
 
-const std::vector<std::pair<std::string, Dimension>>& dimensions() {
-  static const std::vector<std::pair<std::string, Dimension>> names{
-      {"number", Dimension::number},     {"length", Dimension::length},
-      {"time", Dimension::time},         {"mass", Dimension::mass},
-      {"pressure", Dimension::pressure}, {"density", Dimension::density},
-      {"velocity", Dimension::velocity}, {"acceleration", Dimension::acceleration},
-      {"angle", Dimension::angle},       {"angular_velocity", Dimension::angular_velocity}};
-  return names;
-}
-
 int quantity(Call& call) {
   const std::string wanted = call.text(2);
-  std::vector<std::string> names;
-  for (const auto& [name, dimension] : dimensions()) {
-    if (name == wanted)
-      return call.give(quantity_at(call.lua(), call.index(1), dimension, "quantity"));
-    names.push_back(name);
-  }
+  if (const auto dimension = from_string<Dimension>(wanted))
+    return call.give(quantity_at(call.lua(), call.index(1), *dimension, "quantity"));
   throw InputError(fmt::format("quantity: unknown dimension '{}'{}", wanted,
-                               name_hint(wanted, names, "dimensions are")));
+                               name_hint(wanted, words_of<Dimension>().names(), "dimensions are")));
+}
+
+void push_choices(lua_State* L) {
+  begin_table(L);
+  for (const auto& [name, words] : session_of(L).api().choices()) {
+    push(L, words.names());
+    for (const Words::Word& word : words.all) {
+      begin_table(L);
+      set_field(L, "help", word.help);
+      for (const auto& [trait, holds] : word.traits) set_field(L, trait.c_str(), holds);
+      end_field(L, word.name.c_str());
+    }
+    end_field(L, name.c_str());
+  }
 }
 
 bool has_ending(const fs::path& path, const std::vector<std::string>& endings) {
@@ -173,6 +173,11 @@ void describe_constants(Api& api) {
   api.add(ConstantEntry{
       {.name = "threads", .type = "integer", .help = "--threads of the command line; 0: all cores"},
       [](lua_State* L) { push(L, session_of(L).settings().threads); }});
+  api.add(ConstantEntry{{.name = "choices",
+                         .type = "table",
+                         .help = "words that options take: s.choices.border lists those of border, "
+                                 "s.choices.border.weak.help says what one means"},
+                        push_choices});
   api.add(ConstantEntry{{.name = "samples",
                          .type = "string",
                          .help = "folder of the sample meshes, materials and scenes"},
@@ -235,9 +240,9 @@ void describe_session(Api& api) {
       .summary = "Reads text with a unit, such as \"5 mm\", as a number in SI units.",
       .arguments = {{.name = "text", .type = "string or number", .help = "a bare number is SI"},
                     {.name = "dimension",
-                     .type = "string",
-                     .help = "number, length, time, mass, pressure, density, velocity, "
-                             "acceleration, angle or angular_velocity"}},
+                     .type = "one of",
+                     .help = "what it measures",
+                     .choices = words_of<Dimension>()}},
       .returns = "number",
       .errors = "A unit of another dimension; the message lists the right ones.",
       .example = "local cell = s.quantity(\"5 mm\", \"length\")",

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "scripting/bind/options.hpp"
 #include "scripting/bind/run_options.hpp"
 #include "scripting/bind/scenario_table.hpp"
 #include "scripting/bind/start_table.hpp"
@@ -44,7 +45,8 @@ int run_binding(Call& call) {
   sim::RunOptions options;
   options.threads = call.session().settings().threads;
   TableReader reader = call.options(3);
-  read_run_options(call, reader, options);
+  read_options(call, reader, options);
+  options.progress = call.progress();
   options.skin = skin_of(*value->model, read_contact(reader));
   reader.read("threads", options.threads);
   bool quiet = false;
@@ -183,7 +185,8 @@ void describe_trajectory(Api& api) {
 }
 
 std::vector<Parameter> single_run_parameters() {
-  std::vector<Parameter> parameters = run_parameters(sim::RunOptions{});
+  std::vector<Parameter> parameters = parameters_of<sim::RunOptions>();
+  parameters.push_back(contact_parameter());
   parameters.push_back(start_parameter());
   parameters.push_back({.name = "threads",
                         .type = "integer",

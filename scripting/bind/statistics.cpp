@@ -76,13 +76,12 @@ void read_resampling(Call& call, TableReader& reader, report::BootstrapOptions& 
   options.seed = call.session().settings().seed;
   reader.read("resamples", options.resamples);
   reader.read("seed", options.seed);
-  reader.choose("seeds", options.design,
-                {{"crossed", report::SeedDesign::crossed}, {"nested", report::SeedDesign::nested}});
+  reader.read("seeds", options.design);
   options.progress = call.progress();
 }
 
 int mean_binding(Call& call) {
-  return call.give(mean(sample_argument(call, 1, "sample").values));
+  return call.give(report::mean(sample_argument(call, 1, "sample").values));
 }
 
 int statistics_binding(Call& call) {
@@ -132,7 +131,7 @@ int compare_samples_binding(Call& call) {
   reader.read("confidence", options.confidence);
   reader.read("margin", options.margin);
   reader.read("spread", options.spread);
-  reader.choose("test", options.bootstrap_test, {{"student", false}, {"bootstrap", true}});
+  reader.read("test", options.test);
   reader.finish();
   const report::SampleComparison result = report::compare_samples(base, other, options);
   lua_State* L = call.lua();
@@ -158,9 +157,7 @@ int noise_floor_binding(Call& call) {
   TableReader reader = call.options(2);
   reader.read("size", options.base_size);
   reader.read("other_size", options.other_size);
-  reader.choose("distance", options.distance,
-                {{"wasserstein", report::SampleDistance::wasserstein},
-                 {"energy", report::SampleDistance::energy}});
+  reader.read("distance", options.distance);
   reader.read("quantile", options.part);
   reader.read("resamples", options.resamples);
   reader.read("seed", options.seed);
@@ -181,10 +178,6 @@ int judge_method(Call& call) {
   set_field(L, "distance", verdict.distance);
   set_field(L, "p", verdict.p);
   return 1;
-}
-
-const char* name_of(report::SampleDistance distance) {
-  return distance == report::SampleDistance::wasserstein ? "wasserstein" : "energy";
 }
 
 Parameter sample_parameter(const char* name, const char* help) {
@@ -209,9 +202,8 @@ std::vector<Parameter> resampling_parameters() {
           {.name = "seeds",
            .type = "one of",
            .fallback = "\"crossed\"",
-           .help = "whether the seeds are the same in every start (one chain a seed) or others in "
-                   "each",
-           .choices = {"crossed", "nested"}}};
+           .help = "whether the seeds are the same in every start",
+           .choices = words_of<report::SeedDesign>()}};
 }
 
 std::vector<Parameter> comparison_parameters() {
@@ -233,8 +225,8 @@ std::vector<Parameter> comparison_parameters() {
       {.name = "test",
        .type = "one of",
        .fallback = "\"student\"",
-       .help = "how the means are tested; bootstrap for values far from normal",
-       .choices = {"student", "bootstrap"}}};
+       .help = "how the means are tested",
+       .choices = words_of<report::MeanTest>()}};
   parameters.insert(parameters.end(), more.begin(), more.end());
   return parameters;
 }
@@ -286,14 +278,14 @@ void describe_noise_floor(Api& api) {
         return fmt::format(
             "NoiseFloor: {} distance {:.4g} ({:.4g} % of {} distances, {} against "
             "{} values{})",
-            name_of(floor.distance), floor.level, 100 * floor.part, floor.distances.size(),
+            to_string(floor.distance), floor.level, 100 * floor.part, floor.distances.size(),
             floor.base_size, floor.other_size,
             floor.with_replacement ? ", drawn with replacement" : "");
       });
   type.field("level", "number", "the base is nearer to itself than this in `quantile` of all cases",
              [](const report::NoiseFloor& floor) { return floor.level; });
   type.field("distance", "string", "\"wasserstein\" or \"energy\"",
-             [](const report::NoiseFloor& floor) { return name_of(floor.distance); });
+             [](const report::NoiseFloor& floor) { return to_string(floor.distance); });
   type.field("quantile", "number", "part of the distances below the level",
              [](const report::NoiseFloor& floor) { return floor.part; });
   type.field("size", "integer", "values on the base's side",
@@ -338,7 +330,7 @@ void describe_noise_floor(Api& api) {
             .type = "one of",
             .fallback = "\"wasserstein\"",
             .help = "which distance",
-            .choices = {"wasserstein", "energy"}},
+            .choices = words_of<report::SampleDistance>()},
            {.name = "quantile",
             .type = "number",
             .fallback = fmt::format("{}", usual.part),

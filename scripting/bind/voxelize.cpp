@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/units.hpp"
+#include "scripting/bind/options.hpp"
 #include "scripting/bind/records.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/bind/values.hpp"
@@ -36,9 +37,7 @@ int import_binding(Call& call) {
   reader.read("unit", unit);
   if (!unit.empty()) options.unit = length_unit(unit);
   voxelize::UpAxis up = voxelize::UpAxis::z;
-  reader.choose(
-      "up", up,
-      {{"x", voxelize::UpAxis::x}, {"y", voxelize::UpAxis::y}, {"z", voxelize::UpAxis::z}});
+  reader.read("up", up);
   if (reader.has("up")) options.up = up;
   reader.finish();
 
@@ -144,13 +143,7 @@ int lattice_binding(Call& call) {
   const auto grid = call.value<GridValue>(1);
   voxelize::LatticeOptions options;
   TableReader reader = call.options(2);
-  reader.choose(
-      "style", options.style,
-      {{"corners", voxelize::LatticeStyle::corners}, {"centers", voxelize::LatticeStyle::centers}});
-  reader.choose("hinges", options.hinges,
-                {{"report", voxelize::HingePolicy::report},
-                 {"fill", voxelize::HingePolicy::fill},
-                 {"separate", voxelize::HingePolicy::separate}});
+  read_options(call, reader, options);
   reader.finish();
 
   voxelize::LatticeModel lattice = voxelize::build_lattice(grid->grid, options);
@@ -168,6 +161,12 @@ int lattice_binding(Call& call) {
         std::make_shared<const Binding>(bind_points(value->surface->positions, *value->model));
   }
   return call.give(std::shared_ptr<const ModelValue>(value));
+}
+
+Words length_units() {
+  Words words{"unit"};
+  for (const std::string& unit : unit_names(Dimension::length)) words.all.push_back({unit});
+  return words;
 }
 
 void describe_mesh(Api& api) {
@@ -265,14 +264,15 @@ void describe_voxelize(Api& api) {
       .summary = "Reads a mesh: OBJ, STL, PLY, GLB/glTF, FBX, OFF or Collada.",
       .arguments = {{.name = "path", .type = "string", .help = "the file"}},
       .options = {{.name = "unit",
-                   .type = "string",
+                   .type = "one of",
                    .fallback = "the file's, else \"m\" (and said)",
-                   .help = "unit of length of the file: nm um mm cm dm m km in ft"},
+                   .help = "unit of length of the file",
+                   .choices = length_units()},
                   {.name = "up",
                    .type = "one of",
                    .fallback = "the file's, else the custom of the format (and said)",
                    .help = "axis of the file that points up",
-                   .choices = {"x", "y", "z"}}},
+                   .choices = words_of<voxelize::UpAxis>()}},
       .returns = "Mesh: in metres, z up",
       .errors = "No such file, not a mesh, no triangles, coordinates that are not finite.",
       .example = "local mesh = s.import(\"dumbbell.obj\", {unit = \"cm\", up = \"z\"})",
@@ -284,18 +284,7 @@ void describe_voxelize(Api& api) {
       .group = kGroup,
       .summary = "Builds the cubic lattice of masses and springs on a grid (6 + 12 neighbours).",
       .arguments = {{.name = "grid", .type = "Grid", .help = "filled cells"}},
-      .options = {{.name = "style",
-                   .type = "one of",
-                   .fallback = "\"corners\"",
-                   .help = "nodes at the corners of the cells (no border error) or at their "
-                           "centers (as in the paper)",
-                   .choices = {"corners", "centers"}},
-                  {.name = "hinges",
-                   .type = "one of",
-                   .fallback = "\"report\"",
-                   .help = "where cells touch only along an edge or at a corner: leave and say so, "
-                           "fill a cell, or take the cells apart",
-                   .choices = {"report", "fill", "separate"}}},
+      .options = parameters_of<voxelize::LatticeOptions>(),
       .returns = "Model: with the mesh's surface bound to its nodes",
       .errors = "An empty grid.",
       .example = "local base = s.lattice(grid, {style = \"centers\"})",

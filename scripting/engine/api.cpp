@@ -17,6 +17,30 @@ auto find_by_name(const Entries& entries, std::string_view name) {
   return found == entries.end() ? nullptr : &*found;
 }
 
+/// Calls visit(parameter) for everything that is read or shown.
+template <class Visit>
+void for_each_parameter(const Api& api, const Visit& visit) {
+  const auto of_function = [&](const FunctionEntry& entry) {
+    for (const Parameter& parameter : entry.arguments) visit(parameter);
+    for (const Parameter& parameter : entry.options) visit(parameter);
+  };
+  for (const FunctionEntry& entry : api.functions()) of_function(entry);
+  for (const TypeEntry& type : api.types())
+    for (const FunctionEntry& method : type.methods) of_function(method);
+  for (const RecordEntry& record : api.records())
+    for (const Parameter& field : record.fields) visit(field);
+}
+
+void check_choices(const Api& api, std::vector<std::string>& missing) {
+  const std::map<std::string, Words> all = api.choices();
+  for_each_parameter(api, [&](const Parameter& parameter) {
+    if (parameter.choices.empty()) return;
+    if (all.at(parameter.choices.name).names() != parameter.choices.names())
+      missing.push_back(
+          fmt::format("choices.{}: a second table of that name", parameter.choices.name));
+  });
+}
+
 void check_parameters(const std::vector<Parameter>& parameters, const std::string& owner,
                       std::vector<std::string>& missing) {
   for (const Parameter& parameter : parameters) {
@@ -43,6 +67,12 @@ void check_function(const FunctionEntry& entry, const std::string& name,
 }
 
 }  // namespace
+
+std::vector<std::string> Words::names() const {
+  std::vector<std::string> found;
+  for (const Word& word : all) found.push_back(word.name);
+  return found;
+}
 
 FunctionEntry& Api::add(FunctionEntry entry) {
   return functions_.emplace_back(std::move(entry));
@@ -75,8 +105,17 @@ const RecordEntry& Api::record(std::string_view name) const {
   return *found;
 }
 
+std::map<std::string, Words> Api::choices() const {
+  std::map<std::string, Words> found;
+  for_each_parameter(*this, [&](const Parameter& parameter) {
+    if (!parameter.choices.empty()) found.emplace(parameter.choices.name, parameter.choices);
+  });
+  return found;
+}
+
 std::vector<std::string> undocumented(const Api& api) {
   std::vector<std::string> missing;
+  check_choices(api, missing);
   for (const FunctionEntry& entry : api.functions()) check_function(entry, entry.name, missing);
   for (const TypeEntry& type : api.types()) {
     if (type.summary.empty()) missing.push_back(type.name + ": summary");

@@ -2,12 +2,15 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "base/choice.hpp"
 #include "base/units.hpp"
 
 struct lua_State;
@@ -19,6 +22,38 @@ class Call;
 /// Identity of a type of value: see kValueName in value.hpp.
 using TypeTag = const char* const*;
 
+/// The words that a parameter takes: a table of base/choice.hpp without its values.
+struct Words {
+  struct Word {
+    std::string name{};
+    std::string help{};  ///< empty if the word says it all
+    /// What else scripts may ask of it: {"implicit", true}.
+    std::vector<std::pair<std::string, bool>> traits{};
+  };
+  std::string name{};  ///< of the table: "border" for s.choices.border
+  std::vector<Word> all{};
+
+  bool empty() const { return all.empty(); }
+  std::vector<std::string> names() const;
+};
+
+/// A row that comes with more than a name and help names its traits for scripts in
+/// `choice_traits(row)`, found by argument-dependent lookup.
+template <class Row>
+Words words_of(const ChoiceTable<Row>& table) {
+  Words words{table.name};
+  for (const Row& row : table.rows) {
+    Words::Word& word = words.all.emplace_back(Words::Word{row.name, row.help});
+    if constexpr (requires { choice_traits(row); })
+      for (const auto& [name, holds] : choice_traits(row)) word.traits.emplace_back(name, holds);
+  }
+  return words;
+}
+template <HasChoices E>
+Words words_of() {
+  return words_of(choices(E{}));
+}
+
 // `{}` throughout: descriptions are written with named fields and leave out what does not apply.
 
 /// One named thing that a function takes or a value has: an argument, an option, a field.
@@ -28,7 +63,7 @@ struct Parameter {
   Dimension dimension = Dimension::number;  ///< of a "quantity": how "5 mm" is read
   std::string fallback{};                   ///< default as text; empty: required
   std::string help{};
-  std::vector<std::string> choices{};  ///< words that are allowed, if only some are
+  Words choices{};  ///< words that are allowed, if only some are
 };
 
 /// A function of the module, or a method of a value. `call` is the binding that runs it.
@@ -98,6 +133,9 @@ class Api {
   const TypeEntry* find_type(std::string_view name) const;
   /// Throws std::logic_error if there is none: a binding and its description have drifted apart.
   const RecordEntry& record(std::string_view name) const;
+
+  /// Every table of words that something here takes, by name.
+  std::map<std::string, Words> choices() const;
 
  private:
   std::deque<FunctionEntry> functions_;

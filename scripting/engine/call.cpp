@@ -250,11 +250,45 @@ std::optional<long long> TableReader::whole_number(std::string_view name, double
   return value;
 }
 
-std::string TableReader::chosen_word(std::string_view name, const std::vector<std::string>& words) {
-  const Parameter& parameter = listed(name);
-  if (parameter.choices != words)
+void TableReader::read(std::string_view name, std::vector<std::uint32_t>& into) {
+  std::vector<double> numbers;
+  read(name, numbers);
+  if (!has(name)) return;
+  into.clear();
+  for (const double number : numbers) {
+    constexpr double kMost = 1e6;
+    if (!(number >= 0 && number <= kMost && number == std::floor(number)))
+      refuse(name, fmt::format("a list of whole numbers of 0 to {:.0f}, got {}", kMost, number));
+    into.push_back(static_cast<std::uint32_t>(number));
+  }
+}
+
+void TableReader::read(std::string_view name, std::filesystem::path& into) {
+  std::string text = into.string();
+  read(name, text);
+  into = text;
+}
+
+void TableReader::check_words(std::string_view name, const std::vector<std::string>& words) {
+  if (listed(name).choices.names() != words)
     throw std::logic_error(
         fmt::format("{}: the registry lists other words for '{}'", owner_, name));
+}
+
+std::vector<std::string> TableReader::chosen_words(std::string_view name,
+                                                   const std::vector<std::string>& words) {
+  check_words(name, words);
+  std::vector<std::string> chosen;
+  read(name, chosen);
+  for (const std::string& word : chosen)
+    if (std::find(words.begin(), words.end(), word) == words.end())
+      refuse(name, fmt::format("a list of {}; got '{}'{}", comma_list(words), word,
+                               did_you_mean(word, words)));
+  return chosen;
+}
+
+std::string TableReader::chosen_word(std::string_view name, const std::vector<std::string>& words) {
+  check_words(name, words);
   if (!get(name)) return "";
   std::string word = lua_type(lua_, -1) == LUA_TSTRING ? lua_tostring(lua_, -1) : "";
   if (std::find(words.begin(), words.end(), word) == words.end())
@@ -262,10 +296,6 @@ std::string TableReader::chosen_word(std::string_view name, const std::vector<st
                              did_you_mean(word, words)));
   lua_pop(lua_, 1);
   return word;
-}
-
-const std::vector<std::string>& TableReader::words_of(std::string_view name) {
-  return listed(name).choices;
 }
 
 int TableReader::raw(std::string_view name) {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <limits>
 #include <map>
 #include <memory>
@@ -19,10 +18,6 @@
 struct lua_State;
 
 namespace springlod::scripting {
-
-/// A word of a script and what it stands for.
-template <class E>
-using Choices = std::initializer_list<std::pair<const char*, E>>;
 
 /// Reads a table of options against the list in the registry. A key that is not listed is the
 /// script's error; an option that is read but not listed, or listed but never read, is ours
@@ -42,6 +37,8 @@ class TableReader {
   void read(std::string_view name, Colour& into);
   void read(std::string_view name, std::vector<std::string>& into);
   void read(std::string_view name, std::vector<double>& into);  ///< each as a single one is read
+  void read(std::string_view name, std::vector<std::uint32_t>& into);
+  void read(std::string_view name, std::filesystem::path& into);
   template <class T>
   requires std::integral<T> &&(!std::same_as<T, bool>)void read(std::string_view name, T& into) {
     if (const auto value = whole_number(name, static_cast<double>(std::numeric_limits<T>::min()),
@@ -55,18 +52,28 @@ class TableReader {
     read(name, value);
     into = value;
   }
-  template <class E>
-  void choose(std::string_view name, E& into, Choices<E> choices) {
-    std::vector<std::string> words;
-    for (const auto& choice : choices) words.emplace_back(choice.first);
-    const std::string word = chosen_word(name, words);
-    for (const auto& choice : choices)
-      if (word == choice.first) into = choice.second;
+  /// One of the words of the enum.
+  template <HasChoices E>
+  void read(std::string_view name, E& into) {
+    choose(name, into, choices(into));
+  }
+  /// A list of them.
+  template <HasChoices E>
+  void read(std::string_view name, std::vector<E>& into) {
+    if (!has(name)) return;
+    into.clear();
+    for (const std::string& word : chosen_words(name, words_of<E>().names()))
+      into.push_back(*from_string<E>(word));
+  }
+  /// One of the words of `table`, for values that are no enum.
+  template <class Value, class Row>
+  void choose(std::string_view name, Value& into, const ChoiceTable<Row>& table) {
+    const std::string word = chosen_word(name, words_of(table).names());
+    for (const Row& row : table.rows)
+      if (word == row.name) into = row.value;
   }
   /// Leaves the value itself on the stack and returns its index; 0 and nothing if not given.
   int raw(std::string_view name);
-  /// The words an option allows, by the registry.
-  const std::vector<std::string>& words_of(std::string_view name);
 
   /// Throws std::logic_error if a listed option has never been asked for.
   void finish() const;
@@ -80,7 +87,11 @@ class TableReader {
   const Parameter& listed(std::string_view name);
   bool get(std::string_view name);  // pushes the value if it is given
   std::optional<long long> whole_number(std::string_view name, double least, double most);
+  /// Empty if it is not given.
   std::string chosen_word(std::string_view name, const std::vector<std::string>& words);
+  std::vector<std::string> chosen_words(std::string_view name,
+                                        const std::vector<std::string>& words);
+  void check_words(std::string_view name, const std::vector<std::string>& words);
   void check_keys();
 
   lua_State* lua_;

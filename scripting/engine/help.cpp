@@ -15,6 +15,13 @@ namespace {
 
 constexpr std::size_t kLineWidth = 88;
 
+/// "\"none\", \"weak\""
+std::string quoted(const Words& words) {
+  std::vector<std::string> all;
+  for (const std::string& name : words.names()) all.push_back(fmt::format("\"{}\"", name));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
 // Words of `text` on lines of at most kLineWidth, each indented.
 std::string wrapped(const std::string& text, std::size_t indent) {
   std::string result;
@@ -50,6 +57,9 @@ std::string listing(const std::vector<Parameter>& parameters) {
   for (const Parameter& parameter : parameters) {
     text += fmt::format("  {:<{}}  {}\n", parameter.name, width, type_and_default(parameter));
     text += wrapped(parameter.help, width + 6);
+    for (const Words::Word& word : parameter.choices.all)
+      if (!word.help.empty())
+        text += wrapped(fmt::format("\"{}\": {}", word.name, word.help), width + 8);
   }
   return text;
 }
@@ -75,11 +85,19 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// What a cell says of a parameter: its help, and its words a line each.
+std::string meaning(const Parameter& parameter) {
+  std::string text = escaped(parameter.help);
+  for (const Words::Word& word : parameter.choices.all)
+    if (!word.help.empty()) text += fmt::format("<br>`\"{}\"`: {}", word.name, escaped(word.help));
+  return text;
+}
+
 std::string markdown_rows(const std::vector<Parameter>& parameters) {
   std::string text = "| name | type | meaning |\n|---|---|---|\n";
   for (const Parameter& parameter : parameters)
     text += fmt::format("| `{}` | {} | {} |\n", parameter.name,
-                        escaped(type_and_default(parameter)), escaped(parameter.help));
+                        escaped(type_and_default(parameter)), meaning(parameter));
   return text + "\n";
 }
 
@@ -106,10 +124,7 @@ std::string markdown(const TypeEntry& type) {
 std::string type_and_default(const Parameter& parameter) {
   std::string text = parameter.type;
   if (!parameter.choices.empty()) {
-    std::vector<std::string> quoted;
-    for (const std::string& choice : parameter.choices)
-      quoted.push_back(fmt::format("\"{}\"", choice));
-    text += fmt::format(" {}", fmt::join(quoted, ", "));
+    text += " " + quoted(parameter.choices);
   }
   const std::string_view unit = si_unit(parameter.dimension);
   if (parameter.dimension != Dimension::number) text += fmt::format(" in {}", unit);
@@ -178,6 +193,15 @@ std::string help_for(const TypeEntry& type) {
   return text;
 }
 
+std::string help_for(const Words& words) {
+  std::string text = fmt::format("s.choices.{}\n\n", words.name);
+  for (const Words::Word& word : words.all)
+    text += word.help.empty() ? fmt::format("  \"{}\"\n", word.name)
+                              : wrapped(fmt::format("\"{}\": {}", word.name, word.help), 2);
+  text.pop_back();
+  return text;
+}
+
 std::string help_for(const RecordEntry& record) {
   std::string text =
       record.name + "\n\n" + wrapped(record.summary, 0) + "\nKeys\n" + listing(record.fields);
@@ -193,6 +217,7 @@ std::vector<std::string> help_topics(const Api& api) {
   for (const RecordEntry& record : api.records()) names.push_back(record.name);
   for (const TypeEntry& type : api.types())
     for (const FunctionEntry& method : type.methods) names.push_back(type.name + ":" + method.name);
+  for (const auto& [table, words] : api.choices()) names.push_back("choices." + table);
   return names;
 }
 
@@ -205,6 +230,8 @@ std::string help_for(const Api& api, const std::string& name) {
     for (const FunctionEntry& method : type.methods)
       if (name == type.name + ":" + method.name || name == type.name + "." + method.name)
         return help_for(method);
+  for (const auto& [table, words] : api.choices())
+    if (name == table || name == "choices." + table) return help_for(words);
   throw InputError(fmt::format("no help on '{}'{} (help() lists what there is)", name,
                                did_you_mean(name, help_topics(api))));
 }
@@ -241,7 +268,12 @@ std::string api_markdown(const Api& api) {
   }
   text += "## Values\n\n";
   for (const TypeEntry& type : api.types()) text += markdown(type);
-  text += "## Constants\n\n";
+  text +=
+      "## Choices\n\nThe words of `s.choices`, which the options above take.\n\n| table | words "
+      "|\n|---|---|\n";
+  for (const auto& [name, words] : api.choices())
+    text += fmt::format("| `s.choices.{}` | {} |\n", name, quoted(words));
+  text += "\n## Constants\n\n";
   std::vector<Parameter> constants;
   for (const ConstantEntry& constant : api.constants()) constants.push_back(constant.parameter);
   text += markdown_rows(constants);

@@ -15,6 +15,8 @@ std::string overview(const Api& api);
 std::string help_for(const FunctionEntry& entry);
 std::string help_for(const TypeEntry& type);
 std::string help_for(const RecordEntry& record);
+/// The words of one table of choices.
+std::string help_for(const Words& words);
 /// By name: "simplify", "Mesh", "Model:node", "Material". Throws InputError with near names.
 std::string help_for(const Api& api, const std::string& name);
 /// For whatever lies at `index`: a function of the module, a value, a name.

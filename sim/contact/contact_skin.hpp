@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/choice.hpp"
 #include "model/binding.hpp"
 #include "model/chain.hpp"
 
@@ -27,6 +28,13 @@ enum class ContactAt {
   nodes,   ///< their own
   surface  ///< that of their base: see contact_skin
 };
+
+inline constexpr Choice<ContactAt> kContacts[] = {
+    {ContactAt::nodes, "nodes", "at its own nodes, which lie inside its base's surface"},
+    {ContactAt::surface, "surface", "at the base's surface, which its nodes carry"}};
+constexpr ChoiceTable<Choice<ContactAt>> choices(ContactAt) {
+  return {"contact", kContacts};
+}
 
 /// Of level `level`; that of level 0 is the base's own nodes. Throws InputError if there is no such
 /// level.

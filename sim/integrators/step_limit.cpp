@@ -5,7 +5,6 @@
 
 #include "elastic/stable_step.hpp"
 #include "sim/contact/contact.hpp"
-#include "sim/integrators/runge_kutta.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -13,12 +12,6 @@ namespace {
 // Damping that leaves less than this part of the step is what bounds it [1]. Symplectic Euler comes
 // to it where the highest mode is damped at 3/4 of the critical ratio.
 constexpr double kDampingPart = 0.5;
-
-double limit(double omega, double damping_time, Integrator integrator) {
-  if (integrator == Integrator::runge_kutta_4) return runge_kutta_stable_step(omega, damping_time);
-  return elastic::stable_step(
-      omega, integrator == Integrator::velocity_verlet ? 2 * damping_time : damping_time);
-}
 
 }  // namespace
 
@@ -28,7 +21,8 @@ bool StepLimit::set_by_damping() const {
 
 StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario, Integrator integrator,
                      const ContactSkin* skin) {
-  if (is_implicit(integrator)) return {};
+  const auto limit = choice_of(integrator).traits.stable_step;
+  if (limit == nullptr) return {};
   elastic::FrequencyOptions contact;
   contact.ground_stiffness = contact_stiffness(
       skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model), scenario.obstacles);
@@ -37,8 +31,8 @@ StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario, Int
   double damping_time = elastic::largest_damping_time(model);
   for (const Obstacle& obstacle : scenario.obstacles)
     damping_time = std::max(damping_time, obstacle.damping);
-  return {.step = limit(omega, damping_time, integrator),
-          .without_damping = limit(omega, 0, integrator),
+  return {.step = limit(omega, damping_time),
+          .without_damping = limit(omega, 0),
           .omega = omega,
           .damping_time = damping_time,
           .ground_stiffness = std::move(contact.ground_stiffness)};

@@ -8,7 +8,6 @@
 
 #include "sim/integrators/stepper.hpp"
 #include "sim/run/energy_watch.hpp"
-#include "sim/run/make_stepper.hpp"
 #include "sim/run/recorder.hpp"
 #include "sim/run/rest_watch.hpp"
 #include "sim/run/spring_watch.hpp"
@@ -31,7 +30,8 @@ class Integration {
       : duration_(scenario.duration),
         first_step_(trajectory.step),
         trajectory_(&trajectory),
-        body_(make_stepper(model, scenario, start, trajectory.step, options, plan)),
+        body_(choice_of(options.integrator)
+                  .make(model, scenario, start, trajectory.step, options, plan)),
         recorder_(options.frame_rate, options.ledger, trajectory),
         weight_(scenario.gravity * std::accumulate(model.mass.begin(), model.mass.end(), 0.0)),
         first_center_(body_->center_of_mass()),
@@ -41,7 +41,7 @@ class Integration {
         task_(options.progress, "simulate", steps_left()) {
     body_->prepare();
     energy_.emplace(model, *body_, options.precision, trajectory.step, *plan.limit);
-    if (!options.step && options.integrator == Integrator::symplectic_euler)
+    if (!options.step && choice_of(options.integrator).traits.fast)
       step_.emplace(model, *plan.limit, trajectory.step);
   }
 

@@ -26,6 +26,20 @@ struct CompareOptions {
   std::string variant = {};
   Progress* progress = nullptr;
 };
+constexpr auto option_rows(const CompareOptions*) {
+  return std::tuple(
+      option("starts", &CompareOptions::starts, "starts, the same for every level"),
+      option("jitter", &CompareOptions::jitter,
+             "relative change of speed and height from start to start; the first has none"),
+      option("seed", &CompareOptions::seed, "of the jitter"),
+      option("threads", &CompareOptions::threads, kThreadsHelp),
+      option("error_window", &CompareOptions::error_window,
+             "errors are averaged up to so long after the base's first contact")
+          .in(Dimension::time),
+      option("variant", &CompareOptions::variant, "goes into the labels: \"hb\" makes \"LOD-hb-1\"")
+          .by_default("none"),
+      nested(&CompareOptions::run));
+}
 
 /// What one level did in one start.
 struct StartResult : RunSummary {

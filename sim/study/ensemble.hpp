@@ -47,6 +47,14 @@ struct EnsembleOptions {
   RunOptions run = {.frame_rate = 0, .ledger = false};
   Progress* progress = nullptr;
 };
+constexpr auto option_rows(const EnsembleOptions*) {
+  return std::tuple(
+      option("starts", &EnsembleOptions::starts, "starts, the same for every level"),
+      option("jitter", &EnsembleOptions::jitter,
+             "relative change of speed and height from start to start; the first has none"),
+      option("seed", &EnsembleOptions::seed, "of the jitter"),
+      option("threads", &EnsembleOptions::threads, kThreadsHelp), nested(&EnsembleOptions::run));
+}
 
 struct EnsembleRun : RunSummary {
   std::uint32_t start = 0;  ///< its number

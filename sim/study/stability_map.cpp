@@ -60,18 +60,14 @@ std::vector<std::uint32_t> levels_of(const LodChain& chain, const StabilityOptio
 // (Runge-Kutta 1.9), an instability comes up from rounding within 50.
 constexpr double kLeastSteps = 200;
 
-bool is_swept(Integrator integrator) {
-  return integrator == Integrator::xpbd || integrator == Integrator::projective_dynamics;
-}
-
 /// Steps of a scheme [s].
 std::vector<double> steps_of(const StabilityPoint& point, const StabilityBody& body,
                              const StabilityOptions& options) {
   if (!options.absolute_steps.empty()) return sorted_once(options.absolute_steps);
   const bool free = is_implicit(point.integrator);
-  std::vector<double> steps = is_swept(point.integrator) ? options.sweep_steps
-                              : free                     ? options.implicit_steps
-                                                         : options.steps;
+  std::vector<double> steps = choice_of(point.integrator).traits.swept ? options.sweep_steps
+                              : free                                   ? options.implicit_steps
+                                                                       : options.steps;
   for (double& step : steps) step *= free ? body.period : point.limit;
   return sorted_once(steps);
 }
@@ -158,7 +154,8 @@ class Mapping {
     for (std::uint32_t body = 0; body < map_.bodies.size(); ++body)
       for (const Integrator integrator : options_.integrators) {
         const std::vector<std::uint32_t> once{0};
-        for (const std::uint32_t iterations : is_swept(integrator) ? options_.iterations : once) {
+        for (const std::uint32_t iterations :
+             choice_of(integrator).traits.swept ? options_.iterations : once) {
           StabilityPoint point;
           point.body = body;
           point.integrator = integrator;
@@ -238,30 +235,6 @@ class Mapping {
 };
 
 }  // namespace
-
-const char* to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::stable:
-      return "stable";
-    case Verdict::inaccurate:
-      return "inaccurate";
-    case Verdict::drifting:
-      return "drifting";
-    case Verdict::off_design:
-      return "off_design";
-    case Verdict::crossed:
-      return "crossed";
-    case Verdict::unconverged:
-      return "unconverged";
-    case Verdict::runaway:
-      return "runaway";
-    case Verdict::diverged:
-      return "diverged";
-    case Verdict::mechanism:
-      return "mechanism";
-  }
-  return "";
-}
 
 StabilityMap stability_map(const LodChain& chain, const StabilityOptions& options) {
   validate(chain, options);

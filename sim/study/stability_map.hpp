@@ -23,7 +23,21 @@ enum class Verdict {
   diverged,     ///< the run left the numbers
   mechanism,    ///< springs leave nodes loose: not run
 };
-const char* to_string(Verdict verdict);
+
+inline constexpr Choice<Verdict> kVerdicts[] = {
+    {Verdict::stable, "stable", "none of the others"},
+    {Verdict::inaccurate, "inaccurate", "its mean distance from a fine run is over a tenth"},
+    {Verdict::drifting, "drifting", "the scheme gained or lost over a tenth of the energy"},
+    {Verdict::off_design, "off_design",
+     "the level's frequencies are over a quarter off the base's"},
+    {Verdict::crossed, "crossed", "nodes went past each other"},
+    {Verdict::unconverged, "unconverged", "the solver stopped short of its tolerance"},
+    {Verdict::runaway, "runaway", "the energy more than doubled, in finite numbers"},
+    {Verdict::diverged, "diverged", "non-finite state"},
+    {Verdict::mechanism, "mechanism", "springs leave nodes loose: not run"}};
+constexpr ChoiceTable<Choice<Verdict>> choices(Verdict) {
+  return {"verdict", kVerdicts};
+}
 
 /// Mean distance from the reference over its mean way [1]. A tenth shows to the eye.
 inline constexpr double kInaccurate = 0.1;
@@ -43,7 +57,7 @@ struct StabilityOptions {
   /// Levels change with the ratio as if they were merged again from the rescaled base; false: they
   /// stay as they are, which tells how far a level may be used off the ratio it was made for.
   bool remake_levels = true;
-  std::vector<Integrator> integrators{kIntegrators.begin(), kIntegrators.end()};
+  std::vector<Integrator> integrators = all_choices<Integrator>();
   /// Of XPBD and projective dynamics, each run with each; 0: the default of the scheme.
   std::vector<std::uint32_t> iterations{0};
   /// Whether springs keep their damping. Without it every loss of energy is the scheme's own, and
@@ -64,6 +78,36 @@ struct StabilityOptions {
   std::uint64_t seed = 1;               ///< of the search for frequencies
   Progress* progress = nullptr;
 };
+constexpr auto option_rows(const StabilityOptions*) {
+  using Options = StabilityOptions;
+  return std::tuple(
+      option("levels", &Options::levels, "0 is the base").by_default("all"),
+      option("ratios", &Options::ratios,
+             "Young's modulus of the stiff part over that of the softest material, which stays; of "
+             "one material, the half beyond the center of mass is made stiff"),
+      option("remake_levels", &Options::remake_levels,
+             "false: only the base follows the ratio, levels stay as they were made"),
+      option("damping", &Options::damping,
+             "whether springs keep theirs; without it every loss of energy is the scheme's own"),
+      option("integrators", &Options::integrators, "as for run").by_default("all"),
+      option("iterations", &Options::iterations,
+             "of xpbd and projective_dynamics, which run with each of these")
+          .by_default("the default of each"),
+      option("steps", &Options::steps,
+             "of the explicit integrators, as parts of the predicted limit"),
+      option("implicit_steps", &Options::implicit_steps,
+             "of backward Euler, as parts of the period of the body's slowest mode"),
+      option("sweep_steps", &Options::sweep_steps, "of xpbd and projective_dynamics, likewise"),
+      option("absolute_steps", &Options::absolute_steps, "for all integrators, in place of these")
+          .in(Dimension::time)
+          .by_default("none"),
+      option("periods", &Options::periods, "length of each run in periods of the slowest mode"),
+      option("duration", &Options::duration, "length of each run")
+          .in(Dimension::time)
+          .by_default("from periods"),
+      option("threads", &Options::threads, "0: all cores; never changes a result"),
+      option("seed", &Options::seed, "of the search for frequencies"));
+}
 
 /// One level at one ratio: what all its points share.
 struct StabilityBody {

@@ -61,7 +61,7 @@ TEST_CASE("scripts set regions of interest and weights") {
         "regions[1]: nodes[1] must be a node number", "regions must be a list of Region tables",
         "left out beside targets = \"modes\"",
         "nodes of region 1 is a border node that is free to move", "load_weight = -2 must be 0 or",
-        "keep_every = -1 must be 0 or more", "nothing is left to be fitted", "many\t2",
+        "keep_every = -1 must be 0 or more", "no targets are left", "many\t2",
         "certify: within[1] must be a node number"})
     CHECK_THAT(ran.out, Contains(reason));
 }
@@ -80,8 +80,8 @@ TEST_CASE("calibration keeps its state in a store and reports stores that it can
   CAPTURE(ran.out, ran.err);
   CHECK(ran.exit_code == 0);
   CHECK_THAT(ran.out, Contains("true\t3\n"));
-  CHECK_THAT(ran.out, Contains("its state cannot be kept in"));
-  CHECK_THAT(ran.err, Contains("goes on from what is kept in"));
+  CHECK_THAT(ran.out, Contains("its state cannot be saved in"));
+  CHECK_THAT(ran.err, Contains("resumes from"));
 }
 
 TEST_CASE("convert resumes an interrupted calibration and ends with the same levels") {
@@ -107,12 +107,12 @@ TEST_CASE("convert resumes an interrupted calibration and ends with the same lev
   const Ran stopped = springlod_interrupted(arguments("bar.glb", {"-v"}), "level 1, step 3:");
   CAPTURE(stopped.err);
   CHECK(stopped.exit_code == 130);
-  CHECK_THAT(stopped.err, Contains("its state is kept in"));
+  CHECK_THAT(stopped.err, Contains("its state is saved in"));
   CHECK(fs::exists(scratch / "bar.calibration/level-1-part-1.bin"));
   CHECK_FALSE(fs::exists(scratch / "bar.glb"));
   const Ran resumed = springlod_run(arguments("bar.glb", {}));
   CHECK(resumed.exit_code == 0);
-  CHECK_THAT(resumed.err, Contains("goes on from what is kept in"));
+  CHECK_THAT(resumed.err, Contains("resumes from"));
   CHECK(bytes("bar.glb") == bytes("whole.glb"));
   CHECK_FALSE(fs::exists(scratch / "bar.calibration"));
 }
@@ -130,8 +130,8 @@ TEST_CASE(
   CHECK(convert(1).exit_code == 0);
   CHECK(fs::exists(scratch / "kept/bar/level-1-part-1.bin"));
   CHECK_FALSE(fs::exists(scratch / "bar.calibration"));
-  CHECK_THAT(convert(1).err, Contains("goes on from what is kept in"));
+  CHECK_THAT(convert(1).err, Contains("resumes from"));
   const Ran other = convert(1.5);
   CHECK(other.exit_code == 0);
-  CHECK_THAT(other.err, Contains("is of another base"));
+  CHECK_THAT(other.err, Contains("belongs to another base"));
 }

@@ -47,7 +47,7 @@ TEST_CASE("invalid options of render are reported with the valid ones") {
   refuses("{{m, m}}", "one subject");
   refuses("{m, title = 'a'}", "{{run, title = ...}}");
   refuses("{{m, cut = 5}}", "panel 1");
-  refuses("m, {camera = 'fit'}", "one of follow, fixed");
+  refuses("m, {camera = 'fit'}", "one of fixed, follow");
 }
 
 TEST_CASE("panels of one picture can show different things and times, in rows") {

@@ -37,7 +37,7 @@ TEST_CASE("The maps of a chain compose: every level is the base merged by its ma
   }
 }
 
-TEST_CASE("Guarded chains of beams and rods have no floppy nodes and stay one part") {
+TEST_CASE("Guarded chains of beams and rods have no floppy nodes and stay connected") {
   std::uint32_t raw_mechanisms = 0;
   std::uint32_t guarded_mechanisms = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
@@ -53,11 +53,11 @@ TEST_CASE("Guarded chains of beams and rods have no floppy nodes and stay one pa
         }
       }
     }
-  CHECK(raw_mechanisms > 0);  // else this test shows nothing
+  CHECK(raw_mechanisms > 0);  // otherwise the test is void
   CHECK(guarded_mechanisms == 0);
 }
 
-TEST_CASE("Guards leave a rope alone and stop at a rigid tetrahedron") {
+TEST_CASE("Guards leave a rope unchanged and a coarsened cube valid") {
   std::vector<Vec3> points;
   std::vector<springlod::test::TableSpring> springs;
   for (std::uint32_t i = 0; i < 20; ++i) {
@@ -74,7 +74,7 @@ TEST_CASE("Guards leave a rope alone and stop at a rigid tetrahedron") {
   CHECK_NOTHROW(validate(cube.levels.back().model));
 }
 
-TEST_CASE("Under a strong border the guards touch no border node") {
+TEST_CASE("Under a strong border the guards change no border node") {
   const MassSpringModel base = block(5, 5, 5);
   const LodChain chain = simplify(base, {.levels = 1, .grouping = {.border = BorderRule::strong}});
   const Level& level = chain.levels[1];
@@ -83,13 +83,13 @@ TEST_CASE("Under a strong border the guards touch no border node") {
   CHECK(level.model.node_count() < base.node_count());
 }
 
-TEST_CASE("A level that cannot get coarser is an error that says how many there are") {
+TEST_CASE("A level that cannot be coarser is an error that names the possible number") {
   const MassSpringModel two =
       springlod::test::table_model({{0, 0, 0}, {1, 0, 0}}, {1, 1}, {{0, 1, 1}});
-  CHECK_THROWS_WITH(simplify(two, {.levels = 3}), Catch::Contains("ask for levels = 1"));
+  CHECK_THROWS_WITH(simplify(two, {.levels = 3}), Catch::Contains("use levels = 1"));
 }
 
-TEST_CASE("A script's groups are taken as they are, guards apart") {
+TEST_CASE("Groups of a script are used unchanged, except by the guards") {
   const MassSpringModel base = block(4, 4, 4);
   SimplifyOptions options;
   options.levels = 1;
@@ -102,7 +102,7 @@ TEST_CASE("A script's groups are taken as they are, guards apart") {
   CHECK(chain.levels[1].of_base.of[0] == chain.levels[1].of_base.of[1]);
 }
 
-TEST_CASE("A level carries the base nodes through any affine motion exactly") {
+TEST_CASE("Interpolation from a level to the base is exact for affine motions") {
   Mat3 f;
   f << 0.9, -0.4, 0.1, 0.5, 0.8, 0, 0.05, -0.2, 1.1;
   const Vec3 shift(3, -2, 5);

@@ -1,21 +1,24 @@
 -- Charts of cost against error: the colour shows the calibration, the symbol the grouping, rings
 -- the paper's variants. Points on the Pareto front are labelled.
 
+local s = require "springlod"
 local command = require "lib.command"
 local pareto_front = require "studies.pareto.front"
 
 local pareto_charts = {}
 
-local colours = {none = "orange", moduli = "pink", modes = "blue"}
-local calibration_names = {
-  {"none", "not calibrated"}, {"moduli", "moduli calibrated"}, {"modes", "modes calibrated"},
-}
-local symbols = {
-  {"standard", "disc"}, {"priority", "square"}, {"priority_hard", "triangle_down"},
-  {"compact", "triangle"}, {"metis", "diamond"},
-}
-local symbol_of = {}
-for _, entry in ipairs(symbols) do symbol_of[entry[1]] = entry[2] end
+-- Colours of the calibrations and symbols of the groupings, in the order of s.choices.
+local colours, calibration_names = {}, {}
+for i, calibration in ipairs(s.choices.calibrate) do
+  colours[calibration] = ({"orange", "pink", "blue"})[i]
+  calibration_names[i] = {calibration, (i == 1 and "not" or calibration) .. " calibrated"}
+end
+local symbols, symbol_of = {}, {}
+for i, grouping in ipairs(s.choices.grouping) do
+  local symbol = ({"disc", "square", "triangle_down", "triangle", "diamond"})[i] or "pentagon"
+  symbols[i] = {grouping, symbol}
+  symbol_of[grouping] = symbol
+end
 
 -- Errors below this fraction of the noise floor are indistinguishable: their points are drawn on
 -- the lower end of the axis.

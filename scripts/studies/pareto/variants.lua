@@ -1,24 +1,20 @@
 -- The variants of springlod pareto: simplification methods, integrators with precision, and names.
 
+local s = require "springlod"
 local paper_variants = require "studies.paper.variants"
 
 local pareto_variants = {}
 
 -- All values of each axis.
 pareto_variants.axes = {
-  groupings = {"standard", "priority", "priority_hard", "compact", "metis"},
-  borders = {"none", "weak", "strong"},
-  calibrations = {"none", "moduli", "modes"},
-  integrators = {"symplectic_euler", "velocity_verlet", "runge_kutta_4", "backward_euler_cg",
-                 "backward_euler_direct", "xpbd", "projective_dynamics"},
-  precisions = {"double", "single"},
+  groupings = s.choices.grouping,
+  borders = s.choices.border,
+  calibrations = s.choices.calibrate,
+  integrators = s.choices.integrator,
+  precisions = s.choices.precision,
   errors = {"frequencies", "loads", "surface", "ensemble"},
 }
 
-local borderless = {metis = true} -- graph partitioning has no border rule
-local has_single = {symplectic_euler = true}
-local implicit = {backward_euler_cg = true, backward_euler_direct = true, xpbd = true,
-                  projective_dynamics = true}
 local paper_groupings = {standard = true, priority = true}
 
 local short = { -- names in chart labels
@@ -33,8 +29,8 @@ function pareto_variants.methods(axes)
   for _, grouping in ipairs(axes.groupings) do
     for _, border in ipairs(axes.borders) do
       for _, calibration in ipairs(axes.calibrations) do
-        if border == "none" or not borderless[grouping] then
-          methods[#methods + 1] = {
+        if border == "none" or s.choices.grouping[grouping].follows_border then
+          ways[#ways + 1] = {
             name = ("%s-%s-%s"):format(grouping, border, calibration), grouping = grouping,
             border = border, calibration = calibration,
           }
@@ -50,8 +46,8 @@ function pareto_variants.steppings(axes)
   local steppings = {}
   for _, integrator in ipairs(axes.integrators) do
     for _, precision in ipairs(axes.precisions) do
-      if precision == "double" or has_single[integrator] then
-        steppings[#steppings + 1] = {
+      if precision == "double" or s.choices.integrator[integrator].fast then
+        ways[#ways + 1] = {
           name = integrator .. "-" .. precision, integrator = integrator, precision = precision,
           usual = integrator == "symplectic_euler" and precision == "double",
         }
@@ -99,8 +95,10 @@ function pareto_variants.variant(making, level, stepping, implicit_step)
       or "base-" .. stepping.name,
     label = label(making, level, stepping), paper = paper_name(making, level, stepping),
     making = making, level = level, stepping = stepping,
-    step_options = {integrator = stepping.integrator, precision = stepping.precision,
-                    step = implicit[stepping.integrator] and implicit_step or nil},
+    step_options = {
+      integrator = stepping.integrator, precision = stepping.precision,
+      step = s.choices.integrator[stepping.integrator].implicit and implicit_step or nil,
+    },
   }
 end
 

@@ -8,7 +8,7 @@
 #include "elastic/stable_step.hpp"
 #include "lod/build.hpp"
 #include "lod/calibration/elastic_fit.hpp"
-#include "lod/calibration/frequency_cap.hpp"
+#include "lod/calibration/frequency_constraints.hpp"
 #include "lod/calibration/long_springs.hpp"
 #include "lod/calibration/mass_moments.hpp"
 #include "lod/calibration/rescale_moduli.hpp"
@@ -32,25 +32,25 @@ Level plain_level(const MassSpringModel& base, double keep) {
       .levels[1];
 }
 
-/// The level with ln k, then ln m, moved by h along `way`.
-MassSpringModel moved(MassSpringModel level, const Eigen::VectorXd& way, double h) {
+/// The level with ln k, then ln m, changed by h times `direction`.
+MassSpringModel moved(MassSpringModel level, const Eigen::VectorXd& direction, double h) {
   for (std::uint32_t s = 0; s < level.spring_count(); ++s)
-    level.stiffness[s] *= std::exp(h * way[s]);
+    level.stiffness[s] *= std::exp(h * direction[s]);
   for (std::uint32_t i = 0; i < level.node_count(); ++i)
-    level.mass[i] *= std::exp(h * way[level.spring_count() + i]);
+    level.mass[i] *= std::exp(h * direction[level.spring_count() + i]);
   return level;
 }
 
-Eigen::VectorXd any_way(const MassSpringModel& level, std::uint64_t seed) {
+Eigen::VectorXd any_direction(const MassSpringModel& level, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  Eigen::VectorXd way(level.spring_count() + level.node_count());
-  for (double& each : way) each = 2 * test::uniform(random) - 1;
-  return way;
+  Eigen::VectorXd direction(level.spring_count() + level.node_count());
+  for (double& each : direction) each = 2 * test::uniform(random) - 1;
+  return direction;
 }
 
 }  // namespace
 
-TEST_CASE("Second moments, mass and centre of a level are those of the base, k L stays") {
+TEST_CASE("restore_second_moments restores mass, centre and second moments and keeps k L") {
   for (const MassSpringModel& base : {ball(), rods()}) {
     Level level = plain_level(base, 0.2);
     const MassSpringModel before = level.model;
@@ -74,7 +74,7 @@ TEST_CASE("A sheet stays a sheet when its second moments are restored") {
   for (const Vec3& x : level.model.rest) CHECK(x.z() == Approx(base.rest[0].z()));
 }
 
-TEST_CASE("Masses that shift come back to their moments") {
+TEST_CASE("MassMoments restores the moments of changed masses") {
   const MassSpringModel model = ball();
   const MassMoments moments(model);
   MassSpringModel shifted = model;
@@ -87,7 +87,7 @@ TEST_CASE("Masses that shift come back to their moments") {
   for (const double mass : shifted.mass) CHECK(mass > 0);
 }
 
-TEST_CASE("Projected changes of masses leave the moments alone to first order") {
+TEST_CASE("Projected changes of mass keep the moments to first order") {
   const MassSpringModel model = rods();
   const MassMoments moments(model);
   Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(model.node_count(), 1);
@@ -120,7 +120,7 @@ TEST_CASE("Favouring long springs keeps sum k L^2 and c / k") {
   CHECK(elastic::largest_frequency(after) < elastic::largest_frequency(before));
 }
 
-TEST_CASE("Rescaled moduli of one material are those of eq. 2") {
+TEST_CASE("Rescaled moduli of one material are those of the base by eq. 2 of docs/method.md") {
   const MassSpringModel base = block(5, 5, 5);
   MassSpringModel level = plain_level(base, 0.4).model;
   CHECK(estimated_young(level) > 1.02 * estimated_young(base));
@@ -128,7 +128,7 @@ TEST_CASE("Rescaled moduli of one material are those of eq. 2") {
   CHECK(estimated_young(level) == Approx(estimated_young(base)).epsilon(1e-12));
 }
 
-TEST_CASE("Slopes of the misses are what finite differences say") {
+TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
   for (const bool anchored : {false, true}) {
     const MassSpringModel base = rods();
     TargetOptions options{.modes = 8, .patches = 6};
@@ -138,43 +138,44 @@ TEST_CASE("Slopes of the misses are what finite differences say") {
     const ElasticTargets targets = measure_targets(base, options);
     const Level level = plain_level(base, 0.4);
     const ElasticFit fit(level.model, level.of_base, targets);
-    const ElasticMisses here = fit.misses(level.model);
-    const Eigen::VectorXd way = any_way(level.model, 3);
+    const ElasticResiduals here = fit.residuals(level.model);
+    const Eigen::VectorXd direction = any_direction(level.model, 3);
     constexpr double h = 1e-4;
-    const ElasticMisses ahead = fit.misses(moved(level.model, way, h));
-    const ElasticMisses behind = fit.misses(moved(level.model, way, -h));
-    const Eigen::VectorXd measured = (behind.miss - ahead.miss) / (2 * h);
-    const Eigen::VectorXd told = here.slopes.transpose() * way;
-    REQUIRE(measured.size() == told.size());
-    for (Eigen::Index r = 0; r < told.size(); ++r)
-      if (here.miss[r] != 0)  // rows of pairs of modes have no miss of their own
-        CHECK(told[r] == Approx(measured[r]).epsilon(2e-3).margin(1e-5));
+    const ElasticResiduals ahead = fit.residuals(moved(level.model, direction, h));
+    const ElasticResiduals behind = fit.residuals(moved(level.model, direction, -h));
+    const Eigen::VectorXd measured = (behind.weighted - ahead.weighted) / (2 * h);
+    const Eigen::VectorXd expected = here.jacobian.transpose() * direction;
+    REQUIRE(measured.size() == expected.size());
+    for (Eigen::Index r = 0; r < expected.size(); ++r)
+      if (here.weighted[r] != 0)  // rows of mode pairs have residual 0 by definition
+        CHECK(expected[r] == Approx(measured[r]).epsilon(2e-3).margin(1e-5));
   }
 }
 
-TEST_CASE("Slopes of the nodes' bounds are what finite differences say") {
+TEST_CASE("The Jacobian of the frequency constraints agrees with finite differences") {
   const MassSpringModel level = plain_level(ball(), 0.4).model;
-  const CapRows here = cap_rows(level, 1, 1e3);
-  REQUIRE(here.excess.size() == level.node_count());
-  const Eigen::VectorXd way = any_way(level, 4);
+  const FrequencyConstraints here = frequency_constraints(level, 1, 1e3);
+  REQUIRE(here.value.size() == level.node_count());
+  const Eigen::VectorXd direction = any_direction(level, 4);
   constexpr double h = 1e-5;
-  const Eigen::VectorXd measured = (cap_rows(moved(level, way, h), 1, 1e3).excess -
-                                    cap_rows(moved(level, way, -h), 1, 1e3).excess) /
-                                   (2 * h);
-  CHECK((here.slopes * way - measured).cwiseAbs().maxCoeff() < 1e-6);
+  const Eigen::VectorXd measured =
+      (frequency_constraints(moved(level, direction, h), 1, 1e3).value -
+       frequency_constraints(moved(level, direction, -h), 1, 1e3).value) /
+      (2 * h);
+  CHECK((here.jacobian * direction - measured).cwiseAbs().maxCoeff() < 1e-6);
   const double bound = largest_node_bound(level);
-  CHECK(std::log(bound) == Approx(here.excess.maxCoeff()));
+  CHECK(std::log(bound) == Approx(here.value.maxCoeff()));
   CHECK(bound >= std::pow(elastic::frequency_bound(level), 2) * (1 - 1e-12));
   CHECK(bound <= std::pow(elastic::frequency_bound(level), 2) * 1.04);
-  CHECK(squared_excess(level, bound) == Approx(0).margin(1e-12));
+  CHECK(squared_violation(level, bound) == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("Calibrated levels swing and give way as the base, with a longer step") {
+TEST_CASE("Calibrated levels match frequencies and compliances of the base at a longer step") {
   const MassSpringModel base = ball();
   const GroupingOptions compact{.grouping = Grouping::compact};
   LodChain plain = simplify(base, {.keep = {0.45, 0.2}, .grouping = compact});
   LodChain fitted =
-      simplify(base, {.keep = {0.45, 0.2}, .grouping = compact, .calibration = Calibration::modes});
+      simplify(base, {.keep = {0.45, 0.2}, .grouping = compact, .calibrate = Calibrate::modes});
   certify(plain);
   certify(fitted);
   CHECK_FALSE(plain.levels[0].certificate);
@@ -198,17 +199,17 @@ TEST_CASE("Calibrated levels swing and give way as the base, with a longer step"
     REQUIRE(after.frequencies.size() == 20);
     double mac = 0;
     for (std::size_t i = 0; i < 10; ++i) mac += after.frequencies[i].mac / 10;
-    CHECK(mac > 0.6);  // a sphere's modes come in fives, which may turn among themselves
+    CHECK(mac > 0.6);  // a sphere has fivefold eigenvalues, whose mode shapes may mix
     CHECK(before.misses.size() > after.misses.size());
   }
 }
 
-TEST_CASE("Calibration gives the same bits for any number of threads", "[threaded]") {
+TEST_CASE("Calibration is bit-identical for any number of threads", "[threaded]") {
   const MassSpringModel base = block(4, 4, 5);
-  SimplifyOptions options{.calibration = Calibration::modes};
-  options.calibrate.fit.iterations = 3;
+  SimplifyOptions options{.calibrate = Calibrate::modes};
+  options.calibration.fit.iterations = 3;
   const LodChain one = simplify(base, options);
-  options.calibrate.threads = 2;
+  options.calibration.threads = 2;
   const LodChain two = simplify(base, options);
   for (std::size_t level : {1, 2}) {
     CHECK(one.levels[level].model.stiffness == two.levels[level].model.stiffness);
@@ -216,7 +217,7 @@ TEST_CASE("Calibration gives the same bits for any number of threads", "[threade
   }
 }
 
-TEST_CASE("Several parts, one of them a single node, and anchors are calibrated too") {
+TEST_CASE("Calibration handles several components, a single node among them, and anchors") {
   MassSpringModel two = block(4, 4, 4);
   const MassSpringModel other = block(3, 3, 6);
   const std::uint32_t first = two.node_count();
@@ -242,22 +243,22 @@ TEST_CASE("Several parts, one of them a single node, and anchors are calibrated 
   two.border.push_back(1);
   two.material.push_back(0);
   validate(two);
-  SimplifyOptions options{.levels = 1, .calibration = Calibration::modes};
-  for (std::uint32_t i = first; i < first + 9; ++i) options.calibrate.targets.anchored.push_back(i);
-  options.calibrate.fit.iterations = 20;
+  SimplifyOptions options{.levels = 1, .calibrate = Calibrate::modes};
+  for (std::uint32_t i = first; i < first + 9; ++i)
+    options.calibration.targets.anchored.push_back(i);
+  options.calibration.fit.iterations = 20;
   LodChain chain = simplify(two, options);
   validate(chain.levels[1].model);
-  options.calibrate.targets.smooth_loads = false;
-  options.calibrate.targets.patches = 0;
-  const ElasticTargets wanted = measure_targets(two, options.calibrate.targets);
+  options.calibration.targets.kinds = TargetKinds::modes;
+  const ElasticTargets wanted = measure_targets(two, options.calibration.targets);
   const ElasticFit fit(chain.levels[1].model, chain.levels[1].of_base, wanted);
-  const ElasticMisses misses = fit.misses(chain.levels[1].model);
+  const ElasticResiduals residuals = fit.residuals(chain.levels[1].model);
   double mean = 0;
-  for (int i = 0; i < 10; ++i) mean += misses.frequency[static_cast<std::size_t>(i)] / 10;
+  for (int i = 0; i < 10; ++i) mean += residuals.frequency_error[static_cast<std::size_t>(i)] / 10;
   CHECK(mean < 0.01);
 }
 
-TEST_CASE("Levels keep exactly as many nodes as they should") {
+TEST_CASE("Levels have exactly the number of nodes that keep requests") {
   std::vector<Grouping> groupings{Grouping::standard, Grouping::priority_soft, Grouping::compact};
 #ifdef SPRINGLOD_HAS_METIS
   groupings.push_back(Grouping::metis);
@@ -271,7 +272,6 @@ TEST_CASE("Levels keep exactly as many nodes as they should") {
   CHECK_THROWS_WITH(simplify(ball(), {.keep = {0.2, 0.45}}), Catch::Contains("must fall"));
   CHECK_THROWS_WITH(simplify(ball(), {.levels = 3, .keep = {0.5, 0.2}}),
                     Catch::Contains("leave one out"));
-  CHECK_THROWS_WITH(
-      simplify(ball(), {.mass = MassRule::proximity, .calibration = Calibration::modes}),
-      Catch::Contains("proximity"));
+  CHECK_THROWS_WITH(simplify(ball(), {.mass = MassRule::proximity, .calibrate = Calibrate::modes}),
+                    Catch::Contains("proximity"));
 }

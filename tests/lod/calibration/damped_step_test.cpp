@@ -11,8 +11,8 @@ using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 namespace {
 
-/// Each limit on three neighbouring unknowns.
-Rows limits_of(Eigen::Index count, Eigen::Index unknowns) {
+/// Constraints on three neighbouring unknowns each.
+Rows constraints_on(Eigen::Index count, Eigen::Index unknowns) {
   std::vector<Eigen::Triplet<double>> entries;
   for (int r = 0; r < count; ++r)
     for (int c = 0; c < 3; ++c)
@@ -24,46 +24,46 @@ Rows limits_of(Eigen::Index count, Eigen::Index unknowns) {
 
 }  // namespace
 
-TEST_CASE("A step is the dense least-squares solution over its rows and the active limits") {
+TEST_CASE("A step is the dense least-squares solution for residuals and active constraints") {
   constexpr Eigen::Index n = 40, r = 6, l = 15;
-  const Eigen::MatrixXd slopes = elastic::random_block(n, r, 1);
-  const Eigen::VectorXd miss = 0.01 * elastic::random_block(r, 1, 2);
-  const Rows limits = limits_of(l, n);
-  const Eigen::VectorXd excess = Eigen::VectorXd::Constant(l, 0.05);  // all active
+  const Eigen::MatrixXd jacobian = elastic::random_block(n, r, 1);
+  const Eigen::VectorXd residual = 0.01 * elastic::random_block(r, 1, 2);
+  const Rows constraints = constraints_on(l, n);
+  const Eigen::VectorXd value = Eigen::VectorXd::Constant(l, 0.05);  // all active
   double damping = 1e-3;
-  const Eigen::VectorXd d = damped_step({.slopes = slopes,
-                                         .normal = slopes.transpose() * slopes,
-                                         .miss = miss,
-                                         .limits = limits,
-                                         .excess = excess,
-                                         .limit_weight = 0.7,
+  const Eigen::VectorXd d = damped_step({.jacobian = jacobian,
+                                         .normal = jacobian.transpose() * jacobian,
+                                         .residual = residual,
+                                         .constraint_jacobian = constraints,
+                                         .constraint_value = value,
+                                         .constraint_weight = 0.7,
                                          .most_rms = 10},
                                         damping);
   CHECK(damping == 1e-3);
-  const double ridge = damping * (slopes.transpose() * slopes).diagonal().mean();
-  const Eigen::MatrixXd h = 0.7 * Eigen::MatrixXd(limits);
+  const double ridge = damping * (jacobian.transpose() * jacobian).diagonal().mean();
+  const Eigen::MatrixXd h = 0.7 * Eigen::MatrixXd(constraints);
   const Eigen::MatrixXd normal =
-      slopes * slopes.transpose() + h.transpose() * h + ridge * Eigen::MatrixXd::Identity(n, n);
+      jacobian * jacobian.transpose() + h.transpose() * h + ridge * Eigen::MatrixXd::Identity(n, n);
   const Eigen::VectorXd expected =
-      normal.ldlt().solve(slopes * miss - 0.7 * (h.transpose() * excess));
+      normal.ldlt().solve(jacobian * residual - 0.7 * (h.transpose() * value));
   CHECK((d - expected).norm() < 1e-6 * expected.norm());
 }
 
-TEST_CASE("A limit that only the step would break is held, one that stays far off is not there") {
-  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, 1);
-  slopes(0, 0) = 1;
-  const Eigen::VectorXd miss = Eigen::VectorXd::Constant(1, 0.5);
-  Rows limits(1, 2);
-  limits.insert(0, 0) = 1;
-  const auto first = [&](double excess) {
+TEST_CASE("A constraint that the step would violate becomes active, a distant one does not") {
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2, 1);
+  jacobian(0, 0) = 1;
+  const Eigen::VectorXd residual = Eigen::VectorXd::Constant(1, 0.5);
+  Rows constraints(1, 2);
+  constraints.insert(0, 0) = 1;
+  const auto first = [&](double value) {
     double damping = 1e-6;
-    const Eigen::VectorXd over = Eigen::VectorXd::Constant(1, excess);
-    return damped_step({.slopes = slopes,
-                        .normal = slopes.transpose() * slopes,
-                        .miss = miss,
-                        .limits = limits,
-                        .excess = over,
-                        .limit_weight = 100,
+    const Eigen::VectorXd constraint_value = Eigen::VectorXd::Constant(1, value);
+    return damped_step({.jacobian = jacobian,
+                        .normal = jacobian.transpose() * jacobian,
+                        .residual = residual,
+                        .constraint_jacobian = constraints,
+                        .constraint_value = constraint_value,
+                        .constraint_weight = 100,
                         .most_rms = 10},
                        damping)[0];
   };
@@ -71,17 +71,17 @@ TEST_CASE("A limit that only the step would break is held, one that stays far of
   CHECK(first(-0.2) == Approx(0.2).epsilon(1e-3));
 }
 
-TEST_CASE("The damping rises until the step is short enough") {
-  const Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(3, 3);
-  const Eigen::VectorXd miss = Eigen::VectorXd::Constant(3, 5);
+TEST_CASE("The damping is raised until the step is short enough") {
+  const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(3, 3);
+  const Eigen::VectorXd residual = Eigen::VectorXd::Constant(3, 5);
   const Rows none(0, 3);
-  const Eigen::VectorXd no_excess;
+  const Eigen::VectorXd no_values;
   double damping = 1e-4;
-  const Eigen::VectorXd d = damped_step({.slopes = slopes,
-                                         .normal = slopes.transpose() * slopes,
-                                         .miss = miss,
-                                         .limits = none,
-                                         .excess = no_excess,
+  const Eigen::VectorXd d = damped_step({.jacobian = jacobian,
+                                         .normal = jacobian.transpose() * jacobian,
+                                         .residual = residual,
+                                         .constraint_jacobian = none,
+                                         .constraint_value = no_values,
                                          .most_rms = 0.2},
                                         damping);
   CHECK(damping > 1);
@@ -89,22 +89,22 @@ TEST_CASE("The damping rises until the step is short enough") {
   CHECK(d[0] > 0.05);
 }
 
-TEST_CASE("A limit that is broken near where the step ends counts, though it is not at its start") {
-  const Eigen::MatrixXd slopes = Eigen::MatrixXd::Identity(2, 1);
-  const Eigen::MatrixXd normal = slopes.transpose() * slopes;
-  const Eigen::VectorXd miss = Eigen::VectorXd::Zero(1);
-  const Eigen::VectorXd excess = Eigen::VectorXd::Constant(1, -1);
-  Rows limits(1, 2);
-  limits.insert(0, 1) = 1;
-  const auto second = [&](const Eigen::VectorXd& near) {
+TEST_CASE("A constraint violated at the point of linearization is active, even if not at d = 0") {
+  const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(2, 1);
+  const Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  const Eigen::VectorXd residual = Eigen::VectorXd::Zero(1);
+  const Eigen::VectorXd value = Eigen::VectorXd::Constant(1, -1);
+  Rows constraints(1, 2);
+  constraints.insert(0, 1) = 1;
+  const auto second = [&](const Eigen::VectorXd& at) {
     double damping = 1e-6;
-    return damped_step({.slopes = slopes,
+    return damped_step({.jacobian = jacobian,
                         .normal = normal,
-                        .miss = miss,
-                        .limits = limits,
-                        .excess = excess,
-                        .near = near,
-                        .limit_weight = 100,
+                        .residual = residual,
+                        .constraint_jacobian = constraints,
+                        .constraint_value = value,
+                        .linearized_at = at,
+                        .constraint_weight = 100,
                         .most_rms = 10},
                        damping)[1];
   };

@@ -14,7 +14,7 @@ namespace {
 
 using Moments = Eigen::Matrix<double, 10, 1>;
 
-// Of the nodes of one material; of all if it is -1.
+// Moments of the nodes of one material, or of all nodes if it is -1.
 Moments moments(const MassSpringModel& model, const std::vector<double>& mass, int material) {
   Moments sum = Moments::Zero();
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
@@ -33,7 +33,7 @@ double largest_part(const Moments& change, const Moments& of) {
 
 }  // namespace
 
-TEST_CASE("Moments of mass are kept while masses shift, of the body or of its pieces") {
+TEST_CASE("MassMoments keeps the moments of the body or of each material region") {
   const MassSpringModel model = test::rods();
   REQUIRE(model.materials.size() == 2);
   const KeptMoments kept = GENERATE(KeptMoments::body, KeptMoments::pieces);

@@ -1,4 +1,4 @@
-// What calibration is asked for beside the whole body: regions that matter, and weights.
+// Targets of a calibration beside those of the whole body: regions of the surface, and weights.
 
 #include <algorithm>
 #include <cmath>
@@ -32,14 +32,14 @@ std::size_t count_of(const ElasticTargets& targets, LoadKind kind) {
                                                 [&](const auto& l) { return l.kind == kind; }));
 }
 
-/// A level of a fifth of the nodes and what its local loads within `region` are off by.
+/// Mean error of the held-out loads within `region` for a level of a fifth of the nodes.
 double error_within(const MassSpringModel& base, const std::vector<std::uint32_t>& region,
                     const TargetOptions& targets) {
   SimplifyOptions options{.levels = 1,
                           .keep = {0.2},
                           .grouping = {.grouping = Grouping::compact},
-                          .calibration = Calibration::modes};
-  options.calibrate.targets = targets;
+                          .calibrate = Calibrate::modes};
+  options.calibration.targets = targets;
   LodChain chain = simplify(base, options);
   certify(chain, {.within = region, .anchored = targets.anchored});
   return mean_load_error(*chain.levels[1].certificate, true);
@@ -47,8 +47,7 @@ double error_within(const MassSpringModel& base, const std::vector<std::uint32_t
 
 }  // namespace
 
-TEST_CASE("Loads that no fit has seen come nearer to the base within a region that was named",
-          "[long]") {
+TEST_CASE("A target region reduces the error of held-out loads within it", "[long]") {
   const MassSpringModel base = block(5, 5, 14);
   const std::vector<std::uint32_t> face = below(base, kCell);
   const double without = error_within(base, face, {});
@@ -57,7 +56,7 @@ TEST_CASE("Loads that no fit has seen come nearer to the base within a region th
   CHECK(with < 0.6 * without);
 }
 
-TEST_CASE("A region beside an anchored end is fitted too", "[long]") {
+TEST_CASE("A target region next to an anchored end reduces the error as well", "[long]") {
   const MassSpringModel base = block(5, 5, 14);
   const std::vector<std::uint32_t> near = below(base, 4.4 * kCell);
   TargetOptions options{.anchored = below(base, kCell)};
@@ -68,7 +67,7 @@ TEST_CASE("A region beside an anchored end is fitted too", "[long]") {
   CHECK(with < 0.9 * without);
 }
 
-TEST_CASE("Targets are of the kinds that were asked for, each with its weight") {
+TEST_CASE("The targets have the requested kinds and weights") {
   const MassSpringModel base = test::rods();
   const std::vector<std::uint32_t> end = below(base, 3 * kCell);
   const ElasticTargets targets =
@@ -92,23 +91,23 @@ TEST_CASE("Targets are of the kinds that were asked for, each with its weight") 
   }
 }
 
-TEST_CASE("Weights of modes and loads scale their misses") {
+TEST_CASE("Weights of modes and loads scale their residuals") {
   const MassSpringModel base = block(4, 4, 5);
   const Level level = simplify(base, {.levels = 1}).levels[1];
-  const auto misses = [&](const TargetOptions& options) {
+  const auto residuals = [&](const TargetOptions& options) {
     const ElasticTargets targets = measure_targets(base, options);
-    return ElasticFit(level.model, level.of_base, targets).misses(level.model).miss;
+    return ElasticFit(level.model, level.of_base, targets).residuals(level.model).weighted;
   };
-  const Eigen::VectorXd usual = misses({.modes = 4, .patches = 2});
+  const Eigen::VectorXd usual = residuals({.modes = 4, .patches = 2});
   const Eigen::VectorXd both =
-      misses({.modes = 4, .patches = 2, .mode_weight = 2, .load_weight = 0.5});
+      residuals({.modes = 4, .patches = 2, .mode_weight = 2, .load_weight = 0.5});
   REQUIRE(usual.size() == both.size());
   const Eigen::Index loads = 11;
   CHECK(both.head(usual.size() - loads).isApprox(2 * usual.head(usual.size() - loads)));
   CHECK(both.tail(loads).isApprox(0.5 * usual.tail(loads)));
 }
 
-TEST_CASE("Weights below 0 and regions that nothing can push at are refused") {
+TEST_CASE("Weights below 0 and regions without free border nodes are errors") {
   const MassSpringModel base = block(4, 4, 5);
   CHECK_THROWS_WITH(measure_targets(base, {.mode_weight = -1}),
                     Catch::Contains("mode_weight = -1 must be 0 or more"));
@@ -123,7 +122,7 @@ TEST_CASE("Weights below 0 and regions that nothing can push at are refused") {
   CHECK_THROWS_AS(calibrate(chain, options), InputError);
 }
 
-TEST_CASE("Local loads that levels are compared by can be kept within some nodes") {
+TEST_CASE("Held-out loads can be restricted to some nodes") {
   const MassSpringModel base = block(4, 4, 8);
   const std::vector<std::uint32_t> face = below(base, kCell);
   const ComparedLoads loads = compared_loads(base, {.count = 5, .within = face});

@@ -1,4 +1,4 @@
-// Calibrations that are stopped and go on from what their store keeps.
+// Calibrations that are stopped and resumed from their store.
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ namespace {
 /// Stands for a program that is killed: nothing is kept when it comes up.
 struct Killed {};
 
-/// Stops the calibration when it goes on for so many times, and remembers what it was told.
+/// Stops the calibration after `stop_after` advances and records what is reported.
 class Watcher : public Progress {
  public:
   enum class End { interrupt, kill };
@@ -112,9 +112,9 @@ const fs::path kNoStore;
 
 }  // namespace
 
-TEST_CASE("A calibration that is stopped again and again ends with the bits of one that was not") {
+TEST_CASE("A calibration that is stopped repeatedly ends bit-identical to an uninterrupted one") {
   const LodChain whole = calibrated(options_with(kNoStore, nullptr));
-  for (const std::uint64_t advances : {2, 5, 12}) {  // what is kept already counts as one a level
+  for (const std::uint64_t advances : {2, 5, 12}) {  // stored steps of a level are one advance
     const TemporaryFolder folder;
     std::optional<LodChain> found;
     int stops = 0;
@@ -123,7 +123,7 @@ TEST_CASE("A calibration that is stopped again and again ends with the bits of o
       try {
         found = calibrated(options_with(folder / "store", &watcher));
       } catch (const InterruptedError&) {
-        CHECK_THAT(watcher.said, Contains("its state is kept in " + (folder / "store").string()));
+        CHECK_THAT(watcher.said, Contains("its state is saved in " + (folder / "store").string()));
       }
     }
     CHECK(stops > 2);
@@ -146,7 +146,7 @@ TEST_CASE("A calibration that is killed goes on from the last state that was due
   constexpr double kNever = std::numeric_limits<double>::infinity();
   CHECK(killed_after(5, kNever).empty());
   CHECK_FALSE(fs::exists(fit));
-  CHECK_THAT(killed_after(5, 0), Contains("its state is kept in " + (folder / "store").string()));
+  CHECK_THAT(killed_after(5, 0), Contains("its state is saved in " + (folder / "store").string()));
   CHECK(fs::exists(fit));
 
   Watcher watcher;
@@ -155,7 +155,7 @@ TEST_CASE("A calibration that is killed goes on from the last state that was due
   CHECK_THROWS_WITH(calibrated({.keep_every = -1}), Contains("keep_every = -1 must be 0 or more"));
 }
 
-TEST_CASE("Threads do not matter to a calibration that goes on", "[threaded]") {
+TEST_CASE("A calibration may resume with another number of threads", "[threaded]") {
   const LodChain whole = calibrated(options_with(kNoStore, nullptr));
   const TemporaryFolder folder;
   Watcher watcher(6);
@@ -166,21 +166,21 @@ TEST_CASE("Threads do not matter to a calibration that goes on", "[threaded]") {
   CHECK(same_bits(calibrated(options), whole));
 }
 
-TEST_CASE("What is measured of the base, and levels that are finished, are not made again") {
+TEST_CASE("A resumed calibration repeats neither the measurements nor finished levels") {
   const TemporaryFolder folder;
   Watcher first(9);
   CHECK_THROWS_AS(calibrated(options_with(folder / "store", &first)), InterruptedError);
   CHECK(std::count(first.tasks.begin(), first.tasks.end(), "iterating for modes") == 1);
-  CHECK_THAT(first.last_detail, Contains("level 1, step 10: f1..10 off by"));
+  CHECK_THAT(first.last_detail, Contains("level 1, step 10: f1..10 error"));
 
   Watcher second;
   const LodChain whole = calibrated(options_with(folder / "store", &second));
-  CHECK_THAT(second.said, Contains("goes on from what is kept in"));
+  CHECK_THAT(second.said, Contains("resumes from"));
   CHECK(std::count(second.tasks.begin(), second.tasks.end(), "iterating for modes") == 0);
 
   Watcher third;
   CHECK(same_bits(calibrated(options_with(folder / "store", &third)), whole));
-  CHECK(third.steps == 2);  // each level, all at once
+  CHECK(third.steps == 2);  // one advance for each finished level
 }
 
 TEST_CASE("A store of another base, level or options, or a damaged one, is not used") {
@@ -192,8 +192,9 @@ TEST_CASE("A store of another base, level or options, or a damaged one, is not u
   CalibrateOptions other = options_with(store, &watcher);
   other.fit.tolerance = 0.02;
   const LodChain found = calibrated(other);
-  CHECK_THAT(watcher.said, Contains("level-1-part-1.bin is of another base, another level or other "
-                                    "options; that part begins anew"));
+  CHECK_THAT(watcher.said,
+             Contains("level-1-part-1.bin belongs to another base, another level or other "
+                      "options and is ignored"));
   CHECK_THAT(watcher.said, !Contains("base-part-1.bin"));
   other.store.clear();
   CHECK(same_bits(found, calibrated(other)));
@@ -202,7 +203,7 @@ TEST_CASE("A store of another base, level or options, or a damaged one, is not u
   other = options_with(store, &seeded);
   other.targets.seed = 2;
   calibrated(other);
-  CHECK_THAT(seeded.said, Contains("base-part-1.bin is of another base"));
+  CHECK_THAT(seeded.said, Contains("base-part-1.bin belongs to another base"));
 
   const LodChain whole = calibrated(options_with(store, nullptr));
   overwrite(store / "level-2-part-1.bin", 100, 'x');
@@ -213,50 +214,50 @@ TEST_CASE("A store of another base, level or options, or a damaged one, is not u
   CHECK_THAT(damaged.said, Contains("level-1-part-1.bin is damaged"));
 }
 
-TEST_CASE("A store that cannot be written is refused before anything is measured") {
+TEST_CASE("A store that cannot be written is an error before any measurement") {
   const TemporaryFolder folder;
   write_text_file(folder / "file", "no folder");
   Watcher watcher;
   const CalibrateOptions options = options_with(folder / "file" / "store", &watcher);
   CHECK_THROWS_AS(calibrated(options), IoError);
-  CHECK_THROWS_WITH(calibrated(options), Contains("its state cannot be kept in") &&
-                                             Contains("name a folder that can be written to"));
+  CHECK_THROWS_WITH(calibrated(options),
+                    Contains("its state cannot be saved in") && Contains("use a writable folder"));
   CHECK(watcher.tasks.empty());
 }
 
-TEST_CASE("A fit state reads back as it was kept") {
+TEST_CASE("A fit state is read back as it was stored") {
   const TemporaryFolder folder;
   const CalibrationStore store(folder / "store", nullptr);
   FitState state{.iteration = 7,
-                 .tries = 3,
-                 .limit = 1.5,
+                 .steps_outside = 3,
+                 .bound = 1.5,
                  .damping = 1e-3,
                  .tighten = 0.9,
                  .now = {Eigen::VectorXd::LinSpaced(5, 0, 1), {1, 2, 3}},
                  .best = {},
                  .best_frequency = 12};
-  for (const bool good : {false, true}) {
-    if (good) state.best = FitPoint{Eigen::VectorXd::LinSpaced(5, 1, 2), {3, 2, 1}};
+  for (const bool has_best : {false, true}) {
+    if (has_best) state.best = FitPoint{Eigen::VectorXd::LinSpaced(5, 1, 2), {3, 2, 1}};
     store.keep(2, 0, "fingerprint", state);
     CHECK_FALSE(store.fit(2, 0, "another"));
     CHECK_FALSE(store.fit(1, 0, "fingerprint"));
     const std::optional<FitState> back = store.fit(2, 0, "fingerprint");
     REQUIRE(back);
     CHECK(back->iteration == 7);
-    CHECK(back->tries == 3);
+    CHECK(back->steps_outside == 3);
     CHECK_FALSE(back->finished);
-    CHECK(back->limit == state.limit);
+    CHECK(back->bound == state.bound);
     CHECK(back->damping == state.damping);
     CHECK(back->tighten == state.tighten);
     CHECK(back->best_frequency == 12);
     CHECK(back->now.theta == state.now.theta);
     CHECK(back->now.mass == state.now.mass);
-    CHECK(back->best.has_value() == good);
-    if (good) CHECK(back->best->theta == state.best->theta);
+    CHECK(back->best.has_value() == has_best);
+    if (has_best) CHECK(back->best->theta == state.best->theta);
   }
 }
 
-TEST_CASE("Steps of a fit whose misses are not finite are not taken") {
+TEST_CASE("Steps with non-finite residuals are rejected") {
   const MassSpringModel base = block(4, 4, 6);
   const Level level = plain().levels[2];
   ElasticTargets targets = measure_targets(base, {.modes = 10, .patches = 4});
@@ -266,7 +267,42 @@ TEST_CASE("Steps of a fit whose misses are not finite are not taken") {
   progress.on_iteration = [&](const FitState& state) { last = state; };
   const MassSpringModel same = fit_part(level.model, level.of_base, targets, {}, progress);
   CHECK(last.finished);
-  CHECK(last.iteration < 40);  // the damping grows out of bounds
+  CHECK(last.iteration < 40);  // the damping exceeds its upper bound
   CHECK(same.stiffness == level.model.stiffness);
   for (const double mass : same.mass) CHECK(std::isfinite(mass));
+}
+
+template <class Member>
+void change(Member& member) {
+  if constexpr (std::is_enum_v<Member>)
+    member = static_cast<Member>(static_cast<int>(member) + 1);
+  else if constexpr (std::is_arithmetic_v<Member>)
+    member += 1;
+  else
+    member.emplace();
+}
+template <class Element>
+void change(std::vector<Element>& list) {
+  list.emplace_back();
+}
+
+TEST_CASE("A change of any option of the targets, but a weight, is another fingerprint") {
+  const MassSpringModel base = block(4, 4, 6);
+  const std::string usual = fingerprint_of(base, TargetOptions{});
+  std::size_t rows = 0;
+  const TargetOptions all;
+  for_each_option(all, [&](const auto&, const auto&) { ++rows; });
+  REQUIRE(rows > 5);
+  for (std::size_t changed = 0; changed < rows; ++changed) {
+    TargetOptions options;
+    bool measured = true;
+    std::size_t number = 0;
+    for_each_option(options, [&](const auto& row, auto& member) {
+      if (number++ != changed) return;
+      if constexpr (requires { row.is_weight; }) measured = !row.is_weight;
+      change(member);
+    });
+    CAPTURE(changed);
+    CHECK((fingerprint_of(base, options) != usual) == measured);
+  }
 }

@@ -23,7 +23,7 @@ using springlod::test::rods;
 
 namespace {
 
-/// Groups that their own springs do not hold together.
+/// Number of groups that their own springs do not connect.
 std::uint32_t torn_groups(const MassSpringModel& model, const Groups& groups) {
   DisjointSets joined(model.node_count());
   std::uint32_t pieces = model.node_count();
@@ -35,7 +35,7 @@ std::uint32_t torn_groups(const MassSpringModel& model, const Groups& groups) {
 
 }  // namespace
 
-TEST_CASE("Compact groups are as many as asked for, of nearly one size, and hold together") {
+TEST_CASE("Compact groups are of the requested number, of similar size and connected") {
   for (const MassSpringModel& base : {ball(), rods(), block(6, 5, 4), random_model(3)})
     for (const std::uint32_t count : {20U, base.node_count() / 2, base.node_count()}) {
       const Groups groups = compact_groups(base, {.count = count});
@@ -48,7 +48,7 @@ TEST_CASE("Compact groups are as many as asked for, of nearly one size, and hold
     }
 }
 
-TEST_CASE("Compact groups depend on the seed and on nothing else") {
+TEST_CASE("Compact groups are reproducible and depend on the seed") {
   const MassSpringModel base = rods();
   const Groups first = compact_groups(base, {.count = 100, .seed = 5});
   CHECK(first.of == compact_groups(base, {.count = 100, .seed = 5}).of);
@@ -64,7 +64,7 @@ TEST_CASE("Compact groups of stiff rods and a soft joint do not cross the joint"
   for (const auto& of_group : materials) CHECK(of_group.size() == 1);
 }
 
-TEST_CASE("Compact groups keep to the border rules") {
+TEST_CASE("Compact groups follow the border rules") {
   const MassSpringModel base = block(6, 6, 6);
   const auto mixed = [&](const Groups& groups) {
     std::vector<std::set<std::uint8_t>> kinds(groups.count);
@@ -83,13 +83,13 @@ TEST_CASE("Compact groups keep to the border rules") {
   CHECK_THROWS_AS(compact_groups(base, {.count = 100, .border = BorderRule::strong}), InputError);
 }
 
-TEST_CASE("Compact groups refuse more than the nodes and fewer than the materials") {
+TEST_CASE("More compact groups than nodes, or fewer than materials, are an error") {
   CHECK_THROWS_WITH(compact_groups(rods(), {.count = 1}), Catch::Contains("2 to 368"));
   CHECK_THROWS_AS(compact_groups(rods(), {.count = 369}), InputError);
 }
 
 #ifdef SPRINGLOD_HAS_METIS
-TEST_CASE("METIS groups are as many as asked for and hold together") {
+TEST_CASE("METIS groups are of the requested number and connected") {
   for (const MassSpringModel& base : {ball(), rods(), block(6, 5, 4)})
     for (const std::uint32_t count : {1U, 30U, base.node_count() / 2}) {
       const Groups groups = metis_groups(base, count, 1);
@@ -108,16 +108,16 @@ TEST_CASE("A build without METIS says so when its groups are asked for") {
 }
 #endif
 
-TEST_CASE("A torn group is mended by giving its stray to a neighbour") {
+TEST_CASE("The smaller fragment of a disconnected group joins a neighbouring group") {
   const MassSpringModel rope =
       test::table_model({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {1, 1, 1, 1},
                         {{0, 1, 100}, {1, 2, 100}, {2, 3, 100}});
   Groups groups{{0, 0, 1, 0}, 2};
-  mend_groups(rope, groups);
+  connect_groups(rope, groups);
   CHECK(groups.of == std::vector<std::uint32_t>{0, 0, 1, 1});
 }
 
-TEST_CASE("Splitting to a count takes nodes out of the largest groups, which stay whole") {
+TEST_CASE("split_to_count takes nodes out of the largest groups, which stay connected") {
   const MassSpringModel base = block(4, 4, 4);
   Groups groups{std::vector<std::uint32_t>(64, 0), 1};
   for (std::uint32_t i = 32; i < 64; ++i) groups.of[i] = 1;

@@ -22,7 +22,7 @@ using springlod::test::rods;
 
 namespace {
 
-// Mean node count of each level over `seeds` raw chains (no guards: the paper's merge).
+// Mean node count of each level over `seeds` chains without guards, as in the paper.
 std::vector<double> mean_counts(const MassSpringModel& base, GroupingOptions grouping,
                                 std::uint32_t levels, std::uint64_t seeds = 20) {
   std::vector<double> counts(levels + 1, 0);
@@ -123,7 +123,7 @@ TEST_CASE("Under a weak border no group mixes border and inner nodes") {
   }
 }
 
-TEST_CASE("Priority merging keeps the joint between materials clearer than standard") {
+TEST_CASE("Priority grouping mixes materials less often than standard grouping") {
   const MassSpringModel m = rods();
   const auto mixed = [&](Grouping grouping) {
     std::uint32_t count = 0;
@@ -143,8 +143,8 @@ TEST_CASE("Priority merging keeps the joint between materials clearer than stand
   CHECK(mixed(Grouping::priority_hard) < standard);
 }
 
-TEST_CASE("A node priority decides who is visited first, a pair cost who is joined") {
-  // On a chain the node visited first takes a neighbour; all others pair up around it.
+TEST_CASE("The node priority sets the order of visits, the pair cost the partner") {
+  // On a chain the first visited node takes a neighbour, which determines all other pairs.
   const MassSpringModel chain = springlod::test::table_model({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}},
                                                              {1, 1, 1}, {{0, 1, 1}, {1, 2, 1}});
   GroupingOptions options;

@@ -10,7 +10,7 @@
 using namespace springlod;
 using namespace springlod::lod;
 
-TEST_CASE("A radix sort orders as a stable sort does") {
+TEST_CASE("The radix sort agrees with a stable sort") {
   for (const unsigned bits : {1U, 7U, 12U, 33U, 64U}) {
     std::vector<KeyedNode> nodes;
     for (std::uint32_t i = 0; i < 5000; ++i) nodes.push_back({mix(i) >> (64U - bits), i});
@@ -27,7 +27,7 @@ TEST_CASE("A radix sort orders as a stable sort does") {
   CHECK(none.empty());
 }
 
-TEST_CASE("Radix keys order as their numbers do") {
+TEST_CASE("Radix keys have the order of their numbers") {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::vector<double> rising{-kInfinity, -1e300, -2,   -1,    -1e-310,  0,
                                    1e-310,     1,      1.25, 1e300, kInfinity};

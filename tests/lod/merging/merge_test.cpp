@@ -46,7 +46,7 @@ TEST_CASE("Worked example 1: a chain merged by pairs") {
   CHECK(level.stiffness[0] == 50);
 }
 
-TEST_CASE("Worked example 2: the centre of mass decides the new length") {
+TEST_CASE("Worked example 2: the centre of mass determines the new length") {
   const MassSpringModel m = table_model(on_axis({0, 1, 2}), {1, 3, 2}, {{0, 1, 100}, {1, 2, 60}});
   const MassSpringModel level = merge_sets(m, {{0, 1}});
   REQUIRE(level.spring_count() == 1);
@@ -140,7 +140,7 @@ TEST_CASE("Every merge keeps the invariants of the paper's rule") {
   }
 }
 
-TEST_CASE("What was not merged keeps its bits") {
+TEST_CASE("Nodes and springs that were not merged are copied bit for bit") {
   const MassSpringModel fine = random_model(3);
   const MassSpringModel level = merge_sets(fine, {{0, 1}});
   for (std::uint32_t i = 2; i < fine.node_count(); ++i) {
@@ -172,10 +172,10 @@ TEST_CASE("A strong border keeps its nodes bit for bit") {
     }
 }
 
-TEST_CASE("Merging by the wrong groups says so") {
+TEST_CASE("Merging by invalid groups is an error") {
   const MassSpringModel fine = random_model(1);
   CHECK_THROWS_AS(merge(fine, identity_groups(3)), InputError);
   CHECK_THROWS_AS(groups_from_sets(fine, {{0, 1}, {1, 2}}), InputError);
   CHECK_THROWS_AS(groups_from_sets(fine, {{0, 100000}}), InputError);
-  CHECK_THROWS_WITH(groups_from_sets(fine, {{0, 124}}), Catch::Contains("not held together"));
+  CHECK_THROWS_WITH(groups_from_sets(fine, {{0, 124}}), Catch::Contains("not connected"));
 }

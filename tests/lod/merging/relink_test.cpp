@@ -12,7 +12,7 @@
 using namespace springlod;
 using namespace springlod::lod;
 
-TEST_CASE("Relinking tells every joined pair of groups once and where each spring goes") {
+TEST_CASE("Relinking lists every joined pair of groups once and maps each spring to its pair") {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const MassSpringModel fine = test::random_model(seed);
     const Groups groups = group_nodes(fine, {.seed = seed});
@@ -39,7 +39,7 @@ TEST_CASE("Relinking tells every joined pair of groups once and where each sprin
   }
 }
 
-TEST_CASE("Relinking twice is relinking by the groups of both") {
+TEST_CASE("Relinking twice equals relinking by the composed groups") {
   const MassSpringModel fine = test::random_model(8);
   const Groups first = group_nodes(fine, {.seed = 8});
   Groups second{std::vector<std::uint32_t>(first.count), (first.count + 1) / 2};
@@ -53,7 +53,7 @@ TEST_CASE("Relinking twice is relinking by the groups of both") {
   CHECK(both.into == direct.into);
 }
 
-TEST_CASE("Relinking copes with no springs and with one group for all") {
+TEST_CASE("Relinking works without springs and with one group for all nodes") {
   const std::vector<std::uint32_t> nothing;
   const Relinking none = relink(SpringRows(3, nothing, nothing), identity_groups(3));
   CHECK(none.a.empty());

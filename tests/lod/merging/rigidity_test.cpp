@@ -19,18 +19,18 @@ TEST_CASE("Rigidity compares the eigenvalues of sum k u u^T") {
   node.add_spring({0, -1, 0}, 50);
   CHECK_FALSE(node.at_least(1e-9));
   node.add_spring({0, 0, 0.5}, 0.5 * 10);
-  node.add_spring({0, 0, 0}, 1);  // of no length: counts, holds nothing
+  node.add_spring({0, 0, 0}, 1);  // length 0: counted, adds no stiffness
   CHECK(node.springs() == 4);
   CHECK(node.at_least(0.0999));
   CHECK_FALSE(node.at_least(0.1001));
 }
 
-TEST_CASE("The quick answer is that of the eigenvalues") {
+TEST_CASE("The determinant test agrees with the eigenvalues") {
   std::mt19937_64 random(5);
   int sound = 0;
   int flat = 0;
   for (int trial = 0; trial < 20000; ++trial) {
-    // From solid to nearly flat and nearly straight.
+    // From isotropic to nearly planar and nearly straight.
     const Vec3 extent(1, std::pow(10, -3 * test::uniform(random)),
                       std::pow(10, -3 * test::uniform(random)));
     Rigidity node;
@@ -44,7 +44,8 @@ TEST_CASE("The quick answer is that of the eigenvalues") {
     }
     const Vec3 values = Eigen::SelfAdjointEigenSolver<Mat3>(tensor).eigenvalues();
     for (const double ratio : {1e-4, 1e-3, 1e-2, 0.1}) {
-      if (std::abs(values[0] / values[2] / ratio - 1) < 1e-3) continue;  // too near to tell
+      if (std::abs(values[0] / values[2] / ratio - 1) < 1e-3)
+        continue;  // undecided within rounding
       const bool expected = values[0] >= ratio * values[2];
       REQUIRE(node.at_least(ratio) == expected);
       ++(expected ? sound : flat);

@@ -26,7 +26,7 @@ using springlod::test::rods;
 
 namespace {
 
-/// A chain of the base and itself with the nodes of each set merged.
+/// A chain of the base and one level with each set of nodes merged.
 LodChain merged_by_hand(const MassSpringModel& base,
                         const std::vector<std::vector<std::uint32_t>>& sets) {
   SimplifyOptions options{.levels = 1, .guards = false};
@@ -57,11 +57,11 @@ std::vector<std::vector<std::uint32_t>> members(const Groups& groups) {
 
 }  // namespace
 
-TEST_CASE("parts of a change of compliance add up, and are nothing where nothing merged") {
+TEST_CASE("contributions to a change of compliance add up and are 0 where nothing merged") {
   const MassSpringModel base = rods();
   const LodChain chain = simplify(base, {.levels = 2});
   const Level &coarse = chain.levels[1], &coarser = chain.levels[2];
-  // Whatever the displacements.
+  // For any displacements.
   std::mt19937_64 random(1);
   const auto any = [&](const MassSpringModel& model) {
     std::vector<Vec3> u;
@@ -92,7 +92,7 @@ TEST_CASE("parts of a change of compliance add up, and are nothing where nothing
   CHECK_THROWS_AS(compliance_changes({base, base, none}, {u}, {{}}), InputError);
 }
 
-TEST_CASE("one merge alone: the log gives it the whole change, and frequencies change as told") {
+TEST_CASE("a single merge gets nearly the whole change, and frequency changes are as measured") {
   const MassSpringModel base = block(3, 4, 9);
   const std::vector<elastic::Mode> before = elastic::lowest_modes(base, {.count = 3}).modes;
   for (const std::uint32_t spring : {100U, 300U, 500U}) {
@@ -108,7 +108,8 @@ TEST_CASE("one merge alone: the log gives it the whole change, and frequencies c
     for (std::size_t l = 0; l < step.answers.size(); ++l) {
       CAPTURE(spring, step.answers[l].name, step.change[l]);
       CHECK(step.change[l] == step.error[l]);
-      // What is left for the others: the inertia that balances the load changed everywhere.
+      // Other nodes get a small contribution: the inertia that balances the load changes
+      // everywhere.
       CHECK(merged->change[l] ==
             Approx(step.change[l]).margin(1e-4 + 0.03 * std::abs(step.change[l])));
       if (step.answers[l].kind != Answer::Kind::mode) continue;
@@ -118,7 +119,7 @@ TEST_CASE("one merge alone: the log gives it the whole change, and frequencies c
   }
 }
 
-TEST_CASE("the merges of a step add up to it, steps to the error, and errors to the certificate") {
+TEST_CASE("merges add up to their step, steps to the error, and errors agree with certify") {
   for (const MassSpringModel& base : {ball(), rods()}) {
     LodChain chain = simplify(base, {.levels = 2});
     const MergeLog log = log_merges(chain);
@@ -135,7 +136,7 @@ TEST_CASE("the merges of a step add up to it, steps to the error, and errors to 
       if (step.from == 0)
         CHECK(frequencies == Approx(mean_error(step, Answer::Kind::mode)).epsilon(1e-6));
     }
-    // Loads are asked alike at every level.
+    // Every level has the same loads.
     for (std::size_t l = 0; l < log.steps[0].answers.size(); ++l)
       if (log.steps[0].answers[l].kind == Answer::Kind::smooth)
         CHECK(log.steps[0].change[l] + log.steps[1].change[l] ==
@@ -154,7 +155,7 @@ TEST_CASE("the merges of a step add up to it, steps to the error, and errors to 
   }
 }
 
-TEST_CASE("what merges cost in company goes with what they cost alone") {
+TEST_CASE("the costs of merges in a step correlate with their costs alone") {
   const MassSpringModel base = rods();
   const LodChain chain = simplify(base, {.levels = 1});
   const MergeLogOptions loads_only{.modes = 0, .local_loads = 0};
@@ -179,7 +180,7 @@ TEST_CASE("what merges cost in company goes with what they cost alone") {
   CHECK(correlation(told, done) > 0.7);
 }
 
-TEST_CASE("a merge that leaves a node loose is found by the motion that the base has not") {
+TEST_CASE("a merge that leaves a node loose is found by a motion that the base does not have") {
   // A bar and, at one corner, a node that hangs on three springs once its neighbours merged.
   const MassSpringModel base = block(3, 3, 6);
   const std::uint32_t far = base.node_count() - 1;
@@ -197,7 +198,7 @@ TEST_CASE("a merge that leaves a node loose is found by the motion that the base
   CHECK(worst->node == far - 1);
 }
 
-TEST_CASE("levels that were not merged from the one before count from the base") {
+TEST_CASE("the step to a level that was not merged from the one before starts from the base") {
   const LodChain chain =
       simplify(block(4, 4, 8),
                {.levels = 2, .keep = {0.5, 0.2}, .grouping = {.grouping = Grouping::compact}});
@@ -212,7 +213,7 @@ TEST_CASE("levels that were not merged from the one before count from the base")
   CHECK(from_base.change == from_base.error);
 }
 
-TEST_CASE("a level that hardly gives way is off by a finite amount") {
+TEST_CASE("the error of a nearly rigid level is finite") {
   const MassSpringModel base = block(2, 2, 4);
   std::vector<std::vector<std::uint32_t>> halves(2);
   for (std::uint32_t i = 0; i < base.node_count(); ++i)
@@ -225,7 +226,7 @@ TEST_CASE("a level that hardly gives way is off by a finite amount") {
   CHECK(mean_error(step, Answer::Kind::smooth) > 1);
 }
 
-TEST_CASE("a log is the same on any number of threads, and refuses what has no merges",
+TEST_CASE("a log is bit-identical for any number of threads; a chain without merges is an error",
           "[threaded]") {
   const LodChain chain = simplify(ball(), {.levels = 2});
   const MergeLog one = log_merges(chain, {.local_loads = 4, .threads = 1});

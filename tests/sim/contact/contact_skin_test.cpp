@@ -196,7 +196,7 @@ TEST_CASE("A base with the skin of its own is the base without, to the bit", "[l
   box.half_size = {0.2, 1, 0.2};
   scene.obstacles.push_back(scene.obstacles[0]);
   scene.obstacles[1].shape = box;
-  for (const Integrator integrator : kIntegrators) {
+  for (const Integrator integrator : all_choices<Integrator>()) {
     CAPTURE(to_string(integrator));
     RunOptions options{.integrator = integrator, .step = 2e-4};
     const Trajectory bare = run(base, scene, options);
@@ -296,7 +296,7 @@ TEST_CASE("The implicit schemes bring a level with a skin to the same rest as th
   scene.duration = 1;
   RunOptions options{.skin = skin_of(chain, 1)};
   const double rest = center_of_mass(model, run(model, scene, options).final.x).z();
-  for (const Integrator integrator : kIntegrators) {
+  for (const Integrator integrator : all_choices<Integrator>()) {
     if (!is_implicit(integrator)) continue;
     CAPTURE(to_string(integrator));
     options.integrator = integrator;

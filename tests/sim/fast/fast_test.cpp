@@ -136,7 +136,7 @@ TEST_CASE("A lattice laid out as any shape moves as it does in rows, to rounding
   constexpr std::uint64_t kFew = 50;
   const auto in = [&](Layout layout) {
     const FastOptions options{.layout =
-                                     make_fast_model(model, Precision::double_precision, layout)};
+                                  make_fast_model(model, Precision::double_precision, layout)};
     return after<FastLeapfrog>(model, scene, kFew, options, 1000);
   };
   const Outcome rows = in(Layout::fastest);

@@ -51,7 +51,7 @@ TunnelError tunnelling(const MassSpringModel& model, const Scenario& scene,
 TEST_CASE("A fast body that jumps a thin wall in a step is stopped by name under every scheme") {
   const MassSpringModel model = cube();
   const Scenario scene = wall_scene(0.002, 40, 1e5);
-  for (const Integrator integrator : kIntegrators) {
+  for (const Integrator integrator : all_choices<Integrator>()) {
     CAPTURE(to_string(integrator));
     RunOptions options{.integrator = integrator, .step = 2e-4, .frame_rate = 0};
     // The implicit schemes see the wall at the end of a step and push back; their steps are longer.
@@ -169,7 +169,7 @@ TEST_CASE("Nodes that go past each other in a run are told, under every scheme")
   // Two neighbours shot at each other, through each other and far beyond.
   start.v[0] = {25, 0, 0};
   start.v[1] = {-25, 0, 0};
-  for (const Integrator integrator : kIntegrators) {
+  for (const Integrator integrator : all_choices<Integrator>()) {
     CAPTURE(to_string(integrator));
     const Trajectory wild =
         run(model, scene, start, {.integrator = integrator, .step = 1e-4, .frame_rate = 0});

@@ -1,4 +1,3 @@
-#include "sim/integrators/step_limit.hpp"
 #include "sim/study/ensemble.hpp"
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "lod/calibration/frequency_cap.hpp"
+#include "lod/calibration/frequency_constraints.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +14,10 @@ namespace {
 
 constexpr double kPower = 32;
 
-/// |A| and what it grows by with each part of A along the axes: d|A| = sum_d slope_d
-/// (axis_d.dA.axis_d).
+/// |A| and its gradient along the eigenvectors: d|A| = sum_d gradient_d (axis_d . dA axis_d).
 struct Norm {
   double value = 0;
-  Vec3 slope = Vec3::Zero();
+  Vec3 gradient = Vec3::Zero();
   Mat3 axes = Mat3::Identity();
 };
 
@@ -46,31 +45,32 @@ std::vector<double> node_bounds(const MassSpringModel& model) {
 
 }  // namespace
 
-CapRows cap_rows(const MassSpringModel& model, double tau, double margin) {
+FrequencyConstraints frequency_constraints(const MassSpringModel& model, double tau,
+                                           double margin) {
   const SpringRows springs(model);
   const std::vector<Mat3> held = elastic::node_stiffness(model);
-  std::vector<double> excess;
-  std::vector<Eigen::Triplet<double>> slopes;
+  std::vector<double> values;
+  std::vector<Eigen::Triplet<double>> jacobian;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     const Norm norm = norm_of(held[i]);
-    const double over = std::log(bound_of(norm, model.mass[i]) / tau);
-    if (!(over > -margin)) continue;
-    const auto row = static_cast<int>(excess.size());
-    excess.push_back(over);
+    const double value = std::log(bound_of(norm, model.mass[i]) / tau);
+    if (!(value > -margin)) continue;
+    const auto row = static_cast<int>(values.size());
+    values.push_back(value);
     springs.for_each(i, [&](std::uint32_t, std::uint32_t s) {
       const Vec3 along = norm.axes.transpose() * spring_direction(model, s);
-      const double part = norm.slope.dot(along.cwiseAbs2()) / norm.value;
-      slopes.emplace_back(row, static_cast<int>(s), model.stiffness[s] * part);
+      const double derivative = norm.gradient.dot(along.cwiseAbs2()) / norm.value;
+      jacobian.emplace_back(row, static_cast<int>(s), model.stiffness[s] * derivative);
     });
-    slopes.emplace_back(row, static_cast<int>(model.spring_count() + i), -1.0);
+    jacobian.emplace_back(row, static_cast<int>(model.spring_count() + i), -1.0);
   }
-  CapRows rows;
-  rows.excess =
-      Eigen::Map<const Eigen::VectorXd>(excess.data(), static_cast<Eigen::Index>(excess.size()));
-  rows.slopes.resize(rows.excess.size(),
-                     static_cast<Eigen::Index>(model.spring_count()) + model.node_count());
-  rows.slopes.setFromTriplets(slopes.begin(), slopes.end());
-  return rows;
+  FrequencyConstraints constraints;
+  constraints.value =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  constraints.jacobian.resize(constraints.value.size(),
+                              static_cast<Eigen::Index>(model.spring_count()) + model.node_count());
+  constraints.jacobian.setFromTriplets(jacobian.begin(), jacobian.end());
+  return constraints;
 }
 
 double largest_node_bound(const MassSpringModel& model) {
@@ -78,7 +78,7 @@ double largest_node_bound(const MassSpringModel& model) {
   return *std::max_element(bounds.begin(), bounds.end());
 }
 
-double squared_excess(const MassSpringModel& model, double tau) {
+double squared_violation(const MassSpringModel& model, double tau) {
   double sum = 0;
   for (const double bound : node_bounds(model))
     if (bound > tau) sum += std::pow(std::log(bound / tau), 2);

@@ -1,4 +1,4 @@
-#include "voxelize/refill.hpp"
+#include "lod/refill.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -6,12 +6,16 @@
 #include "elastic/stiffness.hpp"
 #include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
+#include "voxelize/refill.hpp"
 
-namespace springlod::voxelize {
-namespace {
-
+using namespace springlod;
+using namespace springlod::elastic;
+using namespace springlod::lod;
+using namespace springlod::voxelize;
 using test::box_grid;
 using test::grid_of;
+
+namespace {
 
 MaterialGrid ball_grid(int radius) {
   std::vector<CellIndex> cells;
@@ -49,7 +53,8 @@ TEST_CASE("The paper's figure 1: a cube refilled with lattices of 125, 64 and 27
   const MaterialGrid grid = box_grid(n, n, n, 0.6 / n);
   const MassSpringModel base = build_lattice(grid, {.style = style}).model;
   REQUIRE(base.node_count() == 216);
-  const LodChain chain = refill(base, grid, {.nodes = {125, 64, 27}, .lattice = style});
+  const LodChain chain =
+      refill(base, refill_levels(grid, {.nodes = {125, 64, 27}, .lattice = style}));
   REQUIRE(chain.levels.size() == 4);
   CHECK(chain.levels[1].model.node_count() == 125);
   CHECK(chain.levels[2].model.node_count() == 64);
@@ -61,40 +66,43 @@ TEST_CASE("The paper's figure 1: a cube refilled with lattices of 125, 64 and 27
     CHECK(elastic::stretch_test(chain.levels[2].model).young == Approx(1e6).epsilon(1e-6));
 }
 
-TEST_CASE("A ball of two materials is refilled with about as many nodes as asked for") {
+TEST_CASE("A ball of two materials is refilled with about the requested number of nodes") {
   const MaterialGrid grid = ball_grid(6);
   const MassSpringModel base = build_lattice(grid).model;
-  const LodChain lattices = refill(base, grid, {.nodes = {400, 160, 60}});
+  const LodChain lattices = refill(base, refill_levels(grid, {.nodes = {400, 160, 60}}));
   check_chain(lattices);
   for (std::size_t n = 1; n < lattices.levels.size(); ++n) {
     const double wanted = std::array{400, 160, 60}[n - 1];
     CHECK(lattices.levels[n].model.node_count() == Approx(wanted).epsilon(0.25));
   }
-  const LodChain random =
-      refill(base, grid, {.nodes = {400, 161, 57}, .style = RefillStyle::random, .seed = 2});
+  const LodChain random = refill(
+      base,
+      refill_levels(grid, {.nodes = {400, 161, 57}, .style = RefillStyle::random, .seed = 2}));
   check_chain(random);
   CHECK(random.levels[1].model.node_count() == 400);
   CHECK(random.levels[2].model.node_count() == 161);
   CHECK(random.levels[3].model.node_count() == 57);
 }
 
-TEST_CASE("Base nodes belong to the nearest node of a refilled level") {
+TEST_CASE("Base nodes are mapped to the nearest node of a refilled level") {
   const MaterialGrid grid = box_grid(8, 8, 8, 0.01);
   const MassSpringModel base = build_lattice(grid).model;
-  const Level level = refill(base, grid, {.nodes = {100}, .style = RefillStyle::random}).levels[1];
+  const Level level =
+      refill(base, refill_levels(grid, {.nodes = {100}, .style = RefillStyle::random})).levels[1];
   for (std::uint32_t i = 0; i < base.node_count(); ++i) {
     const double own = (level.model.rest[level.of_base.of[i]] - base.rest[i]).norm();
     for (const Vec3& node : level.model.rest) REQUIRE(own <= (node - base.rest[i]).norm() + 1e-12);
   }
 }
 
-TEST_CASE("A refill that gets no coarser is refused") {
+TEST_CASE("A refill that is no coarser than the level before is an error") {
   const MaterialGrid grid = box_grid(4, 4, 4, 0.01);
   const MassSpringModel base = build_lattice(grid).model;
-  CHECK_THROWS_AS(refill(base, grid, {}), InputError);
-  CHECK_THROWS_WITH(refill(base, grid, {.nodes = {64, 64}}), Catch::Contains("ask for fewer"));
-  CHECK_THROWS_WITH(refill(base, grid, {.nodes = {300}}), Catch::Contains("ask for fewer"));
+  CHECK_THROWS_AS(refill(base, refill_levels(grid, {})), InputError);
+  CHECK_THROWS_WITH(refill(base, refill_levels(grid, {.nodes = {64, 64}})),
+                    Catch::Contains("ask for fewer"));
+  CHECK_THROWS_WITH(refill(base, refill_levels(grid, {.nodes = {300}})),
+                    Catch::Contains("ask for fewer"));
 }
 
 }  // namespace
-}  // namespace springlod::voxelize

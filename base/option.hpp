@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "base/units.hpp"
+
+namespace springlod::inline base {
+
+/// One row of an options struct: a member under the name that scripts use. The default is the
+/// member's own, in a struct that nobody touched.
+///
+/// A struct S lists its rows in `option_rows(const S*)`, declared beside it, where
+/// argument-dependent lookup finds it:
+///
+///   constexpr auto option_rows(const FitOptions*) {
+///     return std::tuple(option("tolerance", &FitOptions::tolerance, "mean error ..."), ...);
+///   }
+///
+/// From these rows come what scripts can set, help, documentation, and the fingerprints by which a
+/// stored calibration is recognized. Members without a row are not for scripts.
+template <class S, class Member>
+struct Option {
+  const char* name;
+  Member S::*member;
+  const char* help;
+  Dimension dimension = Dimension::number;
+  const char* fallback = "";  ///< the default in words, where the member's value says too little
+  bool is_weight = false;     ///< how much something counts, not what is measured
+
+  constexpr Option in(Dimension unit) const {
+    Option row = *this;
+    row.dimension = unit;
+    return row;
+  }
+  constexpr Option by_default(const char* words) const {
+    Option row = *this;
+    row.fallback = words;
+    return row;
+  }
+  constexpr Option weight() const {
+    Option row = *this;
+    row.is_weight = true;
+    return row;
+  }
+};
+
+template <class S, class Member>
+constexpr Option<S, Member> option(const char* name, Member S::*member, const char* help) {
+  return {.name = name, .member = member, .help = help};
+}
+
+/// A list of nodes of the base: scripts name them by number or by a function of a node.
+template <class S>
+struct NodesOption {
+  const char* name;
+  std::vector<std::uint32_t> S::*member;
+  const char* help;
+  const char* fallback;
+};
+
+template <class S>
+constexpr NodesOption<S> nodes_option(const char* name, std::vector<std::uint32_t> S::*member,
+                                      const char* help, const char* fallback = "") {
+  return {name, member, help, fallback};
+}
+
+/// An options struct within another, or a list of such: scripts write it as a table of its own,
+/// documented as `record`.
+template <class S, class Member>
+struct RecordOption {
+  const char* name;
+  Member S::*member;
+  const char* record;
+  const char* help;
+  const char* fallback;
+};
+
+template <class S, class Member>
+constexpr RecordOption<S, Member> record_option(const char* name, Member S::*member,
+                                                const char* record, const char* help,
+                                                const char* fallback) {
+  return {name, member, record, help, fallback};
+}
+
+/// An options struct within another whose rows scripts write beside those of the outer one.
+template <class S, class Member>
+struct NestedOptions {
+  Member S::*member;
+};
+
+template <class S, class Member>
+constexpr NestedOptions<S, Member> nested(Member S::*member) {
+  return {member};
+}
+
+template <class S>
+concept HasOptions = requires {
+  option_rows(static_cast<const S*>(nullptr));
+};
+
+/// Calls visit(row, member of `object`) for every row; nested structs in their place. `object` may
+/// be const.
+template <class S, class Visit>
+requires HasOptions<std::remove_const_t<S>>
+void for_each_option(S& object, Visit&& visit);
+
+namespace option_detail {
+
+template <class S, class Outer, class Member, class Visit>
+void visit_row(S& object, const NestedOptions<Outer, Member>& row, Visit& visit) {
+  for_each_option(object.*row.member, visit);
+}
+
+template <class S, class Row, class Visit>
+void visit_row(S& object, const Row& row, Visit& visit) {
+  visit(row, object.*row.member);
+}
+
+}  // namespace option_detail
+
+template <class S, class Visit>
+requires HasOptions<std::remove_const_t<S>>
+void for_each_option(S& object, Visit&& visit) {
+  std::apply([&](const auto&... row) { (option_detail::visit_row(object, row, visit), ...); },
+             option_rows(static_cast<const S*>(nullptr)));
+}
+
+}  // namespace springlod::inline base
