@@ -23,11 +23,11 @@ struct Switches {
 };
 
 void add_settings(CLI::App& app, scripting::Settings& settings, Switches& switches) {
-  app.add_option("--seed", settings.seed, "seed of everything random (default 1)");
-  app.add_option("--threads", settings.threads, "threads at most; 0, the default: all cores");
-  app.add_flag("-q,--quiet", switches.quiet, "no talk on stderr but errors");
+  app.add_option("--seed", settings.seed, "seed of all random numbers (default: 1)");
+  app.add_option("--threads", settings.threads, "maximum number of threads; 0: all cores");
+  app.add_flag("-q,--quiet", switches.quiet, "print only errors to stderr");
   app.add_flag("-v,--verbose", switches.verbose,
-               "more talk, such as each step of a calibration; tracebacks");
+               "print more, such as each step of a calibration; tracebacks");
 }
 
 void settle(const Switches& switches, scripting::Settings& settings) {

@@ -19,7 +19,7 @@ void calibrate_cube(benchmark::State& state, int side) {
                                .grouping = {.grouping = lod::Grouping::compact},
                                .calibrate = lod::Calibrate::modes};
   options.calibration.threads = 2;
-  if (!bench::reset_peak_memory()) state.SkipWithError("the peak of the memory cannot be reset");
+  if (!bench::reset_peak_memory()) state.SkipWithError("the peak memory counter cannot be reset");
   for (auto _ : state)
     benchmark::DoNotOptimize(lod::simplify(base, options).levels[2].model.node_count());
   constexpr double kGigabyte = 1e9;

@@ -24,8 +24,8 @@ constexpr ChoiceTable<Choice<SpringColour>> choices(SpringColour) {
   return {"spring_colour", kSpringColours};
 }
 
-/// Besides their material, balls can tell what eq. 2 of the paper says of their node (Young's
-/// modulus, density) or its mass.
+/// What the colour of a ball shows: the material, Young's modulus or density of the node by eq. 2
+/// of the paper (docs/method.md), or its mass.
 enum class NodeColour { material, young, density, mass };
 
 inline constexpr Choice<NodeColour> kNodeColours[] = {
@@ -46,7 +46,7 @@ constexpr ChoiceTable<Choice<NodeSize>> choices(NodeSize) {
   return {"node_size", kNodeSizes};
 }
 
-/// automatic: logarithmic if all values are above 0 and span more than two decades.
+/// automatic: logarithmic if all values are positive and span more than two decades, else linear.
 enum class ValueScaling { automatic, linear, logarithmic };
 
 inline constexpr Choice<ValueScaling> kValueScalings[] = {

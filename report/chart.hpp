@@ -39,7 +39,7 @@ constexpr ChoiceTable<Choice<ChartSymbol>> choices(ChartSymbol) {
   return {"symbol", kChartSymbols};
 }
 
-/// In the order in which series take them; black is for those that ask for it.
+/// In the default order of series; black is used only if a series sets it.
 enum class ChartColour { blue, orange, green, pink, amber, sky, grey, black };
 
 inline constexpr Choice<ChartColour> kChartColours[] = {

@@ -73,7 +73,7 @@ constexpr ChoiceTable<Choice<SeedDesign>> choices(SeedDesign) {
   return {"seeds", kSeedDesigns};
 }
 
-/// Of four starts there are but 35 different resamples, too few for the tail of anything.
+/// Four starts have only 35 different resamples, too few for tail probabilities.
 constexpr std::size_t kLeastStarts = 5;
 
 /// Throws InputError for fewer than kLeastStarts starts, values that are not finite, and incomplete

@@ -30,7 +30,7 @@ function pareto_variants.methods(axes)
     for _, border in ipairs(axes.borders) do
       for _, calibration in ipairs(axes.calibrations) do
         if border == "none" or s.choices.grouping[grouping].follows_border then
-          ways[#ways + 1] = {
+          methods[#methods + 1] = {
             name = ("%s-%s-%s"):format(grouping, border, calibration), grouping = grouping,
             border = border, calibration = calibration,
           }
@@ -47,7 +47,7 @@ function pareto_variants.steppings(axes)
   for _, integrator in ipairs(axes.integrators) do
     for _, precision in ipairs(axes.precisions) do
       if precision == "double" or s.choices.integrator[integrator].fast then
-        ways[#ways + 1] = {
+        steppings[#steppings + 1] = {
           name = integrator .. "-" .. precision, integrator = integrator, precision = precision,
           usual = integrator == "symplectic_euler" and precision == "double",
         }
