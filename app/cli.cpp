@@ -23,11 +23,11 @@ struct Switches {
 };
 
 void add_settings(CLI::App& app, scripting::Settings& settings, Switches& switches) {
-  app.add_option("--seed", settings.seed, "seed of everything random (default 1)");
-  app.add_option("--threads", settings.threads, "threads at most; 0, the default: all cores");
-  app.add_flag("-q,--quiet", switches.quiet, "no talk on stderr but errors");
+  app.add_option("--seed", settings.seed, "seed of all random numbers (default: 1)");
+  app.add_option("--threads", settings.threads, "maximum number of threads; 0: all cores");
+  app.add_flag("-q,--quiet", switches.quiet, "print only errors to stderr");
   app.add_flag("-v,--verbose", switches.verbose,
-               "more talk, such as each step of a calibration; tracebacks");
+               "print more, such as each step of a calibration; tracebacks");
 }
 
 void settle(const Switches& switches, scripting::Settings& settings) {
@@ -36,39 +36,39 @@ void settle(const Switches& switches, scripting::Settings& settings) {
 }
 
 std::vector<std::string> reversed(std::vector<std::string> words) {
-  std::reverse(words.begin(), words.end());  // what CLI::App::parse wants
+  std::reverse(words.begin(), words.end());  // the order that CLI::App::parse expects
   return words;
 }
 
 std::string usage_text(const std::vector<scripting::StockCommand>& commands) {
   std::string text = fmt::format(
       "springlod {} - level-of-detail mass-spring models from meshes, scripted in Lua\n\n"
-      "usage: springlod [FLAGS] COMMAND ARGUMENTS...   a stock command, see below\n"
+      "usage: springlod [FLAGS] COMMAND ARGUMENTS...   run a command, see below\n"
       "       springlod [FLAGS] run SCRIPT.lua [-- ARGUMENTS...]\n"
       "       springlod [FLAGS] -e CODE\n"
-      "       springlod [FLAGS]                        a prompt; or a script from a pipe\n\n"
-      "commands (springlod COMMAND --help tells more):\n",
+      "       springlod [FLAGS]                        open a prompt; or run stdin\n\n"
+      "commands (see springlod COMMAND --help):\n",
       scripting::version());
   std::size_t width = 3;
   for (const scripting::StockCommand& command : commands)
     width = std::max(width, command.name.size());
-  text += fmt::format("  {:<{}}  {}\n", "run", width, "Runs a script of yours.");
+  text += fmt::format("  {:<{}}  {}\n", "run", width, "Run a Lua script.");
   for (const bool study : {false, true}) {
-    if (study) text += "\nstudies, which measure the methods themselves:\n";
+    if (study) text += "\nstudies, which evaluate the methods:\n";
     for (const scripting::StockCommand& command : commands)
       if (command.study == study)
         text += fmt::format("  {:<{}}  {}\n", command.name, width, command.summary);
   }
   return text +
-         "\nflags (--seed, --threads, -q and -v may stand after the command too):\n"
+         "\nflags (--seed, --threads, -q and -v may also follow the command):\n"
          "  -e CODE        run CODE\n"
-         "  -i             a prompt afterwards\n"
-         "  --seed N       seed of everything random (default 1)\n"
-         "  --threads N    threads at most; 0, the default: all cores\n"
-         "  -q, --quiet    no talk on stderr but errors\n"
-         "  -v, --verbose  more talk, such as each step of a calibration; tracebacks\n"
+         "  -i             open a prompt afterwards\n"
+         "  --seed N       seed of all random numbers (default: 1)\n"
+         "  --threads N    maximum number of threads (default: 0, all cores)\n"
+         "  -q, --quiet    print only errors to stderr\n"
+         "  -v, --verbose  print more, such as each step of a calibration; tracebacks\n"
          "  --version      print the version\n"
-         "  -h, --help     print this\n";
+         "  -h, --help     print this help\n";
 }
 
 Leave wrong_use(const std::string& message) {
@@ -90,7 +90,7 @@ Leave unknown_command(const std::string& name,
                                scripting::name_hint(name, names, "commands are")));
 }
 
-// The flags before the command; what follows stays in `rest`.
+// Parses the flags before the command. The other arguments go to `rest`.
 std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
                                  const std::vector<scripting::StockCommand>& commands,
                                  CommandLine& line, std::vector<std::string>& rest) {
@@ -118,10 +118,10 @@ std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
   return std::nullopt;
 }
 
-// The settings among the arguments of a command; all others go to its script, in their order.
+// Parses the settings among the arguments of a command. The others go to its script, in order.
 std::optional<Leave> parse_back(const std::vector<std::string>& arguments, bool own_script,
                                 CommandLine& line) {
-  // What follows "--" is the script's alone.
+  // Arguments after "--" belong to the script.
   const auto separator = std::find(arguments.begin(), arguments.end(), "--");
   CLI::App app;
   Switches switches;

@@ -9,7 +9,7 @@
 
 namespace springlod::app {
 
-/// What the command line asks for.
+/// The parsed command line.
 struct CommandLine {
   enum class Action { prompt, code, script, command, standard_input };
   Action action = Action::prompt;
@@ -21,14 +21,14 @@ struct CommandLine {
   std::vector<std::string> arguments;  ///< for the script or command
 };
 
-/// Wrong use, or a text that was asked for (--help, --version): what to print and how to exit.
+/// Text and exit code if the program ends without running anything: wrong use, --help, --version.
 struct Leave {
   int exit_code = 0;
   std::string text;  ///< to stdout if exit_code is 0, else to stderr
 };
 
-/// Global flags may stand before the command, and --seed, --threads, -q, -v after it as well.
-/// Returns either.
+/// Result of parse_command_line: a command line to run, or `leave`. Flags stand before the command;
+/// --seed, --threads, -q and -v may also follow it.
 struct Parsed {
   CommandLine line;
   std::optional<Leave> leave;

@@ -24,7 +24,7 @@ using scripting::ScriptState;
 using springlod::app::CommandLine;
 
 constexpr int kFailed = 1;
-constexpr int kInterrupted = 130;  // as shells have it: 128 + SIGINT
+constexpr int kInterrupted = 130;  // the convention of shells: 128 + SIGINT
 
 Outcome run_action(ScriptState& state, const CommandLine& line) {
   switch (line.action) {
@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     fmt::print(stderr, "springlod: {}\n", error.what());
   }
-  // Results that could not be written are a failure, not a success.
+  // Failing to write results is a failure.
   if (std::fflush(stdout) != 0) exit_code = kFailed;
   return exit_code;
 }

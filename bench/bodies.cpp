@@ -25,7 +25,7 @@ MassSpringModel lattice_cube(int side) {
 }
 
 MassSpringModel merged_cube(std::uint32_t nodes) {
-  // Standard merging leaves some 43 % of the nodes.
+  // Standard merging leaves about 43 % of the nodes.
   const auto side = static_cast<int>(std::lround(std::cbrt(nodes / 0.43))) - 1;
   return lod::simplify(lattice_cube(side), {.levels = 1}).levels[1].model;
 }

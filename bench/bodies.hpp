@@ -6,10 +6,10 @@
 
 namespace springlod::bench {
 
-/// A cube of side^3 cells on the `corners` lattice: (side + 1)^3 nodes, resting a little in the
-/// floor, so that contact and friction have work.
+/// A cube of side^3 cells on the `corners` lattice: (side + 1)^3 nodes. It slightly penetrates the
+/// floor, so that contact and friction are active.
 MassSpringModel lattice_cube(int side);
-/// About `nodes` nodes: the first level merged from such a cube.
+/// The first level of such a cube, with about `nodes` nodes.
 MassSpringModel merged_cube(std::uint32_t nodes);
 
 }  // namespace springlod::bench

@@ -4,7 +4,7 @@
 #include <memory>
 #include <numeric>
 
-// Bullet's headers are not as strict as ours.
+// Bullet's headers cause warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpedantic"
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -27,19 +27,19 @@
 namespace springlod::bench {
 namespace {
 
-// Lengths in Bullet, made for metres, beside cells of 1 cm. [m]
+// Lengths in Bullet [m], whose defaults suit metres, for cells of 1 cm.
 constexpr btScalar kMargin = 0.001F;
-constexpr btScalar kDistanceCell = 0.05F;  // of the grid that it looks distances up in
+constexpr btScalar kDistanceCell = 0.05F;  // cell of its signed distance grid
 
-// Before times are taken.
+// Steps before timing starts.
 constexpr int kFirstSteps = 10;
 
 btVector3 to_bullet(const Vec3& v) {
   return {static_cast<btScalar>(v[0]), static_cast<btScalar>(v[1]), static_cast<btScalar>(v[2])};
 }
 
-/// What both worlds need, and a floor just below the body: it touches as soon as it is within the
-/// margin.
+/// The common parts of both worlds, and a floor just below the body; contact starts within the
+/// collision margin.
 struct Stage {
   btSoftBodyRigidBodyCollisionConfiguration collisions;
   btCollisionDispatcher dispatcher{&collisions};
@@ -54,11 +54,11 @@ struct Stage {
     floor.setWorldTransform(
         btTransform(btQuaternion::getIdentity(), {0, 0, lowest - kMargin / 2 - kHalfHeight}));
     floor.setInterpolationWorldTransform(floor.getWorldTransform());
-    floor.setFriction(1);  // times the body's
+    floor.setFriction(1);  // multiplied by that of the body
   }
 };
 
-/// The model's nodes, masses and springs as a soft body.
+/// A soft body with the model's nodes, masses and springs.
 std::unique_ptr<btSoftBody> soft_body(const MassSpringModel& model, const sim::Scenario& scenario,
                                       btSoftBodyWorldInfo& world) {
   world.m_gravity = to_bullet(scenario.gravity);
@@ -77,14 +77,14 @@ std::unique_ptr<btSoftBody> soft_body(const MassSpringModel& model, const sim::S
   return body;
 }
 
-/// How the position-based solver goes about: links as our springs are sorted, or in the order that
-/// Bullet itself makes of them, in which hardly one waits for the one before.
+/// Order of links in the position-based solver: as our springs are sorted, or reordered by Bullet
+/// to reduce dependencies between consecutive links.
 struct Sweeps {
   int iterations = 1;
   bool reordered = false;
 };
 
-/// Bullet's own: a step corrects positions `iterations` times, contacts and links.
+/// Bullet's position-based solver: a step corrects contacts and links `iterations` times.
 class PositionBased {
  public:
   PositionBased(const MassSpringModel& model, const Sweeps& sweeps)
@@ -98,7 +98,7 @@ class PositionBased {
     body_ = soft_body(model, scenario, world_.getWorldInfo());
     if (sweeps.reordered) btSoftBodyHelpers::ReoptimizeLinkOrder(body_.get());
     body_->m_cfg.piterations = sweeps.iterations;
-    constexpr btScalar kDamping = 0.1F;  // of the velocity a step: it comes to rest on the floor
+    constexpr btScalar kDamping = 0.1F;  // of the velocity per step, so that the body comes to rest
     body_->m_cfg.kDP = kDamping;
     world_.addSoftBody(body_.get());
   }
@@ -119,8 +119,8 @@ class PositionBased {
   std::unique_ptr<btSoftBody> body_;
 };
 
-/// Its deformable world with mass-spring forces integrated explicitly. All springs have the same
-/// stiffness and damping there; ours have the mean of the model's.
+/// Bullet's deformable world with explicit integration of mass-spring forces. All springs have
+/// equal stiffness and damping there: the means of the model.
 class Explicit {
  public:
   Explicit(const MassSpringModel& model, bool damped)
@@ -131,7 +131,7 @@ class Explicit {
     const sim::Scenario scenario = rest_on_floor();
     solver_.setDeformableSolver(&bodies_);
     world_.setImplicit(false);
-    world_.setUseProjection(true);  // the faster of its two ways to hold contacts
+    world_.setUseProjection(true);  // the faster of its two contact methods
     world_.setGravity(to_bullet(scenario.gravity));
     world_.addRigidBody(&stage_.floor);
     body_ = soft_body(model, scenario, world_.getWorldInfo());
@@ -166,7 +166,7 @@ class Explicit {
   std::unique_ptr<btSoftBody> body_;
 };
 
-/// Makes the world once for all repetitions: its first step, which builds trees, takes seconds.
+/// Creates the world once for all repetitions: its first step builds trees and takes seconds.
 template <class World>
 auto stepper(auto option) {
   return [option, world = std::shared_ptr<World>()](benchmark::State& state,

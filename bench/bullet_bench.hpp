@@ -4,7 +4,7 @@
 
 namespace springlod::bench {
 
-/// Registers Bullet's soft bodies, with the nodes and springs of ours, under "bullet/".
+/// Registers benchmarks of Bullet's soft bodies with the same nodes and springs, under "bullet/".
 void register_bullet(Subjects& subjects);
 
 }  // namespace springlod::bench

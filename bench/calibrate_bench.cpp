@@ -1,5 +1,5 @@
 // Two levels of a cube, 45 % and 20 % of its nodes, merged and calibrated on all threads. Run by
-// ./dev bench; 100k nodes, which take minutes, alone:
+// ./dev bench, except 100k nodes, which take minutes:
 //   bench_calibrate --benchmark_filter=100k
 
 #include <benchmark/benchmark.h>
@@ -12,14 +12,14 @@ namespace {
 
 using namespace springlod;
 
-// Peak memory is that of the whole process, the base included.
+// Peak memory is that of the whole process, including the base.
 void calibrate_cube(benchmark::State& state, int side) {
   const MassSpringModel base = bench::lattice_cube(side);
   lod::SimplifyOptions options{.keep = {0.45, 0.2},
                                .grouping = {.grouping = lod::Grouping::compact},
                                .calibrate = lod::Calibrate::modes};
   options.calibration.threads = 2;
-  if (!bench::reset_peak_memory()) state.SkipWithError("the peak of the memory cannot be reset");
+  if (!bench::reset_peak_memory()) state.SkipWithError("the peak memory counter cannot be reset");
   for (auto _ : state)
     benchmark::DoNotOptimize(lod::simplify(base, options).levels[2].model.node_count());
   constexpr double kGigabyte = 1e9;

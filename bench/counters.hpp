@@ -6,14 +6,14 @@
 
 namespace springlod::bench {
 
-/// Counters "nodes" and "springs", and "ns_per_spring": the time of an iteration in which each
-/// spring is worked out `times` times [ns].
+/// Sets the counters "nodes", "springs" and "ns_per_spring": time per spring of an iteration that
+/// processes each spring `times` times [ns].
 void count_springs(benchmark::State& state, const MassSpringModel& model, double times);
 
-/// Counter `name`: the time of an iteration over `count` [ns].
+/// Sets the counter `name`: time of an iteration divided by `count` [ns].
 void count_ns(benchmark::State& state, const char* name, double count);
 
-/// "least": of what others on the machine take from a benchmark's repetitions, the least.
+/// Reports the minimum of a benchmark's repetitions ("least"), which other load disturbs least.
 benchmark::internal::Benchmark* keep_least(benchmark::internal::Benchmark* registered);
 
 }  // namespace springlod::bench

@@ -1,5 +1,4 @@
-// Whole jobs as a user starts them: the program on a sample, from the command line to the last
-// file. Run by ./dev bench.
+// Whole commands as users run them, on a sample, from start to the last file. Run by ./dev bench.
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for the jobs, gone at the end.
+/// A temporary folder, removed at the end.
 class Folder {
  public:
   Folder() { fs::create_directories(path_); }
@@ -45,7 +44,7 @@ void convert(benchmark::State& state) {
     if (!springlod(convert_beast(folder), folder)) state.SkipWithError("convert failed");
 }
 
-// Three levels dropped side by side, 0.8 s, numbers only or with 24 pictures and a film.
+// A drop of 0.8 s of three levels, with tables only or with 24 frames and a video.
 void compare(benchmark::State& state, const char* frames) {
   const Folder folder;
   if (!springlod(convert_beast(folder), folder)) state.SkipWithError("convert failed");

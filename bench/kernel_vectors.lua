@@ -1,11 +1,11 @@
--- Vector instructions a spring in the loops over springs, counted in the program that was measured:
--- what computes or moves lanes about. Plain loads and stores are left out; those on 512 bits count
--- twice, for cores that work on 256.
+-- Counts vector instructions per spring in the loops over springs of the measured program:
+-- instructions that compute or permute lanes. Plain loads and stores do not count; 512-bit
+-- instructions count twice, as many cores execute them on 256-bit units.
 
 local kernel_vectors = {}
 
--- "rows/f32/AVX3" for the functions that hold these loops; those that keep account of damping
--- besides are not what is measured.
+-- "rows/f32/AVX3" for the functions with these loops. Variants that also record damping losses are
+-- not the measured ones.
 local function kernel_of(header)
   local target, rest = header:match("N_(AVX%d)::%a+_forces<false(.*)$")
   if not target then return nil end
@@ -21,14 +21,14 @@ local function is_plain_move(mnemonic, operands)
     (mnemonic:match("^vbroadcast") or mnemonic:match("^vmov")) and operands:match("%(")
 end
 
--- Springs that one root is taken for.
+-- Springs per square-root instruction: its number of lanes.
 local function lanes(mnemonic, operands)
   if not mnemonic:match("^vr?sqrt") then return 0 end
   local bits = operands:match("%%zmm") and 512 or operands:match("%%ymm") and 256 or 128
   return mnemonic:match("ps$") and bits / 32 or mnemonic:match("pd$") and bits / 64 or 0
 end
 
--- Loops without a loop in them: {roots, vectors} of one pass.
+-- The innermost loops with their counts {roots, vectors} per iteration.
 local function innermost_loops(code)
   local loops = {}
   for last, jump in ipairs(code) do
@@ -52,9 +52,9 @@ local function innermost_loops(code)
   return loops
 end
 
--- Vector instructions a spring. Of loops that take roots, which differ in where damping is from,
--- the one with the least counts. Quads have loops for what comes before and after, each pass for as
--- many springs: a pair of quads.
+-- Vector instructions per spring. Of the loops with square roots, which differ in their source of
+-- damping, the smallest counts. The quad layout has further loops before and after it, with the
+-- same number of springs per iteration: a pair of quads.
 local function count(code, has_more_loops)
   local with_roots, without = nil, 0
   for _, loop in ipairs(innermost_loops(code)) do
@@ -69,7 +69,7 @@ local function count(code, has_more_loops)
   return vectors / with_roots.roots
 end
 
--- {["rows/f32/AVX3"] = 4.2, ...}; empty if there is no objdump.
+-- Returns {["rows/f32/AVX3"] = 4.2, ...}; empty without objdump.
 function kernel_vectors.count(program)
   local pipe = io.popen(("objdump -dC --no-show-raw-insn '%s' 2>/dev/null"):format(program))
   local counts, kernel, code = {}, nil, nil

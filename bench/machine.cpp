@@ -11,7 +11,7 @@
 namespace springlod::bench {
 namespace {
 
-// Several times the last cache of a large processor, so that it comes from memory. [bytes]
+// Several times the last-level cache of large processors, so that data comes from memory [bytes].
 constexpr std::size_t kStreamed = 200'000'000;
 
 std::vector<std::uint64_t> stream() {
@@ -25,7 +25,7 @@ void read(benchmark::State& state) {
   count_ns(state, "ns_per_byte", static_cast<double>(kStreamed));
 }
 
-// Every byte counts twice: it comes and goes.
+// Every byte counts twice: it is read and written.
 void read_write(benchmark::State& state) {
   std::vector<std::uint64_t> words = stream();
   for (auto _ : state) {
@@ -35,7 +35,7 @@ void read_write(benchmark::State& state) {
   count_ns(state, "ns_per_byte", 2 * static_cast<double>(kStreamed));
 }
 
-// An addition of integers takes one cycle on every processor that this runs on.
+// An integer addition has a latency of one cycle on all supported processors.
 void cycle(benchmark::State& state) {
   constexpr int kAdditions = 100'000;
   std::uint64_t sum = 0;
@@ -43,14 +43,14 @@ void cycle(benchmark::State& state) {
   for (auto _ : state)
     for (int i = 0; i < kAdditions; ++i) {
       sum += more;
-      asm volatile("" : "+r"(sum));  // one after the other, in a register
+      asm volatile("" : "+r"(sum));  // dependent additions in a register
     }
   benchmark::DoNotOptimize(sum);
   count_ns(state, "ns_per_cycle", kAdditions);
 }
 
-// As many vector instructions as a core can begin: half additions, half multiplications, as the
-// kernels have them, in more chains than two units of each with a latency of 3 keep busy.
+// Throughput of vector instructions, half additions and half multiplications as in the kernels, in
+// more independent chains than two units of each kind with a latency of 3 need.
 void vectors(benchmark::State& state) {
   using Vector = float __attribute__((vector_size(16)));
   constexpr int kRounds = 10'000;
@@ -60,9 +60,9 @@ void vectors(benchmark::State& state) {
   const auto turn = [&](Vector& sum, Vector& product) {
     sum += factor;
     product *= factor;
-    asm volatile("" : "+x"(sum), "+x"(product));  // neither hoisted nor joined
+    asm volatile("" : "+x"(sum), "+x"(product));  // prevents hoisting and combining
   };
-  // Not in an array: all must be in registers.
+  // No array: all values must be in registers.
   Vector s1{}, s2{}, s3{}, s4{}, s5{}, s6{};
   Vector p1{}, p2{}, p3{}, p4{}, p5{}, p6{};
   for (auto _ : state)

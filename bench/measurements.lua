@@ -1,4 +1,4 @@
--- What Google Benchmark wrote (--benchmark_out_format=json): one key a line, objects one deep.
+-- Reads the JSON output of Google Benchmark, which has one key per line and no nested objects.
 
 local measurements = {}
 
@@ -7,7 +7,7 @@ local function value_of(text)
   return tonumber(text) or text:match('^"(.*)"$')
 end
 
--- /real_time, /repeats:5 and the like say how it was measured, not what.
+-- Removes suffixes such as /real_time and /repeats:5, which describe the measurement.
 local function plain_name(name)
   for _, mark in ipairs{"/real_time", "/manual_time", "/process_time", "/repeats:%d+",
                         "/iterations:%d+", "/min_time:[%d.]+"} do
@@ -34,7 +34,7 @@ local function measurement(raw, program)
     return row
   end
   row.real_ms, row.cpu_ms = raw.real_time * unit, raw.cpu_time * unit
-  -- What it was to be measured by.
+  -- The time that the benchmark selects: wall clock or processor.
   local by_clock = raw.run_name:match("/real_time") or raw.run_name:match("/manual_time")
   row.ms = by_clock and row.real_ms or row.cpu_ms
   for key, value in pairs(raw) do
@@ -43,8 +43,8 @@ local function measurement(raw, program)
   return row
 end
 
--- The measurements of a file by name, and what it says of the machine. Of repetitions the least,
--- and how much they spread.
+-- The measurements of a file in its order, and its context (machine, compiler). Repetitions give
+-- the least time and the spread.
 function measurements.read(path, program)
   local context, by_name, names = {}, {}, {}
   local raw = context

@@ -1,5 +1,5 @@
-// Merging a lattice of a million nodes from level 0 to level 1, beside meshoptimizer's simplify of
-// a surface of a million vertices down to the same part. One thread. Run by ./dev bench.
+// Merging a lattice of a million nodes from level 0 to level 1, compared with meshoptimizer's
+// simplify of a surface of a million vertices to the same fraction. One thread. Run by ./dev bench.
 
 #include <cmath>
 #include <cstddef>
@@ -24,14 +24,14 @@ const MassSpringModel& million_nodes() {
   return base;
 }
 
-// The chain of base and level 1, guards on, from a base that is moved in. Peak memory is that of
-// the whole process: the base, another copy of it kept here, and all that is needed on the way.
+// Builds the chain of base and level 1, with guards, from a moved base. Peak memory is that of the
+// whole process: the base, a copy kept here, and all temporary data.
 void merge_nodes(benchmark::State& state, lod::Grouping grouping, lod::BorderRule border) {
   const MassSpringModel& base = million_nodes();
   const lod::SimplifyOptions options{.levels = 1,
                                      .grouping = {.grouping = grouping, .border = border}};
   std::uint32_t left = 0;
-  if (!bench::reset_peak_memory()) state.SkipWithError("the peak of the memory cannot be reset");
+  if (!bench::reset_peak_memory()) state.SkipWithError("the peak memory counter cannot be reset");
   for (auto _ : state) {
     state.PauseTiming();
     MassSpringModel moved_in = base;
@@ -44,7 +44,7 @@ void merge_nodes(benchmark::State& state, lod::Grouping grouping, lod::BorderRul
       static_cast<double>(bench::peak_memory()) / base.spring_count();
 }
 
-// The same by who keeps the base: copying it into the chain is part of the time.
+// The same with a copied base: copying it into the chain is part of the time.
 void copy_and_merge_nodes(benchmark::State& state) {
   const MassSpringModel& base = million_nodes();
   for (auto _ : state)
@@ -65,7 +65,7 @@ BENCHMARK_CAPTURE(merge_nodes, priority_hard, lod::Grouping::priority_hard, lod:
     ->Unit(benchmark::kMillisecond);
 
 struct HeightField {
-  std::vector<float> positions;  // three a vertex
+  std::vector<float> positions;  // three per vertex
   std::vector<unsigned> indices;
   std::size_t vertex_count() const { return positions.size() / 3; }
 };
@@ -91,11 +91,11 @@ HeightField height_field(unsigned side) {
   return field;
 }
 
-// Standard merging leaves this part of the nodes of a lattice.
+// Standard merging leaves this fraction of the nodes of a lattice.
 constexpr double kLeft = 0.43;
 
 void meshoptimizer_simplify(benchmark::State& state) {
-  constexpr float kAnyError = 1;  // of the extent: the count alone decides when to stop
+  constexpr float kAnyError = 1;  // relative to the extent: only the count limits simplification
   const HeightField field = height_field(1015);
   const auto target =
       3 * static_cast<std::size_t>(kLeft * static_cast<double>(field.indices.size() / 3));

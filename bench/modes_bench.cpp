@@ -1,4 +1,4 @@
-// How long the elastic analysis of 20k nodes takes on one core. Run by ./dev bench.
+// Elastic analysis of 20k nodes on one core. Run by ./dev bench.
 
 #include <benchmark/benchmark.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace springlod;
 
-/// A block of three materials, layer upon layer, soft between stiff.
+/// A block of three layers of different materials, the soft one in the middle.
 MassSpringModel block(int nx, int ny, int nz) {
   voxelize::MaterialGrid grid;
   grid.cell = 0.01;
@@ -27,7 +27,7 @@ MassSpringModel block(int nx, int ny, int nz) {
   return voxelize::build_lattice(grid).model;
 }
 
-// A cube, which fills in most of all bodies, and a plate: 19,683 and 20,412 nodes.
+// A cube, which has the most fill-in of all shapes, and a plate: 19,683 and 20,412 nodes.
 MassSpringModel cube() {
   return block(26, 26, 26);
 }

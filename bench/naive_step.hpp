@@ -15,9 +15,9 @@ struct Floor {
   double gravity = 9.81;  ///< [m/s2]
 };
 
-/// What fast kernels are measured against: the step that anyone writes first. Plain arrays of
-/// doubles, one spring after the other, its force scattered to both ends; then one node after the
-/// other: floor, friction, symplectic Euler. Frozen: it must not get faster with us.
+/// Reference for the fast kernels: the straightforward step on plain arrays of doubles. A loop over
+/// springs adds forces to both ends; a loop over nodes handles floor, friction and symplectic
+/// Euler. It must not be optimized, so that results stay comparable.
 struct NaiveBody {
   using Triple = std::array<double, 3>;
   std::vector<Triple> x, v, f;

@@ -4,10 +4,10 @@
 
 namespace springlod::bench {
 
-/// Gives freed memory back to the system and starts the high-water mark anew from what is in use
-/// now. False where the system does not allow that: then the mark is that of the whole process.
+/// Returns freed memory to the system and resets the high-water mark to the current use. Returns
+/// false if the system does not support it; the mark is then that of the whole process.
 bool reset_peak_memory();
-/// Most memory the process ever held since then (VmHWM of Linux): program, base and all [bytes].
+/// Peak resident memory of the process since the reset (VmHWM of Linux) [bytes].
 std::size_t peak_memory();
 
 }  // namespace springlod::bench

@@ -1,4 +1,4 @@
-// How long a user waits for each stage of the main job. Run by ./dev bench.
+// Time of each stage of the main workflow. Run by ./dev bench.
 
 #include <cmath>
 #include <filesystem>
@@ -61,7 +61,7 @@ void build_merge_and_save_100k(benchmark::State& state) {
 }
 BENCHMARK(build_merge_and_save_100k)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// A sphere of rings x sectors vertices, to be carried by the dumbbell-sized block below.
+// A sphere of rings x sectors vertices, bound to the dumbbell-sized block below.
 TriangleMesh sphere_mesh(std::uint32_t rings, std::uint32_t sectors, double radius,
                          const Vec3& center) {
   TriangleMesh mesh;
@@ -104,8 +104,8 @@ void animate_60_frames(benchmark::State& state) {
 }
 BENCHMARK(animate_60_frames)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();
 
-// A still of 640 x 480 of a surface of 20,000 triangles; with 1 the context of the one before is
-// kept.
+// A still image of 640 x 480 of a surface of 20,000 triangles; with argument 1 the context is
+// reused.
 void draw_still(benchmark::State& state) {
   const TriangleMesh surface = sphere_mesh(100, 100, 0.04, Vec3::Zero());
   render::DrawnBody body;

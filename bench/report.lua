@@ -1,5 +1,5 @@
--- From what the benchmarks wrote to the kept results: one CSV, one chart, and the tables in
--- docs/speed.md. Run by ./dev bench.
+-- Turns the output of the benchmarks into the published results: a CSV file, a chart, and the
+-- tables in docs/speed.md. Run by ./dev bench.
 
 local folder = arg and arg[0] and arg[0]:match("^(.*)/") or "bench"
 package.path = folder .. "/?.lua;" .. package.path
@@ -10,12 +10,12 @@ local measurements = require "measurements"
 local kernel_vectors = require "kernel_vectors"
 local goals = require "goals"
 
-local parser = command.parser("run bench/report.lua --", "Writes results.csv, ns-per-spring.svg "
-  .. "and .png, and the tables of the page, from the JSON files of the benchmarks.")
-parser:argument("measured", "folder of the JSON files")
-parser:option("--programs", "folder of the benchmarks' programs"):default("build/release/bench")
-parser:option("--out", "folder of the kept results"):default("bench/results")
-parser:option("--page", "page with the marked tables"):default("docs/speed.md")
+local parser = command.parser("run bench/report.lua --", "Write results.csv, ns-per-spring.svg "
+  .. "and .png, and the tables of the page from the JSON files of the benchmarks.")
+parser:argument("measured", "folder with the JSON files of the benchmarks")
+parser:option("--programs", "folder with the benchmark programs"):default("build/release/bench")
+parser:option("--out", "folder of the published results"):default("bench/results")
+parser:option("--page", "page whose marked tables are replaced"):default("docs/speed.md")
 local args = parser:parse()
 
 -- All measurements, in the order of programs and names, and by name.
@@ -23,8 +23,8 @@ local function read_all()
   local rows, by_name, context = {}, {}, {}
   for _, path in ipairs(s.files(args.measured, {endings = {".json"}})) do
     local program = command.stem(path)
-    local read, said = measurements.read(path, program)
-    if program == "bench_step" then context = said end
+    local read, machine = measurements.read(path, program)
+    if program == "bench_step" then context = machine end
     table.sort(read, function(p, q) return p.name < q.name end)
     for _, row in ipairs(read) do
       if row.failed then s.say(("%s: %s: %s"):format(program, row.name, row.failed)) end
@@ -43,7 +43,7 @@ local function processor()
   return "unknown processor"
 end
 
--- The least time a spring that vector units and memory allow [ns]; nothing for other benchmarks.
+-- Adds lower bounds of the time per spring by vector units and by memory [ns] to step benchmarks.
 local function add_bounds(rows, by_name, vectors)
   local machine = {}
   for _, name in ipairs{"read", "read_write", "vectors"} do
@@ -67,7 +67,7 @@ local function rounded(value, digits)
   return value and tonumber(("%%.%dg"):format(digits or 4):format(value)) or ""
 end
 
--- Counters of other kinds as one cell.
+-- The other counters as one cell.
 local own_columns = {nodes = true, springs = true, ns_per_spring = true}
 local function other_counters(row)
   local words = {}
@@ -99,12 +99,12 @@ end
 
 local sizes = {"4k", "40k", "300k"}
 
--- ns per spring by nodes: what `value` makes of a size, where it is there.
-local function series(by_name, name, pattern, value)
+-- The chart series of a benchmark: ns per spring by number of nodes.
+local function series(by_name, name, pattern)
   local points = {}
   for _, size in ipairs(sizes) do
     local row = by_name[pattern:format(size)]
-    local ns = row and not row.failed and (value and value(row, size) or row.counters.ns_per_spring)
+    local ns = row and not row.failed and row.counters.ns_per_spring
     if ns then points[#points + 1] = {row.counters.nodes, ns, label = ("%.3g"):format(ns)} end
   end
   return #points > 0 and {name = name, points = points} or nil
@@ -121,7 +121,7 @@ local function draw(by_name)
   add("ours, f64, lattice", "step/lattice/%s/f64")
   add("ours, f32, lattice", "step/lattice/%s/f32")
   if #lines == 0 then return end
-  -- Script and data of the chart stay with the raw measurements.
+  -- The script and data of the chart stay in the folder of the raw measurements.
   command.chart(args.measured .. "/ns-per-spring", lines, {
     title = "A step of a body on a floor: time a spring, one thread", x_label = "nodes",
     y_label = "ns a spring", log_x = true, log_y = true})
@@ -148,14 +148,14 @@ local function machine_text(by_name, context)
   end
   local label = by_name["step/merged/4k/f32"]
   return ("%s, %d cores, vectors %s, %s. Measured in the same run, one thread: memory read at %s "
-    .. "GB/s, read and written at %s GB/s; clock %s GHz; %s vector instructions a nanosecond.")
+    .. "GB/s, read and written at %s GB/s; clock %s GHz; %s vector instructions per nanosecond.")
     :format(processor(), context.num_cpus or 0, label and label.label or "?",
             context.compiler or "unknown compiler", of("read", "ns_per_byte", 1),
             of("read_write", "ns_per_byte", 1), of("cycle", "ns_per_cycle", 1),
             of("vectors", "ns_per_vector", 1))
 end
 
--- Kernels: time, bounds, and what part of the time these would take.
+-- Kernels: times, bounds, and bounds as fractions of the times.
 local function kernel_rows(by_name)
   local rows = {}
   local function add(shape, size, kernel)
@@ -220,12 +220,12 @@ local function time_rows(rows)
   return cells
 end
 
--- Replaces what lies between the two marks of a name in the page.
+-- Replaces the text between the two marks of a name in the page.
 local function fill(page, mark, text)
   local first, last = ("<!-- %s -->"):format(mark), ("<!-- end of %s -->"):format(mark)
   local from, after = page:find(first, 1, true)
   local to = page:find(last, 1, true)
-  if not (from and to) then error(("%s lacks the marks of %s"):format(args.page, mark), 0) end
+  if not (from and to) then error(("%s has no marks '%s'"):format(args.page, mark), 0) end
   return page:sub(1, after) .. "\n" .. text .. "\n" .. page:sub(to)
 end
 
@@ -236,10 +236,10 @@ local function write_page(rows, by_name, context)
   page = fill(page, "machine", machine_text(by_name, context))
   page = fill(page, "goals", table_text(goals.rows(by_name), {"goal", "asked", "measured", "met"}))
   page = fill(page, "kernels", table_text(kernel_rows(by_name), {
-    "body", "nodes", "kernel", "vectors", "ns a spring", "of naive", "vector instructions",
+    "body", "nodes", "kernel", "vectors", "ns per spring", "/ naive", "vector instructions",
     "vector bound [ns]", "bytes", "memory bound [ns]"}))
   page = fill(page, "bullet", table_text(bullet_rows(by_name), {
-    "nodes", "springs", "links", "ours, f32", "one iteration", "a further one", "explicit",
+    "nodes", "springs", "links", "ours, f32", "one iteration", "additional iteration", "explicit",
     "explicit, undamped"}))
   page = fill(page, "jobs", table_text(time_rows(rows), {"benchmark", "time", "counters"}))
   file = assert(io.open(args.page, "w"))

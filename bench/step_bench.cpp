@@ -1,5 +1,5 @@
-// A body that rests a little in the floor: springs, damping, contact, friction, gravity, step upon
-// step. Time a spring of our kernels by size and precision, of the naive kernel and of Bullet's
+// Time per spring of a step with springs, damping, contact, friction and gravity, for a body that
+// slightly penetrates the floor: our kernels by size and precision, the naive kernel and Bullet's
 // soft bodies, all in one run. Run by ./dev bench.
 
 #include <array>
@@ -23,7 +23,7 @@ namespace {
 using namespace springlod;
 using namespace springlod::bench;
 
-// Steps at once, as `run` makes them between two looks at the body.
+// Number of consecutive steps, as `run` does between two checks of the body.
 constexpr std::uint64_t kSteps = 64;
 
 State at_rest(const MassSpringModel& model) {
@@ -64,10 +64,10 @@ void step_fast(benchmark::State& state, Subjects& subjects, const FastStep& of) 
   state.SetLabel(sim::vector_target());
 }
 
-// Eight starts of a small body, to the last state; times count what surrounds the steps too.
+// Eight starts of a small body; times include the work around the steps.
 void run_starts(benchmark::State& state, Subjects& subjects, sim::Precision precision,
                 std::uint32_t threads) {
-  // Many times what planning takes, as in real use; still a fiftieth of the paper's scenes. [s]
+  // Many times the planning time, as in practice; a fiftieth of the paper's scenes. [s]
   constexpr double kDuration = 0.1;
   const Subject& subject = subjects.subject(Shape::merged, Size::small);
   sim::Scenario scenario = rest_on_floor();
@@ -117,8 +117,8 @@ void register_threads(Subjects& subjects, sim::Precision precision, std::uint32_
       [=, &subjects](benchmark::State& s) { run_starts(s, subjects, precision, threads); });
 }
 
-// In one run, by turns, and often: what else the machine does then hits all alike, and the least of
-// the times is taken. What the command line says comes after and wins.
+// Interleaved repetitions in one run, so that other load affects all benchmarks alike; the minimum
+// counts. Options of the command line follow and take precedence.
 std::vector<char*> with_defaults(int argc, char** argv) {
   static std::array<std::string, 4> defaults{
       "--benchmark_enable_random_interleaving=true", "--benchmark_repetitions=5",

@@ -10,7 +10,7 @@
 namespace springlod::bench {
 namespace {
 
-constexpr double kSafety = 0.1;  // part of the stable step
+constexpr double kSafety = 0.1;  // fraction of the stable step
 
 // 16^3, 34^3 and 67^3 nodes: 4,096, 39,304 and 300,763.
 MassSpringModel lattice(Size size) {
@@ -20,12 +20,12 @@ MassSpringModel merged(Size size) {
   return merged_cube(size == Size::small ? 4000 : size == Size::medium ? 40'000 : 300'000);
 }
 
-/// Lowers the body until the floor carries it: it stays in contact however long it is stepped.
+/// Lowers the body until the floor supports its weight, so that it stays in contact.
 void lay_on_floor(MassSpringModel& model) {
   const Floor floor;
   const double weight = floor.gravity * std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
   const double height = bounds(model.rest).sizes().z();
-  const double z = -bounds(model.rest).min().z();  // way up to where it only just touches
+  const double z = -bounds(model.rest).min().z();  // height at which it just touches
   const auto pressed = [&](double depth) {
     double push = 0;
     for (std::uint32_t i = 0; i < model.node_count(); ++i)

@@ -19,19 +19,19 @@ inline constexpr std::array kShapes{Shape::lattice, Shape::merged};
 inline constexpr std::array kSizes{Size::small, Size::medium, Size::large};
 
 std::string name(Shape shape);               ///< "lattice", "merged"
-std::string name(Size size);                 ///< "4k", "40k", "300k": about so many nodes
+std::string name(Size size);                 ///< "4k", "40k", "300k": approximate number of nodes
 std::string name(sim::Precision precision);  ///< "f32", "f64"
 
-/// A body to be stepped.
+/// A body for step benchmarks.
 struct Subject {
   MassSpringModel model;
-  double step = 0;  ///< [s] far from any limit: what is measured is work, not motion
+  double step = 0;  ///< [s]; far below the stable step, as only the work is measured
 };
 
-/// Gravity, and a floor at z = 0 as the naive step has it.
+/// Gravity and a floor at z = 0, equal to those of the naive step.
 sim::Scenario rest_on_floor();
 
-/// The bodies that benchmarks step, each made when it is first asked for.
+/// The bodies of step benchmarks, each created on first use.
 class Subjects {
  public:
   const Subject& subject(Shape shape, Size size);

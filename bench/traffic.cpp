@@ -12,7 +12,7 @@ double bytes(const std::vector<T>& array) {
   return static_cast<double>(array.size() * sizeof(T));
 }
 
-// Single precision keeps the low part of a place too.
+// Single precision stores the low part of positions too.
 template <class Real>
 constexpr bool kHasLow = std::is_same_v<Real, float>;
 

@@ -5,11 +5,11 @@
 
 namespace springlod::bench {
 
-/// What a step of a body must move between memory and core at least, if nothing of it stays in a
-/// cache until the next step: every array of the layout and of what moves once [bytes a spring].
+/// Minimum memory traffic of a step if no data stays in a cache between steps: every array of the
+/// layout and of the state once [bytes per spring].
 struct Traffic {
-  double read = 0;     ///< constants: they only come
-  double changed = 0;  ///< places, velocities, forces: they come and go, but count once here
+  double read = 0;     ///< constants, which are only read
+  double changed = 0;  ///< positions, velocities, forces: read and written, but counted once
 };
 
 template <class Real>

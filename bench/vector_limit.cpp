@@ -7,7 +7,7 @@
 namespace springlod::bench {
 namespace {
 
-// Better targets have lower bits.
+// Highway target bits: better targets have lower bits.
 #if HWY_ARCH_X86
 constexpr std::int64_t kBetterThanAvx2 = HWY_AVX2 - 1;
 #else

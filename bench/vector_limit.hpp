@@ -4,10 +4,10 @@ namespace springlod::bench {
 
 enum class Vectors { best, avx2 };
 
-/// Whether there is something better than AVX2 here to be kept from.
+/// Whether this processor supports more than AVX2.
 bool has_more_than_avx2();
 
-/// As long as it lives, kernels move with these vectors.
+/// Limits kernels to these vector instructions for its lifetime.
 class VectorLimit {
  public:
   explicit VectorLimit(Vectors vectors);

@@ -1,5 +1,6 @@
-// A million triangles in 256^3 cells, against the bare OpenVDB call on the same mesh in the same
-// run, and a whole `springlod convert` to some 100,000 nodes. Run by ./dev bench.
+// Voxelization of a million triangles in 256^3 cells, compared with the bare OpenVDB call on the
+// same mesh in the same run, and a whole `springlod convert` to about 100,000 nodes. Run by ./dev
+// bench.
 
 #include <algorithm>
 #include <chrono>
@@ -54,7 +55,7 @@ TriangleMesh torus_mesh(double ring, double tube, std::uint32_t around, std::uin
   return mesh;
 }
 
-/// A sphere of radius 1 m: of all shapes the one that fills most cells for its triangles.
+/// A sphere of radius 1 m, the shape that fills the most cells per triangle.
 TriangleMesh sphere_mesh(std::uint32_t sectors, std::uint32_t rings) {
   TriangleMesh mesh;
   mesh.positions = {-Vec3::UnitZ(), Vec3::UnitZ()};
@@ -80,7 +81,7 @@ TriangleMesh sphere_mesh(std::uint32_t sectors, std::uint32_t rings) {
   return mesh;
 }
 
-/// What meshToVolume takes: points in index space and triangles, in OpenVDB's types.
+/// Input of meshToVolume: points in index space and triangles, in OpenVDB's types.
 struct BareInput {
   std::vector<openvdb::Vec3d> points;
   std::vector<openvdb::Vec3I> triangles;
@@ -104,12 +105,12 @@ struct BareInput {
   }
 };
 
-/// Shortest times of a job, by the clock and of all processors [s].
+/// Shortest wall-clock and processor times of a job [s].
 struct Shortest {
   double real = std::numeric_limits<double>::infinity();
   double cpu = std::numeric_limits<double>::infinity();
 
-  /// Returns the time of this run by the clock.
+  /// Returns the wall-clock time of this run.
   template <typename Job>
   double time(Job job) {
     const auto start = std::chrono::steady_clock::now();
@@ -123,8 +124,8 @@ struct Shortest {
   }
 };
 
-/// voxelize() and the bare call by turns; the time is voxelize()'s. `ratio` and `cpu_ratio` are of
-/// the shortest times: what others do on the machine disturbs the second less. The argument is the
+/// voxelize() and the bare call alternately; the time is that of voxelize(). `ratio` and
+/// `cpu_ratio` compare the shortest times; other load affects cpu_ratio less. The argument is the
 /// number of threads, 0 for all.
 void against_bare_call(benchmark::State& state, const TriangleMesh& mesh) {
   using tbb::global_control;
@@ -179,8 +180,8 @@ void write_obj(const TriangleMesh& mesh, const std::filesystem::path& path) {
     out << fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
 }
 
-/// A sphere of 20,000 triangles as a file -> asset of some 100,000 nodes and two coarser levels, by
-/// the program itself.
+/// Runs the program on a sphere of 20,000 triangles: an asset of about 100,000 nodes and two
+/// coarser levels.
 void convert_100k_nodes(benchmark::State& state) {
   const auto folder = std::filesystem::temp_directory_path() / "springlod_bench_convert";
   std::filesystem::create_directories(folder);

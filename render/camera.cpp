@@ -10,13 +10,13 @@ namespace springlod::render {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Depth range in distances eye-target: nothing worth seeing is nearer or farther.
+// Near and far plane as multiples of the distance from eye to target.
 constexpr double kNear = 0.02;
 constexpr double kFar = 50;
-// Room around what is framed, as a part of it. Above and below a box there is more, for labels.
+// Margin around the framed box, as a fraction of it; larger above and below, for labels.
 constexpr double kMarginAcross = 0.06;
 constexpr double kMarginOfBox = 0.22;
-// Of the panels whose vertical field of view is taken as it is given.
+// Largest aspect of panels whose vertical field of view is used as given.
 constexpr double kUsualAspect = 4. / 3;
 
 }  // namespace
@@ -63,7 +63,7 @@ std::vector<Vec3> corners(const Box3& box) {
   return points;
 }
 
-// Least distance of an eye at `target + distance back` that has all points inside the field.
+// Least distance for which an eye at `target + distance * back` sees all points.
 double fitting_distance(const std::vector<Vec3>& points, const Vec3& target, const CameraAxes& axes,
                         double tan_x, double tan_y) {
   double distance = 0;
@@ -97,7 +97,7 @@ Camera frame_box(const Box3& box, double azimuth, double elevation, double aspec
 Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
   const Box3 box = bounds(points);
   if (box.isEmpty() || !box.sizes().allFinite())
-    throw InputError("camera: there is nothing to look at (no point, or one that is not finite)");
+    throw InputError("camera: there are no points to frame, or a point is not finite");
   if (!(framing.aspect > 0) || !(framing.fov_degrees > 0 && framing.fov_degrees < 180))
     throw InputError("camera: the aspect must be above 0, the field of view between 0 and 180 deg");
   if (!(framing.margin >= 0)) throw InputError("camera: the margin must be 0 or more");
@@ -114,8 +114,8 @@ Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
   const double tan_half = std::tan(camera.fov_degrees * kDegree / 2);
   const double tan_y = (1 - framing.headroom - framing.footroom) * tan_half / (1 + framing.margin);
   const double tan_x = tan_half * framing.aspect / (1 + kMarginAcross);
-  // Perspective makes the near side larger: shift the target until left and right, above and below
-  // leave the same room. Converges fast; 8 rounds are far below a pixel.
+  // Perspective enlarges the near side: shift the target until the margins at opposite sides are
+  // equal. Eight iterations converge to well below a pixel.
   double distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
   for (int round = 0; round < 8; ++round) {
     double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
@@ -130,7 +130,7 @@ Camera frame_points(const std::vector<Vec3>& points, const Framing& framing) {
     camera.target += distance * ((left + right) / 2 * axes.right + (low + high) / 2 * axes.up);
     distance = fitting_distance(points, camera.target, axes, tan_x, tan_y);
   }
-  constexpr double kLeast = 1e-9;  // a box of one point still gives a camera
+  constexpr double kLeast = 1e-9;  // allows boxes of one point
   distance = std::max(distance, kLeast);
   camera.target += (framing.headroom - framing.footroom) * tan_half * distance * axes.up;
   camera.eye = camera.target + distance * back;

@@ -16,11 +16,11 @@ struct CameraAxes {
 /// Falls back to another up vector when the camera looks along its own.
 CameraAxes camera_axes(const Camera& camera);
 
-/// Half the height of what is seen at the target [m].
+/// Half the height of the view at the target [m].
 double view_radius(const Camera& camera);
 
-/// World, relative to `camera.target`, to clip space. Coordinates relative to the target keep
-/// single precision fine however far from the origin the action is.
+/// Matrix from world coordinates relative to `camera.target` to clip space. Relative coordinates
+/// keep single precision accurate far from the origin.
 Mat4f view_projection(const Camera& camera, double aspect);
 
 }  // namespace springlod::render

@@ -12,10 +12,10 @@
 namespace springlod::render {
 namespace {
 
-/// OSMesa's largest side [px]; beyond it OSMesaMakeCurrent succeeds and draws nonsense.
+/// Largest side of OSMesa [px]; beyond it OSMesaMakeCurrent succeeds but drawing is wrong.
 constexpr std::uint32_t kLargestSide = 16384;
-constexpr GLsizei kSamples = 4;      // the most that llvmpipe has
-constexpr GLsizei kWindowSide = 16;  // OSMesa wants a window buffer; we draw into our own target
+constexpr GLsizei kSamples = 4;      // maximum of llvmpipe
+constexpr GLsizei kWindowSide = 16;  // OSMesa needs a window buffer, which is not drawn to
 
 void require_side(std::uint32_t width, std::uint32_t height) {
   if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide)
@@ -37,7 +37,7 @@ struct OffscreenContext::Impl {
 
   Impl(std::uint32_t w, std::uint32_t h)
       : width(static_cast<GLsizei>(w)), height(static_cast<GLsizei>(h)) {}
-  // The context takes its framebuffers with it.
+  // Destroying the context frees its framebuffers.
   ~Impl() {
     if (context != nullptr) OSMesaDestroyContext(context);
   }
@@ -58,7 +58,7 @@ struct OffscreenContext::Impl {
                                          0};
     context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
     if (context == nullptr)
-      throw Error("OSMesa gives no OpenGL 3.3 core context; is libosmesa6 22 installed?");
+      throw Error("OSMesa cannot create an OpenGL 3.3 core context; is libosmesa6 22 installed?");
     make_current();
     make_targets();
   }
@@ -89,8 +89,8 @@ struct OffscreenContext::Impl {
     attach(GL_COLOR_ATTACHMENT0, GL_RGBA8, 0);
     const bool read_ok = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     if (!drawn_ok || !read_ok || glGetError() != GL_NO_ERROR)
-      throw InputError(
-          fmt::format("picture: no memory for {} x {} pixels; ask for fewer", width, height));
+      throw InputError(fmt::format(
+          "picture: not enough memory for {} x {} pixels; reduce width or height", width, height));
   }
 };
 
@@ -126,7 +126,7 @@ Image OffscreenContext::finish() {
   const std::size_t w = width();
   const std::size_t h = height();
   im.pixels.resize(w * h * 4);
-  // RGBA is Mesa's straight copy; reading RGB takes a path several times slower.
+  // Mesa copies RGBA directly; reading RGB is several times slower.
   glReadPixels(0, 0, im.width, im.height, GL_RGBA, GL_UNSIGNED_BYTE, im.pixels.data());
   Image image{width(), height(), std::vector<std::uint8_t>(w * h * 3)};
   std::uint8_t* out = image.rgb.data();

@@ -13,8 +13,8 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
-/// One OSMesa core-profile context of one size with a 4-sample target; the only place that knows
-/// OSMesa. Not shared between threads. Throws InputError for a size beyond the largest side.
+/// An OSMesa core-profile context of fixed size with a 4-sample render target; the only user of
+/// OSMesa. Not thread-safe. Throws InputError if a side exceeds the maximum.
 class OffscreenContext {
  public:
   OffscreenContext(std::uint32_t width, std::uint32_t height);
@@ -26,7 +26,7 @@ class OffscreenContext {
   std::uint32_t height() const;
   /// Makes the multisampled target current.
   void begin();
-  /// Resolves the samples and reads the picture back.
+  /// Resolves the samples and reads the image back.
   Image finish();
 
  private:

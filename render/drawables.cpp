@@ -12,19 +12,19 @@
 namespace springlod::render {
 namespace {
 
-// Sizes as a part of the mean spring length: balls stand clear of each other and rods show what is
-// behind them.
+// Sizes as fractions of the mean spring length, small enough that balls do not touch and rods do
+// not hide what is behind them.
 constexpr double kNodeRadius = 0.11;
 constexpr double kSpringRadius = 0.033;
-// Balls that tell a number are what one looks at: larger, and the springs thin and grey, else their
-// colours would be read as numbers.
+// If balls show values, they are larger and springs are thin and grey, so that spring colours are
+// not read as values.
 constexpr double kValueNodeRadius = 0.20;
 constexpr double kValueSpringFactor = 0.6;
 constexpr Colour kValueSpringColour{0.66F, 0.68F, 0.71F};
-// Of the paper's figure 4: inner nodes stand out, border nodes and springs step back.
+// Figure 4 of the paper: inner nodes are emphasized, border nodes and springs are smaller.
 constexpr double kBoldFactor = 1.6;
 constexpr double kPlainFactor = 0.55;
-constexpr double kStepBackFactor = 0.45;  // of the springs
+constexpr double kStepBackFactor = 0.45;  // radius factor of springs
 constexpr Colour kBoldColour{0.82F, 0.10F, 0.10F};
 constexpr Colour kPlainColour{0.52F, 0.54F, 0.57F};
 
@@ -52,7 +52,8 @@ Colour mix(const Colour& a, const Colour& b, float t) {
   return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
 }
 
-/// What balls and rods are sized by: the springs' mean length, or the room of a node without them.
+/// Reference length for balls and rods: the mean spring length, or the node spacing without
+/// springs.
 double drawn_length(const MassSpringModel& model) {
   if (model.spring_count() > 0) return mean_spring_length(model);
   const Box3 box = bounds(model.rest);
@@ -117,7 +118,7 @@ std::vector<NodeInstance> node_instances(const DrawnBody& body, const Vec3& orig
   const double usual = shows_values(body) ? kValueNodeRadius : kNodeRadius;
   const double radius =
       body.style.node_radius > 0 ? body.style.node_radius : usual * drawn_length(model);
-  // Strain takes the colours: then balls are neutral, else they would be read as strain.
+  // If springs show strain, balls are neutral, so that their colours are not read as strain.
   const bool neutral = body.style.springs && body.style.spring_colour == SpringColour::strain;
   const double mean_mass =
       std::accumulate(model.mass.begin(), model.mass.end(), 0.) / model.node_count();
@@ -181,7 +182,7 @@ void validate(const DrawnBody& body) {
   const auto require_finite = [](const std::vector<Vec3>& points, const char* what) {
     for (std::size_t i = 0; i < points.size(); ++i)
       if (!points[i].allFinite())
-        throw InputError(fmt::format("drawing: {} {} is not at a finite place", what, i));
+        throw InputError(fmt::format("drawing: the position of {} {} is not finite", what, i));
   };
   const DrawStyle& style = body.style;
   if (!(style.surface_opacity >= 0 && style.surface_opacity <= 1))
@@ -203,7 +204,7 @@ void validate(const DrawnBody& body) {
       throw InputError(fmt::format("drawing: {} node colours for a model of {} nodes",
                                    body.node_colours.size(), x.size()));
   } else if (style.nodes || style.springs || style.bold_inner_nodes) {
-    throw InputError("drawing: nodes or springs are asked for, but the body has no model");
+    throw InputError("drawing: the style shows nodes or springs, but the body has no model");
   }
   if (body.surface != nullptr) {
     const std::vector<Vec3>& x = surface_positions(body);

@@ -8,7 +8,7 @@
 
 namespace springlod::render {
 
-// What the graphics pipeline eats: plain floats, positions relative to an origin [m].
+// Input of the graphics pipeline: single-precision records, positions relative to an origin [m].
 
 struct SurfaceVertex {
   Eigen::Vector3f position;
@@ -31,17 +31,17 @@ std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSu
 std::vector<SpringInstance> spring_instances(const DrawnBody& body, const Vec3& origin);
 std::vector<NodeInstance> node_instances(const DrawnBody& body, const Vec3& origin);
 
-/// A box as a mesh, so that it is drawn and casts shadows like any surface.
+/// A box as a mesh, which is drawn and casts shadows like any surface.
 TriangleMesh box_mesh(const DrawnBox& box);
 
-/// Points that hold all that is drawn of a body, its balls with their radius: what a camera has to
-/// see.
+/// Points whose convex hull contains everything drawn of a body, balls with their radius included.
+/// For framing a camera.
 std::vector<Vec3> outline(const DrawnBody& body);
 
-/// All that is drawn of a body.
+/// Bounding box of everything drawn of a body.
 Box3 drawn_bounds(const DrawnBody& body);
 
-/// Throws InputError naming what does not fit (counts, positions that are not finite).
+/// Throws InputError for wrong counts and positions that are not finite.
 void validate(const DrawnBody& body);
 
 }  // namespace springlod::render

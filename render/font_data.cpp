@@ -1,6 +1,6 @@
 #include "render/font_data.hpp"
 
-// The assembler copies the file into the object: no generated source, no start-up cost.
+// The assembler embeds the file, which needs neither generated source nor start-up time.
 asm(R"(
 .pushsection .rodata
 .balign 16

@@ -4,7 +4,7 @@
 
 namespace springlod::render {
 
-/// DejaVu Sans as a TrueType file in memory, put in at build time.
+/// DejaVu Sans as a TrueType file in memory, embedded at build time.
 const unsigned char* font_file();
 std::size_t font_file_size();
 

@@ -13,25 +13,25 @@
 
 namespace springlod::render {
 
-/// Encodes and writes pictures, in order, on a thread of its own while the caller draws the next.
+/// Encodes and writes images, in order, on its own thread while the caller draws the next.
 class FrameWriter {
  public:
   using Save = std::function<void(const Image&, const std::filesystem::path&)>;
 
-  /// At most this many pictures wait: enough that a slow one stops nobody, few megabytes.
+  /// Capacity of the queue [images]: large enough that one slow image does not block the caller.
   static constexpr std::size_t kMostWaiting = 3;
 
-  /// `save` is called on the other thread.
+  /// `save` is called on the writing thread.
   explicit FrameWriter(Save save = save_png);
-  /// Pictures still waiting are dropped: finish() is what waits for them.
+  /// Drops images that are still queued; call finish() to write them.
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
 
-  /// Hands a picture over; while the queue is full, waits. Throws what stopped the writing of an
-  /// earlier picture (IoError); no later one is written.
+  /// Queues an image; blocks while the queue is full. Rethrows the error (IoError) of an earlier
+  /// image; after an error no image is written.
   void write(Image image, std::filesystem::path path);
-  /// Waits until every picture is written. Throws as write() does.
+  /// Blocks until all images are written. Throws as write() does.
   void finish();
 
  private:
@@ -45,12 +45,12 @@ class FrameWriter {
 
   Save save_;
   std::mutex mutex_;
-  std::condition_variable changed_;  // anything below did
+  std::condition_variable changed_;  // signals a change of any member below
   std::deque<Frame> waiting_;
-  bool writing_ = false;  // a picture that waits no more
+  bool writing_ = false;  // an image taken from the queue is being written
   bool stopping_ = false;
   std::exception_ptr failure_;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last: it uses all members above
 };
 
 }  // namespace springlod::render

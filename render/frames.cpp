@@ -29,7 +29,7 @@ File open_file(const fs::path& path, const char* mode) {
   return file;
 }
 
-// libpng wants its error callback not to return; the owner below cleans up as the throw passes.
+// libpng requires that its error callback does not return; the owner below cleans up on the throw.
 [[noreturn]] void png_failed(png_structp png, png_const_charp message) {
   const auto* path = static_cast<const fs::path*>(png_get_error_ptr(png));
   throw IoError(fmt::format("{}: {}", path->string(), message));
@@ -54,7 +54,7 @@ void write_png(const Image& image, const fs::path& path) {
   {
     const Writer writer(path);
     png_init_io(writer.png, file.get());
-    // Level 1 with the SUB filter: 5 times faster than zlib's default for a picture some 10 %
+    // Level 1 with the SUB filter is 5 times faster than zlib's default; files are about 10 %
     // larger.
     png_set_compression_level(writer.png, 1);
     png_set_filter(writer.png, 0, PNG_FILTER_SUB);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Inside render/ only: OpenGL as OSMesa exports it (no loader; GL_GLEXT_PROTOTYPES is set for the
-// whole folder, whatever the order of includes), and owners for its objects.
+// For render/ only: OpenGL as exported by OSMesa (no loader; GL_GLEXT_PROTOTYPES is set for the
+// whole folder) and RAII owners of its objects.
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace springlod::render {
 
-/// Owns one GL object; the context that made it must be current when it dies.
+/// Owns one GL object. Its context must be current at destruction.
 template <void (*kDelete)(GLuint)>
 class GlObject {
  public:
@@ -55,7 +55,7 @@ GlVertexArray make_vertex_array();
 GlTexture make_texture();
 GlFramebuffer make_framebuffer();
 GlSampler make_sampler();
-/// Compiles and links; throws Error with the compiler's log (a bug of ours, not of the user).
+/// Compiles and links; throws Error with the compiler log, which indicates a bug in springlod.
 GlProgram make_program(const char* name, const std::string& vertex, const std::string& fragment);
 
 /// Replaces the whole contents of a buffer that changes every frame.
@@ -66,8 +66,8 @@ void upload(GLenum target, const GlBuffer& buffer, const std::vector<T>& data) {
                GL_STREAM_DRAW);
 }
 
-/// Floats `offset`..`offset + count` of records of `stride` floats as attribute `index`;
-/// `per_instance` steps once an instance.
+/// Binds floats `offset`..`offset + count` of records of `stride` floats to attribute `index`,
+/// which advances once per vertex, or once per instance if `per_instance`.
 void float_attribute(GLuint index, GLint count, std::size_t stride, std::size_t offset,
                      bool per_instance);
 

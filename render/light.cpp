@@ -5,13 +5,13 @@
 namespace springlod::render {
 namespace {
 
-// From the upper left, a little from the front: shadows fall to the right, in view, and short
-// enough to stay near the body.
+// Light from the upper left front: shadows fall to the right, inside the view, and are short enough
+// to stay near the body.
 constexpr double kAbove = 1.25;
 constexpr double kLeft = 0.55;
 constexpr double kFront = 0.35;
-// The soft edge reaches this far beyond the casters, as a part of the map's side (the widest
-// penumbra of the plane shader is 0.06).
+// Margin around the casters for soft edges, as a fraction of the map's side; the widest penumbra of
+// the plane shader is 0.06.
 constexpr double kSoftMargin = 0.14;
 
 }  // namespace
@@ -28,7 +28,7 @@ KeyLight key_light(const Camera& camera, const Box3& casters) {
   light.direction = direction.cast<float>();
   if (casters.isEmpty()) return light;
 
-  Mat3 to_light;  // rows: two axes across the rays, one against them
+  Mat3 to_light;  // rows: two axes perpendicular to the rays, one opposite to them
   to_light.row(0) = axes.right.cross(direction).normalized();
   to_light.row(1) = direction.cross(to_light.row(0).transpose());
   to_light.row(2) = direction;

@@ -18,9 +18,9 @@ namespace {
 
 using Range = std::pair<double, double>;
 
-// Beyond this factor between the largest and the least value equal steps would hide the small ones.
+// Ratio of largest to smallest value above which the scale is logarithmic.
 constexpr double kWideSpan = 100;
-// Values that differ by rounding alone are one value.
+// Values that differ only by rounding count as equal.
 constexpr double kRounding = 1e-9;
 
 struct ShownUnit {
@@ -28,7 +28,7 @@ struct ShownUnit {
   const char* name;
 };
 
-// The largest unit in which the number is 1 or more, else the least.
+// The largest unit in which the number is at least 1, else the smallest unit.
 ShownUnit fitting(const std::vector<ShownUnit>& units, double value) {
   ShownUnit best = units.front();
   for (const ShownUnit& unit : units)
@@ -79,15 +79,16 @@ void name_scale(ValueScale& scale, const DrawnBody& body) {
 
 void require_usable(const DrawnBody& body, const std::vector<double>& values) {
   if (values.size() != body.model->rest.size())
-    throw InputError(fmt::format("drawing: {} node values for a model of {} nodes; one a node",
-                                 values.size(), body.model->rest.size()));
+    throw InputError(
+        fmt::format("drawing: {} node values for a model of {} nodes; give one per node",
+                    values.size(), body.model->rest.size()));
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
       throw InputError(
           fmt::format("drawing: the value of node {} is not a finite number", script_number(i)));
   const auto& range = body.style.values.range;
   if (range && !(range->first < range->second))
-    throw InputError(fmt::format("drawing: the range of values must rise, got {} to {}",
+    throw InputError(fmt::format("drawing: the range of values must be increasing, got {} to {}",
                                  range->first, range->second));
 }
 
@@ -95,8 +96,8 @@ bool is_logarithmic(const ValueScale& scale, ValueScaling scaling) {
   if (scaling == ValueScaling::linear) return false;
   if (scaling == ValueScaling::logarithmic && !(scale.low > 0))
     throw InputError(fmt::format(
-        "drawing: a logarithmic scale needs values above 0, but the least is {}; set a range that "
-        "begins above 0, or a linear scale",
+        "drawing: a logarithmic scale needs values above 0, but the smallest is {}; set a range "
+        "that starts above 0, or a linear scale",
         scale.low));
   return scaling == ValueScaling::logarithmic ||
          (scale.low > 0 && scale.high > kWideSpan * scale.low);
@@ -128,7 +129,7 @@ bool shows_values(const DrawnBody& body) {
 
 std::vector<std::optional<ValueScale>> colour_by_values(std::vector<Panel>& panels) {
   std::map<std::string, Range> common;
-  std::vector<std::vector<double>> all_values;  // of the bodies that show some, in order
+  std::vector<std::vector<double>> all_values;  // of the bodies that show values, in order
   for (const Panel& panel : panels)
     for (const DrawnBody& body : panel.bodies) {
       if (!shows_values(body)) continue;

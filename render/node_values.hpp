@@ -8,26 +8,26 @@
 
 namespace springlod::render {
 
-/// From numbers to parts of the colour scale, and what is written beside it.
+/// Maps values to positions on the colour scale, with the label and unit of the scale.
 struct ValueScale {
   std::string label;  ///< with the unit: "Young's modulus (MPa)"
   double low = 0;
   double high = 1;
   bool logarithmic = false;
-  double unit = 1;  ///< numbers are written in this many of their own unit
+  double unit = 1;  ///< displayed unit, in SI units: 1e6 for MPa
 
-  /// 0 at low, 1 at high, clamped beyond; 1/2 if all is one value.
+  /// Position of a value: 0 at low, 1 at high, clamped; 1/2 if low equals high.
   double part(double value) const;
   double value(double part) const;
   bool operator==(const ValueScale&) const = default;
 };
 
-/// Gives every body that shows values the colours of its nodes, on one scale for all bodies with
-/// the same label unless their style sets a range. Returns the scale of each panel, if it shows
-/// values. Throws InputError for a range or values that no scale can show.
+/// Sets the node colours of all bodies that show values. Bodies with the same label share a scale
+/// unless their style sets a range. Returns the scale of each panel; none for panels without
+/// values. Throws InputError for invalid ranges and values.
 std::vector<std::optional<ValueScale>> colour_by_values(std::vector<Panel>& panels);
 
-/// Whether the balls of the body tell a number and not a material.
+/// Whether the balls of the body show values instead of materials.
 bool shows_values(const DrawnBody& body);
 
 }  // namespace springlod::render

@@ -15,7 +15,7 @@ constexpr Colour kPlate{1, 1, 1};
 constexpr Colour kDivider{0.62F, 0.65F, 0.69F};
 constexpr double kPlateAlpha = 0.72;
 
-/// Sizes that follow the panel's height [px].
+/// Sizes proportional to the height of the panel [px].
 struct Sizes {
   double title, caption, small, pad, margin;
   explicit Sizes(int height)
@@ -27,7 +27,7 @@ struct Sizes {
   double line(double size) const { return std::round(size * 1.28); }
 };
 
-// DejaVu's letters reach about this part of their box above the baseline.
+// Height of DejaVu letters above the baseline, as a fraction of the font size.
 constexpr double kAscent = 0.80;
 
 int whole(double v) {
@@ -108,7 +108,7 @@ int Overlay::draw_scale(Image& image, const PixelRect& panel, const ColourScale&
   const std::string name =
       text_.fitted(scale.name, sizes.small, panel.width - 2 * (sizes.margin + sizes.pad));
   const double name_width = text_.width(name, sizes.small);
-  // Room for a name that is wider than bar and numbers.
+  // The name may be wider than the bar with its numbers.
   const double beside = std::max({0., (name_width - bar) / 2 - std::min(before, after)});
   const int width = bar + whole(before + after + 2 * (sizes.pad + beside));
   const int height = scale_height(sizes);
@@ -133,7 +133,7 @@ int Overlay::draw_scale(Image& image, const PixelRect& panel, const ColourScale&
 void Overlay::draw_panel(Image& image, const PixelRect& panel, const PanelLabels& labels) {
   const Sizes sizes(panel.height);
   draw_heading(image, panel, labels);
-  // Above the line of the footer, which may be centred right beside them.
+  // Above the footer, which may be centred right beside them.
   int bottom = panel.y + panel.height - whole(sizes.margin);
   for (const ColourScale& scale : labels.scales)
     bottom = draw_scale(image, panel, scale, bottom) - whole(sizes.margin / 2);
@@ -172,7 +172,7 @@ void Overlay::draw_dividers(Image& image, const PixelRect& first_panel) {
   const int height = static_cast<int>(image.height);
   for (int x = first_panel.width; x < width; x += first_panel.width)
     line(x - kThick / 2, first_panel.y, kThick, height - first_panel.y);
-  // Under the title too, if there is one.
+  // Also below the title, if there is one.
   for (int y = first_panel.y > 0 ? first_panel.y : first_panel.height; y < height;
        y += first_panel.height)
     line(0, y - kThick / 2, width, kThick);
@@ -187,7 +187,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-constexpr double kTitleFactor = 1.25;  // of the panels' titles
+constexpr double kTitleFactor = 1.25;  // size relative to panel titles
 
 }  // namespace
 

@@ -20,7 +20,7 @@ namespace {
 
 using Vec4f = Eigen::Vector4f;
 
-/// The shaders' uniform block, std140: only 16-byte members, so no padding.
+/// The uniform block of the shaders in std140 layout; only 16-byte members, hence no padding.
 struct FrameUniforms {
   Mat4f view_projection;
   Mat4f shadow_projection;
@@ -51,7 +51,7 @@ void set(const GlProgram& of, const char* name, float v) {
   glUniform1f(uniform(of, name), v);
 }
 
-/// Vertices of one kind of thing in one panel.
+/// Vertex buffer and layout of one kind of primitive in one panel.
 template <typename Record>
 struct Stream {
   GlVertexArray layout = make_vertex_array();
@@ -62,7 +62,7 @@ struct Stream {
     upload(GL_ARRAY_BUFFER, buffer, records);
     count = static_cast<GLsizei>(records.size());
   }
-  /// Attributes of `widths` floats each, one after the other, make up a record.
+  /// A record consists of consecutive attributes of `widths` floats each.
   void describe(const std::vector<GLint>& widths, bool per_instance) {
     glBindVertexArray(layout.name());
     glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
@@ -79,14 +79,14 @@ struct CachedSurface {
   GlBuffer indices = make_buffer();
 };
 
-/// GPU side of one body (or box) of a panel; slots are reused from panel to panel.
+/// GPU buffers of one body or box; slots are reused from panel to panel.
 struct Slot {
   Stream<SurfaceVertex> vertices;
   Stream<SpringInstance> springs;
   Stream<NodeInstance> nodes;
-  const CachedSurface* surface = nullptr;  // null: none is drawn
+  const CachedSurface* surface = nullptr;  // null: no surface is drawn
   float opacity = 1;
-  double distance = 0;  // of its middle from the eye
+  double distance = 0;  // from its middle to the eye
 
   Slot() {
     vertices.describe({3, 3, 3}, false);
@@ -100,7 +100,7 @@ std::string_view bytes_of(const std::vector<T>& items) {
   return {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(T)};
 }
 
-// By contents, never by address: a new mesh may lie where an old one was.
+// Compares contents, never addresses: a new mesh may have the address of an old one.
 std::string surface_key(const TriangleMesh& mesh) {
   std::string key = content_hash(bytes_of(mesh.positions)) + content_hash(bytes_of(mesh.triangles));
   for (const MeshPart& part : mesh.parts)
@@ -141,7 +141,7 @@ struct Pipeline::Impl {
     const auto [at, fresh] = surfaces.try_emplace(surface_key(mesh));
     if (fresh) {
       at->second.split = split_at_creases(mesh);
-      glBindVertexArray(0);  // or the buffer would become part of the layout bound last
+      glBindVertexArray(0);  // otherwise the buffer would change the layout bound last
       upload(GL_ELEMENT_ARRAY_BUFFER, at->second.indices, at->second.split.triangles);
     }
     return at->second;
@@ -164,7 +164,7 @@ struct Pipeline::Impl {
     slot.distance = box.isEmpty() ? 0 : (box.center() - camera.eye).norm();
   }
 
-  /// Fills a slot a body, then one a box; returns the casters' bounds.
+  /// Fills one slot per body, then one per box; returns the bounds of the shadow casters.
   Box3 fill_slots(const Panel& panel) {
     constexpr std::size_t kSurfacesKept = 32;
     if (surfaces.size() > kSurfacesKept) surfaces.clear();
@@ -178,8 +178,8 @@ struct Pipeline::Impl {
     for (std::size_t i = 0; i < panel.boxes.size(); ++i) {
       const TriangleMesh mesh = box_mesh(panel.boxes[i]);
       fill_slot(slots[panel.bodies.size() + i], box_body(mesh), panel.camera);
-      // A box far larger than the bodies would leave their shadows a few texels: it shades only
-      // what is near them.
+      // A box far larger than the bodies would reduce their shadows to a few texels, so only its
+      // part near them casts shadows.
       constexpr double kLargeBox = 4;
       const Box3 box = bounds(mesh);
       if (casters.isEmpty() || box.diagonal().norm() <= kLargeBox * bodies_size)
@@ -221,7 +221,7 @@ struct Pipeline::Impl {
       const bool only_surface = slot.springs.count == 0 && slot.nodes.count == 0;
       glUseProgram(surface_depth.name());
       if (opaque(slot) || (transparent(slot) && only_surface)) draw_surface(slot);
-      if (opaque(slot)) continue;  // it covers the rest
+      if (opaque(slot)) continue;  // it hides the rest
       glUseProgram(spring_depth.name());
       draw_quads(slot.springs);
       glUseProgram(node_depth.name());
@@ -239,7 +239,7 @@ struct Pipeline::Impl {
 
   void draw_plane(const std::vector<PlanePatch>& patches, std::size_t which, float spacing) const {
     const PlanePatch& patch = patches[which];
-    constexpr float kGhost = 0.16F;  // a wall between the viewer and the action stays a hint
+    constexpr float kGhost = 0.16F;  // opacity of a wall between the viewer and the bodies
     glUseProgram(plane.name());
     set(plane, "plane_center", patch.center);
     set(plane, "plane_u", patch.u);
@@ -292,8 +292,8 @@ struct Pipeline::Impl {
     }
   }
 
-  // Far bodies first; of each the far side, then the near side: right for convex bodies, close
-  // enough for others.
+  // Back to front: far bodies first, and of each body the far side before the near side. Exact for
+  // convex bodies, a good approximation for others.
   void draw_transparent() const {
     std::vector<const Slot*> order;
     for (const Slot& slot : slots)
@@ -365,7 +365,7 @@ Pipeline::Pipeline(OffscreenContext& context) {
 }
 
 Pipeline::~Pipeline() {
-  // The GL objects die in the context that made them.
+  // The GL objects must be destroyed in the context that created them.
   impl_->context.begin();
 }
 

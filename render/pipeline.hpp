@@ -7,7 +7,7 @@
 namespace springlod::render {
 
 /// Draws one panel into the current target of `context`: shadow map, backdrop, planes, boxes,
-/// opaque bodies, then what is transparent. Keeps shaders, buffers and split surfaces.
+/// opaque bodies, then transparent ones. Caches shaders, buffers and split surfaces between panels.
 class Pipeline {
  public:
   explicit Pipeline(OffscreenContext& context);

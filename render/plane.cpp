@@ -10,15 +10,15 @@
 namespace springlod::render {
 namespace {
 
-// A patch reaches this many view radii around the foot of the target; it has faded out by then.
+// Half size of a patch in view radii; the plane has faded out at this distance.
 constexpr double kReach = 4.5;
-// Lines every 5 spacings are stronger (the shader's), so the grid repeats after that many.
+// The shader draws every fifth line stronger, so the grid repeats after 5 spacings.
 constexpr double kGridPeriod = 5;
 
 }  // namespace
 
 double grid_spacing(double view_radius) {
-  // A metre for views of 2 to 20 m: then 2 to 20 lines cross the picture.
+  // 1 m for views of 2 to 20 m, so that 2 to 20 lines cross the image.
   return std::pow(10., std::floor(std::log10(std::max(view_radius, 1e-9))));
 }
 

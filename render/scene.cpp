@@ -24,7 +24,8 @@ void validate(const Camera& camera) {
       !((camera.eye - camera.target).norm() > 0) || !(camera.up.norm() > 0) ||
       !(camera.fov_degrees > 0 && camera.fov_degrees < 180))
     throw InputError(
-        "camera: eye and target must be finite and apart, up not zero, the field of view between 0 "
+        "camera: eye and target must be finite and different, up not zero, the field of view "
+        "between 0 "
         "and 180 deg");
 }
 
@@ -36,7 +37,7 @@ ColourScale strain_scale(double range) {
                     {1, fmt::format("+{:.3g} %", range * 100)}}};
 }
 
-/// Three digits; thousands in full, as "1000" says more than "1e+03".
+/// Three significant digits; thousands without exponent, "1000" instead of "1e+03".
 std::string tick_text(double value) {
   const double size = std::abs(value);
   return size >= 999.5 && size < 1e6 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
@@ -67,8 +68,8 @@ PanelLabels labels_of(const Panel& panel, const std::optional<ValueScale>& value
   return labels;
 }
 
-/// What panels share is written once, in the outer corners: the scale of the grid on the first
-/// panel, those of the colours on the last that uses them. There the footer never covers it.
+/// Shared scales are written once, in the outer corners, where the footer cannot cover them: the
+/// grid scale on the first panel, colour scales on the last panel that uses them.
 std::vector<PanelLabels> labels_of(const std::vector<Panel>& panels,
                                    const std::vector<std::optional<ValueScale>>& values) {
   std::vector<PanelLabels> labels;
@@ -86,7 +87,7 @@ std::vector<PanelLabels> labels_of(const std::vector<Panel>& panels,
   return labels;
 }
 
-/// Panels, left to right and row by row, under a title of `top` pixels.
+/// Panels in rows, left to right, below a title of `top` pixels.
 struct Layout {
   PanelGrid grid;
   std::uint32_t columns;
@@ -106,7 +107,7 @@ struct Layout {
   }
 };
 
-/// White, as places without a panel stay.
+/// A white image; places without a panel stay white.
 Image blank_image(std::uint32_t width, std::uint32_t height) {
   constexpr std::uint8_t kWhite = 255;
   return {width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height, kWhite)};
@@ -122,8 +123,7 @@ void copy_into(Image& whole, const Image& part, const PixelRect& place) {
   }
 }
 
-// The widest and highest picture that other programs open without trouble; also keeps sizes far
-// from overflow.
+// Largest side that other programs open without problems; also prevents integer overflow.
 constexpr std::uint32_t kLongestSide = 16384;
 
 void require_drawable(const PanelGrid& grid) {
@@ -133,18 +133,18 @@ void require_drawable(const PanelGrid& grid) {
   if (grid.panel_count == 0 || grid.panel_count > kLongestSide ||
       too_large(grid.panel_width, Layout(grid).columns) ||
       too_large(grid.panel_height, Layout(grid).rows))
-    throw InputError(
-        fmt::format("picture: {} panels of {} x {} pixels in {} columns cannot be drawn; width and "
-                    "height of the whole may be 1 to {}",
-                    grid.panel_count, grid.panel_width, grid.panel_height,
-                    grid.columns == 0 ? grid.panel_count : grid.columns, kLongestSide));
+    throw InputError(fmt::format(
+        "picture: {} panels of {} x {} pixels in {} columns cannot be drawn; total width "
+        "and height may be 1 to {}",
+        grid.panel_count, grid.panel_width, grid.panel_height,
+        grid.columns == 0 ? grid.panel_count : grid.columns, kLongestSide));
 }
 
 }  // namespace
 
 struct Renderer::Impl {
   Layout layout;
-  OffscreenContext context;  // of one panel: equal panels come out equal, whatever their place
+  OffscreenContext context;  // of one panel size: a panel looks the same in every position
   Pipeline pipeline{context};
   Overlay overlay;
 
@@ -172,7 +172,7 @@ Image Renderer::draw(std::vector<Panel> panels, const PictureText& text) {
   Impl& im = *impl_;
   const PanelGrid& grid = im.layout.grid;
   if (panels.size() != grid.panel_count)
-    throw InputError(fmt::format("drawing: {} panels given to a picture of {}", panels.size(),
+    throw InputError(fmt::format("drawing: {} panels given for a layout of {}", panels.size(),
                                  grid.panel_count));
   for (const Panel& panel : panels) {
     validate(panel.camera);

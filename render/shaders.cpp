@@ -7,7 +7,7 @@ const std::string kHeader = R"(#version 330 core
 layout(std140) uniform Frame {
   mat4 view_projection;    // of this pass
   mat4 shadow_projection;  // to the unit cube of the shadow map
-  vec4 eye;                // w = 1: a place; w = 0: the direction of a viewer at infinity
+  vec4 eye;                // w = 1: position; w = 0: direction of a viewer at infinity
   vec4 key_light;          // direction towards it
   vec4 world_up;
   vec4 camera_right;
@@ -17,18 +17,18 @@ layout(std140) uniform Frame {
 vec3 towards_eye(vec3 p) { return normalize(eye.xyz - eye.w * p); }
 )";
 
-// Colours come in as sRGB, are lit as light and go back to sRGB.
+// Input and output colours are sRGB; lighting is computed in linear light.
 const std::string kLighting = R"(
 uniform sampler2DShadow shadow_compare;
 uniform sampler2D shadow_depth;
 
-// Gamma 2 instead of sRGB's curve: no eye sees the difference here, and pow() would cost a third
-// of the drawing time.
+// Gamma 2 approximates the sRGB curve: the difference is invisible, and pow() would take a third of
+// the drawing time.
 vec3 to_light(vec3 c) { return c * c; }
 vec3 to_display(vec3 c) { return sqrt(clamp(c, 0.0, 1.0)); }
 float fourth_power(float x) { x *= x; return x * x; }
 
-// Points of a Vogel spiral: even in the disc for any count.
+// Vogel spiral: evenly distributed points in the disc for any count.
 vec2 disc_point(int i, int count, float turn) {
   float a = float(i) * 2.39996323 + turn;
   return sqrt((float(i) + 0.5) / float(count)) * vec2(cos(a), sin(a));
@@ -38,15 +38,15 @@ bool in_shadow_map(vec3 q) {
   return all(greaterThan(q.xy, vec2(0.0))) && all(lessThan(q.xy, vec2(1.0)));
 }
 
-// An angle that differs between neighbouring pixels (interleaved gradient noise, Jimenez 2014): it
-// turns the steps of few taps into a fine grain.
+// An angle that differs between neighbouring pixels (interleaved gradient noise, Jimenez 2014). It
+// replaces banding by fine noise.
 float pixel_angle() {
   return 6.2831853 * fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715))));
 }
 
-// Share of the key light that reaches a body: a narrow soft edge.
+// Fraction of the key light that reaches a body; the shadow edge is narrow and soft.
 float light_on_body(vec3 p, vec3 n) {
-  if (dot(n, key_light.xyz) < -0.15) return 0.0;  // turned away: no need to look
+  if (dot(n, key_light.xyz) < -0.15) return 0.0;  // facing away from the light
   vec3 q = (shadow_projection * vec4(p + n * shadow_size.z * 2.0, 1.0)).xyz;
   if (!in_shadow_map(q)) return 1.0;
   float z = min(q.z, 1.0) - 0.6 * shadow_size.z / shadow_size.y;
@@ -56,8 +56,8 @@ float light_on_body(vec3 p, vec3 n) {
   return lit / 6.0;
 }
 
-// Share that reaches a floor or wall: the edge widens with the way from what casts it, as under a
-// lamp of finite size (percentage-closer soft shadows, Fernando 2005).
+// Fraction of the key light that reaches a floor or wall: the penumbra widens with the distance
+// from the caster, as for a lamp of finite size (percentage-closer soft shadows, Fernando 2005).
 float light_on_plane(vec3 p) {
   vec3 q = (shadow_projection * vec4(p, 1.0)).xyz;
   if (!in_shadow_map(q)) return 1.0;
@@ -81,8 +81,8 @@ float light_on_plane(vec3 p) {
   return lit / float(taps);
 }
 
-// A studio: light from a bright room above, bounce from a pale floor, one key light, a fill from
-// the viewer's side, a soft highlight and a pale rim.
+// Studio lighting: ambient light from above, reflection from a pale floor, a key light, a fill
+// light from the viewer's side, a soft highlight and a pale rim.
 vec3 studio(vec3 srgb, vec3 n, vec3 p, float key) {
   vec3 albedo = to_light(srgb);
   vec3 v = towards_eye(p);
@@ -120,7 +120,7 @@ void main() {
   across = normalize(cross(axis, view));
   outward = normalize(cross(across, axis));
   if (dot(outward, view) < 0.0) outward = -outward;
-  // Never thinner than about a pixel: thinner lines break up.
+  // At least about one pixel wide: thinner lines alias.
   float least = eye.w * 0.55 * pixel.x * distance(eye.xyz, p);
   position = p + across * side * max(radius, least);
   colour = mix(colour_a, colour_b, t);
@@ -140,7 +140,7 @@ out vec3 axis_z;
 out vec2 at;
 out float radius;
 void main() {
-  // 1.15: the edge pixels, half covered, belong to the quad too.
+  // 1.15: the quad includes the partly covered pixels at the edge.
   at = (vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0) * 1.15;
   axis_z = towards_eye(center);
   axis_y = normalize(cross(axis_z, camera_right.xyz));
@@ -220,7 +220,7 @@ void main() {
   vec3 n = normalize(normal);
   if (!gl_FrontFacing) n = -n;
   float key = opacity < 1.0 ? 1.0 : light_on_body(position, n);
-  // Glass is seen best at its edges.
+  // Transparent surfaces are more opaque at grazing angles.
   float edge = pow(1.0 - abs(dot(n, towards_eye(position))), 3.0);
   float alpha = opacity < 1.0 ? mix(opacity, min(1.0, opacity + 0.45), edge) : 1.0;
   result = vec4(to_display(studio(colour, n, position, key)), alpha);
@@ -254,7 +254,7 @@ void main() {
   vec3 n = normalize(ball_normal());
   gl_FragDepth = ball_depth(n);
   float key = light_on_body(ball_center + n * radius, n);
-  // Alpha becomes the samples covered: a smooth edge with the depth test still right.
+  // Alpha to coverage: smooth edges with correct depth test.
   result = vec4(to_display(studio(colour, n, ball_center + n * radius, 0.35 + 0.65 * key)), cover);
 }
 )"};
@@ -266,7 +266,7 @@ uniform vec3 plane_center;
 uniform vec3 plane_u;
 uniform vec3 plane_v;
 uniform float plane_reach;
-uniform vec2 grid_origin;  // place of plane_center on the grid [m]
+uniform vec2 grid_origin;  // position of plane_center on the grid [m]
 out vec3 position;
 out vec2 grid;
 out vec2 from_center;
@@ -284,14 +284,14 @@ uniform vec3 plane_colour;
 uniform float plane_alpha;
 uniform float grid_spacing;
 uniform int other_count;
-uniform vec4 others[8];  // normal and offset of the other planes: what lies behind them is hidden
+uniform vec4 others[8];  // normal and offset of the other planes, which hide what is behind them
 in vec3 position;
 in vec2 grid;
 in vec2 from_center;
 out vec4 result;
 
-// Share of the pixel covered by lines of `width` [m] every `spacing` [m]; lines thinner than a
-// pixel fade instead of flickering.
+// Fraction of the pixel covered by lines of `width` [m] every `spacing` [m]. Lines thinner than a
+// pixel fade, which prevents flicker.
 float lines(float spacing, float width) {
   vec2 uv = grid / spacing;
   vec2 soft = fwidth(uv);

@@ -4,8 +4,8 @@
 
 namespace springlod::render {
 
-/// GLSL 3.30 sources. All share the uniform block `Frame` (render/pipeline.cpp) and work in metres
-/// relative to the camera's target.
+/// GLSL 3.30 sources. All shaders use the uniform block `Frame` (render/pipeline.cpp) and
+/// coordinates in metres relative to the camera's target.
 struct ShaderSource {
   std::string vertex;
   std::string fragment;
@@ -13,8 +13,8 @@ struct ShaderSource {
 
 ShaderSource backdrop_shader();  ///< soft vertical gradient behind everything
 ShaderSource surface_shader();   ///< shaded triangles: position, normal, colour
-ShaderSource spring_shader();    ///< one instance a spring: a strip that looks like a rod
-ShaderSource node_shader();      ///< one instance a node: a quad that looks like a ball
+ShaderSource spring_shader();    ///< one instance per spring: a strip shaded as a rod
+ShaderSource node_shader();      ///< one instance per node: a quad shaded as a ball
 ShaderSource plane_shader();     ///< floor or wall: grid, shadow, fading with distance
 
 // The same shapes seen from the key light: depth only.

@@ -4,15 +4,15 @@
 
 namespace springlod::render {
 
-/// A depth texture seen from the key light.
+/// A depth texture rendered from the key light.
 class ShadowMap {
  public:
   ShadowMap();
-  /// Makes it the target and clears it.
+  /// Makes it the render target and clears it.
   void begin() const;
-  /// Binds it for reading: compared at texture unit 0, plain depths at unit 1.
+  /// Binds it for reading: depth comparison at texture unit 0, plain depths at unit 1.
   void bind() const;
-  static constexpr GLsizei kSide = 1024;  ///< [texels]: finer than the soft edge needs
+  static constexpr GLsizei kSide = 1024;  ///< [texels]; finer than the soft shadow edge requires
 
  private:
   GlTexture depth_;

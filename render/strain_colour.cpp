@@ -7,7 +7,7 @@
 namespace springlod::render {
 
 Colour strain_colour(double strain_over_range) {
-  // Lightness falls evenly from the middle to both ends (about 85, 60, 35 in CIELAB).
+  // CIELAB lightness decreases evenly from the middle to both ends (about 85, 60, 35).
   static constexpr std::array<Colour, 5> kStops{{{0.10F, 0.25F, 0.60F},
                                                  {0.38F, 0.58F, 0.85F},
                                                  {0.80F, 0.80F, 0.80F},

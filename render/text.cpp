@@ -19,7 +19,7 @@ namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
 
-// Next code point of UTF-8 text; wrong bytes give the replacement sign, one byte at a time.
+// Next code point of UTF-8 text; each invalid byte gives the replacement character.
 char32_t next_code_point(std::string_view text, std::size_t& at) {
   const auto lead = static_cast<unsigned char>(text[at++]);
   if (lead < 0x80) return lead;
@@ -47,7 +47,7 @@ struct Letter {
   std::vector<unsigned char> cover;
 };
 
-// Letters are rasterised at quarters of a pixel, so that spacing stays even.
+// Glyphs are rasterized at quarter-pixel offsets for even spacing.
 constexpr int kPhases = 4;
 
 }  // namespace
@@ -60,7 +60,7 @@ struct TextPainter::Impl {
     return static_cast<double>(stbtt_ScaleForPixelHeight(&font, static_cast<float>(size)));
   }
 
-  // Glyph numbers and where each starts, from 0; the last entry of `x` is the width.
+  // Glyph indices and start positions from 0; the last entry of `x` is the width.
   void lay_out(std::string_view text, double size, std::vector<int>& glyphs,
                std::vector<double>& x) const {
     const double s = scale(size);
@@ -112,7 +112,7 @@ double TextPainter::width(std::string_view text, double size) const {
 std::string TextPainter::fitted(std::string_view text, double size, double room) const {
   if (width(text, size) <= room) return std::string(text);
   for (std::size_t keep = text.size(); keep > 0; --keep) {
-    // Only between letters: a byte 10xxxxxx goes on with the one before.
+    // Cut only between characters: a byte 10xxxxxx continues the one before.
     if (keep < text.size() && (static_cast<unsigned char>(text[keep]) & 0xC0U) == 0x80) continue;
     std::string shorter = std::string(text.substr(0, keep)) + "\u2026";
     if (width(shorter, size) <= room) return shorter;
@@ -161,7 +161,7 @@ void fill_rounded(Image& image, const PixelRect& rect, double corner_radius, con
   const double radius = std::min({corner_radius, rect.width / 2., rect.height / 2.});
   for (int y = 0; y < rect.height; ++y)
     for (int x = 0; x < rect.width; ++x) {
-      // How far the pixel's centre is outside the rectangle shrunk by the radius.
+      // Distance of the pixel centre from the rectangle shrunk by the radius.
       const double dx = std::max({radius - (x + 0.5), x + 0.5 - (rect.width - radius), 0.});
       const double dy = std::max({radius - (y + 0.5), y + 0.5 - (rect.height - radius), 0.});
       const double cover = std::clamp(radius - std::hypot(dx, dy) + 0.5, 0., 1.);

@@ -9,7 +9,7 @@
 
 namespace springlod::render {
 
-/// Part of a picture [px], from the top left.
+/// A rectangle of an image [px]; the origin is at the top left.
 struct PixelRect {
   int x = 0;
   int y = 0;
@@ -17,7 +17,7 @@ struct PixelRect {
   int height = 0;
 };
 
-/// Writes antialiased UTF-8 text into pictures. Keeps rasterised letters.
+/// Draws antialiased UTF-8 text into images. Caches rasterized glyphs.
 class TextPainter {
  public:
   TextPainter();
@@ -25,11 +25,11 @@ class TextPainter {
   TextPainter(const TextPainter&) = delete;
   TextPainter& operator=(const TextPainter&) = delete;
 
-  /// Width of one line [px]; `size`: height of the letters' box [px].
+  /// Width of one line [px]; `size`: font size [px].
   double width(std::string_view text, double size) const;
   /// `text`, shortened with an ellipsis if it is wider than `room` [px].
   std::string fitted(std::string_view text, double size, double room) const;
-  /// From (x, baseline); parts outside `clip` are left out.
+  /// Draws from (x, baseline), clipped to `clip`.
   void draw(Image& image, const PixelRect& clip, double x, double baseline, std::string_view text,
             double size, const Colour& colour);
 
@@ -38,11 +38,11 @@ class TextPainter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Lays `colour` over the rectangle with rounded corners; `alpha` 0..1.
+/// Blends `colour` over a rectangle with rounded corners; `alpha` 0..1.
 void fill_rounded(Image& image, const PixelRect& rect, double corner_radius, const Colour& colour,
                   double alpha);
 
-/// One pixel mixed towards `colour`.
+/// Blends `colour` over one pixel.
 void blend_pixel(Image& image, int x, int y, const Colour& colour, double alpha);
 
 }  // namespace springlod::render

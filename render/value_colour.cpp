@@ -9,21 +9,21 @@
 namespace springlod::render {
 namespace {
 
-// CIELAB (L, a, b): L in equal steps; a and b turn from violet to yellow by the way of blue and
-// green, as far from grey as the screen's colours allow.
+// CIELAB (L, a, b): L in equal steps; a and b go from violet through blue and green to yellow, as
+// saturated as sRGB allows.
 const std::array<Vec3, 4> kStops{Vec3(20, 30, -42), Vec3(44, -9, -32), Vec3(68, -46, 18),
                                  Vec3(92, -12, 76)};
 
-// White of the screen, D65 [CIE XYZ].
+// White point of sRGB, D65 [CIE XYZ].
 const Vec3 kWhite(0.9505, 1, 1.0891);
 
 double from_lab(double t) {
-  constexpr double kBend = 6. / 29;  // below, the cube gives way to its tangent
+  constexpr double kBend = 6. / 29;  // below, the cube root is continued by its tangent
   return t > kBend ? t * t * t : 3 * kBend * kBend * (t - 4. / 29);
 }
 
 float screen_value(double linear) {
-  constexpr double kBend = 0.0031308;  // sRGB's straight foot
+  constexpr double kBend = 0.0031308;  // end of the linear segment of sRGB
   const double v = std::clamp(linear, 0., 1.);
   return static_cast<float>(v <= kBend ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055);
 }

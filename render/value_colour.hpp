@@ -4,9 +4,9 @@
 
 namespace springlod::render {
 
-/// Sequential scale for numbers: 0 dark violet, over blue and green, to 1 pale yellow; clamped
-/// beyond. Lightness (CIELAB) rises evenly, so that equal steps look equal, in grey print and to
-/// colour-blind readers too.
+/// Sequential colour scale: from 0, dark violet, through blue and green to 1, pale yellow; clamped.
+/// CIELAB lightness is linear, so that equal steps look equal, also in greyscale and to
+/// colour-blind readers.
 Colour value_colour(double part);
 
 }  // namespace springlod::render

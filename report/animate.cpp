@@ -52,20 +52,20 @@ void require_sane(const AnimateOptions& options) {
                                  options.frame_rate, options.slow));
 }
 
-/// The times of the pictures [s].
+/// The times of the frames [s].
 std::vector<double> picture_times(const sim::Comparison& comparison,
                                   const AnimateOptions& options) {
   double end = 0;
   for (const sim::LevelRuns& runs : comparison.levels)
     end = std::max({end, runs.first.frames.back().time, runs.base_frames.back().time});
   const double apart = 1 / (options.frame_rate * options.slow);
-  // Rounding in the sum of the time steps must not lose the last picture.
+  // Rounding errors in the sum of time steps must not lose the last frame.
   constexpr double kSlack = 1e-6;
   const double count = std::floor(end / apart + kSlack) + 1;
-  constexpr double kMost = 1e6;  // a typing error in the frame rate, not a wish
+  constexpr double kMost = 1e6;  // more must be a typing error in the frame rate
   if (options.frames == 0 && count > kMost)
     throw InputError(
-        fmt::format("animation: {:g} s at {:g} pictures a second makes {:g} pictures; set a lower "
+        fmt::format("animation: {:g} s at {:g} frames per second make {:g} frames; set a lower "
                     "frame_rate or "
                     "frames",
                     end * options.slow, options.frame_rate, count));
@@ -81,7 +81,7 @@ std::string count_text(double count) {
   return fmt::format("{:.0f}", count);
 }
 
-/// Colours of the surface's parts: of the material that most of their vertices hang on.
+/// Colours of the mesh parts: the material to which most of their vertices are bound.
 std::vector<Colour> part_colours(const LodAsset& asset) {
   const MassSpringModel& base = asset.chain.levels[0].model;
   const Binding& binding = asset.surface_of_base;
@@ -98,7 +98,7 @@ std::vector<Colour> part_colours(const LodAsset& asset) {
   return colours;
 }
 
-/// What every picture of one panel has in common.
+/// What all frames of one panel share.
 render::Panel panel_frame(const LodAsset& asset, const sim::Comparison& comparison,
                           const sim::LevelRuns& runs) {
   const MassSpringModel& model = asset.chain.levels[runs.level].model;
@@ -127,7 +127,7 @@ render::Panel panel_frame(const LodAsset& asset, const sim::Comparison& comparis
   return panel;
 }
 
-/// How far the surface reaches beyond the nodes at rest [m].
+/// Largest extent of the surface beyond the nodes at rest [m].
 double surface_margin(const LodAsset& asset) {
   if (asset.surface.positions.empty()) return 0;
   const Box3 nodes = bounds(asset.chain.levels[0].model.rest);
@@ -136,8 +136,7 @@ double surface_margin(const LodAsset& asset) {
       {0., (nodes.min() - surface.min()).maxCoeff(), (surface.max() - nodes.max()).maxCoeff()});
 }
 
-/// Everything that is shown, with the floor under it and walls and boxes beside it if they are
-/// near.
+/// Bounds of the whole motion, with the floor below it and nearby walls and boxes.
 Box3 action_bounds(const LodAsset& asset, const sim::Comparison& comparison,
                    const std::vector<double>& times) {
   Box3 box;
@@ -146,7 +145,7 @@ Box3 action_bounds(const LodAsset& asset, const sim::Comparison& comparison,
   const Vec3 margin = Vec3::Constant(surface_margin(asset));
   box.min() -= margin;
   box.max() += margin;
-  constexpr double kNear = 0.5;  // of the size of the action
+  constexpr double kNear = 0.5;  // fraction of the size of the motion
   const double near = kNear * box.diagonal().norm();
   const Box3 action = box;
   for (const sim::Obstacle& obstacle : comparison.scenario.obstacles) {
@@ -160,7 +159,7 @@ Box3 action_bounds(const LodAsset& asset, const sim::Comparison& comparison,
         const Vec3 sign((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
         around.extend(solid->center + solid->rotation * sign.cwiseProduct(solid->half_size));
       }
-      // Only what is near of a large box: a slab as a floor is not all looked at.
+      // Only the near part of a large box, such as a slab used as floor.
       const Box3 seen(action.min() - Vec3::Constant(near), action.max() + Vec3::Constant(near));
       const Box3 part = around.intersection(seen);
       if (!part.isEmpty()) box.extend(part);
@@ -173,13 +172,13 @@ double facing(const sim::Obstacle& obstacle, double azimuth) {
   const auto* plane = std::get_if<sim::Plane>(&obstacle.shape);
   if (plane == nullptr) return 1;
   const Vec3 across(plane->normal.x(), plane->normal.y(), 0);
-  constexpr double kWall = 0.7;  // floors and ramps are seen from above anyway
+  constexpr double kWall = 0.7;  // cosine; floors and ramps never hide the motion
   if (across.norm() < kWall * plane->normal.norm()) return 1;
   const double angle = azimuth * kPi / 180;
   return across.normalized().dot(Vec3(std::cos(angle), std::sin(angle), 0));
 }
 
-/// The azimuth, or one of its mirror images, from which every wall is seen from its free side.
+/// The azimuth, or one of its mirror images, from which no wall hides the motion.
 double azimuth_of(const sim::Scenario& scenario, const AnimateOptions& options) {
   if (!options.avoid_walls) return options.azimuth;
   const double az = options.azimuth;
@@ -189,7 +188,7 @@ double azimuth_of(const sim::Scenario& scenario, const AnimateOptions& options) 
     double worst = 1;
     for (const sim::Obstacle& obstacle : scenario.obstacles)
       worst = std::min(worst, facing(obstacle, candidate));
-    constexpr double kEnough = 0.15;  // not quite edge on
+    constexpr double kEnough = 0.15;  // cosine; excludes views along the wall
     if (worst >= kEnough) return candidate;
     if (worst > best_facing) {
       best_facing = worst;
@@ -199,7 +198,7 @@ double azimuth_of(const sim::Scenario& scenario, const AnimateOptions& options) 
   return best;
 }
 
-/// The cameras of one panel, one a picture.
+/// The cameras of one panel, one per frame.
 std::vector<render::Camera> cameras_of(const LodAsset& asset, const sim::Comparison& comparison,
                                        const sim::LevelRuns& runs, const std::vector<double>& times,
                                        const AnimateOptions& options) {
@@ -213,10 +212,9 @@ std::vector<render::Camera> cameras_of(const LodAsset& asset, const sim::Compari
   std::vector<Vec3> path;
   for (const double t : times)
     path.push_back(center_of_mass(base, positions_at(runs.base_frames, t)));
-  constexpr double kSmooth = 0.2;  // to both sides, seconds of the film
+  constexpr double kSmooth = 0.2;  // to both sides [s of the video]
   path = smoothed(path, static_cast<std::uint32_t>(kSmooth * options.frame_rate));
-  // A ball that holds the body however it turns, with room for the labels above and to see where
-  // it goes.
+  // A ball that contains the body in every orientation, with space for labels and surroundings.
   const Vec3 center = center_of_mass(base, base.rest);
   double radius = 0;
   for (const Vec3& p : base.rest) radius = std::max(radius, (p - center).norm());
@@ -236,7 +234,7 @@ render::DrawStyle style_for(const LodAsset& asset, render::DrawStyle style) {
   return style;
 }
 
-/// One panel through the film; keeps what the drawn body points to.
+/// One panel of the animation; owns the data that the drawn body points to.
 class PanelPlayer {
  public:
   PanelPlayer(const LodAsset& asset, const sim::Comparison& comparison, const sim::LevelRuns& runs,
@@ -275,7 +273,7 @@ class PanelPlayer {
   std::vector<Vec3> surface_;
 };
 
-/// Removes frame_*.png numbered `count` and up: left over, they would end up in the video.
+/// Removes frame_*.png numbered `count` and up, which would otherwise end up in the video.
 void remove_stale_frames(const fs::path& folder, std::size_t count) {
   constexpr std::string_view kBefore = "frame_";
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

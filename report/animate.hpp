@@ -27,14 +27,14 @@ constexpr ChoiceTable<Choice<CameraMode>> choices(CameraMode) {
 struct AnimateOptions {
   std::uint32_t width = 640;  ///< of one panel [px]
   std::uint32_t height = 480;
-  double frame_rate = 30;    ///< of the pictures: 1 / frame_rate / slow simulated seconds apart
-  double slow = 1;           ///< 4: four times slower than life
-  std::uint32_t frames = 0;  ///< at most, from the start; 0: all
-  /// fixed: one view that holds the whole action; follow: each panel keeps its body in the middle.
+  double frame_rate = 30;    ///< [1/s]; frames are 1 / (frame_rate * slow) simulated seconds apart
+  double slow = 1;           ///< slow motion: 4 plays four times slower than real time
+  std::uint32_t frames = 0;  ///< maximum number of frames; 0: no limit
+  /// fixed: one view of the whole motion; follow: each panel keeps its body in the middle.
   CameraMode camera = CameraMode::fixed;
   double azimuth = -70;  ///< of the eye, from x towards y [deg]
   double elevation = 15;
-  /// Mirror the azimuth where a wall would else stand between the camera and the action.
+  /// Mirrors the azimuth if a wall would hide the motion from the camera.
   bool avoid_walls = true;
   render::DrawStyle style = {};
   Progress* progress = nullptr;
@@ -59,12 +59,11 @@ struct Animation {
   std::filesystem::path folder;
 };
 
-/// Draws base and levels side by side on one clock as folder/frame_0000.png ... Frames are
-/// written while the next are drawn. Positions between the frames of a trajectory are interpolated
-/// linearly; a run that ended early holds its last frame. A style that asks for nothing that is
-/// there (a surface where the asset has none) draws nodes and springs. frame_*.png of an earlier,
-/// longer animation are removed. Throws InputError (no runs, asset and runs that do not belong
-/// together), IoError.
+/// Draws base and levels side by side, synchronized, as folder/frame_0000.png ... Positions between
+/// the frames of a trajectory are interpolated linearly; a run that ended early keeps its last
+/// frame. If the style shows only things that the asset lacks (such as a surface), nodes and
+/// springs are drawn. Removes surplus frame_*.png of an earlier, longer animation. Throws
+/// InputError (no runs, or runs of another asset) and IoError.
 Animation animate(const LodAsset& asset, const sim::Comparison& comparison,
                   const std::filesystem::path& folder, const AnimateOptions& options = {});
 

@@ -16,27 +16,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of ChartColour: Okabe & Ito's palette without its yellow, which is lost on white; black.
+// Colours of ChartColour: the Okabe-Ito palette without yellow, which is hard to see on white, and
+// black.
 constexpr std::array<const char*, 8> kColours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                               "#E69F00", "#56B4E9", "#5F6570", "#14171B"};
-constexpr std::size_t kOwnColours = kColours.size() - 1;  // that series take by themselves
-// Of ChartSymbol, but for none: gnuplot's numbers. Series differ by shape too, for readers without
-// colours.
+constexpr std::size_t kOwnColours = kColours.size() - 1;  // default colours of series
+// gnuplot point types of ChartSymbol, without none. Series differ in shape as well as in colour,
+// for colour-blind readers.
 constexpr std::array<int, 7> kShapes{7, 5, 9, 13, 11, 15, 6};
 constexpr std::size_t kOwnShapes = kShapes.size() - 1;
 
-constexpr std::size_t kManyPoints = 40;  // more of them hide each other
+constexpr std::size_t kManyPoints = 40;  // above it intervals are drawn transparent
 
 /// How a series looks.
 struct Look {
   const char* colour;
   int shape;   ///< 0: none
-  int hollow;  ///< the same shape, not filled
+  int hollow;  ///< point type of the outline
   double size;
 };
 
 Look look_of(const std::vector<ChartSeries>& series, std::size_t number) {
-  constexpr double kSize = 1.2;  // of symbols, in gnuplot's unit
+  constexpr double kSize = 1.2;  // symbol size in gnuplot units
   constexpr double kRingSize = 2.4;
   const ChartSeries& s = series[number];
   const std::size_t colour = s.colour ? static_cast<std::size_t>(*s.colour) : number % kOwnColours;
@@ -91,7 +92,7 @@ Axes make_axes(const std::vector<ChartSeries>& series, const ChartOptions& optio
   return {make_axis(x, options.log_x), make_axis(y, options.log_y)};
 }
 
-// Where the key goes: in rows between title and plot, so that it never hides a point.
+// Layout of the key: in rows between title and plot, so that it hides no point.
 struct Key {
   int columns = 0;  // 0: no key
   double height = 0;
@@ -119,7 +120,7 @@ ChartFrame frame_of(const std::vector<ChartSeries>& series, const ChartOptions& 
   frame.bottom += options.height - frame.height;
   frame.width = options.width;
   frame.height = options.height;
-  constexpr double kTitleSpace = 2.6;  // in letters
+  constexpr double kTitleSpace = 2.6;  // [font sizes]
   frame.top = (options.title.empty() ? 1 : kTitleSpace) * frame.font +
               plan_key(series, frame).height + 0.6 * frame.font;
   return frame;
@@ -168,7 +169,7 @@ std::string style_lines(const ChartFrame& frame, const ChartOptions& options, co
 std::string label_lines(const std::vector<ChartSeries>& series,
                         const std::vector<PlacedLabel>& labels, double font_size) {
   static constexpr std::array<const char*, 3> kAnchors{"left", "center", "right"};
-  // White behind the letters, so that lines do not strike them out.
+  // White boxes behind labels, so that lines do not cross the text.
   std::string text = "set style textbox opaque margins 0.2,0.2 fillcolor rgb 'white' noborder\n";
   int number = 10;
   for (const PlacedLabel& label : labels) {
@@ -186,8 +187,8 @@ std::string label_lines(const std::vector<ChartSeries>& series,
   return text;
 }
 
-// A log axis has no place for 0 and what else is not to be told apart: such points sit on its lower
-// end, hollow.
+// A log axis cannot show 0 and values below its range: such points are drawn hollow at its lower
+// end.
 std::string edge_point_lines(const std::vector<ChartSeries>& series, const ChartOptions& options,
                              const Axes& axes) {
   std::string text;
@@ -198,7 +199,7 @@ std::string edge_point_lines(const std::vector<ChartSeries>& series, const Chart
       if (look.shape == 0) continue;
       const bool off = (axes.x.log && !(p.x > 0)) || (axes.y.log && !(p.y > options.y_from));
       if (!off) continue;
-      constexpr int kFirst = 1000;  // label numbers of these
+      constexpr int kFirst = 1000;  // first label number of these
       text += fmt::format("set label {} '' at graph {:.5f},{:.5f} point pt {} ps 1.2 lc rgb '{}'\n",
                           kFirst + number++, axes.x.place(p.x), axes.y.place(p.y), look.hollow,
                           look.colour);
@@ -206,10 +207,9 @@ std::string edge_point_lines(const std::vector<ChartSeries>& series, const Chart
   return text;
 }
 
-/// How gnuplot writes the colour of intervals: where there are many they stand back behind the
-/// points.
+/// gnuplot colour of intervals; transparent if there are many, so that points stay visible.
 std::string interval_colour(const char* colour, bool many) {
-  constexpr const char* kTransparent = "99";  // of 00..ff
+  constexpr const char* kTransparent = "99";  // alpha, 00..ff
   return many ? fmt::format("#{}{}", kTransparent, colour + 1) : colour;
 }
 
@@ -255,7 +255,7 @@ std::string plot_lines(const std::vector<ChartSeries>& series, const std::string
   return text + "\n";
 }
 
-// Points at the end of a log axis say what they are in their label.
+// Points at the end of a log axis show their value in their label.
 std::vector<ChartSeries> with_edge_labels(std::vector<ChartSeries> series,
                                           const ChartOptions& options) {
   for (ChartSeries& s : series) {

@@ -15,15 +15,15 @@ struct ChartPoint {
   std::string label;  ///< written beside the point; may be empty
   double y_low = 0;   ///< interval drawn if y_high > y_low
   double y_high = 0;
-  double x_low = 0;  ///< likewise
+  double x_low = 0;  ///< interval drawn if x_high > x_low
   double x_high = 0;
 
   bool has_x_interval() const { return x_high > x_low; }
   bool has_y_interval() const { return y_high > y_low; }
 };
 
-/// The filled ones in the order in which series take them, then a ring around other points, larger,
-/// and no symbol at all.
+/// Filled symbols in the default order of series; then a larger ring that marks other points, and
+/// no symbol.
 enum class ChartSymbol { disc, square, triangle, diamond, triangle_down, pentagon, ring, none };
 
 inline constexpr Choice<ChartSymbol> kChartSymbols[] = {
@@ -39,7 +39,7 @@ constexpr ChoiceTable<Choice<ChartSymbol>> choices(ChartSymbol) {
   return {"symbol", kChartSymbols};
 }
 
-/// In the order in which series take them; black is for those that ask for it.
+/// In the default order of series; black is used only if a series sets it.
 enum class ChartColour { blue, orange, green, pink, amber, sky, grey, black };
 
 inline constexpr Choice<ChartColour> kChartColours[] = {
@@ -53,11 +53,11 @@ constexpr ChoiceTable<Choice<ChartColour>> choices(ChartColour) {
 
 struct ChartSeries {
   std::string name;
-  std::vector<ChartPoint> points;  ///< none: the series is in the legend alone
+  std::vector<ChartPoint> points;  ///< none: the series appears only in the legend
   bool joined = true;
-  bool dashed = false;                     ///< the line that joins them
-  std::optional<ChartColour> colour = {};  ///< by default another for each series
-  std::optional<ChartSymbol> symbol = {};  ///< likewise
+  bool dashed = false;                     ///< style of the line between the points
+  std::optional<ChartColour> colour = {};  ///< default: a different one for each series
+  std::optional<ChartSymbol> symbol = {};  ///< default: a different one for each series
 };
 
 struct ChartOptions {
@@ -66,20 +66,20 @@ struct ChartOptions {
   std::string y_label;
   bool log_x = false;
   bool log_y = false;
-  double y_from = 0;   ///< points of a log axis that are not above it sit on its lower end, hollow
+  double y_from = 0;   ///< lower end of a log axis; points not above it are drawn there, hollow
   double width = 900;  ///< [px]
   double height = 600;
 };
 
 struct ChartFiles {
-  std::filesystem::path data;    ///< CSV beside the picture
-  std::filesystem::path script;  ///< gnuplot script that draws it again
+  std::filesystem::path data;    ///< CSV file beside the chart
+  std::filesystem::path script;  ///< gnuplot script that draws the chart
   bool drawn = false;            ///< false: gnuplot is not installed
-  std::string command;           ///< that draws it
+  std::string command;           ///< command that runs the script
 };
 
-/// Draws through gnuplot as `path` (.svg or .png) and keeps script and data beside it.
-/// Throws IoError, InputError (no points; not .svg or .png).
+/// Draws a chart with gnuplot to `path` (.svg or .png); script and data are kept beside it. Throws
+/// IoError and InputError (no points; not .svg or .png).
 ChartFiles draw_chart(const std::vector<ChartSeries>& series, const ChartOptions& options,
                       const std::filesystem::path& path);
 

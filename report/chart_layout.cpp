@@ -10,7 +10,7 @@
 namespace springlod::report {
 namespace {
 
-constexpr double kRoom = 0.07;  // free space at the ends of an axis, as a part of it
+constexpr double kRoom = 0.07;  // margin at the ends of an axis, as a fraction of its length
 
 std::string superscript(int number) {
   static constexpr std::array<const char*, 10> kDigits{"⁰", "¹", "²", "³", "⁴",
@@ -21,7 +21,7 @@ std::string superscript(int number) {
   return out;
 }
 
-// Largest of 1, 2, 5 times a power of ten that is not above `wanted`.
+// Largest of 1, 2 and 5 times a power of ten that is at most `wanted`.
 double round_step(double wanted) {
   const double power = std::pow(10., std::floor(std::log10(wanted)));
   for (const double factor : {5., 2.})
@@ -33,7 +33,7 @@ std::vector<Tick> linear_ticks(double low, double high) {
   constexpr double kWanted = 6;
   const double step = round_step((high - low) / kWanted * 1.5);
   std::vector<Tick> ticks;
-  constexpr double kSlack = 1e-9;  // a tick that is on the end but for rounding counts
+  constexpr double kSlack = 1e-9;  // includes ticks at the end despite rounding errors
   const auto first = static_cast<long long>(std::ceil(low / step - kSlack));
   const auto last = static_cast<long long>(std::floor(high / step + kSlack));
   for (long long i = first; i <= last; ++i) {
@@ -45,8 +45,8 @@ std::vector<Tick> linear_ticks(double low, double high) {
 
 std::vector<Tick> log_ticks(double low, double high) {
   const double decades = std::log10(high / low);
-  // Within a decade: every digit; up to three: 1, 2, 5; wide: whole decades, at most about 8.
-  // Within half a decade round steps serve better.
+  // Ticks of a log axis: linear steps for less than half a decade, every digit up to one decade,
+  // 1, 2 and 5 up to three, and at most about 8 whole decades beyond.
   constexpr double kHalfDecade = 0.5;
   if (decades < kHalfDecade) return linear_ticks(low, high);
   constexpr double kOneDecade = 1;
@@ -68,7 +68,7 @@ std::vector<Tick> log_ticks(double low, double high) {
 
 struct Box {
   double x0, y0, x1, y1;
-  double weight = 1;  ///< how bad it is to hide
+  double weight = 1;  ///< cost of hiding it, per area
 };
 
 double overlap(const Box& a, const Box& b) {
@@ -77,13 +77,13 @@ double overlap(const Box& a, const Box& b) {
   return w > 0 && h > 0 ? w * h : 0;
 }
 
-// What labels should keep off: markers and, as a string of small boxes, the lines between them.
+// Boxes that labels should avoid: markers, and lines as chains of small boxes.
 std::vector<Box> obstacles(const std::vector<ChartSeries>& series, const Axis& x_axis,
                            const Axis& y_axis, const ChartFrame& frame) {
   constexpr double kMarker = 6;
   constexpr double kLine = 2;
   constexpr double kHiddenMarker = 3;
-  constexpr double kHiddenInterval = 0.3;  // its ends tell as much
+  constexpr double kHiddenInterval = 0.3;  // weight of intervals, whose ends remain visible
   constexpr double kEvery = 8;
   std::vector<Box> boxes;
   const auto px = [&](const ChartPoint& p) {
@@ -122,27 +122,27 @@ std::vector<Box> obstacles(const std::vector<ChartSeries>& series, const Axis& x
   return boxes;
 }
 
-// Directions to try, the nicest first: x and y in -1, 0, 1, y upwards.
+// Directions to try, preferred ones first: x and y in -1, 0, 1; y upwards.
 constexpr std::array<std::array<int, 2>, 8> kDirections{
     {{1, 0}, {1, 1}, {1, -1}, {-1, 0}, {-1, 1}, {-1, -1}, {0, 1}, {0, -1}}};
 
-// Ways off a point to try [px], and what each is as bad as hiding [px^2].
-constexpr std::array<double, 5> kWaysOff{0, 16, 32, 56, 84};
-constexpr double kCostOfWay = 8;  // for each pixel
+// Distances from the point to try [px], and their cost as hidden area [px^2].
+constexpr std::array<double, 5> kOffsets{0, 16, 32, 56, 84};
+constexpr double kCostOfOffset = 8;  // per pixel of distance
 
 Box label_box(double x, double y, double width, double height, const std::array<int, 2>& to,
-              double way) {
+              double offset) {
   constexpr double kGapSide = 10;
   constexpr double kGapUpright = 5;
-  const double side = kGapSide + way;
-  const double upright = kGapUpright + way;
+  const double side = kGapSide + offset;
+  const double upright = kGapUpright + offset;
   const double x0 = to[0] > 0 ? x + side : to[0] < 0 ? x - side - width : x - width / 2;
   const double y0 = to[1] > 0 ? y - upright - height : to[1] < 0 ? y + upright : y - height / 2;
   return {x0, y0, x0 + width, y0 + height};
 }
 
 double cost_of(const Box& box, const std::vector<Box>& taken, const ChartFrame& frame) {
-  constexpr double kOutside = 20;  // worse than hiding something
+  constexpr double kOutside = 20;  // cost factor outside the plot box
   const double area = (box.x1 - box.x0) * (box.y1 - box.y0);
   double cost =
       kOutside * (area - overlap(box, {frame.left, frame.top, frame.right, frame.bottom}));
@@ -187,7 +187,7 @@ Axis make_axis(const std::vector<double>& values, bool log) {
   axis.log = log;
   if (log) {
     if (!(low <= high)) low = high = 1;
-    constexpr double kLeastRatio = 1.5;  // one value alone still gets an axis
+    constexpr double kLeastRatio = 1.5;  // least range, for a single value
     const double ratio = std::max(high / low, kLeastRatio);
     const double middle = std::sqrt(low) * std::sqrt(high);
     axis.low = middle / std::pow(ratio, 0.5 + kRoom);
@@ -195,7 +195,7 @@ Axis make_axis(const std::vector<double>& values, bool log) {
     axis.ticks = log_ticks(axis.low, axis.high);
     return axis;
   }
-  // Near zero the axis starts at zero: lengths can then be compared by eye.
+  // Start at zero if the values are near it, so that lengths can be compared by eye.
   constexpr double kNearZero = 0.5;
   if (low > 0 && low < kNearZero * high) low = 0;
   const double size = high > low ? high - low : std::max(std::abs(high), 1.);
@@ -206,7 +206,7 @@ Axis make_axis(const std::vector<double>& values, bool log) {
 }
 
 double text_width(const std::string& text, double font_size) {
-  constexpr double kMeanLetter = 0.58;  // width over size, digits and small letters
+  constexpr double kMeanLetter = 0.58;  // mean width of digits and lower-case letters / font size
   const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) != 0x80;
   });
@@ -229,18 +229,18 @@ std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, co
       const double height = frame.font * 1.1;
       Box best{};
       std::array<int, 2> direction{};
-      double way = 0;
+      double offset = 0;
       double least = std::numeric_limits<double>::infinity();
-      for (const double off : kWaysOff)
+      for (const double candidate : kOffsets)
         for (std::size_t d = 0; d < kDirections.size(); ++d) {
-          const Box box = label_box(x, y, width, height, kDirections[d], off);
+          const Box box = label_box(x, y, width, height, kDirections[d], candidate);
           const double cost =
-              cost_of(box, taken, frame) + static_cast<double>(d) + kCostOfWay * off;
+              cost_of(box, taken, frame) + static_cast<double>(d) + kCostOfOffset * candidate;
           if (cost >= least) continue;
           least = cost;
           best = box;
           direction = kDirections[d];
-          way = off;
+          offset = candidate;
         }
       best.weight = kHiddenLabel;
       taken.push_back(best);
@@ -251,8 +251,9 @@ std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, co
                         : anchor == TextAnchor::right ? best.x1
                                                       : (best.x0 + best.x1) / 2;
       labels.push_back({point.label, (at - frame.left) / plot_width,
-                        (frame.bottom - (best.y0 + best.y1) / 2) / plot_height, anchor, s, way > 0,
-                        (x - frame.left) / plot_width, (frame.bottom - y) / plot_height});
+                        (frame.bottom - (best.y0 + best.y1) / 2) / plot_height, anchor, s,
+                        offset > 0, (x - frame.left) / plot_width,
+                        (frame.bottom - y) / plot_height});
     }
   return labels;
 }

@@ -130,7 +130,7 @@ Table timings_table(const sim::Comparison& comparison) {
   for (const sim::LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
       const sim::StartResult& start = runs.starts[i];
-      const double wall = std::max(start.wall_seconds, 1e-9);  // a clock may stand still
+      const double wall = std::max(start.wall_seconds, 1e-9);  // the clock resolution may give 0
       table.rows.push_back({whole(runs.level), runs.label, whole(i + 1), wall, start.simulated,
                             whole(start.spring_updates),
                             static_cast<double>(start.spring_updates) / wall,

@@ -40,8 +40,8 @@ void append_row(std::string& text, const std::vector<std::string>& cells) {
   text += "\r\n";
 }
 
-// Columns that a UTF-8 text takes on a terminal: continuation bytes and combining accents
-// (U+0300..U+036F: lead bytes CC, CD) take none. Wide East Asian letters count as one.
+// Width of UTF-8 text on a terminal: continuation bytes and combining accents
+// (U+0300..U+036F: lead bytes CC, CD) count 0. Wide East Asian characters count 1.
 std::size_t width(std::string_view text) {
   std::size_t columns = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -105,7 +105,7 @@ std::vector<std::string> row_texts(const std::vector<Cell>& row, NumberText numb
 }  // namespace
 
 std::string number_text(double value) {
-  std::array<char, 32> buffer{};  // the longest shortest form has 24 letters
+  std::array<char, 32> buffer{};  // the longest shortest form has 24 characters
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), end.ptr};
 }

@@ -23,7 +23,7 @@ inline Cell whole(std::uint64_t value) {
   return static_cast<std::int64_t>(value);
 }
 
-/// Shortest decimal form that reads back as the same double.
+/// Shortest decimal text that parses to the same double.
 std::string number_text(double value);
 
 /// RFC 4180; numbers by number_text, nothing as an empty cell. Written aside and renamed. Throws

@@ -36,7 +36,7 @@ double gnuplot_font_unit(const fs::path& picture) {
 std::string gnuplot_terminal(const fs::path& picture, double width, double height, double font) {
   std::string text = "# Made by springlod. Draws " + picture.filename().string() +
                      " again: gnuplot " + picture.stem().string() + ".gp\n";
-  // noenhanced: "_" and "^" in names stay what they are.
+  // noenhanced: "_" and "^" in names are not markup.
   text += "set encoding utf8\n";
   if (picture.extension() == ".svg")
     text += fmt::format(
@@ -46,7 +46,7 @@ std::string gnuplot_terminal(const fs::path& picture, double width, double heigh
   else
     text += fmt::format("set terminal pngcairo size {},{} font 'DejaVu Sans,{}' noenhanced\n",
                         width, height, font * gnuplot_font_unit(picture));
-  // Whoever draws the chart again may name another file: gnuplot -e "picture='other.svg'" ...
+  // The output file can be set: gnuplot -e "picture='other.svg'" ...
   text += fmt::format("if (!exists('picture')) picture = {}\nset output picture\n",
                       gnuplot_quoted(picture.filename().string()));
   return text;

@@ -5,31 +5,31 @@
 
 namespace springlod::report {
 
-/// What came of drawing a picture through gnuplot.
+/// Result of drawing with gnuplot.
 struct Drawing {
   bool drawn = false;   ///< false: gnuplot is not installed
-  std::string command;  ///< that draws it
+  std::string command;  ///< command that runs the script
 };
 
-/// Throws InputError unless the name ends in .svg or .png.
+/// Throws InputError unless the file name ends in .svg or .png.
 void require_picture_name(const std::filesystem::path& picture);
 
-/// Where the script of a picture goes: NAME.gp beside it.
+/// Path of the script of a picture: NAME.gp beside it.
 std::filesystem::path gnuplot_script_path(const std::filesystem::path& picture);
 
-/// As a word in gnuplot's single quotes, where nothing is special but the quote.
+/// `text` in gnuplot's single quotes, with quotes escaped.
 std::string gnuplot_quoted(const std::string& text);
 
-/// Size of a letter of one pixel: gnuplot counts pixels for svg, points (96 a 72nd inch) for png.
+/// gnuplot font size of 1 px: svg sizes are in pixels, png sizes in points (72 per 96 px).
 double gnuplot_font_unit(const std::filesystem::path& picture);
 
-/// The lines with which a script begins: how to draw it again, and a white sheet of `width` by
-/// `height` with letters of `font`, all in pixels.
+/// The first lines of a script: output file, terminal, and a white sheet of `width` by `height`
+/// with font size `font`, all in pixels.
 std::string gnuplot_terminal(const std::filesystem::path& picture, double width, double height,
                              double font);
 
-/// Writes the script and runs it. A script names its neighbours without a folder, so that script,
-/// data and picture can be moved together. Throws IoError.
+/// Writes the script and runs it. The script refers to its data and picture by name without folder,
+/// so that all can be moved together. Throws IoError.
 Drawing draw_with_gnuplot(const std::string& script, const std::filesystem::path& picture);
 
 }  // namespace springlod::report

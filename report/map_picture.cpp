@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// All places in pixels, y downwards.
+// All coordinates in pixels, y downwards.
 constexpr double kPanelHeight = 200;
 constexpr double kLeft = 116;
 constexpr double kRight = 28;
@@ -26,8 +26,8 @@ constexpr double kGapDown = 22;
 constexpr double kBottom = 142;  // ratios and legend
 constexpr double kFont = 14;
 
-// Colours of errors from kBestError to kWorstError in equal steps of the logarithm: the viridis map
-// turned round, so that a good point is bright.
+// Colours of errors from kBestError to kWorstError on a logarithmic scale: the reversed viridis
+// map, in which small errors are bright.
 constexpr double kBestError = 1e-4;
 constexpr double kWorstError = 1;
 constexpr std::array<const char*, 8> kColours{"#fde725", "#a0da39", "#4ac16d", "#1fa187",
@@ -35,10 +35,10 @@ constexpr std::array<const char*, 8> kColours{"#fde725", "#a0da39", "#4ac16d", "
 constexpr const char* kInk = "#14171B";
 constexpr const char* kSoftInk = "#5F6570";
 constexpr const char* kLimitInk = "#E4002B";
-constexpr int kDivergedPattern = 4;   // of gnuplot: lines that rise
-constexpr int kMechanismPattern = 2;  // crossed lines
+constexpr int kDivergedPattern = 4;   // gnuplot fill pattern: rising lines
+constexpr int kMechanismPattern = 2;  // gnuplot fill pattern: crossed lines
 
-// Half the height of a cell that has no neighbour, as a factor of the step.
+// Half height of a cell without neighbours, as a factor of the step.
 constexpr double kLoneCell = 1.4;
 
 struct Scheme {
@@ -73,7 +73,7 @@ struct Rect {
   double left, top, right, bottom;
 };
 
-/// gnuplot objects in pixels, one after the other.
+/// Collects gnuplot objects and labels in pixel coordinates.
 class Sheet {
  public:
   void fill(const Rect& r, const std::string& style) {
@@ -117,7 +117,7 @@ const char* colour_of(double error) {
   return kColours[static_cast<std::size_t>(std::clamp(place, 0., last))];
 }
 
-/// What is written into a cell whose colour does not say it all.
+/// Text in a cell, for verdicts that its colour does not show.
 const char* mark_of(sim::Verdict verdict) {
   switch (verdict) {
     case sim::Verdict::drifting:
@@ -138,7 +138,7 @@ const char* mark_of(sim::Verdict verdict) {
   return "";
 }
 
-/// One picture of one map.
+/// Draws one stability map.
 class Picture {
  public:
   Picture(const sim::StabilityMap& map, double font_unit) : map_(map), sheet_(font_unit) {
@@ -149,14 +149,14 @@ class Picture {
     for (const sim::StabilityPoint& point : map.points) add_once(schemes_, scheme_of(point));
     constexpr double kWidest = 160;
     constexpr double kNarrowest = 116;
-    constexpr double kSheet = 1120;  // room for panels
+    constexpr double kSheet = 1120;  // width available for panels
     panel_width_ = std::clamp(kSheet / static_cast<double>(schemes_.size()), kNarrowest, kWidest);
     find_steps();
   }
 
   double width() const {
     const auto columns = static_cast<double>(schemes_.size());
-    // The legend wants some room, however few panels there are.
+    // The legend needs a minimum width.
     constexpr double kLeast = 860;
     return std::max(kLeast, kLeft + columns * panel_width_ + (columns - 1) * kGapAcross + kRight);
   }
@@ -185,7 +185,7 @@ class Picture {
  private:
   struct Cell {
     const sim::StabilityPoint* point;
-    double low, high;  // steps between which it is drawn [s]
+    double low, high;  // lower and upper step of the drawn cell [s]
   };
 
   Rect panel(std::size_t row, std::size_t column) const {
@@ -203,7 +203,7 @@ class Picture {
     return panel.bottom - std::clamp(place, 0., 1.) * (panel.bottom - panel.top);
   }
 
-  // Cells reach halfway to their neighbours.
+  // Cells extend halfway to their neighbours.
   std::vector<Cell> cells_of(const Scheme& scheme, std::uint32_t level, double ratio) const {
     std::vector<Cell> cells;
     for (const sim::StabilityPoint& point : map_.points) {
@@ -268,7 +268,7 @@ class Picture {
     sheet_.colour(place, colour_of(cell.point->error));
     const char* mark = mark_of(cell.point->verdict);
     if (*mark == '\0') return;
-    constexpr double kBright = 0.01;  // errors below it are drawn in bright colours
+    constexpr double kBright = 0.01;  // errors below it have bright colours, which need dark text
     sheet_.write((place.left + place.right) / 2, (place.top + place.bottom) / 2, mark, "center",
                  kFont * 0.8, cell.point->error < kBright ? kInk : "#FFFFFF");
   }
@@ -350,7 +350,7 @@ class Picture {
   std::vector<Scheme> schemes_;
   double panel_width_ = 0;
   double low_ = 0;   // step at the lower edge of the panels [s]
-  double high_ = 0;  // and at the upper one
+  double high_ = 0;  // step at the upper edge [s]
 };
 
 }  // namespace
@@ -366,7 +366,7 @@ Drawing draw_map(const sim::StabilityMap& map, const MapPictureOptions& options,
       "unset key\n",
       picture.width(), picture.height());
   script += picture.draw(options.title);
-  // Everything above is drawn with the next plot: of a point that lies off the sheet.
+  // gnuplot draws the objects with the next plot: a dummy point outside the sheet.
   script += "plot '-' using 1:2 with points notitle\n-1 -1\ne\n";
   return draw_with_gnuplot(script, path);
 }

@@ -12,10 +12,10 @@ struct MapPictureOptions {
   std::string title;
 };
 
-/// Draws a stability map: a panel for each level and integrator, stiffness ratios from left to
-/// right, steps upwards, the error as colour, hatched where a run diverged, the predicted limit as
-/// a line. Through gnuplot, whose script stays beside the picture. Throws InputError (no points;
-/// not .svg or .png), IoError.
+/// Draws a stability map with gnuplot: one panel per level and integrator, stiffness ratio on the
+/// horizontal axis, time step on the vertical axis, error as colour, hatching where a run diverged,
+/// and a line at the predicted limit. The script is kept beside the picture. Throws InputError (no
+/// points; not .svg or .png) and IoError.
 Drawing draw_map(const sim::StabilityMap& map, const MapPictureOptions& options,
                  const std::filesystem::path& path);
 

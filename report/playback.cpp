@@ -23,7 +23,7 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& path, std::uint32_t reach) {
   std::vector<Vec3> out;
   out.reserve(path.size());
   for (std::size_t i = 0; i < path.size(); ++i) {
-    // The same reach to both sides, or the ends would be pulled inwards.
+    // A symmetric window: an asymmetric one would pull the ends inwards.
     const std::size_t r = std::min({std::size_t{reach}, i, path.size() - 1 - i});
     Vec3 sum = Vec3::Zero();
     for (std::size_t j = i - r; j <= i + r; ++j) sum += path[j];

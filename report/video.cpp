@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ffmpeg reads % in a file name as the frame number.
+// ffmpeg interprets % in a file name as the frame number.
 std::string frame_pattern(const fs::path& folder) {
   std::string escaped;
   for (const char c : folder.string()) escaped += c == '%' ? std::string("%%") : std::string(1, c);
@@ -24,9 +24,9 @@ std::string frame_pattern(const fs::path& folder) {
 }
 
 std::vector<std::string> mp4_options() {
-  // yuv420p and even sides: what every player and browser takes. bt709: else some players guess
-  // the colours of small pictures differently. crf 20: no visible loss. bitexact: no version or
-  // time inside, the same frames give the same bytes.
+  // yuv420p and even sides: supported by all players and browsers. bt709: otherwise players differ
+  // in the colours of small videos. crf 20: no visible loss. bitexact: no version or time in the
+  // file, so that equal frames give equal bytes.
   return {"-vf",
           "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,scale=out_color_matrix=bt709",
           "-c:v",
@@ -49,7 +49,7 @@ std::vector<std::string> mp4_options() {
 }
 
 std::vector<std::string> gif_options() {
-  // One palette for the whole film, made from what moves; ordered dither compresses best.
+  // One palette for the whole video; ordered dithering compresses best.
   return {
       "-vf",
       "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer:bayer_scale=4",
@@ -63,7 +63,7 @@ std::vector<std::string> ffmpeg_arguments(const fs::path& folder, double frame_r
       frame_pattern(folder)};
   const auto options = path.extension() == ".gif" ? gif_options() : mp4_options();
   arguments.insert(arguments.end(), options.begin(), options.end());
-  // A name that starts with a dash would be read as an option.
+  // A name that starts with a dash would be parsed as an option.
   const std::string name = path.string();
   arguments.push_back(name.starts_with('-') ? "./" + name : name);
   return arguments;
@@ -77,7 +77,7 @@ VideoResult encode_video(const fs::path& folder, double frame_rate, const fs::pa
   if (!(frame_rate > 0) || !std::isfinite(frame_rate))
     throw InputError(fmt::format("video: a frame rate of {} must be above 0", frame_rate));
   if (!fs::exists(render::frame_path(folder, 0)))
-    throw InputError(fmt::format("video: there is no {}; draw the frames first",
+    throw InputError(fmt::format("video: {} does not exist; draw the frames first",
                                  render::frame_path(folder, 0).string()));
   VideoResult result;
   result.command = shell_line("ffmpeg", ffmpeg_arguments(folder, frame_rate, path));

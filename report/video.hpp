@@ -7,11 +7,11 @@ namespace springlod::report {
 
 struct VideoResult {
   bool made = false;    ///< false: ffmpeg is not installed
-  std::string command;  ///< that makes it from the frames
+  std::string command;  ///< command that encodes the frames
 };
 
-/// Encodes folder/frame_%04d.png as `path` (.mp4 or .gif) through ffmpeg, written aside and
-/// renamed. Throws IoError if ffmpeg is there and fails, InputError for another ending.
+/// Encodes folder/frame_%04d.png to `path` (.mp4 or .gif) with ffmpeg, through a temporary file.
+/// Throws IoError if ffmpeg fails, InputError for other extensions.
 VideoResult encode_video(const std::filesystem::path& folder, double frame_rate,
                          const std::filesystem::path& path);
 

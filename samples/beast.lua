@@ -3,7 +3,7 @@ local s = require "springlod"
 local folder = arg[1] or "out/beast"
 
 local mesh = s.import(s.samples .. "/beast.obj", {unit = "cm", up = "z"})
--- A skeleton by rule: what lies deep under the skin is ten times as stiff.
+-- A skeleton: cells deeper than 8 mm are ten times as stiff.
 local grid = s.voxelize(mesh, {
   cell = "4 mm",
   materials = dofile(s.samples .. "/beast_materials.lua"),

@@ -10,7 +10,7 @@ local grid = s.voxelize(mesh, {
 local base = s.lattice(grid)
 print(base)
 
--- Low gradients of stiffness and density merge first, so that the joint stays soft.
+-- Priority grouping merges nodes of similar stiffness and density first: the joint stays soft.
 local chain = s.simplify(base, {levels = 2, grouping = "priority", border = "weak"})
 print(chain)
 s.save(folder .. "/dumbbell.glb", chain)

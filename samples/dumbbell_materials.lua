@@ -1,4 +1,4 @@
--- Materials of samples/dumbbell.obj, by the names its parts carry in the file.
+-- Materials of samples/dumbbell.obj, by the material names in the file.
 return {
   rod = {young = "10 MPa", density = 1000, damping = "0.5 ms", colour = "#5b7fa6"},
   rubber = {young = "0.2 MPa", density = 1000, damping = "0.5 ms", colour = "#e0803a"},

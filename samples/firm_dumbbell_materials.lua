@@ -1,5 +1,5 @@
--- Materials of samples/dumbbell.obj, stiffer than in dumbbell_materials.lua, rods ten and joint a
--- hundred times: rods that keep their shape where they hit a wall at 10 m/s.
+-- Materials of samples/dumbbell.obj: rods ten times and joint a hundred times as stiff as in
+-- dumbbell_materials.lua. The body keeps its shape when it hits a wall at 10 m/s.
 return {
   rod = {young = "100 MPa", density = 1000, damping = "0.5 ms", colour = "#5b7fa6"},
   rubber = {young = "20 MPa", density = 1000, damping = "0.5 ms", colour = "#e0803a"},

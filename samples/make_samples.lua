@@ -1,5 +1,5 @@
 -- Makes the sample meshes of this folder:  springlod run samples/make_samples.lua -- [FOLDER]
--- Plain Lua; any Lua 5.4 runs it. Every shape is a formula, so that anyone can make it again.
+-- Plain Lua 5.4. Every shape is defined by formulas.
 
 local folder = arg and arg[1] or "samples"
 
@@ -39,7 +39,7 @@ local function rounded_square(half, radius)
       local angle = corner * math.pi / 2 + step / arc_steps * math.pi / 2
       outline[#outline + 1] = {cy + radius * math.cos(angle), cz + radius * math.sin(angle)}
     end
-    -- The straight side to the next corner, cut up so that it can bend.
+    -- The straight side to the next corner, subdivided so that it can bend.
     local y, z = table.unpack(outline[#outline])
     local turn = (corner + 1) * math.pi / 2
     local length = 2 * (half - radius)
@@ -52,8 +52,7 @@ local function rounded_square(half, radius)
 end
 
 
--- Stations along a bar from x0 to x1 whose ends are rounded over `rim`: x and how far the outline
--- is drawn in there.
+-- Stations along a bar from x0 to x1 with ends rounded over `rim`: x, and the inset of the outline.
 local function stations(x0, x1, rim)
   local list, rim_steps, step_length = {}, 4, 0.5
   for i = 0, rim_steps do
@@ -127,7 +126,7 @@ local function sphere(name, material, radius, subdivisions)
     vertex(s[1], s[2] * g, 0)
     vertex(s[2] * g, 0, s[1])
   end
-  -- The 20 faces of the icosahedron: all triples of corners at edge length, turned outwards.
+  -- The 20 faces of the icosahedron: all triples of corners at edge length, oriented outwards.
   local corners = part.vertices
   local function distance(a, b)
     local p, q = corners[a], corners[b]
@@ -241,7 +240,8 @@ local function beast()
   end
   local function inside(i, j, k) return value[i + stride_y * j + stride_z * k] < 0 end
 
-  -- One vertex in each cell the surface passes through, slid onto the surface along the gradient.
+  -- One vertex in each cell that the surface crosses, projected onto the surface along the
+  -- gradient.
   local number = {}
   local function cell_vertex(i, j, k)
     local key = i + stride_y * j + stride_z * k

@@ -1,5 +1,6 @@
--- The paper's first scene at the size of samples/ball.obj in dm: thrown flat just above the
--- floor, the ball bounces and rolls until it stops or time is up. Measured: how far it got.
+-- The paper's first scene at the size of samples/ball.obj in dm: the ball is thrown horizontally
+-- just above the floor, bounces and rolls until it stops or time is up. Measured: distance
+-- travelled.
 return {
   name = "roll",
   duration = "12 s",

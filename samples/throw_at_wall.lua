@@ -1,5 +1,6 @@
--- The paper's second scene at the size of samples/dumbbell.obj in dm: thrown spinning at a wall two
--- metres away, it bounces off, falls and comes to rest. Measured: how far from the wall.
+-- The paper's second scene at the size of samples/dumbbell.obj in dm: the body is thrown, spinning,
+-- at a wall two metres away, bounces off, falls and comes to rest. Measured: distance from the
+-- wall.
 return {
   name = "throw at a wall",
   duration = "5 s",

@@ -1,34 +1,34 @@
--- Runs the levels of an asset side by side: table, chart, frames, video.
+-- Run the levels of an asset side by side: table, chart, frames, video.
 
 local s = require "springlod"
 local command = require "lib.command"
 
-local parser = command.parser("compare", "Runs every level of an asset under one scenario and "
-  .. "writes table.csv, chart.svg and chart.png, frames/frame_0000.png ..., comparison.mp4 and "
-  .. "timings.csv (measured times, which alone differ from run to run).")
-parser:argument("asset", "a .glb that convert or save wrote")
-parser:option("--scenario", "Lua file that returns a table for s.scenario")
+local parser = command.parser("compare", "Run every level of an asset under one scenario. "
+  .. "Writes table.csv, starts.csv, chart.svg, chart.png, frames/frame_0000.png ..., "
+  .. "comparison.mp4 and timings.csv (wall-clock times, the only output that varies between runs).")
+parser:argument("asset", "a .glb asset, written by convert or s.save")
+parser:option("--scenario", "Lua file that returns a scenario table, as s.scenario takes")
   :argname("<file.lua>"):count(1)
 parser:option("--out", "folder to write to"):argname("<folder>"):count(1)
-parser:option("--starts", "starts, the same for every level")
+parser:option("--starts", "number of starts; every level uses the same ones")
   :convert(command.whole("--starts", 1)):default("1")
-parser:option("--jitter", "relative change of speed and height from start to start (default: 0.02)")
+parser:option("--jitter", "relative variation of speed and height between starts (default: 0.02)")
   :convert(command.number("--jitter", 0, true))
-parser:option("--variant", "goes into the labels: hb makes LOD-hb-1")
-parser:option("--frames", "pictures at most; 0: none")
+parser:option("--variant", "name used in labels: hb gives LOD-hb-1")
+parser:option("--frames", "maximum number of frames; 0 writes none")
   :convert(command.whole("--frames", 0)):default("300")
-parser:option("--frame-rate", "pictures a second of the video")
+parser:option("--frame-rate", "frames per second of the video")
   :convert(command.number("--frame-rate", 0)):default("30")
-parser:option("--slow", "4: four times slower than life")
+parser:option("--slow", "slow motion: 4 plays four times slower than real time")
   :convert(command.number("--slow", 0)):default("1")
-parser:option("--width", "pixels of one panel")
+parser:option("--width", "width of one panel in pixels")
   :convert(command.whole("--width", 1)):default("640")
-parser:option("--height", "pixels of one panel")
+parser:option("--height", "height of one panel in pixels")
   :convert(command.whole("--height", 1)):default("480")
-parser:option("--camera", "whether the camera follows the body")
+parser:option("--camera", "fixed camera, or one that follows the body")
   :choices(s.choices.camera):default("fixed")
 parser:option("--video", "file name of the video, .mp4 or .gif"):default("comparison.mp4")
-parser:flag("--springs", "draw the springs through the surface")
+parser:flag("--springs", "draw the springs under a transparent surface")
 local args = parser:parse()
 
 local function animate(runs)

@@ -1,4 +1,4 @@
--- Turns meshes into LOD assets.
+-- Convert meshes to LOD assets.
 
 local s = require "springlod"
 local command = require "lib.command"
@@ -6,56 +6,58 @@ local certificates = require "lib.certificates"
 
 local mesh_endings = {".obj", ".stl", ".ply", ".glb", ".gltf", ".fbx", ".off", ".dae"}
 
-local parser = command.parser("convert", "Turns meshes into LOD assets: one .glb each, with the "
-  .. "base model, its coarser levels and the mesh. Several meshes, or a folder, make a batch that "
-  .. "goes on past a bad file. A calibration that was stopped goes on where it was when the same "
-  .. "command is given again.")
-parser:argument("mesh", "mesh files, or a folder of them"):args("+")
-parser:option("-o", "asset to write, NAME.glb; for a batch a folder")
+local parser = command.parser("convert", "Convert meshes to LOD assets. Each asset is one .glb "
+  .. "with the base model, its coarser levels and the mesh. Several meshes, or a folder, form a "
+  .. "batch, which continues after a failed file. An interrupted calibration resumes when the same "
+  .. "command is run again.")
+parser:argument("mesh", "mesh files, or a folder of mesh files"):args("+")
+parser:option("-o", "asset to write, NAME.glb; in a batch, a folder")
   :target("output"):argname("<asset>"):count(1)
-parser:option("--cell", "edge of a cell, such as 2mm (default: longest side / 32)")
+parser:option("--cell", "cell size, such as 2mm (default: longest side / 32)")
   :convert(command.quantity("--cell", "length"))
-parser:option("--unit", "unit of length of the file (default: the file's, else m)")
+parser:option("--unit", "length unit of the file (default: as the file declares, else m)")
   :choices(s.choices.unit)
-parser:option("--up", "axis of the file that points up (default: the file's or its format's)")
+parser:option("--up", "up axis of the file (default: as the file or its format defines)")
   :choices(s.choices.up)
-parser:option("--materials", "Lua file that returns {part = {young = ..., density = ...}}")
+parser:option("--materials", "Lua file that returns {part = {young = ..., density = ...}, ...}")
   :argname("<file.lua>")
-parser:option("--lattice", "where the nodes sit"):choices(s.choices.lattice):default("corners")
-parser:option("--hinges", "what to do where cells touch only along an edge or at a corner")
+parser:option("--lattice", "place nodes at cell corners or cell centers")
+  :choices(s.choices.lattice):default("corners")
+parser:option("--hinges", "treatment of cells that touch only along an edge or at a corner")
   :choices(s.choices.hinges):default("report")
-parser:option("--levels", "levels besides the base (default: 2, or as --keep tells)")
+parser:option("--levels", "number of coarser levels (default: 2, or one per --keep value)")
   :convert(command.whole("--levels", 0))
-parser:option("--grouping", "which nodes merge")
+parser:option("--grouping", "how nodes are grouped for merging")
   :choices(s.choices.grouping):default("standard")
-parser:option("--border", "how border nodes merge")
+parser:option("--border", "merging rule for border nodes")
   :choices(s.choices.border):default("none")
-parser:option("--keep", "nodes of each level over those of the base, met exactly, such as "
-  .. "0.45,0.2 (default: as the grouping makes)")
-  :argname("<parts>"):convert(command.numbers("--keep", 0))
-parser:option("--calibrate", "fit the coarser levels to the base: its moduli, or its frequencies "
-  .. "and loads with as long a step as that allows (modes); modes certifies them too")
+parser:option("--keep", "node count of each level as a fraction of the base, reached exactly, "
+  .. "such as 0.45,0.2 (default: determined by the grouping)")
+  :argname("<fractions>"):convert(command.numbers("--keep", 0))
+parser:option("--calibrate", "fit the coarser levels to the base. moduli: to its elastic moduli. "
+  .. "modes: to its natural frequencies and static compliances at the longest possible stable "
+  .. "step; also certifies the levels")
   :choices(s.choices.calibrate):default("none")
-parser:option("--tolerance", "mean error of the ten lowest frequencies that calibrated levels may "
-  .. "have, such as 0.005 (default: 0.002 times the root of base nodes over nodes)")
+parser:option("--tolerance", "allowed mean relative error of the ten lowest frequencies of a "
+  .. "calibrated level, such as 0.005 (default: 0.002 * sqrt(base nodes / nodes))")
   :convert(command.number("--tolerance", 0))
-parser:option("--resume", "folder that keeps what --calibrate modes has found so far, and is not "
-  .. "removed (default: NAME.calibration beside the asset, removed once that is written)")
+parser:option("--resume", "folder for the intermediate results of --calibrate modes; it is kept "
+  .. "(default: NAME.calibration beside the asset, removed when the asset is written)")
   :argname("<folder>")
 local args = parser:parse()
 if args.resume and args.calibrate ~= "modes" then
-  parser:error("--resume is of --calibrate modes alone: nothing else takes long enough to be kept")
+  parser:error("--resume needs --calibrate modes")
 end
 
--- Where the calibration of an asset is kept while it goes on.
+-- The folder that stores the calibration of an asset while it runs.
 local function store_of(asset)
   if args.calibrate ~= "modes" then return nil end
   if not args.resume then return (asset:gsub("%.glb$", "")) .. ".calibration" end
   return args.resume:gsub("/*$", "") .. "/" .. command.stem(asset)
 end
 
--- What the store wrote (".level-1-part-1.PID.bin": in the middle of which it was killed), and the
--- folder if it held nothing else.
+-- Removes the files of the store, among them partial ones of a killed run
+-- (".level-1-part-1.PID.bin"), and the folder if it holds nothing else.
 local function remove_store(store)
   for _, path in ipairs(s.files(store, {endings = {".bin", ".txt"}})) do
     local name = command.base_name(path)
@@ -66,7 +68,7 @@ local function remove_store(store)
   os.remove(store)
 end
 
--- Mesh -> cells -> lattice -> levels -> asset. This is all there is to it.
+-- The whole conversion: mesh -> cells -> lattice -> levels -> asset.
 local function convert(path, asset, materials)
   local mesh = s.import(path, {unit = args.unit, up = args.up})
   local grid = s.voxelize(mesh, {cell = args.cell, materials = materials})
@@ -99,7 +101,7 @@ local function node_counts(chain)
   return table.concat(counts, " -> ")
 end
 
--- The meshes asked for; a batch if a folder or more than one file was named.
+-- The mesh files given, and whether they form a batch: a folder or more than one file.
 local function find_meshes()
   local paths, batch = {}, #args.mesh > 1
   for _, path in ipairs(args.mesh) do
@@ -118,7 +120,8 @@ local function find_meshes()
   return paths, batch
 end
 
--- A name for every asset of a batch; meshes that differ only in their ending keep it.
+-- A name for every asset of a batch. Meshes whose names differ only in the extension keep it in the
+-- asset's name.
 local function asset_names(paths)
   local uses, names = {}, {}
   for _, path in ipairs(paths) do
@@ -138,7 +141,7 @@ end
 local materials
 if args.materials then
   local ok, result = command.try(command.load_table, args.materials)
-  if not ok then command.fail("cannot read the materials: %s", result) end
+  if not ok then command.fail("cannot read --materials: %s", result) end
   materials = result
 end
 

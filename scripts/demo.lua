@@ -1,8 +1,9 @@
--- The main job on the paper's second body, two stiff rods and a rubber joint:
+-- Run the whole workflow on a sample, from a mesh to tables, charts and a video.
 --
 --   springlod run scripts/demo.lua -- [FOLDER [STARTS [FRAMES]]]
 --
--- mesh -> cells -> model -> levels -> a throw at a wall -> table, chart, film. ./dev demo runs it.
+-- The sample is the second body of the paper, two stiff rods and a rubber joint: mesh -> cells ->
+-- model -> levels -> a throw at a wall -> table, chart, video. ./dev demo runs this script.
 
 local s = require "springlod"
 local paper_numbers = require "studies.paper.numbers"
@@ -10,10 +11,10 @@ local paper_variants = require "studies.paper.variants"
 
 local folder = arg[1] or "out/demo"
 local samples = s.samples
-local starts = tonumber(arg[2]) or 8 -- a single run of a bouncing body says little
+local starts = tonumber(arg[2]) or 8 -- one run is not enough: bouncing is chaotic
 local frame_count = tonumber(arg[3]) or 60
 
--- 1. From the mesh to the model. The paper puts its nodes at the centres of the cells.
+-- 1. From the mesh to the model, with nodes at the cell centers as in the paper.
 local mesh = s.import(samples .. "/dumbbell.obj", {unit = "dm", up = "z"})
 local grid = s.voxelize(mesh, {
   cell = "10 cm",
@@ -44,7 +45,7 @@ s.csv(folder .. "/counts.csv", counts, {columns = count_columns})
 print()
 print(s.format_table(counts, {columns = count_columns}))
 
--- 3. Every level from the same starts.
+-- 3. Run every level from the same starts.
 local scene = s.scenario(dofile(samples .. "/throw_at_wall.lua"))
 local rows, columns, timings, timing_columns = {}, nil, {}, nil
 local series, compared = {}, {}
@@ -74,7 +75,7 @@ print(s.format_table(rows, {columns = {
   "distance", "distance_spread", "ledger_error",
 }}))
 
--- 4. What each level costs and how wrong it is.
+-- 4. Cost and error of each level.
 for _, ending in ipairs {"svg", "png"} do
   s.chart(folder .. "/chart." .. ending, series, {
     title = "Two rods thrown at a wall: cost against error",
@@ -84,7 +85,7 @@ for _, ending in ipairs {"svg", "png"} do
   })
 end
 
--- 5. The film: base and the two levels of LOD-hb on one clock.
+-- 5. The video: the base and the two levels of LOD-hb, synchronized.
 local frames = s.animate(folder .. "/frames", compared.hb,
   {frames = frame_count, camera = "follow"})
 s.video(folder .. "/comparison.mp4", folder .. "/frames")

@@ -1,12 +1,12 @@
--- Tells what is in an asset, level by level.
+-- Print the contents of an asset, level by level.
 
 local s = require "springlod"
 local certificates = require "lib.certificates"
 local command = require "lib.command"
 
-local parser = command.parser("info", "Tells what is in an asset, level by level.")
-parser:argument("asset", "a .glb that convert or save wrote")
-parser:flag("--json", "as JSON")
+local parser = command.parser("info", "Print the contents of an asset, level by level.")
+parser:argument("asset", "a .glb asset, written by convert or s.save")
+parser:flag("--json", "print JSON")
 local args = parser:parse()
 
 local ok, chain = command.try(s.load, args.asset)

@@ -1,40 +1,42 @@
--- Which merge costs which error, and where to stop merging.
+-- Measure the error of each merge and recommend where to stop merging.
 
 local s = require "springlod"
 local command = require "lib.command"
 local merge_ladder = require "lib.merge_ladder"
 
-local parser = command.parser("mergelog", "Merges the base of an asset down step by step, measures "
-  .. "each step beside the base and tells where to stop, which merges cost most, and what leaving "
-  .. "those out would save. Writes levels.csv, answers.csv, merges.csv, charts (errors, costs) "
-  .. "and where.png, a picture of the costliest merges.")
-parser:argument("asset", "a .glb that convert or save wrote")
+local parser = command.parser("mergelog", "Merge the base of an asset step by step and certify "
+  .. "each step against the base. Reports where to stop, which merges contribute most to the "
+  .. "error, and the error without them. Writes levels.csv, answers.csv, merges.csv, charts "
+  .. "(errors, costs) and where.png, a picture of the merges and their errors.")
+parser:argument("asset", "a .glb asset, written by convert or s.save")
 parser:option("--out", "folder to write to"):argname("<folder>"):default("out/mergelog")
-parser:option("--tolerance", "mean error of the ten lowest frequencies that is good enough "
-  .. "(default: 0.05; of calibrated levels 0.005)"):convert(command.number("--tolerance", 0))
-parser:option("--steps", "levels between the base and the coarsest (default: 10; quick: 3)")
+parser:option("--tolerance", "allowed mean relative error of the ten lowest frequencies "
+  .. "(default: 0.05; calibrated levels: 0.005)"):convert(command.number("--tolerance", 0))
+parser:option("--steps", "number of levels below the base (default: 10; --quick: 3)")
   :convert(command.whole("--steps", 1))
-parser:option("--least", "nodes of the coarsest level over those of the base")
+parser:option("--least", "node count of the coarsest level as a fraction of the base")
   :convert(command.number("--least", 0)):default("0.1")
-parser:option("--grouping", "which nodes merge")
+parser:option("--grouping", "how nodes are grouped for merging")
   :choices(s.choices.grouping):default("standard")
-parser:option("--border", "how border nodes merge")
+parser:option("--border", "merging rule for border nodes")
   :choices(s.choices.border):default("none")
-parser:flag("--as-made", "the asset's own levels in place of new ones")
-parser:flag("--calibrate", "levels fitted to the base, as by convert --calibrate modes")
-parser:option("--leave-out", "costliest part of the merges of a step that is tried without; 0: no "
-  .. "try (nor of calibrated or the asset's own levels)")
+parser:flag("--as-made", "analyze the levels of the asset, build no new ones")
+parser:flag("--calibrate", "calibrate the levels, as convert --calibrate modes does")
+parser:option("--leave-out", "fraction of the merges of a step, costliest first, that a second "
+  .. "build of the level leaves out; 0: no second build (always so with --as-made or --calibrate)")
   :convert(command.number("--leave-out", 0, true)):default("0.05")
-parser:flag("--quick", "few steps: a first look")
+parser:flag("--quick", "use few steps, for a first look")
 local args = parser:parse()
-if args.least >= 1 then parser:error("--least: must be below 1, the base itself") end
-if args.leave_out >= 1 then parser:error("--leave-out: must be below 1, all merges") end
+if args.least >= 1 then parser:error("--least must be below 1 (1 is the base itself)") end
+if args.leave_out >= 1 then parser:error("--leave-out must be below 1 (1 would leave out all)") end
 
 local tolerance = args.tolerance or (args.calibrate and 0.005 or 0.05)
 
-local tries_without = args.leave_out > 0 and not args.calibrate and not args.as_made
+local builds_without = args.leave_out > 0 and not args.calibrate and not args.as_made
 
-local function percent(part) return part and ("%.2f %%"):format(100 * part) or "-" end
+local function percent(fraction)
+  return fraction and ("%.2f %%"):format(100 * fraction) or "-"
+end
 
 local function worst_local(certificate)
   local worst
@@ -48,31 +50,32 @@ end
 
 local function where(merge)
   local at = {}
-  for axis, x in ipairs(merge.position) do -- no -7e-17
+  for axis, x in ipairs(merge.position) do -- rounding errors such as -7e-17 print as 0
     at[axis] = math.abs(x) < 1e-9 and 0 or x
   end
   return ("%s%s, %d nodes, at %.3g %.3g %.3g m"):format(merge.material,
     merge.border and " surface" or " inside", merge.base_nodes, table.unpack(at))
 end
 
--- One entry a level: how it was measured, what its merges cost, what it is without the costliest.
+-- One entry per level: its certificate, the errors of its merges, and its certificate without the
+-- costliest merges.
 local function measure(chain)
   local log, levels = s.merge_log(chain, {from_base = not args.as_made}), {}
   for i, info in ipairs(s.info(chain).levels) do
     local c, step = info.certificate, log[i - 1]
     if c then
       local entry = {
-        level = info.level, nodes = info.nodes, part = info.nodes / chain[0].node_count,
+        level = info.level, nodes = info.nodes, kept = info.nodes / chain[0].node_count,
         certificate = c, step = step, merged = merge_ladder.merged(step),
         worst_local = worst_local(c),
       }
-      if tries_without then
+      if builds_without then
         local model, without, count =
           merge_ladder.without_costliest(chain, step, args.leave_out)
         if model then
           entry.without = {
             nodes = model.node_count, certificate = without, count = count,
-            part = model.node_count / chain[0].node_count,
+            kept = model.node_count / chain[0].node_count,
           }
         end
       end
@@ -93,7 +96,7 @@ local level_columns = {
 local function level_row(entry)
   local c, first, without = entry.certificate, entry.merged[1], entry.without
   local row = {
-    level = entry.level, nodes = entry.nodes, kept = entry.part, f1_10_error = c.f1_10_error,
+    level = entry.level, nodes = entry.nodes, kept = entry.kept, f1_10_error = c.f1_10_error,
     f11_20_error = c.f11_20_error, smooth_load_error = c.fitted_load_error,
     local_load_error = c.held_out_load_error, worst_local_error = entry.worst_local
       and entry.worst_local.error, worst_local = entry.worst_local and entry.worst_local.name,
@@ -110,7 +113,7 @@ local function level_row(entry)
   return row
 end
 
--- Signed: what each step did to each frequency and load.
+-- Signed relative change of each frequency and compliance by each step.
 local function answer_rows(levels)
   local rows = {}
   for _, entry in ipairs(levels) do
@@ -138,13 +141,13 @@ local function merge_rows(levels)
 end
 
 local function draw_errors(levels)
-  local last, low, high = levels[#levels], 100 * levels[#levels].part, 100 * levels[1].part
+  local last, low, high = levels[#levels], 100 * levels[#levels].kept, 100 * levels[1].kept
   local function line(name, error_of, cost)
     local series = {name = name, points = {}}
     for _, entry in ipairs(levels) do
       local y = error_of(entry)
       if y and y > 0 then
-        table.insert(series.points, {100 * entry.part, 100 * y, label = cost and
+        table.insert(series.points, {100 * entry.kept, 100 * y, label = cost and
           ("%.2g"):format(entry.certificate.cost_ratio)})
       end
     end
@@ -169,7 +172,7 @@ local function draw_errors(levels)
   for _, entry in ipairs(levels) do
     if entry.without then
       table.insert(without.points,
-        {100 * entry.without.part, 100 * entry.without.certificate.f1_10_error})
+        {100 * entry.without.kept, 100 * entry.without.certificate.f1_10_error})
     end
   end
   if #without.points > 0 then series[#series + 1] = without end
@@ -184,7 +187,7 @@ local function draw_errors(levels)
   })
 end
 
--- How much of a level's error its costliest merges make, for at most five levels.
+-- Cumulative error of the merges of a level, costliest first, for at most five levels.
 local function draw_merges(levels)
   local series, most = {}, 5
   local stride = math.max(1, math.ceil(#levels / most))
@@ -193,13 +196,13 @@ local function draw_merges(levels)
     local points, count = {{0, 0}}, #entry.merged
     for rank, merge in ipairs(entry.merged) do
       sum = sum + 100 * merge.frequencies
-      -- Some twenty points: more are a smear.
+      -- About twenty points, so that the symbols stay apart.
       if rank == count or rank * 20 // count > (rank - 1) * 20 // count then
         points[#points + 1] = {100 * rank / count, sum}
       end
     end
     series[#series + 1] = {
-      name = ("%.0f %% kept, %d merges"):format(100 * entry.part, #entry.merged), points = points,
+      name = ("%.0f %% kept, %d merges"):format(100 * entry.kept, #entry.merged), points = points,
     }
   end
   command.chart(args.out .. "/costs", series, {
@@ -208,7 +211,7 @@ local function draw_merges(levels)
   })
 end
 
--- The body with the cost of the merge that each of its nodes went into.
+-- The body, with each node coloured by the error of its merge.
 local function draw_where(chain, entry)
   local cost, of_node = {}, {}
   for _, merge in ipairs(entry.step.merges) do of_node[merge.node] = merge.frequencies end
@@ -226,7 +229,7 @@ local function show(levels)
   for i, entry in ipairs(levels) do
     local c, without = entry.certificate, entry.without
     rows[i] = {
-      ("%.1f %%"):format(100 * entry.part), entry.nodes, percent(c.f1_10_error),
+      ("%.1f %%"):format(100 * entry.kept), entry.nodes, percent(c.f1_10_error),
       percent(c.f11_20_error), percent(c.fitted_load_error), percent(c.held_out_load_error),
       percent(entry.worst_local and math.abs(entry.worst_local.error)),
       ("%.3g"):format(c.highest_frequency / c.base_highest_frequency),
@@ -241,11 +244,11 @@ local function show(levels)
     "kept", "nodes", "f1..10", "f11..20", "smooth loads", "local loads", "worst local",
     "omega_max / base", "cost / base", "costliest merge",
   }
-  if tries_without then columns[11] = ("f1..10 without %g %%"):format(100 * args.leave_out) end
+  if builds_without then columns[11] = ("f1..10 without %g %%"):format(100 * args.leave_out) end
   print(s.format_table(rows, {columns = columns}))
 end
 
--- The coarsest level down to which all are good enough, and the next, which is not.
+-- The last level before the tolerance is first exceeded, and the level that exceeds it.
 local function find_stop(levels)
   local stop
   for _, entry in ipairs(levels) do
@@ -259,27 +262,27 @@ local function advise(stop, beyond)
   local wanted = ("f1..10 within %g %%"):format(100 * tolerance)
   local function say_errors(entry)
     local c = entry.certificate
-    print(("  off by %s (f1..10), %s (smooth loads), %s (local loads)"):format(
+    print(("  errors: %s (f1..10), %s (smooth loads), %s (local loads)"):format(
       percent(c.f1_10_error), percent(c.fitted_load_error), percent(c.held_out_load_error)))
   end
-  local function told(entry)
-    return ("%.0f %% (%d nodes), cost %.2g of the base's"):format(100 * entry.part, entry.nodes,
+  local function described(entry)
+    return ("%.0f %% (%d nodes), cost %.2g of the base's"):format(100 * entry.kept, entry.nodes,
       entry.certificate.cost_ratio)
   end
   if stop then
-    print(("stop for %s: at %s"):format(wanted, told(stop)))
+    print(("coarsest level with %s: %s"):format(wanted, described(stop)))
     say_errors(stop)
   else
     print(("no level has %s%s"):format(wanted,
-      args.as_made and "" or ": more --steps start nearer to the base"))
+      args.as_made and "" or "; increase --steps to start closer to the base"))
   end
   if not beyond then
-    print("all levels are good enough" .. (args.as_made and "" or ": --least may be lower"))
+    print("all levels are within tolerance" .. (args.as_made and "" or "; --least can be lower"))
     return
   end
-  print((stop and "beyond that: at " or "the first: at ") .. told(beyond))
+  print((stop and "next level: " or "finest level: ") .. described(beyond))
   say_errors(beyond)
-  print(("  costliest merge, %s of f1..10: %s"):format(
+  print(("  costliest merge, adding %s to f1..10: %s"):format(
     percent(beyond.merged[1].frequencies), where(beyond.merged[1])))
   local without = beyond.without
   if without then
@@ -288,20 +291,20 @@ local function advise(stop, beyond)
       without.certificate.cost_ratio))
   end
   if not args.calibrate and not args.as_made then
-    print("--calibrate shows how far fitted levels go")
+    print("--calibrate runs the same analysis on calibrated levels")
   end
 end
 
--- The asset's own levels, or new ones from near its base on.
+-- The levels of the asset, or new ones.
 local function make_chain(asset)
   if args.as_made then return s.certify(asset) end
   local steps = args.steps or (args.quick and 3 or 10)
-  local parts = merge_ladder.parts(asset[0], steps, args.least)
-  local chain, shortened = merge_ladder.build(asset[0], parts, {
+  local fractions = merge_ladder.fractions(asset[0], steps, args.least)
+  local chain, shortened = merge_ladder.build(asset[0], fractions, {
     grouping = args.grouping, border = args.border, seed = s.seed, straight = true,
     calibrate = args.calibrate and "modes" or "none",
   })
-  if shortened then s.say("ends early: " .. shortened) end
+  if shortened then s.say("fewer levels than requested: " .. shortened) end
   return chain
 end
 

@@ -1,39 +1,40 @@
--- Maps which integrator holds out at which step and stiffness ratio.
+-- Map the stability and error of integrators over time step and stiffness ratio.
 
 local s = require "springlod"
 local command = require "lib.command"
 
-local parser = command.parser("stability", "Runs every level of an asset under every integrator, "
-  .. "over steps and stiffness ratios, against a fine run of the same model. Writes map.csv, "
-  .. "bodies.csv, map.svg and map.png, and timings.csv (measured times, which alone differ from "
-  .. "run to run).")
-parser:argument("asset", "a .glb that convert or save wrote")
+local parser = command.parser("stability", "Run every level of an asset under every integrator "
+  .. "over a grid of time steps and stiffness ratios, and compare each run with a reference run "
+  .. "of the same model at a small time step. Writes map.csv, bodies.csv, map.svg, map.png "
+  .. "and timings.csv (wall-clock times, the only output that varies between runs).")
+parser:argument("asset", "a .glb asset, written by convert or s.save")
 parser:option("--out", "folder to write to"):argname("<folder>"):default("out/stability")
-parser:option("--levels", "such as 0,2 (default: all)")
+parser:option("--levels", "levels to run, such as 0,2 (default: all)")
   :convert(command.numbers("--levels", 0, true)):argname("<list>")
-parser:option("--ratios", "Young's modulus of the stiff part over the soft one (default: 1,10,100,"
-  .. "1000,1e4,1e5)"):convert(command.numbers("--ratios", 0)):argname("<list>")
-parser:option("--integrators", "such as xpbd,runge_kutta_4 (default: all)")
+parser:option("--ratios", "ratios of Young's moduli, stiff to soft mesh part (default: "
+  .. "1,10,100,1000,1e4,1e5)"):convert(command.numbers("--ratios", 0)):argname("<list>")
+parser:option("--integrators", "integrators to run, such as xpbd,runge_kutta_4 (default: all)")
   :convert(command.words):argname("<list>")
-parser:option("--iterations", "of xpbd and projective_dynamics, such as 1,10,100")
+parser:option("--iterations", "iterations of xpbd and projective_dynamics, such as 1,10,100")
   :convert(command.numbers("--iterations", 1, true)):argname("<list>")
-parser:option("--steps", "of explicit integrators, in predicted limits (default: "
-  .. "0.5,0.9,1.1,2,5,20)"):convert(command.numbers("--steps", 0)):argname("<list>")
-parser:option("--implicit-steps", "of backward Euler, in periods of the slowest mode (default: "
-  .. "0.003,0.01,0.03,0.1)"):convert(command.numbers("--implicit-steps", 0)):argname("<list>")
-parser:option("--sweep-steps", "of xpbd and projective_dynamics, likewise (default: "
-  .. "0.0003,0.001,0.003,0.01,0.03)"):convert(command.numbers("--sweep-steps", 0))
-  :argname("<list>")
-parser:option("--absolute-steps", "of all, such as 0.1ms,1ms, in place of these")
+parser:option("--steps", "time steps of explicit integrators, as multiples of the predicted stable "
+  .. "step (default: 0.5,0.9,1.1,2,5,20)"):convert(command.numbers("--steps", 0)):argname("<list>")
+parser:option("--implicit-steps", "time steps of backward Euler, as multiples of the period of the "
+  .. "slowest mode (default: 0.003,0.01,0.03,0.1)")
+  :convert(command.numbers("--implicit-steps", 0)):argname("<list>")
+parser:option("--sweep-steps", "time steps of xpbd and projective_dynamics, as multiples of the "
+  .. "period of the slowest mode (default: 0.0003,0.001,0.003,0.01,0.03)")
+  :convert(command.numbers("--sweep-steps", 0)):argname("<list>")
+parser:option("--absolute-steps", "steps of all integrators, such as 0.1ms,1ms; replaces the above")
   :convert(command.quantities("--absolute-steps", "time")):argname("<list>")
 parser:option("--periods", "length of each run in periods of the slowest mode (default: 1)")
   :convert(command.number("--periods", 0))
 parser:option("--duration", "length of each run, such as 0.1s")
   :convert(command.quantity("--duration", "time"))
-parser:flag("--damping", "springs keep their damping (the map is without it unless you say so)")
-parser:flag("--fixed-levels", "only the base follows the ratio: how far can a level be used off "
-  .. "the one it was made for?")
-parser:flag("--quick", "fewer ratios and steps: a first look")
+parser:flag("--damping", "keep the damping of the springs (default: undamped)")
+parser:flag("--fixed-levels", "apply the ratio to the base only and keep the levels as they are; "
+  .. "shows the error of a level at ratios it was not built for")
+parser:flag("--quick", "use fewer ratios and steps, for a first look")
 local args = parser:parse()
 
 local quick = args.quick and {
@@ -60,11 +61,11 @@ local function stability()
   return map
 end
 
-local function percent(part)
-  return ("%.3g %%"):format(100 * part)
+local function percent(fraction)
+  return ("%.3g %%"):format(100 * fraction)
 end
 
--- A row of integrators[...] of one level: for each ratio the best that it came to.
+-- One row per level and integrator: for each ratio the lowest error of any step, else the verdict.
 local function best_rows(rows, ratios)
   local lines, of = {}, {}
   for _, row in ipairs(rows) do
@@ -93,8 +94,8 @@ local function best_rows(rows, ratios)
   return cells
 end
 
--- For each level and ratio the cheapest point within `most` of the reference. Not by factorization,
--- which spring updates do not count.
+-- For each level and ratio the cheapest run with an error of at most `most`. Excludes
+-- backward_euler_direct: spring updates do not count its factorizations.
 local function cheapest_rows(rows, bodies, most)
   local cells = {}
   for i, body in ipairs(bodies) do
@@ -126,12 +127,12 @@ for _, body in ipairs(bodies) do
   end
 end
 print("stiff part: " .. map.stiff_part)
-print("\nleast error of any step, by ratio of Young's moduli:")
+print("\nlowest error of any time step, by ratio of Young's moduli:")
 print(s.format_table(best_rows(rows, ratios), {columns = columns}))
-print("\ncheapest within 10 %, in spring updates a simulated second (which do not count "
-  .. "factorizations, so that backward_euler_direct is left out; timings.csv has all times):")
+print("\ncheapest run within 10 %, in spring updates per simulated second (backward_euler_direct "
+  .. "is excluded, as spring updates do not count factorizations; timings.csv has all times):")
 print(s.format_table(cheapest_rows(rows, bodies, 0.1), {columns = {
-  "level", "ratio", "limit [s]", "limited by", "frequencies off", "integrator", "step [s]", "error",
+  "level", "ratio", "limit [s]", "limited by", "frequency error", "integrator", "step [s]", "error",
   "cost"}}))
 local counts = {}
 for verdict, count in pairs(map.verdicts) do counts[#counts + 1] = count .. " " .. verdict end
@@ -140,7 +141,7 @@ print(("\n%d points: %s"):format(#rows, table.concat(counts, ", ")))
 s.say("wrote " .. args.out)
 local first = rows[1]
 if (map.verdicts.mechanism or 0) == #rows then
-  command.fail("nothing could be run: level %d is a mechanism (node %d hangs loose). s.zero_modes "
-    .. "tells more; guards, the corners lattice or finer cells mend it",
+  command.fail("nothing could be run: level %d is a mechanism (node %d is loose). s.zero_modes "
+    .. "lists the loose nodes; guards, the corners lattice or smaller cells prevent them",
     first.level, first.node)
 end

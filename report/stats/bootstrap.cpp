@@ -14,8 +14,8 @@ namespace springlod::report {
 
 namespace {
 
-// The jackknife leaves out single values up to this many, else as many blocks: the acceleration is
-// the same on the mean, and the work does not grow with the square of the sample.
+// The jackknife leaves out single values up to this number, otherwise as many blocks: the mean
+// acceleration is the same, and the cost is not quadratic in the sample size.
 constexpr std::size_t kMostBlocks = 500;
 constexpr std::uint32_t kFewestResamples = 100;
 constexpr std::uint32_t kMostResamples = 1000000;  // 8 MB of results
@@ -32,7 +32,7 @@ using Samples = std::vector<std::vector<double>>;
 using Statistic = std::function<double(const Samples&)>;
 using Numbers = std::vector<std::uint32_t>;
 
-/// The starts and seeds of one sample that a resample takes.
+/// The starts and seeds that a resample draws from one sample.
 struct Draw {
   Numbers starts;
   Numbers seeds;
@@ -70,7 +70,7 @@ std::vector<double> taken(const StartSample& sample, const Draw& draw) {
 
 void validate(const BootstrapOptions& options) {
   if (options.resamples < kFewestResamples || options.resamples > kMostResamples)
-    throw InputError(fmt::format("bootstrap: {} resamples; give {} to {}", options.resamples,
+    throw InputError(fmt::format("bootstrap: resamples is {}, must be {} to {}", options.resamples,
                                  kFewestResamples, kMostResamples));
 }
 
@@ -90,7 +90,7 @@ class Resampling {
     if (!std::isfinite(result.estimate))
       throw InputError(
           fmt::format("bootstrap: the statistic of the data is {}; the base may have "
-                      "no spread, so that nothing can be measured by it",
+                      "no spread, by which the statistic divides",
                       result.estimate));
     Task task(options_.progress, "resampling", options_.resamples);
     result.resampled.reserve(options_.resamples);
@@ -127,7 +127,7 @@ class Resampling {
     return options_.design == SeedDesign::crossed && sample.seeds > 1;
   }
 
-  /// A stream of chance of its own for every resample.
+  /// Every resample has its own random stream.
   std::vector<Draw> resample(std::uint32_t number) const {
     ChanceStream chance(options_.seed, number);
     std::vector<Draw> draws;
@@ -166,7 +166,7 @@ class Resampling {
     return sums.acceleration();
   }
 
-  /// Squares and cubes of what each unit adds to the statistic.
+  /// Sums of squares and cubes of the influence of each unit.
   class JackknifeSums {
    public:
     template <class Without>
@@ -183,7 +183,7 @@ class Resampling {
     }
     double acceleration() const {
       const double a = cubes_ / (6 * squares_ * std::sqrt(squares_));
-      return std::isfinite(a) ? a : 0;  // a statistic that no unit changes, or that leaves numbers
+      return std::isfinite(a) ? a : 0;  // no unit has an influence, or the statistic is not finite
     }
 
    private:
@@ -196,8 +196,8 @@ class Resampling {
   const BootstrapOptions& options_;
 };
 
-/// Part of the resamples below `value`, those equal to it counted by half, kept off 0 and 1, of
-/// which a finite number of resamples says nothing.
+/// Fraction of the resamples below `value`; equal ones count half. Clamped away from 0 and 1, which
+/// a finite number of resamples cannot resolve.
 double part_below(const std::vector<double>& rising, double value) {
   const auto [first, last] = std::equal_range(rising.begin(), rising.end(), value);
   const auto count = static_cast<double>(rising.size());
@@ -213,12 +213,12 @@ Bootstrap resampled(std::vector<StartSample> samples, Statistic statistic,
   return result;
 }
 
-/// Where the one-sided limit of confidence `part` lies among the resamples (Efron and Tibshirani
-/// 1993, eq. 14.10).
+/// Quantile order of the one-sided BCa limit with confidence `part` (Efron and Tibshirani 1993,
+/// eq. 14.10).
 double corrected(const Bootstrap& result, double part) {
   const double shifted = result.bias + quantile(Normal(), part);
   const double stretch = 1 - result.acceleration * shifted;
-  if (stretch <= 0) return shifted < 0 ? 0 : 1;  // beyond the reach of the correction
+  if (stretch <= 0) return shifted < 0 ? 0 : 1;  // outside the range of the correction
   return cdf(Normal(), result.bias + shifted / stretch);
 }
 
@@ -239,7 +239,7 @@ Bootstrap bootstrap(const StartSample& base, const StartSample& other,
 Interval interval(const Bootstrap& result, double confidence, IntervalMethod method) {
   if (!(confidence > 0 && confidence < 1))
     throw InputError(
-        fmt::format("interval: a confidence of {}; give one between 0 and 1, such as "
+        fmt::format("interval: confidence is {}, must be between 0 and 1, such as "
                     "0.95",
                     confidence));
   const double tail = 0.5 * (1 - confidence);

@@ -19,28 +19,28 @@ using StudentsT = boost::math::students_t_distribution<
 
 void validate(const EquivalenceOptions& options) {
   if (!(options.margin > 0 && std::isfinite(options.margin)))
-    throw InputError(
-        fmt::format("equivalence: a margin of {}; say how many standard deviations of "
-                    "the base the means may be apart, such as 0.5",
-                    options.margin));
+    throw InputError(fmt::format(
+        "equivalence: margin is {}, must be above 0: the difference of means that counts "
+        "as equivalent, in standard deviations of the base, such as 0.5",
+        options.margin));
   if (!(options.alpha > 0 && options.alpha < 0.5))
     throw InputError(
-        fmt::format("equivalence: alpha is {}; give a number between 0 and 0.5, such "
+        fmt::format("equivalence: alpha is {}, must be between 0 and 0.5, such "
                     "as 0.05",
                     options.alpha));
   if (options.spread && !(*options.spread > 0 && std::isfinite(*options.spread)))
-    throw InputError(fmt::format("equivalence: a spread of {}; give one above 0", *options.spread));
+    throw InputError(fmt::format("equivalence: spread is {}, must be above 0", *options.spread));
 }
 
 double spread_of(const std::vector<double>& base, const EquivalenceOptions& options) {
   const double spread = options.spread ? *options.spread : standard_deviation(base);
   if (spread > 0) return spread;
   throw InputError(
-      "equivalence: all values of the base are the same, so that a margin in its spreads means "
-      "nothing; give the spread, or jitter the starts");
+      "equivalence: all values of the base are equal, so that the margin is undefined; "
+      "give the spread, or jitter the starts");
 }
 
-/// What single starts or seeds add to an estimate, each by its distance from the mean.
+/// Influence of single starts or seeds on an estimate.
 using Influence = std::vector<double>;
 
 /// Means of the table values[start * seeds + seed] over its seeds and over its starts.
@@ -57,7 +57,7 @@ Influence by_seed(const Influence& values, std::uint32_t seeds) {
   return means;
 }
 
-/// A number with sources of chance that do not depend on each other.
+/// An estimate with independent sources of variance.
 struct Estimate {
   double value = 0;
   double variance = 0;  // of `value`
@@ -69,7 +69,7 @@ struct Estimate {
     variance += share;
     parts += share * share / static_cast<double>(source.size() - 1);
   }
-  /// P-value against "the truth is 0 or less" (Welch and Satterthwaite).
+  /// p-value of the null hypothesis "0 or less" (Welch-Satterthwaite).
   double p_positive() const {
     if (variance == 0) return value > 0 ? 0 : 1;
     const StudentsT distribution(variance * variance / parts);
@@ -77,9 +77,9 @@ struct Estimate {
   }
 };
 
-/// Room between the difference and one end of the margin, spread * margin + sign * difference,
-/// and its variance from what each value adds to it (delta method; the influence of a value x on a
-/// standard deviation s is ((x - mean)^2 - s^2) / (2 s)).
+/// Distance of the difference from one end of the margin, spread * margin + sign * difference, and
+/// its variance by the delta method (influence of a value x on a standard deviation s: ((x -
+/// mean)^2 - s^2) / (2 s)).
 Estimate room(const StartSample& base, const StartSample& other, const EquivalenceOptions& options,
               double sign) {
   const double spread = spread_of(base.values, options);

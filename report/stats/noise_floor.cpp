@@ -12,8 +12,8 @@ namespace springlod::report {
 
 namespace {
 
-constexpr std::size_t kLeastValues = 5;  // as for the bootstrap
-// The 95 % quantile of fewer distances is their largest.
+constexpr std::size_t kLeastValues = 5;  // same as for the bootstrap
+// With fewer distances the 95 % quantile would be the maximum.
 constexpr std::size_t kLeastPairs = 20;
 constexpr std::uint32_t kFewestResamples = 100;
 constexpr std::uint32_t kMostResamples = 1000000;
@@ -26,12 +26,12 @@ void validate(const Sources& sources, const NoiseFloorOptions& options) {
     require_sample(sources[i], kLeastValues, fmt::format("source {}", i + 1));
   if (!(options.part > 0 && options.part < 1))
     throw InputError(
-        fmt::format("noise floor: a quantile of {}; give one between 0 and 1, such as "
+        fmt::format("noise floor: part is {}, must be between 0 and 1, such as "
                     "0.95",
                     options.part));
   if (options.resamples < kFewestResamples || options.resamples > kMostResamples)
-    throw InputError(fmt::format("noise floor: {} resamples; give {} to {}", options.resamples,
-                                 kFewestResamples, kMostResamples));
+    throw InputError(fmt::format("noise floor: resamples is {}, must be {} to {}",
+                                 options.resamples, kFewestResamples, kMostResamples));
 }
 
 std::size_t smallest_of(const Sources& sources) {
@@ -40,7 +40,7 @@ std::size_t smallest_of(const Sources& sources) {
   return smallest;
 }
 
-/// Moves `count` values, chosen by chance, to the front (Fisher and Yates).
+/// Moves `count` random values to the front (Fisher-Yates).
 void shuffle_front(std::vector<double>& values, std::size_t count, ChanceStream& chance) {
   for (std::size_t i = 0; i < count; ++i)
     std::swap(values[i], values[i + chance.below(static_cast<std::uint32_t>(values.size() - i))]);
@@ -69,8 +69,8 @@ class Drawing {
     floor_.with_replacement = pairs_.empty();
     if (sources.size() > 1 && smallest_of(sources) < std::max(floor.base_size, floor.other_size))
       throw InputError(fmt::format(
-          "noise floor: the smallest source has {} values, but {} are to be drawn from each; run "
-          "more starts of the base, or ask for a smaller size",
+          "noise floor: the smallest source has {} values, but {} are drawn from each; run more "
+          "starts of the base, or set a smaller size",
           smallest_of(sources), std::max(floor.base_size, floor.other_size)));
   }
 
@@ -93,10 +93,11 @@ class Drawing {
 
   void measure_pairs() {
     if (pairs_.size() < kLeastPairs)
-      throw InputError(fmt::format(
-          "noise floor: {} sources make {} pairs, but a quantile needs at least {}; give 7 sources "
-          "or more, or larger ones to draw from",
-          sources_.size(), pairs_.size(), kLeastPairs));
+      throw InputError(
+          fmt::format("noise floor: {} sources form {} pairs, but a quantile needs at least {}; "
+                      "give at least 7 "
+                      "sources, or larger ones",
+                      sources_.size(), pairs_.size(), kLeastPairs));
     for (const auto& [i, j] : pairs_)
       floor_.distances.push_back(distance_between(sources_[i], sources_[j], floor_.distance));
   }
@@ -109,7 +110,7 @@ class Drawing {
     }
   }
 
-  /// A stream of chance of its own for every draw.
+  /// Every draw has its own random stream.
   double draw(std::uint32_t number) const {
     ChanceStream chance(options_.seed, number);
     const auto measured = [&](const std::vector<double>& base, const std::vector<double>& other) {
@@ -127,7 +128,7 @@ class Drawing {
                       slice(first, floor_.base_size, floor_.other_size));
     }
     std::vector<double> second = sources_[j];
-    if (chance.below(2) == 1) std::swap(first, second);  // either may be the base
+    if (chance.below(2) == 1) std::swap(first, second);  // random order
     shuffle_front(first, floor_.base_size, chance);
     shuffle_front(second, floor_.other_size, chance);
     return measured(slice(first, 0, floor_.base_size), slice(second, 0, floor_.other_size));
@@ -163,8 +164,8 @@ FloorVerdict inside_noise_floor(const NoiseFloor& floor, const std::vector<doubl
                                 const std::vector<double>& other) {
   if (base.size() != floor.base_size || other.size() != floor.other_size)
     throw InputError(fmt::format(
-        "noise floor: it is that of {} against {} values, the samples have {} and {}; a distance "
-        "shrinks as samples grow, so make a floor of their sizes",
+        "noise floor: it holds for sample sizes {} and {}, but the samples have {} and {} values; "
+        "compute a floor for these sizes",
         floor.base_size, floor.other_size, base.size(), other.size()));
   FloorVerdict verdict;
   verdict.distance = distance_between(base, other, floor.distance);

@@ -11,7 +11,7 @@ namespace springlod::report {
 
 namespace {
 
-/// Sum of weight(F - G) times the length between neighbouring values of both samples together.
+/// Integral of weight(F - G), where F and G are the empirical distribution functions.
 template <class Weight>
 double integral_between(std::vector<double> base, std::vector<double> other, Weight weight) {
   require_sample(base, 1, "base");
@@ -46,8 +46,8 @@ void require_sample(const std::vector<double>& sample, std::size_t least, std::s
   for (std::size_t i = 0; i < sample.size(); ++i)
     if (!std::isfinite(sample[i]))
       throw InputError(
-          fmt::format("statistics: value {} of the sample '{}' is {}, no finite "
-                      "number; leave out the run it came from or find out why",
+          fmt::format("statistics: value {} of the sample '{}' is {}, not a finite "
+                      "number; check the run that it came from, or leave it out",
                       i + 1, what, sample[i]));
 }
 
@@ -70,7 +70,7 @@ double sorted_quantile(const std::vector<double>& rising, double part) {
   const double place = part * static_cast<double>(rising.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, rising.size() - 1);
-  // Infinite values of a statistic have no between.
+  // Infinite values cannot be interpolated.
   if (rising[below] == rising[above] || place == static_cast<double>(below)) return rising[below];
   return rising[below] + (place - static_cast<double>(below)) * (rising[above] - rising[below]);
 }
@@ -78,7 +78,7 @@ double sorted_quantile(const std::vector<double>& rising, double part) {
 double quantile(std::vector<double> sample, double part) {
   require_sample(sample, 1, "sample");
   if (!(part >= 0 && part <= 1))
-    throw InputError(fmt::format("quantile: {} is no part of a sample; give 0 to 1", part));
+    throw InputError(fmt::format("quantile: part is {}, must be 0 to 1", part));
   std::sort(sample.begin(), sample.end());
   return sorted_quantile(sample, part);
 }

@@ -1,5 +1,5 @@
--- A list of numbers a seed as s.statistics and s.compare_samples take it: a list a start of one
--- number a seed.
+-- Transposes seeds[seed][start] to starts[start][seed], the layout that s.statistics and
+-- s.compare_samples take.
 
 return function(seeds)
   local list = {}

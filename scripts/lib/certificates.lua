@@ -1,36 +1,36 @@
--- Shows what levels were measured to be beside their base.
+-- Prints the certificates of levels: errors relative to the base and the verdict.
 
 local s = require "springlod"
 
 local certificates = {}
 
-local columns = {"level", "f1..10", "f11..20", "loads fitted", "loads held out", "least MAC",
+local columns = {"level", "f1..10", "f11..20", "fitted loads", "held-out loads", "lowest MAC",
                  "omega_max / base", "cost / base", "second moments", "zero modes", "verdict"}
 
--- Parts of 1; nil where nothing of the kind was measured.
-local function percent(part)
-  return part and ("%.2f %%"):format(100 * part) or "-"
+-- `fraction` is nil if the quantity was not measured.
+local function percent(fraction)
+  return fraction and ("%.2f %%"):format(100 * fraction) or "-"
 end
 
-local function ratio(part, whole)
-  return part and whole and whole > 0 and ("%.3g"):format(part / whole) or "-"
+local function ratio(value, reference)
+  return value and reference and reference > 0 and ("%.3g"):format(value / reference) or "-"
 end
 
-local function least_mac(frequencies)
-  local least
+local function lowest_mac(frequencies)
+  local lowest
   for _, frequency in ipairs(frequencies) do
-    least = math.min(least or frequency.mac, frequency.mac)
+    lowest = math.min(lowest or frequency.mac, frequency.mac)
   end
-  return least and ("%.3f"):format(least) or "-"
+  return lowest and ("%.3f"):format(lowest) or "-"
 end
 
 local function row(level)
   local c = level.certificate
   return {level.level, percent(c.f1_10_error), percent(c.f11_20_error),
-          percent(c.fitted_load_error), percent(c.held_out_load_error), least_mac(c.frequencies),
+          percent(c.fitted_load_error), percent(c.held_out_load_error), lowest_mac(c.frequencies),
           ratio(c.highest_frequency, c.base_highest_frequency), ratio(c.cost, c.base_cost),
           percent(c.second_moment_error), ("%d of %d"):format(c.zero_modes, c.expected_zero_modes),
-          #c.misses == 0 and "as asked" or "MISSES"}
+          #c.misses == 0 and "within tolerance" or "outside tolerance"}
 end
 
 local function moduli_line(level, m)
@@ -39,7 +39,7 @@ local function moduli_line(level, m)
     m.base_poisson)
 end
 
--- `levels` as s.info gives them; prints nothing if none has a certificate.
+-- `levels`: those of s.info. Prints nothing if no level has a certificate.
 function certificates.print(levels)
   local measured, rows = {}, {}
   for _, level in ipairs(levels) do
@@ -49,7 +49,7 @@ function certificates.print(levels)
     end
   end
   if #rows == 0 then return end
-  print("\nmeasured beside the base (mean errors):")
+  print("\ncertificate (mean errors relative to the base):")
   print(s.format_table(rows, {columns = columns}))
   for _, level in ipairs(measured) do
     for _, m in ipairs(level.certificate.moduli) do print(moduli_line(level, m)) end
@@ -57,7 +57,7 @@ function certificates.print(levels)
   for _, level in ipairs(measured) do
     local misses = level.certificate.misses
     if #misses > 0 then
-      print(("level %d MISSES: %s"):format(level.level, table.concat(misses, "; ")))
+      print(("level %d is outside tolerance: %s"):format(level.level, table.concat(misses, "; ")))
     end
   end
 end

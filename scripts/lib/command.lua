@@ -1,12 +1,12 @@
--- What the stock commands share: a parser that exits 2 on wrong use, errors in one plain line,
--- files that return a table, and charts.
+-- Shared by the stock commands: the argument parser (exit code 2 on wrong use), one-line error
+-- messages, Lua files that return a table, and charts.
 
 local argparse = require "argparse"
 local s = require "springlod"
 
 local command = {}
 
-local epilog = "Besides: --seed N, --threads N, -q/--quiet and -v/--verbose as for every command."
+local epilog = "Also: --seed N, --threads N, -q/--quiet and -v/--verbose, as for every command."
 
 -- A parser for `springlod NAME`.
 function command.parser(name, summary)
@@ -19,7 +19,8 @@ function command.parser(name, summary)
   return parser
 end
 
--- Converters for argparse, which checks what they return; `option` is what messages call it.
+-- Converters for argparse: each returns the value, or nil and an error message. `option` is the
+-- name that the message uses.
 
 -- A quantity such as "2mm" as a number in SI units.
 function command.quantity(option, dimension)
@@ -30,16 +31,16 @@ function command.quantity(option, dimension)
   end
 end
 
--- A whole number of `least` or more.
+-- An integer of at least `least`.
 function command.whole(option, least)
   return function(text)
     local value = math.tointeger(tonumber(text))
     if value and value >= least then return value end
-    return nil, ("%s: '%s' must be a whole number of %d or more"):format(option, text, least)
+    return nil, ("%s: '%s' must be an integer of at least %d"):format(option, text, least)
   end
 end
 
--- A number above `limit`; or equal to it if `inclusive`.
+-- A number above `limit`, or equal to it if `inclusive`.
 function command.number(option, limit, inclusive)
   return function(text)
     local value = tonumber(text)
@@ -47,11 +48,11 @@ function command.number(option, limit, inclusive)
       return value
     end
     return nil, ("%s: '%s' must be a number %s %g"):format(option, text,
-      inclusive and "from" or "above", limit)
+      inclusive and "of at least" or "above", limit)
   end
 end
 
--- Lists with commas between, such as 1,10,1e3: the words of `text`, each through `convert`.
+-- A comma-separated list, such as 1,10,1e3; `convert` parses each word.
 local function list(text, convert)
   local values = {}
   for word in (text .. ","):gmatch("%s*(.-)%s*,") do
@@ -62,7 +63,7 @@ local function list(text, convert)
   return values
 end
 
--- Numbers above `limit`; if `whole`, whole ones from it on.
+-- Numbers above `limit`; if `whole`, integers of at least `limit`.
 function command.numbers(option, limit, whole)
   local convert = whole and command.whole(option, limit) or command.number(option, limit)
   return function(text) return list(text, convert) end
@@ -77,7 +78,7 @@ function command.words(text)
   return list(text, function(word) return word end)
 end
 
--- Words of `known`.
+-- Words that must be in `known`.
 function command.words_of(option, known)
   local is_known = {}
   for _, word in ipairs(known) do is_known[word] = true end
@@ -89,8 +90,8 @@ function command.words_of(option, known)
   end
 end
 
--- Why a call failed: the message of springlod without the line of the script that called it. What
--- is no error of springlod is a fault of a script and keeps its line.
+-- The message of a failed call. Errors of springlod come without the line of the calling script;
+-- other errors are bugs of a script and keep their line.
 function command.reason(failure)
   if type(failure) == "userdata" and failure.kind then
     if failure.kind == "interrupted" then error(failure, 0) end
@@ -99,7 +100,7 @@ function command.reason(failure)
   return tostring(failure)
 end
 
--- Runs work(...); true and its results, or false and the reason. -v shows where it failed.
+-- Runs work(...). Returns true and its results, or false and the message. -v prints a traceback.
 function command.try(work, ...)
   local function keep_trace(failure)
     if s.verbosity > 0 then s.say(debug.traceback(tostring(failure), 2)) end
@@ -110,13 +111,13 @@ function command.try(work, ...)
   return false, command.reason(results[2])
 end
 
--- Ends the command: one line, exit 1.
+-- Prints one line and ends the command with exit code 1.
 function command.fail(...)
   io.stderr:write("springlod: ", string.format(...), "\n")
   os.exit(1, true)
 end
 
--- The table that the Lua file at `path` returns.
+-- Runs the Lua file at `path`, which must return a table.
 function command.load_table(path)
   local chunk, message = loadfile(path)
   if not chunk then error(message, 0) end
@@ -127,12 +128,12 @@ function command.load_table(path)
   return value
 end
 
--- s.chart as stem.svg and stem.png.
+-- Writes s.chart to stem.svg and stem.png.
 function command.chart(stem, data, options)
   for _, ending in ipairs{"svg", "png"} do s.chart(stem .. "." .. ending, data, options) end
 end
 
--- The file name of a path, with and without its ending.
+-- The file name of a path, with and without its extension.
 function command.base_name(path) return path:match("([^/]+)/*$") or path end
 function command.stem(path) return (command.base_name(path):gsub("%.[^.]*$", "")) end
 

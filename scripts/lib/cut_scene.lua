@@ -1,4 +1,5 @@
--- A scene's table cut to `duration` [s]; runs of it go on to its end, at rest or not.
+-- A copy of a scene table that lasts `duration` [s]. It has no rest criterion: every run goes to
+-- the end.
 
 return function(scene, duration)
   local copy = {}

@@ -1,10 +1,10 @@
--- Values with an interval, {value =, low =, high =}, of few numbers.
+-- Means and medians of small samples with their intervals: {value =, low =, high =}.
 
 local s = require "springlod"
 
 local intervals = {}
 
-local least_resampled = 5 -- what s.statistics takes
+local least_resampled = 5 -- smallest sample of s.statistics
 local confidence = 0.95
 
 local function sorted(values)
@@ -13,8 +13,8 @@ local function sorted(values)
   return copy
 end
 
--- The mean of a sample with the interval that resampling gives it; of fewer than five numbers, one
--- a seed or start, their range in its place.
+-- The mean of a sample with its bootstrap interval. Samples of fewer than five numbers get their
+-- range instead.
 function intervals.mean(values)
   if #values >= least_resampled then
     local m = s.statistics(values)
@@ -24,20 +24,22 @@ function intervals.mean(values)
   return {value = s.mean(list), low = list[1], high = list[#list]}
 end
 
--- How many of n numbers may be left out at either end so that the rest still holds the median of
--- what they are drawn from with at least 95 % confidence, whatever its distribution (sign test).
+-- How many of n sorted numbers can be dropped at either end so that the range of the others
+-- contains the median of their distribution with at least 95 % confidence (sign test; it assumes
+-- nothing about the distribution).
 local function trimmed(n)
-  local chance, below, count = 0.5 ^ n, 0, 0 -- binomial: of `count` numbers below the median
+  -- Binomial distribution: probability that exactly `count` numbers lie below the median.
+  local probability, below, count = 0.5 ^ n, 0, 0
   while count < n / 2 do
-    below = below + chance
+    below = below + probability
     if below > (1 - confidence) / 2 then break end
-    chance, count = chance * (n - count) / (count + 1), count + 1
+    probability, count = probability * (n - count) / (count + 1), count + 1
   end
   return math.max(0, count - 1)
 end
 
--- The median with an interval of the numbers' own; of fewer than six their range, which holds it
--- with less than 95 %.
+-- The median with its sign-test interval. Fewer than six numbers get their range, whose confidence
+-- is below 95 %.
 function intervals.median(values)
   local list = sorted(values)
   local n, out = #list, trimmed(#list)

@@ -1,5 +1,5 @@
--- How far the base is from itself: other starts, and what a method's own error does. Samples for
--- s.noise_floor beside one of `starts` starts, as options of s.ensemble; no start is used twice.
+-- Samples of the base for s.noise_floor, as options of s.ensemble: other starts, half the time
+-- step, another integrator. The samples use starts after the first `starts`, each start once.
 
 local sources = {
   {name = "other-starts", times = 2},

@@ -1,5 +1,5 @@
--- Results that took long to run, kept as CSV files in a folder: what is there is not run again, so
--- that an interrupted script goes on where it was.
+-- Keeps the results of long runs as CSV files in a folder. Kept results are not computed again, so
+-- that an interrupted script resumes where it stopped.
 
 local s = require "springlod"
 
@@ -14,7 +14,7 @@ local function exists(path)
   return file ~= nil
 end
 
--- Rows of plain cells (no commas or quotes in them) as written by s.csv: numbers become numbers.
+-- Reads rows written by s.csv whose cells hold no commas or quotes; numeric cells become numbers.
 local function read_rows(path)
   local rows, columns = {}, nil
   for line in io.lines(path) do
@@ -33,7 +33,7 @@ local function read_rows(path)
   return rows
 end
 
--- A value, or a table of values in the order of their keys, as one cell that read_rows takes.
+-- A value, or a table sorted by key, as the text of one cell that read_rows can read.
 local function as_text(value)
   if type(value) ~= "table" then
     return (tostring(value):gsub("[%c,\"%%]", function(c) return ("%%%02x"):format(c:byte()) end))
@@ -51,14 +51,14 @@ local function check_settings(path, settings)
   for _, row in ipairs(read_rows(path)) do kept[row.name] = tostring(row.value) end
   for name, value in pairs(settings) do
     if kept[name] ~= as_text(value) then
-      error(("%s holds runs with %s = %s, not %s; take another folder, or remove that one")
+      error(("%s holds runs with %s = %s, not %s; use another folder, or remove this one")
         :format(path:match("(.*)/"), name, kept[name] or "nothing", as_text(value)), 0)
     end
   end
 end
 
--- The store in `folder`. `settings` are values or tables of them by name, all on which a result
--- depends; a folder with others is refused.
+-- Opens the store in `folder`. `settings` maps names to values or tables and must hold everything
+-- that a result depends on. A folder with other settings is an error.
 function run_store.open(folder, settings)
   local path = folder .. "/settings.csv"
   if exists(path) then
@@ -77,7 +77,7 @@ end
 function Store:path(name) return ("%s/%s.csv"):format(self.folder, name) end
 function Store:has(name) return exists(self:path(name)) end
 
--- The rows kept as `name`; without them make() makes them.
+-- The rows kept under `name`; if there are none, make() computes them.
 function Store:rows(name, columns, make)
   if not self:has(name) then s.csv(self:path(name), make(), {columns = columns}) end
   return read_rows(self:path(name))

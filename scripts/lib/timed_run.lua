@@ -1,11 +1,11 @@
--- What a simulated second takes by the clock.
+-- Wall-clock cost of a simulated second.
 
 local s = require "springlod"
 
 local timed_run = {}
 
--- One run alone on one thread that keeps nothing: wall-clock seconds (what is planned once left
--- out) and spring updates a simulated second, and the step [s].
+-- One run on one thread without output. Returns, per simulated second, the wall-clock time (without
+-- the one-time planning) and the number of spring updates; then the time step [s].
 function timed_run.once(model, scene, more)
   local options = {threads = 1, frame_rate = 0, ledger = false, sleep = 0, quiet = true}
   for key, value in pairs(more or {}) do options[key] = value end
@@ -14,7 +14,7 @@ function timed_run.once(model, scene, more)
   return seconds / run.simulated, run.spring_updates / run.simulated, run.step
 end
 
--- The mean of as many runs as it takes to fill `least` seconds.
+-- The mean over enough runs to last at least `least` seconds.
 function timed_run.long(model, scene, more, least)
   local seconds, count, spent = 0, 0, 0
   local updates, step

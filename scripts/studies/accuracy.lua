@@ -1,5 +1,4 @@
--- Measures levels beside their bases: plain merging, calibration, groupings, refilling, on the
--- bodies of lib/accuracy_bodies.lua.
+-- Measure the accuracy of levels by method: groupings, calibration and refilling.
 
 local s = require "springlod"
 local command = require "lib.command"
@@ -29,23 +28,23 @@ local methods = {
   {name = "lattice refill", refill = "lattice"},
 }
 
-local parser = command.parser("accuracy", "Measures levels of 45 % and 20 % of the nodes beside "
-  .. "their bases, made by plain merging, calibrated, by several groupings and by refilling. "
-  .. "Writes levels.csv (each level), methods.csv (means over bodies and seeds, and worst bodies) "
+local parser = command.parser("accuracy", "Measure the accuracy of levels with 45 % and 20 % of "
+  .. "the nodes of their base: merged by several groupings, calibrated, and refilled. Writes "
+  .. "levels.csv (every level) and methods.csv (means over bodies and seeds, and the worst body), "
   .. "and prints the latter.")
-parser:argument("folder", "where to write"):args("?"):default("out/accuracy")
-parser:option("--seeds", "runs of each body and method"):convert(command.whole("--seeds", 1))
-  :default("5")
+parser:argument("folder", "folder to write to"):args("?"):default("out/accuracy")
+parser:option("--seeds", "number of seeds for each body and method"):default("5")
+  :convert(command.whole("--seeds", 1))
 local function some_of(option, list)
   local names = names_of(list)
-  parser:option(option, "some of " .. table.concat(names, ", "))
+  parser:option(option, "any of " .. table.concat(names, ", "))
     :convert(command.words_of(option, names)):default(table.concat(names, ","))
 end
 some_of("--bodies", bodies)
 some_of("--methods", methods)
-parser:flag("--trade-off", "levels of 80 % to 10 % of the nodes of compact groups, plain and "
-  .. "calibrated, and a chart, trade-off.svg and .png: errors against saved cost")
-parser:flag("--quick", "one seed of one small body: some seconds")
+parser:flag("--trade-off", "measure compact groups only, plain and calibrated, with 80 % to 10 % "
+  .. "of the nodes, and draw error against cost reduction (trade-off.svg and .png)")
+parser:flag("--quick", "use one seed of one small body; takes seconds")
 local args = parser:parse()
 
 local keep = args.trade_off and trade_off.keep or {0.45, 0.2}
@@ -56,8 +55,10 @@ if args.quick then args.bodies = {"sphere"} end
 local function make_chain(body, method, seed)
   if method.refill then
     local counts = {}
-    for i, part in ipairs(keep) do counts[i] = math.floor(part * body.base.node_count + 0.5) end
-    if method.refill == "lattice" and seed > 1 then return nil end -- there is but one
+    for i, share in ipairs(keep) do
+      counts[i] = math.floor(share * body.base.node_count + 0.5)
+    end
+    if method.refill == "lattice" and seed > 1 then return nil end -- it does not depend on the seed
     return s.certify(s.refill(body.base, body.grid,
       {nodes = counts, style = method.refill, lattice = body.lattice, seed = seed}))
   end
@@ -68,10 +69,10 @@ local function make_chain(body, method, seed)
   return chain
 end
 
--- How many times less a simulated second takes by the clock than one of the base, run by turns,
--- each at its own step: the body floats by itself. Both by the kernel for "any shape", or each by
--- its "fastest", which for a lattice is another.
-local function times_faster(body, model, layout)
+-- Speedup over the base in wall-clock time per simulated second, each at its own stable step, timed
+-- alternately on a free-floating body. `layout` selects the kernel: "any shape" for both, or the
+-- "fastest" for each, which for a lattice is a different one.
+local function speedup(body, model, layout)
   local turns, least_seconds = 3, 0.02
   body.seconds = body.seconds or least_seconds / timed_run.once(body.base, {duration = 0.1})
   local scene, how = {duration = body.seconds}, {layout = layout}
@@ -83,7 +84,7 @@ local function times_faster(body, model, layout)
   return intervals.median(ratios).value
 end
 
--- What is told of a level, by column; errors in percent.
+-- The columns that describe a level; errors in percent.
 local measures = {
   {"f1..10", function(c) return 100 * c.f1_10_error end},
   {"f11..20", function(c) return 100 * c.f11_20_error end},
@@ -91,12 +92,12 @@ local measures = {
   {"held-out loads", function(c) return 100 * c.held_out_load_error end},
   {"omega/base", function(c) return c.highest_frequency / c.base_highest_frequency end},
   {"base cost/cost", function(c) return c.base_cost / c.cost end},
-  {"same kernel", function(_, body, model) return times_faster(body, model, "any shape") end},
-  {"fastest kernel", function(_, body, model) return times_faster(body, model, "fastest") end},
+  {"same kernel", function(_, body, model) return speedup(body, model, "any shape") end},
+  {"fastest kernel", function(_, body, model) return speedup(body, model, "fastest") end},
   {"second moments", function(c) return 100 * c.second_moment_error end},
   {"mechanisms", function(c) return c.zero_modes > c.expected_zero_modes and 1 or 0 end},
 }
--- Of these the smallest is the worst.
+-- For these columns the smallest value is the worst.
 local more_is_better = {
   ["base cost/cost"] = true, ["same kernel"] = true, ["fastest kernel"] = true,
 }
@@ -143,7 +144,7 @@ local function mean(list, i)
   return sum / #list
 end
 
--- Means over the bodies' means, and the worst of these.
+-- Mean over the means of the bodies, and the worst of these means.
 local function summary(sample)
   local means, worst, levels, count = {}, {}, 0, 0
   for _, list in pairs(sample.by_body) do
@@ -186,7 +187,7 @@ local function show(all)
   end
   local columns = {"level", "method"}
   for i, measure in ipairs(measures) do columns[i + 2] = measure[1] end
-  print("means over bodies and seeds, and in brackets the worst body; errors in percent")
+  print("means over bodies and seeds (worst body in parentheses); errors in percent")
   print(s.format_table(texts, {columns = columns}))
 end
 
@@ -197,8 +198,8 @@ local function wanted(list, one)
   return false
 end
 
--- The column of a measure, by its name.
-local function place_of(name)
+-- The index of a measure by its name.
+local function index_of(name)
   for i, measure in ipairs(measures) do
     if measure[1] == name then return i end
   end
@@ -207,7 +208,7 @@ end
 local function draw_trade_off()
   trade_off.chart(args.folder .. "/trade-off", function(level, method, measure)
     local sample = samples[level .. " " .. method]
-    return sample and (summary(sample))[place_of(measure)]
+    return sample and (summary(sample))[index_of(measure)]
   end)
 end
 
@@ -219,7 +220,7 @@ local ok, failure = command.try(function()
         for seed = 1, wanted(args.methods, method) and seeds or 0 do
           local made, chain = command.try(make_chain, body, method, seed)
           if not made then
-            s.say(("%s, %s, seed %d: left out: %s"):format(body.name, method.name, seed, chain))
+            s.say(("%s, %s, seed %d: skipped: %s"):format(body.name, method.name, seed, chain))
           elseif chain then
             note(body, method, seed, chain)
           end

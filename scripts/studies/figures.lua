@@ -1,14 +1,14 @@
--- Draws the figures of the paper anew, from bodies, levels and runs made on the spot.
+-- Redraw the figures of the paper from newly built bodies, levels and runs.
 
 local s = require "springlod"
 local command = require "lib.command"
 local paper_figures = require "studies.paper.figures"
 
-local parser = command.parser("figures", "Draws the figures of Kot, Nagahashi and Gracki, "
-  .. "\"Simplification of mass spring models\", as figure-1.png to figure-8.png, and E and density "
-  .. "of every node by their eq. 2 as figure-e-density-*.png.")
-parser:argument("folder", "to write to"):args("?"):default("out/figures")
-parser:flag("--quick", "smaller pictures")
+local parser = command.parser("figures", "Redraw the figures of Kot, Nagahashi and Gracki, "
+  .. "\"Simplification of mass spring models\", as figure-1.png to figure-8.png, and Young's "
+  .. "modulus and density of every node by their eq. 2 as figure-e-density-*.png.")
+parser:argument("folder", "folder to write to"):args("?"):default("out/figures")
+parser:flag("--quick", "draw smaller pictures")
 local args = parser:parse()
 
 local ok, drawn = command.try(paper_figures.draw, args.folder,

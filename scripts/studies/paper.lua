@@ -1,4 +1,4 @@
--- Makes the paper's tables and figures again, with intervals and a noise floor; goes on if stopped.
+-- Reproduce the tables and figures of the paper with intervals and a noise floor.
 
 local s = require "springlod"
 local command = require "lib.command"
@@ -10,35 +10,37 @@ local paper_tables = require "studies.paper.tables"
 local paper_variants = require "studies.paper.variants"
 local run_store = require "lib.run_store"
 
-local parser = command.parser("paper", "Makes the tables and figures of Kot, Nagahashi and Gracki, "
-  .. "\"Simplification of mass spring models\", from many runs each: CSV files, charts, tables.md "
-  .. "and figure-N.png. Stopped with Ctrl-C, the same command goes on where it was.")
+local parser = command.parser("paper", "Reproduce the tables and figures of Kot, Nagahashi and "
+  .. "Gracki, \"Simplification of mass spring models\", from many runs each. Writes CSV files, "
+  .. "charts, tables.md and figure-N.png. After an interruption (Ctrl-C) the same command resumes.")
 parser:option("--out", "folder to write to"):argname("<folder>"):default("out/paper")
-parser:flag("--quick", "few runs: to see that it works, not to conclude from")
-parser:option("--starts", "paired starts of each model (default: 48; quick: 8)")
+parser:flag("--quick", "use few runs: a test of the command, without significance")
+parser:option("--starts", "paired starts of each model (default: 48; --quick: 8)")
   :convert(command.whole("--starts", 5))
-parser:option("--simplifications", "seeds of each way of merging (default: 5; quick: 2)")
+parser:option("--simplifications", "seeds of each simplification variant (default: 5; --quick: 2)")
   :convert(command.whole("--simplifications", 1))
-parser:option("--jitter", "relative change of speed and height from start to start")
+parser:option("--jitter", "relative variation of speed and height between starts")
   :convert(command.number("--jitter", 0)):default("0.02")
-parser:option("--margin", "spreads of the base that still count as the same")
+parser:option("--margin", "equivalence margin in standard deviations of the base")
   :convert(command.number("--margin", 0)):default("0.5")
-parser:option("--friction", "of floor and wall")
+parser:option("--friction", "friction coefficient of floor and wall")
   :convert(command.number("--friction", 0, true)):default("0.5")
-parser:option("--ball-speed", "m/s at which the ball is thrown")
+parser:option("--ball-speed", "speed at which the ball is thrown [m/s]")
   :convert(command.number("--ball-speed", 0)):default("3.2")
-parser:option("--speeds", "of the rods, in the paper's units (default: the paper's six; quick: 30)")
+parser:option("--speeds", "speeds of the rods in the paper's unit (default: its six; --quick: 30)")
   :argname("<speed>"):args("+"):convert(command.number("--speeds", 0))
-parser:option("--speed-scale", "m/s of one of the paper's units of speed")
+parser:option("--speed-scale", "one unit of speed of the paper [m/s]")
   :convert(command.number("--speed-scale", 0)):default("0.26")
-parser:option("--ball-materials", "Lua file that returns core and shell"):argname("<file.lua>")
-parser:option("--rods-materials", "Lua file that returns rod and rubber"):argname("<file.lua>")
-parser:flag("--calibrated", "also levels of 45 and 20 % of the nodes fitted to the base: LOD-fit-b "
-  .. "(the paper's groups), LOD-fit-compact-b, and LOD-fit-compact-s and -sp that touch at the "
-  .. "base's surface; goes on in a folder without them too")
-parser:option("--variants", "these ways only, fitted ones among them or not")
+parser:option("--ball-materials", "Lua file that returns materials core and shell")
+  :argname("<file.lua>")
+parser:option("--rods-materials", "Lua file that returns materials rod and rubber")
+  :argname("<file.lua>")
+parser:flag("--calibrated", "add calibrated levels with 45 % and 20 % of the nodes: LOD-fit-b (the "
+  .. "paper's groups), LOD-fit-compact-b, and LOD-fit-compact-s and -sp, whose contact is on the "
+  .. "surface of the base; the runs of a folder without them are reused")
+parser:option("--variants", "run these variants only")
   :argname("<name>"):args("+"):choices(paper_variants.labels())
-parser:flag("--no-figures", "tables only")
+parser:flag("--no-figures", "write tables only")
 local args = parser:parse()
 
 local settings = {
@@ -53,7 +55,7 @@ local settings = {
   rods_materials = args.rods_materials and command.load_table(args.rods_materials),
 }
 
--- All that a run depends on.
+-- Everything that a run depends on.
 local function run_settings()
   return {
     springlod = s.version, starts = settings.starts, jitter = settings.jitter,
@@ -69,7 +71,7 @@ local page = {} -- lines of tables.md
 
 local function write_page(line) page[#page + 1] = line end
 
--- A table on the terminal, in tables.md and, with all its digits, as a CSV file.
+-- Writes a table to the terminal, to tables.md and, with all digits, to a CSV file.
 local function publish(name, title, rows, columns, shown, shown_columns)
   s.csv(("%s/%s.csv"):format(args.out, name), rows, {columns = columns})
   shown, shown_columns = shown or rows, shown_columns or columns
@@ -92,7 +94,7 @@ local function table_1(ball)
   local rows = paper_tables.rows(ball, settings)
   publish("table-1", "Table 1: how far the ball rolls", rows, paper_tables.columns,
     paper_tables.readable(rows))
-  -- A line a variant, through the base and its levels.
+  -- One series per variant.
   local function point(row)
     return {row.ends, row.distance, label = row.model, low = row.distance_low,
             high = row.distance_high}
@@ -111,7 +113,7 @@ end
 
 local function table_2(rods)
   local all, lines = {}, {}
-  local beside = 0.08 -- units of speed from model to model, so that no interval hides another
+  local beside = 0.08 -- offset between models in units of speed, so that intervals do not overlap
   for _, one in ipairs(rods) do
     local rows = paper_tables.rows(one, settings)
     for i, row in ipairs(rows) do
@@ -138,14 +140,14 @@ local function table_2(rods)
 end
 
 local function paper()
-  local cases = paper_runs.cases(settings) -- first, for wrong materials must not get into a store
+  local cases = paper_runs.cases(settings) -- before the store opens: materials may be wrong
   local store = run_store.open(args.out .. "/runs", run_settings())
   local all = {cases.ball, table.unpack(cases.rods)}
   paper_runs.run(all, settings, store)
-  write_page("# The paper's tables, made again\n")
+  write_page("# The tables of the paper, reproduced\n")
   write_page(("%d paired starts, %d simplification seeds, jitter %g, friction %g, 1 unit of speed "
-    .. "= %g m/s, seed %d. W1: 1-Wasserstein distance; inside: simplification seeds whose distance "
-    .. "lies below the noise floor; same: shown to be within %g spreads of the base; "
+    .. "= %g m/s, seed %d. W1: 1-Wasserstein distance to the base; inside: simplification seeds "
+    .. "whose W1 is below the noise floor; same: mean shown to be within %g spreads of the base; "
     .. "turned: runs in which springs turned over."):format(
     settings.starts, settings.simplifications, settings.jitter, settings.friction,
     settings.speed_scale, settings.seed, settings.margin))
@@ -154,17 +156,17 @@ local function paper()
   if not args.no_figures then
     paper_figures.draw(args.out, {seed = settings.seed, quick = args.quick})
   end
-  publish("early-errors", "Before chaos: mean distance from the base's nodes [m]",
+  publish("early-errors", "Early errors: mean distance from the base's nodes [m]",
     paper_studies.early_errors({cases.ball, cases.rods[1]}, settings, store))
-  publish("three-runs", "The paper's way: three runs with steps that differ [m]",
+  publish("three-runs", "The paper's method: three runs with different time steps [m]",
     paper_studies.three_runs(cases.rods, settings, store))
-  publish("energy", "Largest energy difference over the base's largest kinetic energy",
+  publish("energy", "Largest energy difference / largest kinetic energy of the base",
     paper_studies.energy({cases.ball, cases.rods[1]}, settings, store))
-  publish("elasticity", "Elasticity alone: the ten lowest frequencies against the base's",
+  publish("elasticity", "Elasticity: errors of the ten lowest frequencies",
     paper_studies.elasticity(settings, store))
-  publish("random-models", "Random models: eq. 2 against a stretch test",
+  publish("random-models", "Random models: eq. 2 compared with a stretch test",
     paper_studies.random_models(settings, store))
-  publish("sensitivity", "What a scene makes of a start that is 0.1 % off",
+  publish("sensitivity", "Sensitivity: growth of a change of 0.1 % in the start",
     paper_studies.sensitivity(settings, store))
 end
 

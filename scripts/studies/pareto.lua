@@ -1,4 +1,4 @@
--- Draws cost against error for every way of making levels and of stepping them.
+-- Chart cost against error for all simplification methods and integrators.
 
 local s = require "springlod"
 local command = require "lib.command"
@@ -10,47 +10,48 @@ local pareto_tables = require "studies.pareto.tables"
 local pareto_times = require "studies.pareto.times"
 local pareto_variants = require "studies.pareto.variants"
 local run_store = require "lib.run_store"
-local teller = require "lib.teller"
+local progress = require "lib.progress"
 
 local all = pareto_variants.axes
 
-local parser = command.parser("pareto", "Makes levels of an asset's base by every grouping, border "
-  .. "rule and calibration, runs them under one scenario with every integrator and precision, and "
-  .. "draws what a simulated second costs against four errors: frequencies, loads, surface (before "
-  .. "the first chaos) and ensemble (where many starts end). Writes NAME.svg, NAME.png, NAME.csv "
-  .. "and NAME-front.csv of each error, points.csv, timings.csv (measured times; these and what is "
-  .. "drawn by them alone differ from run to run), left-out.csv, models/ (every level made) and "
-  .. "command.txt. Stopped with Ctrl-C, the same command goes on where it was.")
-parser:argument("asset", "a .glb that convert or save wrote; its base is what levels are made of")
-parser:option("--scenario", "Lua file that returns a table for s.scenario")
+local parser = command.parser("pareto", "Simplify the base of an asset with every combination of "
+  .. "grouping, border rule and calibration, run the levels under one scenario with every "
+  .. "integrator and precision, and chart the wall-clock cost of a simulated second against four "
+  .. "errors: frequencies, loads, surface (until shortly after the first contact) and ensemble "
+  .. "(final distances of many starts). Writes NAME.svg, NAME.png, NAME.csv and NAME-front.csv for "
+  .. "each error, points.csv, timings.csv (only the measured times, and what is drawn from them, "
+  .. "vary between runs), left-out.csv, models/ (all levels) and command.txt. After an "
+  .. "interruption (Ctrl-C) the same command resumes.")
+parser:argument("asset", "a .glb asset, written by convert or s.save; only its base is used")
+parser:option("--scenario", "Lua file that returns a scenario table, as s.scenario takes")
   :argname("<file.lua>"):count(1)
 parser:option("--out", "folder to write to"):argname("<folder>"):count(1)
 local function axis(name, help)
-  parser:option("--" .. name, help .. " (default: all; --quick: some)"):argname("<list>")
+  parser:option("--" .. name, help .. " (default: all; --quick: few)"):argname("<list>")
     :convert(command.words_of("--" .. name, all[name]))
 end
-axis("groupings", "such as standard,compact")
-axis("borders", "of " .. table.concat(all.borders, ","))
-axis("calibrations", "of " .. table.concat(all.calibrations, ","))
-axis("integrators", "such as symplectic_euler,xpbd")
-axis("precisions", "of " .. table.concat(all.precisions, ",")
-  .. "; symplectic_euler alone has single")
-axis("errors", "of " .. table.concat(all.errors, ",") .. "; the last takes longest")
-parser:option("--keep", "nodes of each level over those of the base, such as 0.45,0.2 (default: "
-  .. "the asset's)"):argname("<parts>"):convert(command.numbers("--keep", 0))
-parser:option("--seeds", "chains of each way of making levels (default: 5; quick: 1)")
+axis("groupings", "groupings, such as standard,compact")
+axis("borders", "any of " .. table.concat(all.borders, ","))
+axis("calibrations", "any of " .. table.concat(all.calibrations, ","))
+axis("integrators", "integrators, such as symplectic_euler,xpbd")
+axis("precisions", "any of " .. table.concat(all.precisions, ",")
+  .. "; only symplectic_euler supports single")
+axis("errors", "any of " .. table.concat(all.errors, ",") .. "; ensemble takes longest")
+parser:option("--keep", "node count of each level as a fraction of the base, such as 0.45,0.2 "
+  .. "(default: as in the asset)"):argname("<fractions>"):convert(command.numbers("--keep", 0))
+parser:option("--seeds", "seeds of each simplification method (default: 5; --quick: 1)")
   :convert(command.whole("--seeds", 1))
-parser:option("--starts", "paired starts of each run (default: 24; quick: 5)")
+parser:option("--starts", "paired starts of each variant (default: 24; --quick: 5)")
   :convert(command.whole("--starts", 5))
-parser:option("--jitter", "relative change of speed and height from start to start")
+parser:option("--jitter", "relative variation of speed and height between starts")
   :convert(command.number("--jitter", 0)):default("0.02")
-parser:option("--repeats", "timed runs of each (default: 9; quick: 3); slow ones get three")
+parser:option("--repeats", "timed runs of each variant (default: 9; --quick: 3; slow ones: 3)")
   :convert(command.whole("--repeats", 1))
-parser:option("--until", "surfaces are compared so long at most, such as 0.5s (default: to 0.25 s "
+parser:option("--until", "time up to which surfaces are compared, such as 0.5s (default: 0.25 s "
   .. "after the first contact)"):convert(command.quantity("--until", "time"))
-parser:option("--implicit-step", "of the integrators whose step nothing bounds, such as 1ms")
+parser:option("--implicit-step", "time step of the implicit integrators, such as 2ms")
   :convert(command.quantity("--implicit-step", "time")):default("1ms")
-parser:flag("--quick", "few of everything: to see that it works, not to conclude from")
+parser:flag("--quick", "use few variants and runs: a test of the command, without significance")
 local args = parser:parse()
 
 local quick = args.quick and {
@@ -63,12 +64,12 @@ for name, words in pairs(all) do axes[name] = args[name] or quick[name] or words
 local wanted = {}
 for _, name in ipairs(axes.errors) do wanted[name] = true end
 
--- Nodes of the asset's levels over those of its base.
+-- Node counts of the asset's levels as fractions of its base.
 local function keep_of(asset)
   local keep = {}
   for i = 1, asset.coarsest do keep[i] = asset[i].node_count / asset[0].node_count end
   if #keep == 0 then
-    error("the asset has no levels besides its base; say how many nodes levels shall have: "
+    error("the asset has only a base, so --keep must set the node counts of the levels: "
       .. "--keep 0.45,0.2", 0)
   end
   return keep
@@ -83,7 +84,7 @@ local function settings_of(asset)
   }
 end
 
--- All that what is kept depends on; axes and seeds may grow from run to run.
+-- Everything that kept results depend on. The axes and the number of seeds may change between runs.
 local function store_settings(settings, scene)
   return {
     springlod = s.version, asset = s.hash{file = args.asset}, scene = scene, keep = settings.keep,
@@ -93,12 +94,12 @@ local function store_settings(settings, scene)
   }
 end
 
--- What a variant is measured by: by name, its method.
+-- The measurements of each variant: {name, object, name of its method}.
 local function measures_of(study)
   local measures = {}
   if wanted.surface then
     study.surfaces = pareto_surfaces.new(study)
-    s.say(("surfaces are compared until %.3g s"):format(study.surfaces.until_chaos))
+    s.say(("surfaces are compared until %.3g s"):format(study.surfaces.time))
     measures[#measures + 1] = {"surface", study.surfaces, "error_of"}
   end
   if wanted.ensemble then
@@ -110,13 +111,13 @@ local function measures_of(study)
   return measures
 end
 
--- Errors and cost of a variant by name; what fails goes into `left_out` and leaves the others be.
+-- Errors and cost of a variant by name. Failed measurements are added to `left_out`.
 local function measure(variant, chains, elastic, measures, left_out)
   local found = {frequencies = wanted.frequencies and elastic.frequencies or nil,
                  loads = wanted.loads and elastic.loads or nil}
   for _, one in ipairs(measures) do
-    local name, meter, method = table.unpack(one)
-    local ok, result = command.try(meter[method], meter, variant, chains)
+    local name, object, method = table.unpack(one)
+    local ok, result = command.try(object[method], object, variant, chains)
     if ok then
       found[name] = result
     else
@@ -128,20 +129,20 @@ local function measure(variant, chains, elastic, measures, left_out)
 end
 
 local function measure_all(study, measures, left_out)
-  local ways = pareto_variants.ways_of_making(axes)
-  local steppings = pareto_variants.ways_of_stepping(axes)
+  local methods = pareto_variants.methods(axes)
+  local steppings = pareto_variants.steppings(axes)
   if #steppings == 0 then
-    error("nothing to run: of the integrators symplectic_euler alone has single precision; add "
-      .. "double to --precisions", 0)
+    error("nothing to run: only symplectic_euler supports single precision; add double to "
+      .. "--precisions", 0)
   end
   local settings, variants = study.settings, {}
   local levels = #settings.keep
-  local tell = teller(#steppings + (#ways - 1) * (settings.seeds + levels * #steppings))
-  for _, making in ipairs(ways) do
-    local ok, chains = command.try(pareto_chains.of, study, making, tell)
+  local report = progress(#steppings + (#methods - 1) * (settings.seeds + levels * #steppings))
+  for _, making in ipairs(methods) do
+    local ok, chains = command.try(pareto_chains.of, study, making, report)
     if not ok then
       left_out[#left_out + 1] = {making.name, "levels", chains}
-      s.say(("%s: left out: %s"):format(making.name, chains))
+      s.say(("%s: skipped: %s"):format(making.name, chains))
     else
       for level = making.grouping and 1 or 0, making.grouping and levels or 0 do
         local elastic = pareto_chains.elastic_errors(chains, level)
@@ -151,7 +152,7 @@ local function measure_all(study, measures, left_out)
           variant.springs = chains[1][level].spring_count
           variant.measured = measure(variant, chains, elastic, measures, left_out)
           variants[#variants + 1] = variant
-          tell(variant.label)
+          report(variant.label)
         end
       end
     end
@@ -159,7 +160,7 @@ local function measure_all(study, measures, left_out)
   return variants
 end
 
--- What is drawn of each error.
+-- The chart of each error.
 local function charts_of(study)
   local name, charts = study.scenario.name, {
     {name = "frequencies", title = "Frequencies",
@@ -169,8 +170,8 @@ local function charts_of(study)
   }
   if wanted.surface then
     charts[#charts + 1] = {name = "surface",
-      title = ("Surfaces before the first chaos (%s, up to %.2f s)"):format(name,
-        study.surfaces.until_chaos),
+      title = ("Surfaces until shortly after contact (%s, up to %.2f s)"):format(name,
+        study.surfaces.time),
       y_label = "distance from the base's, rms, mean over time [% of its size]",
       floor = study.surfaces.floor.value, floor_name = "half the step"}
   end
@@ -197,12 +198,15 @@ local function report(study, variants, left_out)
       end
     end
   end
-  if #left_out > 0 then print(("%d left out: see left-out.csv"):format(#left_out)) end
+  if #left_out > 0 then
+    print(("failed levels and measurements: %d (see left-out.csv)"):format(#left_out))
+  end
 end
 
 local function pareto()
   local scene, asset = command.load_table(args.scenario), s.load(args.asset)
-  local settings, scenario = settings_of(asset), s.scenario(scene) -- wrong ones get into no store
+  -- Before the store opens: either may be wrong.
+  local settings, scenario = settings_of(asset), s.scenario(scene)
   local study = {
     base = asset[0], size = asset[0].bounds.diagonal, scene = scene, scenario = scenario,
     settings = settings, folder = args.out,

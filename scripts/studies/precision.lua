@@ -1,29 +1,30 @@
--- Swings and drops bodies in single and in double precision and says how far apart they are.
+-- Compare single and double precision on vibrating and falling bodies.
 
 local s = require "springlod"
 local command = require "lib.command"
 local vibration = require "studies.precision.vibration"
 
-local parser = command.parser("precision", "Swings bodies in their ten lowest modes and drops them "
-  .. "on a floor, in single and in double precision. Writes frequencies.csv, amplitudes.csv, "
+local parser = command.parser("precision", "Compare single and double precision: bodies vibrate in "
+  .. "their ten lowest modes and drop on a floor. Writes frequencies.csv, amplitudes.csv, "
   .. "rest.csv, drops.csv, differences.csv, chart.svg and chart.png.")
-parser:argument("folder", "where to write"):args("?"):default("out/precision")
-parser:flag("--quick", "without the body of 20,000 nodes and with fewer periods: some seconds")
+parser:argument("folder", "folder to write to"):args("?"):default("out/precision")
+parser:flag("--quick", "skip the body of 20,000 nodes and use fewer periods; takes seconds")
 local args = parser:parse()
 
 local mode_count = 10
 local periods = args.quick and 8 or 20
-local samples = 12 -- a period; a fit needs few
--- Largest displacement over the body's size. Small enough that the bend of the springs' law shifts
--- frequencies by a ten-thousandth at most, as large as a motion that one can see.
+local samples = 12 -- per period
+-- Largest displacement over the size of the body. Small enough that the geometric nonlinearity of
+-- springs shifts frequencies by at most 0.01 %, and large enough to be a visible motion.
 local amplitude = 1e-3
 local amplitudes = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}
-local safety = 0.8 -- of the stable step, as in every run
-local frame_rate = 40 -- of drops
-local timed = args.quick and 1 or 3 -- drops of which the fastest is told
+local safety = 0.8 -- fraction of the stable step, the default of runs
+local frame_rate = 40 -- of drops [1/s]
+local timed = args.quick and 1 or 3 -- timed drops; the fastest counts
 local precisions = {"double", "single"}
 
--- 1. Bodies. `make` takes a damping time [s]; `floor` [N/m3] is about as stiff as the surface.
+-- 1. Bodies. `make` takes a damping time [s]; `floor` is the contact stiffness [N/m3], similar to
+-- that of the surface.
 
 local function block(size, cell)
   return function(damping)
@@ -49,13 +50,13 @@ local bodies = {
 }
 if not args.quick then
   table.insert(bodies, {name = "block", make = block({29, 26, 24}, 0.02), floor = 5e7,
-    large = true}) -- minutes at rest would tell no more
+    large = true}) -- skips the study of rest, which would take minutes
 end
 
--- 2. Frequencies as the integrator swings them.
+-- 2. Frequencies of free vibration in time integration.
 
--- The body at rest, bent by the mode so that the node that moves most moves by `most` [m].
-local function bent(nodes, shape, most)
+-- The start displaced along a mode; `most` is the largest node displacement.
+local function displaced(nodes, shape, most)
   local largest = 0
   for _, u in ipairs(shape) do
     largest = math.max(largest, math.sqrt(u[1] ^ 2 + u[2] ^ 2 + u[3] ^ 2))
@@ -68,8 +69,9 @@ local function bent(nodes, shape, most)
   return {x = x}
 end
 
--- How much of the mode is in each frame of a run.
-local function share_of_mode(run, nodes, shape)
+-- Modal coordinate in each frame of a run: mass-weighted projection of the displacement on the
+-- mode.
+local function modal_coordinate(run, nodes, shape)
   local times, values = {}, {}
   for number = 1, run.frame_count do
     local frame, sum = run:frame(number), 0
@@ -83,19 +85,20 @@ local function share_of_mode(run, nodes, shape)
   return times, values
 end
 
--- One mode in both precisions. Leapfrog swings a mode of omega at 2/dt asin(omega dt/2).
-local function swing_mode(body, mode, part)
+-- Vibration in one mode in both precisions. `stepped`: the frequency that leapfrog gives a mode of
+-- angular frequency omega, 2/dt asin(omega dt/2).
+local function vibrate_mode(body, mode, relative_amplitude)
   local step = safety * s.stable_step(body.model)
   local stepped = math.asin(math.pi * mode.frequency * step) / (math.pi * step)
   local every = step * math.max(1, math.floor(1 / (samples * stepped * step)))
   local frames = math.ceil(periods / (stepped * every))
-  local start = bent(body.nodes, mode.shape, part * body.size)
+  local start = displaced(body.nodes, mode.shape, relative_amplitude * body.size)
   local fits, times = {}, nil
   for _, precision in ipairs(precisions) do
     local run = s.run(body.model, {gravity = {0, 0, 0}, duration = frames * every},
       {start = start, step = step, precision = precision, frame_rate = 1 / every, ledger = false})
     local values
-    times, values = share_of_mode(run, body.nodes, mode.shape)
+    times, values = modal_coordinate(run, body.nodes, mode.shape)
     fits[precision] = vibration.fit(times, values, stepped)
   end
   local double, single = fits.double.frequency, fits.single.frequency
@@ -103,23 +106,24 @@ local function swing_mode(body, mode, part)
     modal = mode.frequency, stepped = stepped, double = double, single = single,
     difference = single / double - 1,
     error = vibration.error_of_difference(fits.double, fits.single, times) / double,
-    off = double / stepped - 1,
+    method_error = double / stepped - 1,
   }
 end
 
-local function swing_body(body)
+local function vibrate_body(body)
   body.model = body.make(0)
   body.nodes, body.size = body.model:nodes(), body.model.bounds.diagonal
   body.modes = s.modes(body.model, {count = mode_count, accuracy = 1e-10, seed = s.seed})
-  body.swings = {}
+  body.vibrations = {}
   for i, mode in ipairs(body.modes) do
-    body.swings[i] = swing_mode(body, mode, amplitude)
+    body.vibrations[i] = vibrate_mode(body, mode, amplitude)
   end
 end
 
 -- 3. A drop.
 
-local fall = 0.1 -- [m], of the lowest node; so that the softest material stays in order
+-- Height of the lowest node [m]; low enough that the softest material does not invert.
+local fall = 0.1
 
 local function scene_of(body, height, duration)
   return {duration = duration,
@@ -128,8 +132,8 @@ local function scene_of(body, height, duration)
     obstacles = {{plane = {0, 0, 1, 0}, stiffness = body.floor, friction = 0.5}}}
 end
 
--- The drop of a body and one step for all its runs, in whose multiples frames lie: that which a run
--- that shortens its step where springs are strained comes down to.
+-- The drop of a body and one time step for all its runs: the shortest step that a run with
+-- automatic step reduction uses, rounded so that frames are multiples of it.
 local function plan_drop(body, model)
   local look = s.run(model, scene_of(body, 0, 1e-3), {frame_rate = 0, quiet = true})
   local lowest = 0
@@ -139,8 +143,8 @@ local function plan_drop(body, model)
   return scene, 1 / (frame_rate * math.ceil(1 / (frame_rate * trial.shortest_step)))
 end
 
--- Root of the mean square and largest distance of nodes, over the body's size.
-local function apart(one, other, size)
+-- Rms and largest distance between corresponding nodes, relative to `size`.
+local function distances(one, other, size)
   local squares, most = 0, 0
   for i, p in ipairs(one) do
     local q = other[i]
@@ -150,18 +154,18 @@ local function apart(one, other, size)
   return math.sqrt(squares / #one) / size, math.sqrt(most) / size
 end
 
--- By frame: time, rms and largest.
+-- Differences of two runs by frame: time, rms and largest.
 local function differences(run, reference, size)
   local list = {}
   for number = 1, reference.frame_count do
     local frame = reference:frame(number)
-    local rms, most = apart(run:frame(number).x, frame.x, size)
+    local rms, most = distances(run:frame(number).x, frame.x, size)
     list[number] = {time = frame.time, rms = rms, most = most}
   end
   return list
 end
 
--- Largest change of the ledger's total over the largest kinetic energy.
+-- Largest change of total energy relative to the largest kinetic energy.
 local function ledger_error(run)
   local ledger = run.ledger
   local change, kinetic = 0, 0
@@ -172,7 +176,7 @@ local function ledger_error(run)
   return change / kinetic
 end
 
--- Processor time of the fastest of some drops [s].
+-- Processor time of the fastest of `timed` drops [s].
 local function time_of(model, scene, options)
   local least = math.huge
   for _ = 1, timed do
@@ -186,7 +190,7 @@ end
 local function drop_body(body)
   local model = body.make("0.5 ms")
   local scene, step = plan_drop(body, model)
-  local function drop(precision, length) -- awake, so that both are compared to the end
+  local function drop(precision, length) -- never put to sleep, for comparison to the end
     return s.run(model, scene, {step = length, precision = precision, sleep = 0,
       frame_rate = frame_rate})
   end
@@ -210,23 +214,23 @@ local function before_contact(list, contact)
   return last
 end
 
--- 4. A body at rest, which nothing but rounding moves.
+-- 4. A body at rest, which only rounding errors move.
 
 local rest_time = args.quick and 1 or 10 -- [s]
 
--- Rms distance from where it was over the size, after a tenth of the time and after all of it.
-local function stir(body, damping)
+-- Rms displacement relative to the size, after a tenth of the time and after all of it.
+local function drift(body, damping)
   local model = body.make(damping)
   local run = s.run(model, {gravity = {0, 0, 0}, duration = rest_time},
     {precision = "single", frame_rate = 10 / rest_time, ledger = false})
   local list = {}
   for i, number in ipairs{2, 11} do
-    list[i] = apart(run:frame(number).x, run:frame(1).x, body.size)
+    list[i] = distances(run:frame(number).x, run:frame(1).x, body.size)
   end
   return list
 end
 
--- 5. Tables and picture.
+-- 5. Tables and chart.
 
 local frequency_columns = {"body", "nodes", "mode", "modal [Hz]", "stepped [Hz]", "double [Hz]",
   "single [Hz]", "single / double - 1", "standard error", "double / stepped - 1"}
@@ -234,9 +238,9 @@ local frequency_columns = {"body", "nodes", "mode", "modal [Hz]", "stepped [Hz]"
 local function frequency_rows()
   local rows = {}
   for _, body in ipairs(bodies) do
-    for i, one in ipairs(body.swings) do
+    for i, one in ipairs(body.vibrations) do
       rows[#rows + 1] = {body.name, #body.nodes, i, one.modal, one.stepped, one.double, one.single,
-        one.difference, one.error, one.off}
+        one.difference, one.error, one.method_error}
     end
   end
   return rows
@@ -248,9 +252,9 @@ local amplitude_columns = {"body", "amplitude / size", "single / double - 1", "s
 local function amplitude_rows()
   local rows = {}
   for _, body in ipairs(bodies) do
-    for _, part in ipairs(amplitudes) do
-      local one = swing_mode(body, body.modes[1], part)
-      rows[#rows + 1] = {body.name, part, one.difference, one.error, one.off}
+    for _, relative in ipairs(amplitudes) do
+      local one = vibrate_mode(body, body.modes[1], relative)
+      rows[#rows + 1] = {body.name, relative, one.difference, one.error, one.method_error}
     end
   end
   return rows
@@ -263,7 +267,7 @@ local function rest_rows()
   local rows = {}
   for _, body in ipairs(bodies) do
     for _, damping in ipairs(body.large and {} or {0, 5e-4}) do
-      rows[#rows + 1] = {body.name, damping, table.unpack(stir(body, damping))}
+      rows[#rows + 1] = {body.name, damping, table.unpack(drift(body, damping))}
     end
   end
   return rows
@@ -300,13 +304,13 @@ local function difference_rows()
   return rows
 end
 
--- Of the smallest body and of the largest.
+-- Charts the differences of the first body and of the last, the largest.
 local function draw(folder)
   local series = {}
   for _, body in ipairs{bodies[1], bodies[#bodies]} do
     for _, kind in ipairs{{"step_halved", "half the step"}, {"precision", "single precision"}} do
       local points = {}
-      for i = 2, #body.drop.precision do -- both start alike
+      for i = 2, #body.drop.precision do -- the first frames are equal
         local entry = body.drop[kind[1]][i]
         points[#points + 1] = {entry.time, entry.rms}
       end
@@ -319,7 +323,7 @@ local function draw(folder)
   })
 end
 
--- Rows as a reader wants them: numbers of each column by its format.
+-- Prints rows; `formats` holds the number format of columns.
 local function show(rows, columns, formats)
   local texts = {}
   for i, row in ipairs(rows) do
@@ -334,10 +338,10 @@ end
 
 local ok, failure = command.try(function()
   for _, body in ipairs(bodies) do
-    swing_body(body)
-    s.say(body.name .. ": swung")
+    vibrate_body(body)
+    s.say(body.name .. ": vibrations done")
     drop_body(body)
-    s.say(body.name .. ": dropped")
+    s.say(body.name .. ": drops done")
   end
   local tables = {
     {"frequencies", frequency_rows(), frequency_columns,

@@ -1,15 +1,16 @@
--- Bends and rings ever finer cantilevers and says how fast they near Timoshenko's values.
+-- Measure the convergence of cantilevers towards Timoshenko's beam as cells get smaller.
 
 local s = require "springlod"
 local command = require "lib.command"
 
-local parser = command.parser("refinement", "Solves cantilevers of square section, 20 times as "
-  .. "long as thick, with ever smaller cells, for the deflection of the tip and the first three "
-  .. "bending frequencies. Writes table.csv, orders.csv, timoshenko.csv, chart.svg and chart.png.")
-parser:argument("folder", "where to write"):args("?"):default("out/refinement")
-parser:option("--finest", "most cells across the bar; 16 take a minute and 3 GB of memory")
+local parser = command.parser("refinement", "Measure the convergence of cantilevers (square "
+  .. "section, length 20 heights) with decreasing cell size: tip deflection and first three "
+  .. "bending frequencies compared with Timoshenko's beam. Writes table.csv, orders.csv, "
+  .. "timoshenko.csv, chart.svg and chart.png.")
+parser:argument("folder", "folder to write to"):args("?"):default("out/refinement")
+parser:option("--finest", "cells across the finest bar; 16 takes a minute and 3 GB of memory")
   :convert(command.whole("--finest", 3)):default("16")
-parser:flag("--quick", "the same as --finest 4: a second or two")
+parser:flag("--quick", "the same as --finest 4; takes seconds")
 local args = parser:parse()
 if args.quick then args.finest = 4 end
 
@@ -17,11 +18,11 @@ if args.quick then args.finest = 4 end
 local height, slenderness = 0.1, 20
 local length = slenderness * height
 local material = {young = 1e7, density = 1000, damping = 0}
-local poisson = 0.25 -- what springs alone give
+local poisson = 0.25 -- the value of all central-force spring lattices
 local frequency_count = 3
 
--- Cells across the height. `centers` has one node a cell, and a single row has nothing to bend
--- with; eight cells are enough to see how it lags behind.
+-- Cells across the height. `centers` needs two: a single row of nodes has no bending stiffness. It
+-- stops at eight, enough to show its slower convergence.
 local sizes = {corners = {1, 2, 3, 4, 6, 8, 12, 16}, centers = {2, 3, 4, 6, 8}}
 local styles = {"corners", "centers"}
 
@@ -37,8 +38,8 @@ local function timoshenko_deflection() -- per newton
   return length ^ 3 / (3 * bending) + length / shearing
 end
 
--- Zero at the frequencies of a clamped-free beam with shear and rotary inertia (Huang 1961), for
--- b = omega length^2 sqrt(density area / bending).
+-- Frequency equation of a clamped-free beam with shear and rotary inertia (Huang 1961); its roots
+-- are b = omega length^2 sqrt(density area / bending).
 local function frequency_equation(b)
   local rotary = inertia / (area * length ^ 2)
   local shear = bending / (shearing * length ^ 2)
@@ -54,7 +55,7 @@ end
 
 local function root_between(f, low, high)
   local rising = f(low) < 0
-  for _ = 1, 60 do -- to the last bit
+  for _ = 1, 60 do -- to machine precision
     local middle = (low + high) / 2
     if (f(middle) < 0) == rising then low = middle else high = middle end
   end
@@ -85,8 +86,8 @@ local function bar_of_springs(style, cells)
   }, {style = style})
 end
 
--- Two bending modes of one frequency, as the section is square; a twist or a stretch leaves the
--- middle of the end face where it is across the bar.
+-- Bending modes come in pairs of equal frequency, as the section is square. Torsion and extension
+-- do not move the middle of the end face transversally, which identifies bending.
 local function bending_frequencies(model, modes, end_face)
   local found = {}
   for _, mode in ipairs(modes) do
@@ -95,7 +96,7 @@ local function bending_frequencies(model, modes, end_face)
       across[1] = across[1] + share * mode.shape[number][2]
       across[2] = across[2] + share * mode.shape[number][3]
     end
-    -- 4 for a slender beam: its tip moves twice as far as the root of the mean square.
+    -- 4 for a slender beam, whose tip amplitude is twice the rms amplitude.
     local tip = (across[1] ^ 2 + across[2] ^ 2) * model.mass
     if tip > 1 then found[#found + 1] = mode.frequency end
   end
@@ -111,10 +112,11 @@ end
 local function measure(style, cells)
   local cell = height / cells
   local model = bar_of_springs(style, cells)
-  -- The first and the last layer: `corners` has them on the ends, `centers` half a cell inside.
+  -- The first and the last layer of nodes: on the end faces for `corners`, half a cell inside for
+  -- `centers`.
   local function clamped(node) return node.x < 0.75 * cell end
   local function at_end(node) return node.x > length - 0.75 * cell end
-  -- The end face, each node with its share of the area, which is that of the volume.
+  -- The end face: each node with its fraction of the area, which equals that of the volume.
   local end_face, sum = {}, 0
   for _, node in ipairs(model:nodes()) do
     if at_end(node) then
@@ -125,7 +127,7 @@ local function measure(style, cells)
   local force = {}
   for number, volume in pairs(end_face) do
     end_face[number] = volume / sum
-    force[number] = {0, 0, volume / sum} -- 1 N in all, spread evenly
+    force[number] = {0, 0, volume / sum} -- 1 N in total, evenly distributed
   end
   local bent = s.deflect(model, {anchored = clamped, force = force})
   local deflection = 0
@@ -140,11 +142,11 @@ end
 
 -- 3. Errors and orders.
 
-local names = {"tip", "f1", "f2", "f3"} -- the deflection of the tip, frequencies
+local names = {"tip", "f1", "f2", "f3"} -- tip deflection and frequencies
 local expected = timoshenko_frequencies()
 table.insert(expected, 1, timoshenko_deflection())
 
--- The slope of ln |error| over ln cell, by least squares.
+-- The slope of ln |error| against ln cell size, by least squares.
 local function fitted_order(rows, which)
   local n, sx, sy, sxx, sxy = 0, 0, 0, 0, 0
   for _, row in ipairs(rows) do
@@ -154,9 +156,10 @@ local function fitted_order(rows, which)
   return (n * sxy - sx * sy) / (n * sxx - sx * sx)
 end
 
--- Each series has a limit of its own: a clamp that keeps the end face from contracting is not
--- Timoshenko's. From the finest size, its half and its quarter: order and error of that limit.
--- `centers` is too far from its limit to tell.
+-- The limit of a series differs slightly from Timoshenko's beam, as the clamp prevents lateral
+-- contraction of the end face. Estimates the order of convergence towards this limit, and the error
+-- of the limit, from the finest size, its half and its quarter. `centers` is too far from its limit
+-- for an estimate.
 local function own_limit(rows, which)
   if rows[1].style ~= "corners" then return nil end
   local error_at = {}
@@ -183,7 +186,7 @@ local columns = {"style", "cells", "nodes"}
 for _, name in ipairs(names) do columns[#columns + 1] = name .. " [%]" end
 for _, name in ipairs(names) do columns[#columns + 1] = name .. " order" end
 
--- `number` says how a number is written.
+-- `number` formats a number.
 local function cells_of(row, number)
   local list = {row.style, row.cells, row.nodes}
   for _, kind in ipairs{"errors", "orders"} do
@@ -202,7 +205,7 @@ local function study()
       if cells > args.finest then break end
       local row = measure(style, cells)
       add_errors(row, of_style[style][#of_style[style]])
-      s.say(("%s, %d cells across: deflection off by %.2f %%"):format(style, cells, row.errors[1]))
+      s.say(("%s, %d cells across: deflection error %.2f %%"):format(style, cells, row.errors[1]))
       rows[#rows + 1] = row
       table.insert(of_style[style], row)
     end
@@ -236,7 +239,7 @@ local function draw(folder, of_style)
   for which = 1, #names do add("corners", which) end
   add("centers", 1)
   local finest = of_style.corners[#of_style.corners].cells
-  local function guide(x) return {x, 28 * x ^ 2} end -- below all others
+  local function guide(x) return {x, 28 * x ^ 2} end -- below all other lines
   series[#series + 1] = {name = "slope of order 2", points = {guide(0.5), guide(1 / finest)}}
   command.chart(folder .. "/chart", series, {
     title = "Cantilever, length 20 heights: error against Timoshenko's beam",
@@ -248,7 +251,7 @@ end
 local function report(rows, of_style)
   print(("Timoshenko's beam, k = %.4f: tip %.5g m/N; f1 %.5g, f2 %.5g, f3 %.5g Hz"):format(
     shear_coefficient, table.unpack(expected)))
-  print("Clamped: all nodes of the end face are held, so that it cannot contract.")
+  print("The clamp holds all nodes of the end face, which therefore cannot contract.")
   local texts = {}
   for i, row in ipairs(rows) do
     texts[i] = cells_of(row, function(x, kind)

@@ -1,4 +1,4 @@
-// Calibrated levels and their certificates, as scripts and the accuracy study see them.
+// Calibrated levels and their certificates in scripts and in the accuracy study.
 
 #include <catch2/catch.hpp>
 
@@ -23,7 +23,7 @@ Ran with_bar(const std::string& body) {
 
 }  // namespace
 
-TEST_CASE("a script calibrates a chain and reads what it was measured to be") {
+TEST_CASE("a script calibrates a chain and reads its certificate") {
   const Ran ran = with_bar(R"(
     local chain = s.simplify(base, {keep = {0.5}, grouping = "compact", calibrate = "modes",
       calibration = {tolerance = 0.01, iterations = 20, patches = 30, modes = 12,
@@ -44,7 +44,7 @@ TEST_CASE("a script calibrates a chain and reads what it was measured to be") {
   CHECK_THAT(ran.out, Contains("calibrated"));
 }
 
-TEST_CASE("calibration refuses what it cannot do, and says why") {
+TEST_CASE("calibration refuses invalid options with a reason") {
   const auto refusal = [](const std::string& options) {
     const Ran ran = with_bar("s.simplify(base, {" + options + "})");
     CHECK(ran.exit_code == 1);
@@ -60,7 +60,7 @@ TEST_CASE("calibration refuses what it cannot do, and says why") {
   CHECK_THAT(refusal("calibrate = 'modes', calibration = {target = 'modes'}"), Contains("targets"));
 }
 
-TEST_CASE("springlod accuracy measures methods side by side", "[long]") {
+TEST_CASE("springlod accuracy compares methods", "[long]") {
   const TemporaryFolder scratch;
   const std::string folder = (scratch / "accuracy").string();
 #ifdef SPRINGLOD_HAS_METIS
@@ -80,8 +80,7 @@ TEST_CASE("springlod accuracy measures methods side by side", "[long]") {
   CHECK_THAT(nothing.err, Contains("must be one of sphere, rods"));
 }
 
-TEST_CASE("springlod accuracy charts errors of smaller and smaller levels against their cost",
-          "[long]") {
+TEST_CASE("springlod accuracy charts the errors of levels against their cost", "[long]") {
   const TemporaryFolder scratch;
   const std::string folder = (scratch / "accuracy").string();
   const Ran ran = springlod_run({"accuracy", folder, "--trade-off", "--quick", "-q"});

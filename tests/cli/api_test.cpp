@@ -18,13 +18,13 @@ TEST_CASE("everything a script can reach is described") {
   CHECK(api->functions().size() > 25);
 }
 
-TEST_CASE("docs/api.md is what the program says") {
+TEST_CASE("docs/api.md equals the output of the program") {
   const Ran ran = springlod_run({"-e", "print(require('springlod').api_markdown())"});
   CHECK(ran.exit_code == 0);
   CHECK(ran.out == slurp(std::string(SPRINGLOD_SOURCE_DIR) + "/docs/api.md"));
 }
 
-TEST_CASE("every function of the module has help, and help knows no other") {
+TEST_CASE("every function of the module has help, and only these") {
   const Ran ran = springlod_run({"-e", R"(
     local s = require "springlod"
     local names = {}

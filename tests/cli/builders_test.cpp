@@ -1,4 +1,4 @@
-// Grids by formula, random models, refilled levels and eq. 2, as a script sees them.
+// Grids by formula, random models, refilled levels and eq. 2 in scripts.
 
 #include <catch2/catch.hpp>
 
@@ -21,7 +21,7 @@ Ran with_grid(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("a script builds a random model, simplifies it and reads what was measured") {
+TEST_CASE("a script builds a random model, simplifies it and reads the measurements") {
   const Ran ran = with_grid(R"(
     local model = s.random(grid, {nodes = 300, seed = 2})
     assert(model.node_count == 300 and model.spring_count == 2700)
@@ -36,7 +36,7 @@ TEST_CASE("a script builds a random model, simplifies it and reads what was meas
   CHECK_THAT(ran.out, Contains("random, 300 nodes, 18 ends, seed 2"));
 }
 
-TEST_CASE("a script and a .vdb file see the depth of cells, asked for or not") {
+TEST_CASE("the depth of cells is available in scripts and .vdb files") {
   const springlod::test::TemporaryFolder scratch;
   const Ran ran = with_grid("local path = '" + (scratch / "grid.vdb").string() + "'\n" + R"(
     local cored = s.voxelize(mesh, {cell = "10 cm", core = {depth = "15 cm",
@@ -59,7 +59,7 @@ TEST_CASE("a script and a .vdb file see the depth of cells, asked for or not") {
   CHECK_THAT(ran.out, Contains("all depths agree"));
 }
 
-TEST_CASE("a script refills a grid and is told how near a lattice came") {
+TEST_CASE("a script refills a grid and reads the node count that a lattice reached") {
   const Ran ran = with_grid(R"(
     local base = s.lattice(grid)
     local chain = s.refill(base, grid, {nodes = {200, 70}, style = "random", seed = 1})
@@ -87,7 +87,7 @@ TEST_CASE("a script reads eq. 2 of the whole, of each material and of each node"
   CHECK(ran.out == "default\t1000000\t1000\n");
 }
 
-TEST_CASE("a script fills a grid by a formula, and is told what is wrong with it") {
+TEST_CASE("a script fills a grid by a formula, and errors in it are reported") {
   const std::string bar =
       "{cell = '10 cm', size = {2, 2, 6}, origin = {0, 0, -0.3},"
       " materials = {stiff = {young = '1 MPa'}, soft = {young = '0.1 MPa'}}, fill = ";

@@ -1,4 +1,4 @@
-// What scripts and convert can ask of calibration.
+// Options of calibration in scripts and in springlod convert.
 
 #include <filesystem>
 
@@ -31,7 +31,7 @@ const char* const kBar =
 
 }  // namespace
 
-TEST_CASE("scripts name regions that matter, and weights") {
+TEST_CASE("scripts set regions of interest and weights") {
   const Ran ran = springlod_run({"-q", "-e", std::string(kBar) + R"(
     local function foot(node) return node.x < 0.01 end
     local chain = fit{regions = {{nodes = foot, weight = 2, patches = 6}}, mode_weight = 2,
@@ -66,7 +66,7 @@ TEST_CASE("scripts name regions that matter, and weights") {
     CHECK_THAT(ran.out, Contains(reason));
 }
 
-TEST_CASE("a script's calibration keeps its state in a store, and says where it cannot") {
+TEST_CASE("calibration keeps its state in a store and reports stores that it cannot use") {
   const TemporaryFolder scratch;
   spit(scratch / "file", "no folder");
   const std::string code = std::string(kBar) +
@@ -84,7 +84,7 @@ TEST_CASE("a script's calibration keeps its state in a store, and says where it 
   CHECK_THAT(ran.err, Contains("resumes from"));
 }
 
-TEST_CASE("convert that is stopped while it calibrates goes on to the same levels") {
+TEST_CASE("convert resumes an interrupted calibration and ends with the same levels") {
   const TemporaryFolder scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
   const auto arguments = [&](const std::string& name, const std::vector<std::string>& more) {

@@ -20,10 +20,10 @@ TEST_CASE("the options --version and --help go to stdout and exit 0") {
   CHECK(help.exit_code == 0);
   for (const char* command : {"\n  run ", "\n  convert ", "\n  info ", "\n  compare "})
     CHECK_THAT(help.out, Contains(command));
-  CHECK_THAT(help.out, Contains("Turns meshes into LOD assets."));
+  CHECK_THAT(help.out, Contains("Convert meshes to LOD assets."));
 }
 
-TEST_CASE("wrong use exits 2, says why on stderr and names what is near") {
+TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
   const auto wrong = [](const std::vector<std::string>& arguments, const std::string& reason) {
     const Ran ran = springlod_run(arguments);
     CAPTURE(ran.out, ran.err);
@@ -52,7 +52,7 @@ TEST_CASE("wrong use exits 2, says why on stderr and names what is near") {
   wrong({"mergelog", "a.glb", "--leave-out", "1"}, "--leave-out: must be below 1");
 }
 
-TEST_CASE("every command explains itself") {
+TEST_CASE("every command has help") {
   for (const char* command : {"convert", "info", "compare", "mergelog", "pareto", "stability"}) {
     const Ran ran = springlod_run({command, "--help"});
     CAPTURE(command);

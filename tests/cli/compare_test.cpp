@@ -39,7 +39,7 @@ std::vector<std::string> compare_arguments(const TemporaryFolder& scratch, const
           "--variant",  "x"};
 }
 
-// Every file below a folder by its name there.
+// The content of every file below a folder, by relative path.
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -50,7 +50,7 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 
 }  // namespace
 
-TEST_CASE("compare writes table, chart, frames and timings, the same bits in every run") {
+TEST_CASE("compare writes table, chart, frames and timings, with identical results in every run") {
   const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(compare_arguments(scratch, "one"));
@@ -66,7 +66,7 @@ TEST_CASE("compare writes table, chart, frames and timings, the same bits in eve
   CHECK(std::count(one["timings.csv"].begin(), one["timings.csv"].end(), '\n') == 1 + 3 * 2);
   CHECK(one["table.csv"].find("wall") == std::string::npos);
   CHECK(springlod::load_png(scratch / "one/frames/frame_0000.png").width == 3 * 160);
-  // The chart by gnuplot and the video by ffmpeg, or what to run for them.
+  // gnuplot draws the chart and ffmpeg the video; without them the commands are printed.
   CHECK((one.count("chart.svg") == 1 || ran.err.find("gnuplot") != std::string::npos));
   CHECK((one.count("chart.png") == 1 || ran.err.find("gnuplot") != std::string::npos));
   CHECK((one.count("comparison.mp4") == 1 || ran.err.find("ffmpeg") != std::string::npos));
@@ -84,7 +84,7 @@ TEST_CASE("compare writes table, chart, frames and timings, the same bits in eve
   }
 }
 
-TEST_CASE("compare says in one line what is wrong with asset or scenario") {
+TEST_CASE("compare reports errors of asset and scenario in one line") {
   const TemporaryFolder scratch;
   make_asset(scratch);
   const auto refused = [&](const std::string& scenario, const std::string& reason) {
@@ -104,7 +104,7 @@ TEST_CASE("compare says in one line what is wrong with asset or scenario") {
   refused("return {", "drop.lua");
 }
 
-TEST_CASE("a simulation that leaves the numbers fails with node and time") {
+TEST_CASE("a diverging simulation fails with node and time") {
   const TemporaryFolder scratch;
   const Ran ran = springlod_run({"-e", R"(
     local s = require "springlod"

@@ -1,4 +1,4 @@
-// Where levels touch obstacles, as scripts say it.
+// The contact option of levels in scripts.
 
 #include <catch2/catch.hpp>
 
@@ -29,7 +29,7 @@ Ran with_ball(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("a level told to touch at the surface comes to the floor with its base") {
+TEST_CASE("a level with contact on the surface reaches the floor at the same time as its base") {
   const Ran ran = with_ball(R"(
     local base = touches(ball)
     print(touches(ball, "surface") == base, touches(chain[0], "surface") == base)
@@ -49,7 +49,7 @@ TEST_CASE("a level told to touch at the surface comes to the floor with its base
   CHECK(ran.out == "true\ttrue\ntrue\ttrue\ntrue\ttrue\ntrue\ntrue\n3\n");
 }
 
-TEST_CASE("a wrong place of contact is refused with the right ones") {
+TEST_CASE("an invalid contact is refused with the valid choices") {
   const Ran ran = with_ball(R"(touches(chain[1], "skin"))");
   CHECK(ran.exit_code != 0);
   CHECK_THAT(ran.err, Contains("contact") && Contains("nodes") && Contains("surface"));

@@ -7,7 +7,7 @@
 
 namespace springlod::test {
 
-/// A row of a CSV file by the names of its columns.
+/// A row of a CSV file: column name to cell.
 using Row = std::map<std::string, std::string>;
 
 inline std::vector<std::string> cells_of(const std::string& line) {

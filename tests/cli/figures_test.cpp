@@ -1,4 +1,4 @@
-// The figures of the paper as the stock script draws them.
+// springlod figures.
 
 #include <set>
 #include <sstream>
@@ -50,7 +50,7 @@ TEST_CASE("all figures of the paper are drawn, and none is blank") {
   }
 }
 
-TEST_CASE("the masses of figure 2 are those of the paper") {
+TEST_CASE("the masses of figure 2 equal those of the paper") {
   const Ran ran = springlod_run({"-q", "-e", R"(
     local s = require "springlod"
     local figures = require "studies.paper.figures"

@@ -1,4 +1,4 @@
-// `springlod mergelog` and s.merge_log, as users meet them.
+// `springlod mergelog` and s.merge_log.
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +11,7 @@ using springlod::test::slurp;
 using springlod::test::springlod_run;
 using springlod::test::TemporaryFolder;
 
-TEST_CASE("mergelog tells where to stop, and keeps tables, charts and a picture") {
+TEST_CASE("mergelog reports where to stop and writes tables, charts and a picture") {
   const TemporaryFolder scratch;
   const auto asset = scratch / "bar.glb";
   make_bar_asset(asset, 4, {"--cell", "0.25", "--levels", "1"});
@@ -37,13 +37,13 @@ TEST_CASE("mergelog tells where to stop, and keeps tables, charts and a picture"
 
   const Ran own = run("own", {"--as-made", "--tolerance", "0.9"});
   CHECK(own.exit_code == 0);
-  CHECK_THAT(own.out, Contains("all levels are good enough") && !Contains("f1..10 without"));
+  CHECK_THAT(own.out, Contains("all levels are within tolerance") && !Contains("f1..10 without"));
   const Ran fitted = run("fitted", {"--calibrate", "--steps", "1", "--least", "0.5"});
   CHECK(fitted.exit_code == 0);
   CHECK_THAT(fitted.out, Contains("f1..10 within 0.5 %"));
 }
 
-TEST_CASE("mergelog says what it cannot do") {
+TEST_CASE("mergelog reports invalid requests") {
   const TemporaryFolder scratch;
   const Ran none = springlod_run({"mergelog", (scratch / "none.glb").string()});
   CHECK(none.exit_code == 1);
@@ -61,7 +61,7 @@ TEST_CASE("mergelog says what it cannot do") {
   CHECK_THAT(fine.err, Contains("fewer nodes than the base"));
 }
 
-TEST_CASE("a script reads which merges cost most, and leaves levels straight from the base") {
+TEST_CASE("a script reads the costliest merges and builds levels directly from the base") {
   const Ran ran = springlod_run({"-e", R"(local s = require "springlod"
     local grid = s.grid{cell = 0.1, size = {3, 3, 8}, fill = function() return "bar" end,
       materials = {bar = {young = "1 MPa", density = 1000, damping = "2 ms"}}}

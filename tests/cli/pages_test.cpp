@@ -1,4 +1,4 @@
-// What the pages and samples show a reader works as it stands there.
+// The examples in the pages and samples work as printed.
 
 #include <algorithm>
 #include <sstream>
@@ -15,8 +15,8 @@ namespace {
 
 const fs::path kSource = SPRINGLOD_SOURCE_DIR;
 
-// The ```lua blocks of a page, in order: later ones go on where earlier ones ended. Blocks that are
-// files of their own ("return {...}") are left out.
+// The ```lua blocks of a page in order, to be run as one script, without blocks that are separate
+// files ("return {...}").
 std::string script_of(const fs::path& page) {
   std::istringstream lines(slurp(page));
   std::string script;
@@ -36,7 +36,7 @@ std::string script_of(const fs::path& page) {
   return script;
 }
 
-// The ```sh lines of a page that call the program, continued lines joined, without the name.
+// The arguments of all calls of the program in the ```sh blocks of a page, continued lines joined.
 std::vector<std::vector<std::string>> commands_of(const fs::path& page) {
   std::istringstream lines(slurp(page));
   std::vector<std::vector<std::string>> commands;
@@ -55,7 +55,7 @@ std::vector<std::vector<std::string>> commands_of(const fs::path& page) {
   return commands;
 }
 
-// A folder as the root of a clone looks to a script that reads samples and writes to out.
+// A folder with samples/, like the root of the repository, for scripts that write to out/.
 void lay_out(const TemporaryFolder& scratch) {
   fs::create_directory_symlink(kSource / "samples", scratch / "samples");
 }
@@ -99,7 +99,7 @@ TEST_CASE("every option that a page gives to a stock command is one of its optio
   CHECK(options >= 5);
 }
 
-TEST_CASE("the sample scripts run and write what they promise") {
+TEST_CASE("the sample scripts run and write their documented files") {
   const TemporaryFolder scratch;
   const auto wrote = [&](const std::string& sample, const std::vector<std::string>& files) {
     const std::string folder = (scratch / sample).string();
@@ -113,7 +113,7 @@ TEST_CASE("the sample scripts run and write what they promise") {
   wrote("beast", {"beast.glb", "cost-error.svg", "frames/frame_0023.png"});
 }
 
-TEST_CASE("the demo counts nodes as its base has them and writes table, chart, film and assets") {
+TEST_CASE("the demo reports correct node counts and writes table, chart, video and assets") {
   const TemporaryFolder scratch;
   const fs::path folder = scratch / "demo";
   const Ran ran = springlod_run({"-q", "run", "scripts/demo.lua", "--", folder.string(), "1", "2"});

@@ -1,4 +1,4 @@
-// `springlod paper`, in small: the paper's tables from few runs.
+// `springlod paper` with few runs.
 
 #include <algorithm>
 
@@ -25,7 +25,7 @@ std::vector<std::string> paper(const std::filesystem::path& folder, const std::s
 
 }  // namespace
 
-TEST_CASE("paper goes on where it was stopped, and comes to the same tables on any cores",
+TEST_CASE("paper resumes after an interruption, with the same tables for any number of threads",
           "[long]") {
   const TemporaryFolder scratch;
   const Ran whole = springlod_run(paper(scratch / "whole", "5", "2"));
@@ -47,7 +47,7 @@ TEST_CASE("paper goes on where it was stopped, and comes to the same tables on a
   std::vector<std::string> with_fitted = paper(scratch / "whole", "5", "2");
   with_fitted.emplace_back("--calibrated");
   const Ran more = springlod_interrupted(with_fitted, "ball/LOD-fit-b-1-seed-1");
-  CHECK(more.err.find("ball/LOD-1") == std::string::npos);  // kept ones are not run again
+  CHECK(more.err.find("ball/LOD-1") == std::string::npos);  // kept runs are not repeated
   CHECK(std::filesystem::exists(scratch / "whole/runs/ball/LOD-fit-b-1-seed-1.csv"));
 
   std::vector<std::string> one_way = paper(scratch / "whole", "5", "2");
@@ -63,13 +63,14 @@ TEST_CASE("paper goes on where it was stopped, and comes to the same tables on a
 
   const Ran mixed = springlod_run(paper(scratch / "whole", "6", "2"));
   CHECK(mixed.exit_code == 1);
-  CHECK_THAT(mixed.err, Contains("holds runs with starts = 5, not 6; take another folder"));
+  CHECK_THAT(mixed.err, Contains("holds runs with starts = 5, not 6; use another folder"));
 }
 
-TEST_CASE("paper knows the materials of kept runs by their content, wherever the file is") {
+TEST_CASE("paper identifies the materials of kept runs by content, independent of the path") {
   const TemporaryFolder scratch;
   const auto with_materials = [&](const std::string& file, const std::string& shell) {
-    // Soft, for a long step; the unused one's name has all that a CSV file quotes.
+    // Soft, for a long time step. The name of the unused material has all characters that CSV
+    // quotes.
     const std::string core = "core = {young = '10 kPa', density = 1000, colour = {0.5, 0.2, 0.2}}";
     const std::string spare = R"(['spare, "100 %"\n'] = {young = 1e6, density = 1000})";
     spit(scratch / file,
@@ -88,7 +89,7 @@ TEST_CASE("paper knows the materials of kept runs by their content, wherever the
   CHECK(changed.exit_code == 1);
   CHECK_THAT(changed.err, Contains("holds runs with ball_materials = {core = {") &&
                               Contains("young = 5 kPa") && Contains("young = 6 kPa") &&
-                              Contains("take another folder"));
+                              Contains("use another folder"));
   const Ran moved = springlod_interrupted(with_materials("moved.lua", "5 kPa"), "other-starts");
   CHECK(moved.exit_code == 130);
   CHECK(moved.err.find("ball/base") == std::string::npos);

@@ -1,4 +1,4 @@
-// Cost against error for many ways of making and stepping levels.
+// springlod pareto.
 
 #include <map>
 
@@ -37,7 +37,7 @@ std::map<std::string, Row> by_variant(const fs::path& path) {
   return rows;
 }
 
-/// What `script` prints, which sees the modules of the stock commands.
+/// The output of `script`, which can require the modules of the stock commands.
 std::string printed(const std::string& script) {
   const Ran ran = springlod_run({"-e", script});
   CAPTURE(ran.err);
@@ -47,7 +47,8 @@ std::string printed(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("pareto, quickly: charts, fronts and tables; what is there is not run again", "[long]") {
+TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat kept runs",
+          "[long]") {
   const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(scratch));
@@ -75,7 +76,7 @@ TEST_CASE("pareto, quickly: charts, fronts and tables; what is there is not run 
     CHECK(number(times, "cost / base low") <= number(times, "cost / base"));
     CHECK(number(times, "cost / base") <= number(times, "cost / base high"));
   }
-  // Elasticity is the level's, whatever steps it; single precision is all but double.
+  // Elastic errors do not depend on the integrator; single precision is close to double.
   const Row& plain = points.at("standard-none-none-1-symplectic_euler-double");
   const Row& single = points.at("standard-none-none-1-symplectic_euler-single");
   CHECK(plain.at("paper") == "LOD-1");
@@ -112,7 +113,7 @@ TEST_CASE("pareto, quickly: charts, fronts and tables; what is there is not run 
   CHECK_THAT(slurp(out / "command.txt"), Contains("springlod --seed 1 pareto ") &&
                                              Contains("--scenario ") && Contains("--quick"));
 
-  // Kept models, runs and times make the same files again; more ways of stepping only add.
+  // Kept models, runs and times reproduce the same files; further integrators only add rows.
   const std::string before = slurp(out / "timings.csv");
   REQUIRE(springlod_run(arguments(scratch, {"-q"})).exit_code == 0);
   CHECK(slurp(out / "timings.csv") == before);
@@ -131,7 +132,8 @@ TEST_CASE("pareto, quickly: charts, fronts and tables; what is there is not run 
   CHECK_THAT(other.err, Contains("starts = 5, not 6") && Contains("another folder"));
 }
 
-TEST_CASE("pareto leaves out what cannot be made and says why; wrong use is told before any run") {
+TEST_CASE(
+    "pareto skips levels that cannot be built, with the reason; wrong use fails before any run") {
   const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(
@@ -139,7 +141,7 @@ TEST_CASE("pareto leaves out what cannot be made and says why; wrong use is told
                 "--errors", "frequencies", "--precisions", "double", "--keep", "0.2"}));
   CAPTURE(ran.err);
   CHECK(ran.exit_code == 0);
-  CHECK_THAT(ran.out, Contains("1 left out: see left-out.csv"));
+  CHECK_THAT(ran.out, Contains("failed levels and measurements: 1 (see left-out.csv)"));
   CHECK_THAT(slurp(scratch / "out/left-out.csv"),
              Contains("compact-strong-none,levels,") && Contains("border nodes"));
   CHECK(by_variant(scratch / "out/points.csv").size() == 2);
@@ -151,7 +153,7 @@ TEST_CASE("pareto leaves out what cannot be made and says why; wrong use is told
     CHECK_THAT(wrong.err, Contains(reason) && !Contains("traceback"));
   };
   refused({"--groupings", "stndard"}, 2, "must be one of standard, priority,");
-  refused({"--starts", "4"}, 2, "must be a whole number of 5 or more");
+  refused({"--starts", "4"}, 2, "must be an integer of at least 5");
   refused({"--out", (scratch / "other").string(), "--integrators", "xpbd", "--precisions", "single",
            "--errors", "loads"},
           1, "symplectic_euler alone has single precision");
@@ -162,7 +164,7 @@ TEST_CASE("pareto leaves out what cannot be made and says why; wrong use is told
   refused({"--out", (scratch / "third").string()}, 1, "--keep 0.45,0.2");
 }
 
-TEST_CASE("a start of many can be looked at alone, and a level's way held against its base's") {
+TEST_CASE("a single start can be run, and a level's trajectory compared with its base's") {
   const Ran ran = springlod_run({"-e", R"(local s = require "springlod"
     local grid = s.grid{cell = 0.1, size = {3, 3, 8}, fill = function() return "bar" end,
       materials = {bar = {young = "1 MPa", density = 1000, damping = "2 ms"}}}
@@ -193,12 +195,12 @@ TEST_CASE("a start of many can be looked at alone, and a level's way held agains
                           Contains("number must be 1 or more"));
 }
 
-TEST_CASE("a front holds what nothing beats, and intervals of few numbers are their own") {
+TEST_CASE("a front has the non-dominated points; medians of few numbers have sign-test intervals") {
   CHECK(printed(R"(local front = require("studies.pareto.front")({{x = 2, y = 1}, {x = 1, y = 3},
     {x = 1, y = 2}, {x = 3, y = 0.995}, {x = 4, y = 0.5}, {x = 1.5, y = 2.5},
     {x = 5, y = 0.02}, {x = 6, y = 0}}, 0.1)
     for _, p in ipairs(front) do print(p.x, p.y) end)") == "1\t2\n2\t1\n4\t0.5\n5\t0.02\n");
-  // Sign test: of nine numbers the second to the eighth hold the median in 96 % of all cases.
+  // Sign test: the second to the eighth of nine numbers contain the median in 96 % of all cases.
   CHECK(printed(R"(local intervals = require "lib.intervals"
     local m = intervals.median{9, 1, 8, 2, 7, 3, 6, 4, 5}
     print(m.value, m.low, m.high)

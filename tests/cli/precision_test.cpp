@@ -1,4 +1,4 @@
-// The study of single against double precision.
+// springlod precision.
 
 #include <cmath>
 
@@ -15,8 +15,7 @@ using springlod::test::slurp;
 using springlod::test::springlod_run;
 using springlod::test::TemporaryFolder;
 
-TEST_CASE("precision, quickly: single precision swings and drops as double does, within bounds",
-          "[long]") {
+TEST_CASE("precision --quick: single precision agrees with double within bounds", "[long]") {
   const TemporaryFolder out;
   const Ran ran = springlod_run({"-q", "precision", out.path().string(), "--quick"});
   CAPTURE(ran.err);
@@ -28,14 +27,14 @@ TEST_CASE("precision, quickly: single precision swings and drops as double does,
     CAPTURE(row.at("body"), row.at("mode"));
     CHECK(std::abs(number(row, "single / double - 1")) < 1e-5);
     CHECK(number(row, "standard error") < 1e-7);
-    // What leapfrog makes of the mode, but for the bend of the springs' law.
+    // The leapfrog frequency, up to the geometric nonlinearity of the springs.
     CHECK(std::abs(number(row, "double / stepped - 1")) < 1e-4);
     CHECK(number(row, "stepped [Hz]") > number(row, "modal [Hz]"));
   }
 
   for (const Row& row : rows_of(slurp(out / "amplitudes.csv"))) {
     CAPTURE(row.at("body"), row.at("amplitude / size"));
-    // The law of the springs is straight in the limit: its bend goes with the square.
+    // The geometric nonlinearity is quadratic in the amplitude.
     const double amplitude = number(row, "amplitude / size");
     CHECK(std::abs(number(row, "double / stepped - 1")) < 1e-9 + 30 * amplitude * amplitude);
     if (amplitude > 3e-5) CHECK(std::abs(number(row, "single / double - 1")) < 3e-4);
@@ -53,7 +52,7 @@ TEST_CASE("precision, quickly: single precision swings and drops as double does,
     CHECK(number(row, "ledger single") < 1e-3);
   }
 
-  // Damping takes what rounding puts in.
+  // Damping dissipates the motion that rounding errors cause.
   for (const Row& row : rows_of(slurp(out / "rest.csv"))) {
     CAPTURE(row.at("body"), row.at("damping [s]"));
     CHECK(number(row, "moved in 1 s") < (number(row, "damping [s]") > 0 ? 1e-6 : 1e-4));

@@ -68,7 +68,7 @@ int exit_code_of(int process) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// A program with pipes for its three streams.
+// A child process with pipes for its three streams.
 class Child {
  public:
   enum class Stderr { free, held };  // held: blocks the program until each line of it was read
@@ -97,7 +97,7 @@ class Child {
   }
 
   void give(const std::string& input) {
-    // A program that leaves early must not take the test with it (SIGPIPE is ignored there).
+    // A program that exits early must not kill the test, so SIGPIPE is ignored.
     std::size_t sent = 0;
     while (sent < input.size()) {
       const ssize_t count = write(in_.write_end, input.data() + sent, input.size() - sent);
@@ -107,7 +107,7 @@ class Child {
     in_.close_write();
   }
 
-  // Reads until both streams end or `mark` shows on stderr.
+  // Reads until both streams end or `mark` appears on stderr.
   void read_until(const std::string& mark) {
     while (out_.read_end >= 0 || err_.read_end >= 0) {
       std::array<pollfd, 2> wait{{{out_.read_end, POLLIN, 0}, {err_.read_end, POLLIN, 0}}};

@@ -8,14 +8,14 @@
 
 namespace springlod::test {
 
-/// How one run of the real program ended.
+/// Exit code and output of one run of the program.
 struct Ran {
   int exit_code = -1;
   std::string out;
   std::string err;
 };
 
-/// Runs build/app/springlod with `arguments`, `input` on its stdin, in `folder`.
+/// Runs the built springlod in `folder` with `arguments`, and `input` on stdin.
 Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input = "",
                   const std::filesystem::path& folder = SPRINGLOD_SOURCE_DIR);
 
@@ -24,7 +24,7 @@ Ran springlod_run(const std::vector<std::string>& arguments, const std::string& 
 /// left to write after the mark: its stderr is a pipe that holds one line.
 Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark);
 
-/// The program in a terminal of its own, its keyboard in our hands.
+/// The program in a pseudo-terminal with simulated keyboard input.
 class Terminal {
  public:
   explicit Terminal(const std::vector<std::string>& arguments,
@@ -37,7 +37,7 @@ class Terminal {
   /// Waits until `text` shows in what came since the last wait; false if nothing more comes, for
   /// the program ended or hangs.
   bool shows(const std::string& text);
-  /// All that came on the screen so far.
+  /// All terminal output so far.
   const std::string& screen() const { return screen_; }
   /// Waits for the program to leave; -1 if it hangs.
   int exit_code();
@@ -54,18 +54,18 @@ class Terminal {
 std::string slurp(const std::filesystem::path& path);
 void spit(const std::filesystem::path& path, const std::string& text);
 
-/// An OBJ of boxes standing side by side along x, each a part of its own: "o name".
+/// An OBJ file of adjacent boxes along x, each a separate mesh part: "o name".
 struct BoxPart {
   std::string name;
   double x0 = 0;
   double x1 = 1;
 };
 std::string obj_of_boxes(const std::vector<BoxPart>& parts, double width = 1);
-/// Makes `asset`, a .glb, of a bar `length` x 1 x 1 by `springlod convert` with `options`; the mesh
-/// stays beside it.
+/// Converts a bar of `length` x 1 x 1 to the asset `asset` (.glb) by `springlod convert` with
+/// `options`. The mesh is kept beside it.
 void make_bar_asset(const std::filesystem::path& asset, double length,
                     const std::vector<std::string>& options);
-/// A unit box without its lid.
+/// A unit box without its top face.
 std::string obj_of_open_box();
 
 }  // namespace springlod::test

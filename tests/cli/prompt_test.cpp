@@ -9,7 +9,7 @@ using springlod::test::springlod_run;
 using springlod::test::TemporaryFolder;
 using springlod::test::Terminal;
 
-TEST_CASE("the prompt prints the value of an expression and leaves on Ctrl-D") {
+TEST_CASE("the prompt prints the value of an expression and exits on Ctrl-D") {
   const TemporaryFolder scratch;
   Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
@@ -26,7 +26,7 @@ TEST_CASE("the prompt prints the value of an expression and leaves on Ctrl-D") {
   CHECK(terminal.exit_code() == 0);
 }
 
-TEST_CASE("the prompt takes a chunk over several lines") {
+TEST_CASE("the prompt accepts a chunk of several lines") {
   const TemporaryFolder scratch;
   Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
@@ -39,7 +39,7 @@ TEST_CASE("the prompt takes a chunk over several lines") {
   CHECK(terminal.shows("line\t2"));
 }
 
-TEST_CASE("the prompt goes on after an error") {
+TEST_CASE("the prompt continues after an error") {
   const TemporaryFolder scratch;
   Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
@@ -103,11 +103,11 @@ TEST_CASE("the prompt remembers its lines for the next session") {
   CHECK_THAT(slurp(scratch / "springlod/history"), Contains("session"));
   Terminal terminal({}, scratch.path());
   REQUIRE(terminal.shows("> "));
-  terminal.type("\x10\n");  // Ctrl-P: the line before
+  terminal.type("\x10\n");  // Ctrl-P: previous line
   CHECK(terminal.shows("\nfirst session"));
 }
 
-TEST_CASE("-i gives a prompt after the code, with its globals") {
+TEST_CASE("-i opens a prompt after the code, with its globals") {
   const TemporaryFolder scratch;
   Terminal terminal({"-i", "-e", "answer = 42"}, scratch.path());
   REQUIRE(terminal.shows("> "));

@@ -1,4 +1,4 @@
-// The study of refinement, and anchored bodies as a script sees them.
+// springlod refinement, and anchored bodies in scripts.
 
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 /// Errors in percent of tip deflection, f1, f2, f3.
 using Errors = std::array<double, 4>;
 
-/// By the number of cells across.
+/// Errors by the number of cells across.
 std::map<int, Errors> errors_of(const std::string& table, const std::string& style) {
   std::map<int, Errors> found;
   std::istringstream lines(table);
@@ -62,7 +62,7 @@ Ran with_bar(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("refinement, quickly: errors fall with the cells, corners by order 2") {
+TEST_CASE("refinement --quick: errors decrease with the cell size, with order 2 for corners") {
   const TemporaryFolder out;
   const Ran ran = springlod_run({"refinement", out.path().string(), "--quick"});
   CAPTURE(ran.err);
@@ -74,12 +74,12 @@ TEST_CASE("refinement, quickly: errors fall with the cells, corners by order 2")
   check_falling(corners);
   check_falling(centers);
   for (std::size_t i = 0; i < 4; ++i) {
-    // Second order in the limit; at three and four cells terms of higher order and the clamp, which
-    // keeps its own small error, take some of it.
+    // Asymptotically of second order; at three and four cells, higher-order terms and the small
+    // constant error of the clamp reduce the observed order.
     const double order = std::log(corners.at(3).at(i) / corners.at(4).at(i)) / std::log(4.0 / 3);
     CHECK(order > 1.6);
     CHECK(order < 2);
-    // The springs on the border of `centers` are as stiff as inside: first order at best.
+    // Springs on the border of `centers` are as stiff as inner ones: at most first order.
     CHECK(std::abs(centers.at(4).at(i)) > 3 * std::abs(corners.at(4).at(i)));
   }
   CHECK_THAT(ran.out, Contains("f1 0.40308, f2 2.4978, f3 6.8728 Hz"));
@@ -87,7 +87,7 @@ TEST_CASE("refinement, quickly: errors fall with the cells, corners by order 2")
   CHECK(slurp(out / "orders.csv").find("nan") == std::string::npos);
 }
 
-TEST_CASE("refinement: with eight cells across, all is within two percent of Timoshenko",
+TEST_CASE("refinement: with eight cells across, all values are within 2 % of Timoshenko",
           "[long]") {
   const TemporaryFolder out;
   const Ran ran = springlod_run({"-q", "refinement", out.path().string(), "--finest", "8"});
@@ -97,7 +97,7 @@ TEST_CASE("refinement: with eight cells across, all is within two percent of Tim
   for (const double error : corners.at(8)) CHECK(std::abs(error) < 2);
 }
 
-TEST_CASE("a script anchors nodes by number or by a function, and pulls at others") {
+TEST_CASE("a script anchors nodes by number or by a function, and applies forces") {
   const Ran ran = with_bar(R"(
     local numbers = {}
     for _, node in ipairs(bar:nodes()) do
@@ -131,7 +131,7 @@ TEST_CASE("a script anchors nodes by number or by a function, and pulls at other
   CHECK(ran.out == "0\t0\ttrue\n");
 }
 
-TEST_CASE("anchors and forces that make no sense are refused with the place") {
+TEST_CASE("invalid anchors and forces are refused with their position") {
   const Ran ran = with_bar(R"(
     print(pcall(s.deflect, bar, {anchored = held}))
     print(pcall(s.deflect, bar, {anchored = {0}, force = {}}))

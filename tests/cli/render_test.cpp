@@ -1,4 +1,4 @@
-// What a script may and may not ask of s.render.
+// Options of s.render in scripts.
 
 #include <catch2/catch.hpp>
 
@@ -23,7 +23,7 @@ Ran draw(const std::string& call, const TemporaryFolder& scratch) {
 
 }  // namespace
 
-TEST_CASE("wrong options of render say what is wrong and what is right") {
+TEST_CASE("invalid options of render are reported with the valid ones") {
   const TemporaryFolder scratch;
   const auto refuses = [&](const std::string& arguments, const std::string& message) {
     const Ran ran = draw("s.render(folder .. '/a.png', " + arguments + ")", scratch);
@@ -50,7 +50,7 @@ TEST_CASE("wrong options of render say what is wrong and what is right") {
   refuses("m, {camera = 'fit'}", "one of fixed, follow");
 }
 
-TEST_CASE("panels of one picture can show other things and other instants, in rows") {
+TEST_CASE("panels of one picture can show different things and times, in rows") {
   const TemporaryFolder scratch;
   const Ran ran = draw(R"lua(
     s.render(folder .. "/a.png", {

@@ -154,7 +154,7 @@ TEST_CASE("a model from tables reads back node by node and spring by spring") {
         "true\ttrue\n");
 }
 
-TEST_CASE("groups come by hand, by node priority and by pair cost") {
+TEST_CASE("groups can be given explicitly, by node priority and by pair cost") {
   const Ran ran = run_lua(R"(
     local nodes, springs = {}, {}
     for i = 1, 4 do nodes[i] = {i - 1, 0, 0, mass = 1} end
@@ -227,7 +227,7 @@ TEST_CASE("values cannot be forged, changed or mixed up") {
         "false\texpected a Model\n");
 }
 
-TEST_CASE("messages say which option of which function must be what") {
+TEST_CASE("messages name function, option and expected value") {
   const auto message = [](const std::string& code, const std::string& part) {
     const Ran ran = run_lua("m = s.model{nodes = {{0, 0, 0, mass = 1}}}\n" + code);
     CHECK(ran.exit_code == 1);
@@ -253,7 +253,7 @@ TEST_CASE("messages say which option of which function must be what") {
   message("m:node(2)", "bad argument 1 (number) of Model:node");
 }
 
-TEST_CASE("JSON is written with sorted keys and refuses what it cannot write") {
+TEST_CASE("JSON has sorted keys; values without JSON form are refused") {
   const Ran ran = run_lua(R"(
     print(s.json({b = {1, 2.5, true}, a = "x\"y", c = {}, d = 1/0}, {indent = -1}))
     local loop = {}

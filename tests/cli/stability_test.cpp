@@ -42,14 +42,15 @@ std::vector<std::string> arguments(const TemporaryFolder& scratch, const std::st
 
 }  // namespace
 
-TEST_CASE("stability writes map, bodies, timings and picture, the same bits with any threads") {
+TEST_CASE(
+    "stability writes map, bodies, timings and picture, identical for any number of threads") {
   const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(scratch, "one"));
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
   CHECK_THAT(ran.out, Contains("stiff part: the half beyond the center of mass along x") &&
-                          Contains("projective_dynamics") && Contains("cheapest within 10 %") &&
+                          Contains("projective_dynamics") && Contains("cheapest run within 10 %") &&
                           Contains("40 points:"));
   const std::string map = slurp(scratch / "one/map.csv");
   CHECK_THAT(map, StartsWith("level,nodes,springs,integrator,iterations,ratio,step,limit,"));
@@ -69,7 +70,7 @@ TEST_CASE("stability writes map, bodies, timings and picture, the same bits with
   }
 }
 
-TEST_CASE("stability says in one line what is wrong with an option or asset") {
+TEST_CASE("stability reports invalid options and assets in one line") {
   const TemporaryFolder scratch;
   make_asset(scratch);
   const auto refused = [&](const std::vector<std::string>& more, int code,
@@ -88,7 +89,7 @@ TEST_CASE("stability says in one line what is wrong with an option or asset") {
   refused({}, 1, "cannot map");
 }
 
-TEST_CASE("stability names the mechanism of a bar one cell thick instead of running it") {
+TEST_CASE("stability reports the mechanism of a bar one cell thick and does not run it") {
   const TemporaryFolder scratch;
   make_bar_asset(scratch / "bar.glb", 6, {"--cell", "1", "--lattice", "centers", "--levels", "0"});
   const Ran ran = springlod_run(arguments(scratch, "out"));
@@ -98,7 +99,7 @@ TEST_CASE("stability names the mechanism of a bar one cell thick instead of runn
   CHECK_THAT(slurp(scratch / "out/map.csv"), Contains(",mechanism,"));
 }
 
-TEST_CASE("a script sees through which wall a node went, and where and when") {
+TEST_CASE("a script reads which wall a node passed through, where and when") {
   const Ran ran = springlod_run({"-e", R"(
     local s = require "springlod"
     local m = s.model{nodes = {{0, 0, 0, mass = 1, contact_area = 1}, {1, 0, 0, mass = 1, contact_area = 1}},

@@ -1,4 +1,4 @@
-// Runs from positions and velocities of one's own.
+// Runs from given positions and velocities.
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +27,7 @@ Ran with_bar(const std::string& script) {
 
 }  // namespace
 
-TEST_CASE("a run goes on from where another one ended") {
+TEST_CASE("a run continues from the end of another run") {
   const Ran ran = with_bar(R"(
     local function scene(duration)
       return {duration = duration, throw = {position = {0, 0, 0.2}, spin = {0, 3, 1}},
@@ -55,7 +55,7 @@ TEST_CASE("a run goes on from where another one ended") {
   CHECK(ran.out == "true\ttrue\ntrue\ntrue\ntrue\ntrue\n");
 }
 
-TEST_CASE("a start that does not fit the model is refused with the place") {
+TEST_CASE("a start that does not fit the model is refused with its position") {
   const Ran ran = with_bar(R"(
     local function refused(start)
       local ok, failure = pcall(s.run, bar, {duration = 0.01}, {start = start})

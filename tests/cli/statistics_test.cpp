@@ -1,4 +1,4 @@
-// Samples as scripts hand them over. The numbers themselves are checked in tests/report.
+// Statistics in scripts: passing samples. tests/report checks the numbers.
 
 #include <catch2/catch.hpp>
 
@@ -20,7 +20,7 @@ Ran run_lua(const std::string& code) {
 
 }  // namespace
 
-TEST_CASE("a sample, two samples and a noise floor tell a script what they found") {
+TEST_CASE("statistics of one sample, two samples and a noise floor in a script") {
   const Ran ran = run_lua(R"(
     local m = s.statistics(base)
     print(m.count, m.mean, m.median, m.minimum, m.maximum, m.lower_quartile)
@@ -53,7 +53,7 @@ TEST_CASE("the mean of a list takes any number of values but none") {
                           Contains("sample[2] must be a number"));
 }
 
-TEST_CASE("statistics are the same bits for the same seed") {
+TEST_CASE("statistics are identical for the same seed") {
   const char* code =
       "print(s.inspect(s.compare_samples(base, other, {margin = 0.5, seed = 3})),"
       "s.noise_floor({base, other}, {size = 5, seed = 3}).level)";
@@ -62,7 +62,7 @@ TEST_CASE("statistics are the same bits for the same seed") {
   CHECK(one.out == run_lua(code).out);
 }
 
-TEST_CASE("several seeds come as a list a start, and their design counts") {
+TEST_CASE("several seeds are passed as one list per start, and their design matters") {
   const Ran ran = run_lua(R"(
     local by_start = {}
     for i, x in ipairs(base) do by_start[i] = {x - 0.5, x + 0.5, x} end
@@ -74,7 +74,7 @@ TEST_CASE("several seeds come as a list a start, and their design counts") {
   CHECK(ran.out == "0.0\t0.0\ntrue\ttrue\n");
 }
 
-TEST_CASE("samples that are none are refused with the place") {
+TEST_CASE("invalid samples are refused with their position") {
   const Ran ran = run_lua(R"(
     print(pcall(s.compare_samples, base, {1, 2, "x"}))
     print(pcall(s.compare_samples, base, {{1, 2}, {3}}))

@@ -1,6 +1,6 @@
 #pragma once
 
-// Bodies to draw, made here so that pictures do not depend on the builders of other folders.
+// Bodies to draw, built here so that images do not depend on the builders of other folders.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace springlod::test {
 
-/// Joins lattice points (spacing 1 of `cells`) with their 6 + 12 neighbours; `a` [m].
+/// Joins lattice points `cells` with their 6 + 12 nearest neighbours; lattice spacing `a` [m].
 template <typename MaterialOf>
 MassSpringModel lattice_model(const std::vector<std::array<int, 3>>& cells, double a,
                               std::vector<Material> materials, MaterialOf material_of) {
@@ -51,8 +51,8 @@ MassSpringModel lattice_model(const std::vector<std::array<int, 3>>& cells, doub
   return m;
 }
 
-/// The ball of 281 nodes of the paper's kind: the lattice points nearest to a point off the
-/// lattice; core and shell. Radius about 0.4 m at a = 0.1 m.
+/// A ball of 281 nodes with core and shell, like that of the paper: the lattice points nearest to a
+/// point off the lattice. Radius about 0.4 m at a = 0.1 m.
 inline MassSpringModel ball(double a = 0.1) {
   const Vec3 c(0.04, 0.02, 0.01);
   std::vector<std::array<int, 3>> cells;
@@ -72,7 +72,7 @@ inline MassSpringModel ball(double a = 0.1) {
                        [&](const Vec3& p) { return (p - a * c).norm() < 2.3 * a ? 0U : 1U; });
 }
 
-/// Two thick rods joined by a thinner rubber piece; 0.92 m long along x.
+/// Two thick rods with a thinner rubber joint; 0.92 m long along x.
 inline TriangleMesh dumbbell_mesh(int segments = 48) {
   TriangleMesh mesh;
   append_cylinder(mesh, "rod_a", -0.46, -0.10, 0.10, segments, 12);
@@ -81,7 +81,7 @@ inline TriangleMesh dumbbell_mesh(int segments = 48) {
   return mesh;
 }
 
-/// The square bar of 4 x 4 x 23 nodes along x that stands for the dumbbell.
+/// A bar of 4 x 4 x 23 nodes along x that represents the dumbbell.
 inline MassSpringModel bar(double a = 0.04) {
   std::vector<std::array<int, 3>> cells;
   for (int x = 0; x < 23; ++x)
@@ -96,7 +96,7 @@ inline MassSpringModel bar(double a = 0.04) {
   return m;
 }
 
-/// Bends what lies along x into an arc of `curvature` [1/m] in the x-z plane, then lifts it.
+/// Bends a body along x into an arc of `curvature` [1/m] in the x-z plane, then lifts it.
 inline std::vector<Vec3> bent(const std::vector<Vec3>& points, double curvature, const Vec3& move) {
   std::vector<Vec3> out;
   for (const Vec3& p : points) {
@@ -107,7 +107,7 @@ inline std::vector<Vec3> bent(const std::vector<Vec3>& points, double curvature,
   return out;
 }
 
-/// Moved by `move`.
+/// The positions translated by `move`.
 inline std::vector<Vec3> moved(const std::vector<Vec3>& points, const Vec3& move) {
   std::vector<Vec3> out(points);
   for (Vec3& p : out) p += move;

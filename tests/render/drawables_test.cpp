@@ -11,7 +11,7 @@ using namespace springlod;
 using namespace springlod::render;
 using namespace springlod::test;
 
-TEST_CASE("strain runs from blue over grey to red") {
+TEST_CASE("the strain scale goes from blue through grey to red") {
   const Colour blue = strain_colour(-1);
   const Colour grey = strain_colour(0);
   const Colour red = strain_colour(1);
@@ -43,7 +43,7 @@ TEST_CASE("a stretched spring is red, a compressed one blue, one at rest grey") 
   }
   for (Vec3& p : x) p.x() *= 0.9;
   CHECK(spring_instances(body, Vec3::Zero()).back().colour_a.b >
-        strain_colour(0).b - 0.5F);  // still a colour
+        strain_colour(0).b - 0.5F);  // still distinguishable from grey
   const auto squeezed = spring_instances(body, Vec3::Zero());
   for (std::size_t s = 0; s < squeezed.size(); ++s)
     if (model.rest[model.b[s]].x() != model.rest[model.a[s]].x())
@@ -62,7 +62,7 @@ TEST_CASE("springs blend the materials of their ends") {
   }
 }
 
-TEST_CASE("materials left grey are drawn in different colours") {
+TEST_CASE("materials with the default grey are drawn in different colours") {
   MassSpringModel model = bar();
   for (Material& m : model.materials) m.colour = Colour{};
   CHECK_FALSE(drawn_colour(model, 0) == drawn_colour(model, 1));
@@ -101,7 +101,7 @@ TEST_CASE("a box as drawn is closed and has its volume") {
   CHECK(surface.source.size() == 24);
 }
 
-TEST_CASE("the floor's grid has lines a metre apart in views of some metres") {
+TEST_CASE("the grid of the floor has a spacing of 1 m in views of a few metres") {
   CHECK(grid_spacing(3) == Approx(1));
   CHECK(grid_spacing(0.3) == Approx(0.1));
   CHECK(grid_spacing(40) == Approx(10));

@@ -27,7 +27,7 @@ Image grey(std::uint8_t level) {
 
 }  // namespace
 
-TEST_CASE("pictures come out in order, each the same as save_png writes it") {
+TEST_CASE("images are written in order and equal those of save_png") {
   const TemporaryFolder folder;
   constexpr std::uint32_t kFrames = 20;
   FrameWriter writer;
@@ -38,12 +38,12 @@ TEST_CASE("pictures come out in order, each the same as save_png writes it") {
   CHECK(read_file(frame_path(folder.path(), 7)) == read_file(folder.path() / "alone.png"));
   for (std::uint32_t k = 0; k < kFrames; ++k)
     CHECK(load_png(frame_path(folder.path(), k)).rgb == grey(static_cast<std::uint8_t>(k)).rgb);
-  writer.write(grey(1), folder.path() / "more.png");  // it goes on after finish()
+  writer.write(grey(1), folder.path() / "more.png");  // it can be used after finish()
   writer.finish();
   CHECK(std::filesystem::exists(folder.path() / "more.png"));
 }
 
-TEST_CASE("what fails on the writing thread reaches the caller, and nothing is written after it") {
+TEST_CASE("an error on the writing thread reaches the caller, and nothing is written after it") {
   std::vector<std::string> written;
   FrameWriter writer([&](const Image&, const std::filesystem::path& path) {
     if (path == "2") throw IoError("no room for 2");
@@ -54,12 +54,12 @@ TEST_CASE("what fails on the writing thread reaches the caller, and nothing is w
     writer.finish();
   };
   CHECK_THROWS_AS(write_all(), IoError);
-  CHECK_THROWS_WITH(writer.finish(), Contains("no room for 2"));  // and stays
+  CHECK_THROWS_WITH(writer.finish(), Contains("no room for 2"));  // again
   CHECK_THROWS_WITH(writer.write(grey(0), "21"), Contains("no room for 2"));
   CHECK(written == std::vector<std::string>{"0", "1"});
 }
 
-TEST_CASE("no more pictures wait than the queue holds") {
+TEST_CASE("the queue is bounded") {
   std::promise<void> gate;
   const std::shared_future<void> open = gate.get_future().share();
   std::atomic<int> handed_over{0};
@@ -86,7 +86,7 @@ TEST_CASE("no more pictures wait than the queue holds") {
   CHECK(most_ahead <= kMost);
 }
 
-TEST_CASE("a writer that is given up ends with the picture under way") {
+TEST_CASE("destroying a writer finishes only the image being written") {
   std::atomic<int> saved{0};
   const auto give_up = [&] {
     FrameWriter writer([&](const Image&, const std::filesystem::path&) { ++saved; });

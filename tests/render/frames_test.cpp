@@ -25,10 +25,10 @@ Image gradient(std::uint32_t width, std::uint32_t height) {
 
 }  // namespace
 
-TEST_CASE("a picture comes back from a PNG file bit for bit") {
+TEST_CASE("an image read from a PNG file equals the written one") {
   const TemporaryFolder folder;
   const Image image = gradient(61, 47);
-  save_png(image, folder.path() / "new" / "picture.png");  // the folder is made too
+  save_png(image, folder.path() / "new" / "picture.png");  // creates the folder
   const Image back = load_png(folder.path() / "new" / "picture.png");
   CHECK(back.width == 61);
   CHECK(back.height == 47);

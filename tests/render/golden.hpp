@@ -10,9 +10,9 @@
 
 namespace springlod::test {
 
-/// Compares with tests/golden/<name>.png. SPRINGLOD_BLESS=1 makes the picture the new golden one.
-/// llvmpipe's last bits differ between processors: 3 of 255 are allowed, and 0.5 % of the pixels
-/// (along edges) may differ by more.
+/// Compares with tests/golden/<name>.png; with SPRINGLOD_BLESS=1 replaces that file. Channels may
+/// differ by 3 of 255, and 0.5 % of the pixels (at edges) by more, as llvmpipe's results depend on
+/// the processor.
 inline void check_golden(const render::Image& picture, const std::string& name) {
   const auto golden =
       std::filesystem::path(SPRINGLOD_SOURCE_DIR) / "tests" / "golden" / (name + ".png");

@@ -1,4 +1,4 @@
-// Numbers on nodes: scales, colours, what is cut away, and panels in rows.
+// Values on nodes: scales, colours, cuts, and panels in rows.
 
 #include "render/node_values.hpp"
 
@@ -41,7 +41,7 @@ Panel panel_of(const DrawnBody& body) {
   return panel;
 }
 
-/// CIELAB's L of a colour of the screen.
+/// CIELAB lightness of an sRGB colour.
 double lightness(const Colour& colour) {
   const auto linear = [](float channel) {
     const auto c = static_cast<double>(channel);
@@ -59,7 +59,7 @@ std::array<int, 3> pixel(const Image& image, std::uint32_t x, std::uint32_t y) {
 
 }  // namespace
 
-TEST_CASE("a ball cut open shows Young's modulus on its nodes as it did") {
+TEST_CASE("Young's modulus on the nodes of a cut ball matches its golden image") {
   const MassSpringModel model = ball();
   DrawnBody body = body_of(model, NodeColour::young);
   body.style.cut = DrawnPlane{Vec3::UnitY(), -0.01};
@@ -69,7 +69,7 @@ TEST_CASE("a ball cut open shows Young's modulus on its nodes as it did") {
   check_golden(renderer.draw({panel}, {.title = "Eq. 2\nE of every node"}), "node_values");
 }
 
-TEST_CASE("equal steps of a value are equal steps of lightness") {
+TEST_CASE("equal steps of the value scale have equal steps of lightness") {
   constexpr int kSteps = 20;
   const double whole = lightness(value_colour(1)) - lightness(value_colour(0));
   CHECK(whole > 60);
@@ -82,7 +82,7 @@ TEST_CASE("equal steps of a value are equal steps of lightness") {
   CHECK(value_colour(7) == value_colour(1));
 }
 
-TEST_CASE("panels of one quantity share a scale, others have their own") {
+TEST_CASE("panels of the same quantity share a scale") {
   MassSpringModel light = ball();
   MassSpringModel heavy = ball();
   heavy.mass.assign(heavy.mass.size(), 3);
@@ -106,7 +106,7 @@ TEST_CASE("panels of one quantity share a scale, others have their own") {
   CHECK(panels[3].bodies[0].node_colours.empty());
 }
 
-TEST_CASE("the scale is logarithmic beyond two decades, unless the style says otherwise") {
+TEST_CASE("the scale is logarithmic beyond two decades, unless the style sets another") {
   const MassSpringModel model = ball();
   std::vector<double> values(model.node_count(), 10);
   values[0] = 1;
@@ -131,7 +131,7 @@ TEST_CASE("the scale is logarithmic beyond two decades, unless the style says ot
   values[0] = 0;
   CHECK(!scale_of({}).logarithmic);
   CHECK_THROWS_WITH(scale_of({.scaling = ValueScaling::logarithmic}), Contains("above 0"));
-  CHECK_THROWS_WITH(scale_of({.range = {{2, 2}}}), Contains("rise"));
+  CHECK_THROWS_WITH(scale_of({.range = {{2, 2}}}), Contains("increasing"));
   values[4] = NAN;
   CHECK_THROWS_WITH(scale_of({}), Contains("node 5"));
   values.pop_back();
@@ -149,7 +149,7 @@ TEST_CASE("balls can have volumes in proportion to their masses") {
   CHECK(by_mass[3].radius == Approx(2 * by_mass[4].radius));
 }
 
-TEST_CASE("a cut leaves out nodes beyond it with their springs, where the body is at rest") {
+TEST_CASE("a cut hides nodes by their rest position, with their springs") {
   const MassSpringModel model = ball();
   const auto x = moved(model.rest, {0, 5, 0});
   DrawnBody body = body_of(model, NodeColour::material);
@@ -165,7 +165,7 @@ TEST_CASE("a cut leaves out nodes beyond it with their springs, where the body i
   CHECK_THROWS_WITH(validate(body), Contains("normal"));
 }
 
-TEST_CASE("framed points stay clear of what is kept free above and below") {
+TEST_CASE("framed points leave headroom and footroom free") {
   const MassSpringModel model = ball();
   for (const double aspect : {0.6, 4. / 3, 4.}) {
     const Framing framing{.aspect = aspect, .headroom = 0.3, .footroom = 0.1};
@@ -183,7 +183,7 @@ TEST_CASE("framed points stay clear of what is kept free above and below") {
     CHECK(low > -0.8F);  // of -1..1
     CHECK(high < 0.4F);
     CHECK(side < 1);
-    // And the points fill what is left, one way or the other.
+    // The points fill the remaining area in one direction.
     CHECK(std::max(side, high - low) > 0.85F);
   }
   CHECK_THROWS_AS(frame_points(model.rest, {.headroom = 0.6, .footroom = 0.4}), InputError);

@@ -64,7 +64,7 @@ struct DumbbellScene {
 
 }  // namespace
 
-TEST_CASE("a bent dumbbell on a floor before a wall looks as it did") {
+TEST_CASE("a bent dumbbell on a floor before a wall matches its golden image") {
   const DumbbellScene scene;
   Box3 box = scene.box;
   box.extend(Vec3(1, 0, 0));
@@ -75,14 +75,14 @@ TEST_CASE("a bent dumbbell on a floor before a wall looks as it did") {
   check_golden(draw_one(panel, "t = 0.433 s"), "dumbbell");
 }
 
-TEST_CASE("nodes and springs in the colours of their materials look as they did") {
+TEST_CASE("nodes and springs in the colours of their materials match their golden image") {
   const BallScene scene;
   Panel panel = studio(scene.box);
   panel.bodies = {scene.body()};
   check_golden(draw_one(panel), "ball");
 }
 
-TEST_CASE("springs inside a transparent surface look as they did") {
+TEST_CASE("springs inside a transparent surface match their golden image") {
   const BallScene scene;
   const TriangleMesh skin = sphere_mesh(0.5, 48, 24);
   const auto skin_x = moved(skin.positions, {0, 0, 0.5});
@@ -96,7 +96,7 @@ TEST_CASE("springs inside a transparent surface look as they did") {
   check_golden(draw_one(panel), "glass");
 }
 
-TEST_CASE("strain colours with their scale, a box and bold inner nodes look as they did") {
+TEST_CASE("strain colours with their scale, a box and bold inner nodes match their golden image") {
   const MassSpringModel model = bar();
   const auto x = bent(model.rest, 1.4, {0, 0, 0.3});
   Panel panel = studio(bounds(x));
@@ -116,11 +116,11 @@ TEST_CASE("the floor is darker in a body's shadow than beside it") {
   const DumbbellScene scene;
   Panel panel = studio(scene.box);
   panel.bodies = {scene.body()};
-  panel.camera = frame_box(scene.box, -110, 60, kAspect);  // from above: the shadow lies free
+  panel.camera = frame_box(scene.box, -110, 60, kAspect);  // from above: nothing hides the shadow
   const Image with = draw_one(panel);
   panel.bodies.clear();
   const Image without = draw_one(panel);
-  // The body is in the way of some of the floor; what is left of the difference and grey is shadow.
+  // The body hides a part of the floor; where it does not, grey differences are shadow.
   int darker = 0;
   for (std::size_t p = 0; p < with.rgb.size(); p += 3) {
     const int r = with.rgb[p];
@@ -129,11 +129,11 @@ TEST_CASE("the floor is darker in a body's shadow than beside it") {
     if (grey && without.rgb[p] - r > 40) ++darker;
   }
   CHECK(darker > 300);
-  // The light comes from the left: there the floor in front is as it was.
+  // The light comes from the left: the floor there is unchanged.
   CHECK(pixel(with, 5, kHeight - 5) == pixel(without, 5, kHeight - 5));
 }
 
-TEST_CASE("equal panels come out equal side by side") {
+TEST_CASE("equal panels give equal images side by side") {
   const BallScene scene;
   Panel panel = studio(scene.box);
   panel.bodies = {scene.body()};
@@ -142,7 +142,7 @@ TEST_CASE("equal panels come out equal side by side") {
   const Image image = renderer.draw({panel, panel, panel});
   REQUIRE(image.width == 3 * kWidth);
   std::size_t unequal = 0;
-  const std::uint32_t above_scales = kHeight * 9 / 10;  // the grid's scale is written but once
+  const std::uint32_t above_scales = kHeight * 9 / 10;  // the grid scale is written only once
   for (std::uint32_t y = 0; y < above_scales; ++y)
     for (std::uint32_t x = 1; x + 1 < kWidth; ++x)  // the divider covers the outermost columns
       for (std::uint32_t k = 1; k < 3; ++k)
@@ -168,7 +168,7 @@ TEST_CASE(
   CHECK(renderer.draw({b}).rgb == other.rgb);
 }
 
-TEST_CASE("a renderer laid out anew draws what a new one draws") {
+TEST_CASE("a renderer with a changed layout draws the same as a new one") {
   const BallScene ball_scene;
   const DumbbellScene dumbbell_scene;
   Panel a = studio(ball_scene.box);
@@ -187,7 +187,7 @@ TEST_CASE("a renderer laid out anew draws what a new one draws") {
   const Image column = kept.draw({b, a});
   CHECK(column.height == 2 * kHeight);
   CHECK(column.rgb == fresh(high, {b, a}).rgb);
-  kept.lay_out(small);  // of another context
+  kept.lay_out(small);  // needs another context
   CHECK(kept.draw({b}).rgb == fresh(small, {b}).rgb);
   kept.lay_out(wide);
   CHECK(kept.draw({a, b}).rgb == fresh(wide, {a, b}).rgb);
@@ -195,7 +195,7 @@ TEST_CASE("a renderer laid out anew draws what a new one draws") {
   CHECK(kept.draw({a, b}).rgb == fresh(wide, {a, b}).rgb);  // a refused layout changes nothing
 }
 
-TEST_CASE("title, captions and footer put ink on the picture") {
+TEST_CASE("title, captions and footer are drawn") {
   const DumbbellScene scene;
   Panel panel = studio(scene.box);
   const Image bare = draw_one(panel);
@@ -222,7 +222,7 @@ TEST_CASE("panels of one strain range share one colour scale, on the last of the
   panel.bodies[0].style.spring_colour = SpringColour::strain;
   Renderer renderer({kWidth, kHeight, 2});
   const Image image = renderer.draw({panel, panel});
-  int strong = 0;  // pixels of the scale's red end, as far right and down as the scale lies
+  int strong = 0;  // pixels of the red end of the scale, at the bottom right
   for (const std::uint32_t left : {0U, kWidth})
     for (std::uint32_t y = kHeight * 3 / 4; y < kHeight; ++y)
       for (std::uint32_t x = left + kWidth / 2; x < left + kWidth; ++x) {
@@ -232,7 +232,7 @@ TEST_CASE("panels of one strain range share one colour scale, on the last of the
   CHECK(strong > 10);
 }
 
-TEST_CASE("a label that is too long is shortened, not written over the next panel") {
+TEST_CASE("a label that is too long is shortened and stays inside its panel") {
   const DumbbellScene scene;
   Panel plain = studio(scene.box);
   Panel wordy = plain;
@@ -265,7 +265,7 @@ TEST_CASE("a framed box lies inside the picture from every side") {
     }
 }
 
-TEST_CASE("what cannot be drawn is refused with a reason") {
+TEST_CASE("invalid input is refused with a reason") {
   CHECK_THROWS_AS(Renderer({0, 480, 1}), InputError);
   CHECK_THROWS_AS(Renderer({640, 0, 1}), InputError);
   CHECK_THROWS_AS(Renderer({640, 480, 0}), InputError);

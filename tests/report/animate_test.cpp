@@ -17,7 +17,7 @@ using namespace springlod::test;
 
 namespace {
 
-// A bar thrown at a wall as the animation gets it: no simulation, the bar just flies and bends.
+// Input of an animation, without simulation: a bar that flies towards a wall and bends.
 struct Film {
   LodAsset asset;
   sim::Comparison comparison;
@@ -81,11 +81,11 @@ TEST_CASE("smoothing keeps straight paths and their ends") {
   CHECK(smoothed(path, 3)[5].z() == Approx(1));
 }
 
-TEST_CASE("base and level are drawn side by side on one clock") {
+TEST_CASE("base and level are drawn side by side, synchronized") {
   const TemporaryFolder folder;
   const Film film;
   const Animation animation = animate(film.asset, film.comparison, folder.path(), small());
-  CHECK(animation.frames == 16);  // 0.5 s at 30 a second, first and last included
+  CHECK(animation.frames == 16);  // 0.5 s at 30 frames per second, first and last included
   CHECK(files_in(folder.path()) == 16);
   const render::Image first = render::load_png(render::frame_path(folder.path(), 0));
   CHECK(first.width == 2 * 160);
@@ -94,7 +94,7 @@ TEST_CASE("base and level are drawn side by side on one clock") {
   CHECK(render::difference(first, last).share_beyond > 0.01);
 }
 
-TEST_CASE("a picture of an animation looks as it did") {
+TEST_CASE("a frame of an animation matches its golden image") {
   const TemporaryFolder folder;
   const Film film;
   AnimateOptions options = small();
@@ -105,7 +105,7 @@ TEST_CASE("a picture of an animation looks as it did") {
   check_golden(render::load_png(render::frame_path(folder.path(), 1)), "animation");
 }
 
-TEST_CASE("slow motion makes more frames, a limit fewer, and stale frames go") {
+TEST_CASE("slow motion makes more frames, a limit fewer, and surplus old frames are removed") {
   const TemporaryFolder folder;
   const Film film;
   AnimateOptions options = small();
@@ -132,7 +132,7 @@ TEST_CASE("a run that ended early holds its last frame") {
   const render::Image b = render::load_png(render::frame_path(folder.path(), 14));
   std::size_t left = 0;
   std::size_t right = 0;
-  // The upper three quarters: the clock below runs on.
+  // The upper three quarters: the clock below continues.
   for (std::size_t y = 0; y < 90; ++y)
     for (std::size_t x = 0; x < 320; ++x) {
       const std::size_t p = 3 * (y * 320 + x);
@@ -143,7 +143,7 @@ TEST_CASE("a run that ended early holds its last frame") {
   CHECK(right == 0);
 }
 
-TEST_CASE("the following camera, nodes and springs and an asset without surface can be drawn") {
+TEST_CASE("follow camera, nodes and springs, and an asset without surface can be drawn") {
   const TemporaryFolder folder;
   Film film;
   film.asset.surface = {};
@@ -157,7 +157,7 @@ TEST_CASE("the following camera, nodes and springs and an asset without surface 
   CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 2);
 }
 
-TEST_CASE("the camera steps round a wall that would hide the action") {
+TEST_CASE("the camera avoids a wall that would hide the motion") {
   const TemporaryFolder folder;
   const Film film;  // its wall is at +x, facing -x; the default eye is at +x
   AnimateOptions options = small();

@@ -31,7 +31,7 @@ std::vector<ChartSeries> some_series() {
 
 }  // namespace
 
-TEST_CASE("a chart is drawn with its labels, and script and data lie beside it") {
+TEST_CASE("a chart is drawn with its labels, and script and data are kept beside it") {
   if (!find_program("gnuplot")) {
     WARN("gnuplot is not installed: not tested");
     return;
@@ -70,9 +70,9 @@ TEST_CASE("a chart can be a PNG") {
   CHECK(image.height == 600);
 }
 
-TEST_CASE("points have intervals both ways, and series looks of their own") {
+TEST_CASE("points have intervals in x and y, and series have their own styles") {
   const TemporaryFolder folder;
-  const PathIs nothing("");  // the script tells
+  const PathIs nothing("");  // gnuplot is not found: the test reads the script
   ChartOptions options{"Looks", "x", "y", true, true};
   options.width = 1200;
   options.height = 800;
@@ -101,12 +101,12 @@ TEST_CASE("points have intervals both ways, and series looks of their own") {
   has("with lines lw 2 dt 2 lc rgb '#D55E00' title 'floor'");
   has("with points pt 6 ps 2.4 lw 2 lc rgb '#009E73' title 'around'");
   has("NaN with points pt 5 ps 1.2 lw 2 lc rgb '#56B4E9' title 'told'");
-  // What lies below the axis sits on it, hollow, and says so.
+  // Points below the axis are drawn hollow on it, with their value as label.
   has("'low (y = 0.05)'");
   has("point pt 12 ps 1.2 lc rgb '#14171B'");
 }
 
-TEST_CASE("without gnuplot a chart leaves script, data and the command") {
+TEST_CASE("without gnuplot a chart keeps script, data and the command") {
   const TemporaryFolder folder;
   const PathIs nothing("");
   const ChartFiles files = draw_chart(some_series(), kOptions, folder.path() / "cost.svg");
@@ -128,7 +128,7 @@ TEST_CASE("a failing gnuplot is reported with what it said") {
   CHECK_FALSE(std::filesystem::exists(folder.path() / "cost.svg"));
 }
 
-TEST_CASE("charts of nothing, of NaN or of another ending are refused") {
+TEST_CASE("charts without points, with NaN or with another extension are refused") {
   const TemporaryFolder folder;
   ChartPoint nowhere;
   nowhere.y = NAN;
@@ -139,7 +139,7 @@ TEST_CASE("charts of nothing, of NaN or of another ending are refused") {
                     Catch::Contains(".svg or .png"));
 }
 
-TEST_CASE("axes hold all values and have a handful of round ticks") {
+TEST_CASE("axes contain all values and have a few round ticks") {
   struct Case {
     std::vector<double> values;
     bool log;
@@ -162,7 +162,7 @@ TEST_CASE("axes hold all values and have a handful of round ticks") {
   }
 }
 
-TEST_CASE("ticks are written short") {
+TEST_CASE("ticks have short labels") {
   CHECK(tick_text(0) == "0");
   CHECK(tick_text(0.05) == "0.05");
   CHECK(tick_text(2e9) == "2·10⁹");
@@ -170,7 +170,7 @@ TEST_CASE("ticks are written short") {
   CHECK(tick_text(-5e7) == "-5·10⁷");
 }
 
-TEST_CASE("labels of neighbouring points do not cover each other") {
+TEST_CASE("labels of neighbouring points do not overlap") {
   std::vector<ChartSeries> series{{"a", {}, false}};
   for (const double x : {1., 1.02, 1.04, 1.5})
     series[0].points.push_back({x, 2 + x, "point " + std::to_string(x)});
@@ -188,7 +188,7 @@ TEST_CASE("labels of neighbouring points do not cover each other") {
     }
 }
 
-TEST_CASE("in a crowd a label goes off its point, and a line leads to it") {
+TEST_CASE("a label in a crowd is moved away from its point and joined to it by a line") {
   const ChartFrame frame;
   const Axis axis = make_axis({0, 10}, false);
   std::vector<ChartSeries> alone{{"a", {}, false}};

@@ -59,7 +59,7 @@ double number(const Table& table, std::size_t row, const std::string& column) {
 
 }  // namespace
 
-TEST_CASE("a level's row has means over its starts, and what it saves against the base") {
+TEST_CASE("the row of a level has means over its starts and the cost relative to the base") {
   const Table table = comparison_table(comparison(), two_levels());
   REQUIRE(table.rows.size() == 2);
   CHECK(number(table, 0, "nodes") == 3);
@@ -75,7 +75,7 @@ TEST_CASE("a level's row has means over its starts, and what it saves against th
   CHECK(number(table, 1, "ledger_error") == Approx(3e-3));  // the largest, not the mean
 }
 
-TEST_CASE("measured times are in a table of their own") {
+TEST_CASE("measured times are in a separate table") {
   const Table starts = starts_table(comparison());
   REQUIRE(starts.rows.size() == 4);
   CHECK(number(starts, 3, "start") == 2);

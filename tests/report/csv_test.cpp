@@ -16,7 +16,7 @@ using namespace springlod;
 using namespace springlod::report;
 using namespace springlod::test;
 
-TEST_CASE("numbers are written as short as they read back the same") {
+TEST_CASE("numbers have their shortest text that parses to the same value") {
   CHECK(number_text(0.1) == "0.1");
   CHECK(number_text(-2) == "-2");
   CHECK(number_text(1e300) == "1e+300");
@@ -25,7 +25,7 @@ TEST_CASE("numbers are written as short as they read back the same") {
     CHECK(std::strtod(number_text(v).c_str(), nullptr) == v);
 }
 
-TEST_CASE("cells with commas, quotes and line breaks are quoted as RFC 4180 says") {
+TEST_CASE("cells with commas, quotes and line breaks are quoted by RFC 4180") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "table.csv";
   save_csv({{"name", "value"}, {{"a,b", whole(1)}, {"say \"hi\"", "2\n3"}, {"plain", Cell()}}},
@@ -53,7 +53,7 @@ TEST_CASE("a ragged table is refused") {
   CHECK_THROWS_AS(format_table(ragged), InputError);
 }
 
-TEST_CASE("a table for the terminal lines numbers up on the right and counts letters, not bytes") {
+TEST_CASE("a terminal table right-aligns numbers and counts characters, not bytes") {
   const Table table{
       {"name", "nodes", "error"},
       {{"größe", whole(368), "12.5 %"}, {"LOD-1", whole(67), "-"}, {"x", Cell(), "3 %"}}};

@@ -5,7 +5,7 @@
 
 namespace springlod::test {
 
-/// PATH has another value as long as this lives.
+/// Changes PATH for its lifetime.
 class PathIs {
  public:
   explicit PathIs(const std::string& value) {

@@ -14,7 +14,7 @@ namespace springlod::test {
 using Values = std::vector<double>;
 
 inline double normal_draw(ChanceStream& chance) {
-  // The middle of one of 2^53 cells of (0, 1): neither end can come up.
+  // The middle of one of 2^53 cells of (0, 1), which excludes both ends.
   return quantile(boost::math::normal(), chance.unit() + 0x1p-54);
 }
 
@@ -24,14 +24,14 @@ inline Values normal_sample(ChanceStream& chance, int size, double mean = 0, dou
   return values;
 }
 
-/// Of mean 1.
+/// Exponential values of mean 1.
 inline Values exponential_sample(ChanceStream& chance, int size) {
   Values values(static_cast<std::size_t>(size));
   for (double& value : values) value = -std::log1p(-chance.unit());
   return values;
 }
 
-/// Standard normal values that correlate by `correlation` with standard normal ones.
+/// Standard normal values with `correlation` to given standard normal values.
 inline Values partner_of(const Values& base, double correlation, ChanceStream& chance) {
   Values values;
   for (const double value : base)
@@ -45,7 +45,7 @@ inline Values shifted(Values values, double by) {
   return values;
 }
 
-/// Part of `repetitions` in which says(chance) is true; each has chance of its own.
+/// Fraction of `repetitions` for which says(chance) is true; each has its own random stream.
 template <class Says>
 double frequency(int repetitions, std::uint64_t seed, Says says) {
   int count = 0;
@@ -56,8 +56,8 @@ double frequency(int repetitions, std::uint64_t seed, Says says) {
   return static_cast<double>(count) / repetitions;
 }
 
-/// How far a frequency strays by chance: four standard deviations of a binomial count, once in
-/// 16,000.
+/// Random error of a frequency: four standard deviations of a binomial count, exceeded once in
+/// 16,000 cases.
 inline double stray(double part, int repetitions) {
   return 4 * std::sqrt(part * (1 - part) / repetitions);
 }

@@ -28,7 +28,7 @@ void write_frames(const std::filesystem::path& folder, std::uint32_t count) {
 
 }  // namespace
 
-TEST_CASE("frames become an mp4 and a gif, odd sides and odd folder names too") {
+TEST_CASE("frames are encoded as mp4 and gif, also with odd sides and unusual folder names") {
   if (!find_program("ffmpeg")) {
     WARN("ffmpeg is not installed: not tested");
     return;
@@ -46,14 +46,14 @@ TEST_CASE("frames become an mp4 and a gif, odd sides and odd folder names too") 
       CHECK(bytes.substr(0, 3) == "GIF");
     else
       CHECK(bytes.substr(4, 4) == "ftyp");
-    // The command is one to paste: it makes the same film.
+    // The command can be pasted into a shell and makes the same video.
     std::filesystem::remove(path);
     REQUIRE(std::system(result.command.c_str()) == 0);
     CHECK(read_file(path) == bytes);
   }
 }
 
-TEST_CASE("without ffmpeg the frames stay and the command is told") {
+TEST_CASE("without ffmpeg the frames are kept and the command is reported") {
   const TemporaryFolder folder;
   write_frames(folder.path(), 2);
   const PathIs nothing("");
@@ -79,7 +79,7 @@ TEST_CASE("a video that cannot be made is refused with a reason") {
   CHECK_FALSE(std::filesystem::exists(folder.path() / "a.mp4"));
 }
 
-TEST_CASE("programs run with their arguments as they are, and their errors come back") {
+TEST_CASE("programs receive their arguments unchanged, and their errors are returned") {
   const ProgramResult result =
       run_program("/bin/sh", {"-c", "printf %s \"$1\" >&2; exit 7", "x", "a 'b' $HOME"});
   CHECK(result.exit_code == 7);

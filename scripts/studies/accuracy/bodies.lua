@@ -1,11 +1,11 @@
--- The bodies on which levels are measured against their base: four of one lattice each, by formula,
--- and three that differ from them in kind (an imported mesh with a core, a thin bracket with a
--- corner, a random model of two materials with a hole). Chosen before anything was tuned on them.
+-- The bodies of the accuracy study: four regular lattices defined by formulas, and three of other
+-- kinds (an imported mesh with a core, a thin L-shaped bracket, a random model of two materials
+-- with a hole). They were chosen before any method was tuned.
 
 local s = require "springlod"
 local scenes = require "studies.paper.scenes"
 
--- A block of one material with a node at the centre of each cell of 10 cm.
+-- A block of one material with 10 cm cells and a node at the center of each.
 local function block(size)
   return function()
     local grid = s.grid{
@@ -29,7 +29,7 @@ local function beast()
   return s.lattice(grid, {hinges = "fill"}), grid, "corners"
 end
 
--- An L of three cells' thickness, the long leg 20 cells, the short one 11.
+-- An L-shaped bracket, 3 cells thick, with legs of 20 and 11 cells.
 local function bracket()
   local grid = s.grid{
     cell = 0.01, size = {20, 6, 11}, materials = {alloy = {young = "20 MPa", density = 1200,
@@ -39,7 +39,8 @@ local function bracket()
   return s.lattice(grid), grid, "corners"
 end
 
--- A flat ring of radius 8 cm, 6 cm wide and 4 cm high, one half five times as stiff as the other.
+-- A flat ring of mean radius 8 cm, 6 cm wide and 4 cm high; one half is five times as stiff as the
+-- other.
 local function ring()
   local grid = s.grid{
     cell = 0.005, size = {44, 44, 8}, origin = {-0.11, -0.11, 0},
@@ -63,7 +64,7 @@ local function centers(make)
   end
 end
 
--- `make` returns the base, its grid and the lattice that a refill of it takes.
+-- `make` returns the base, its grid and the lattice style for a refill.
 return {
   {name = "sphere", make = centers(scenes.ball)},
   {name = "rods", make = centers(scenes.rods)},

@@ -1,10 +1,10 @@
--- What smaller levels cost in accuracy: errors against the cost that they save.
+-- Trade-off between accuracy and cost: errors of levels against their cost reduction.
 
 local s = require "springlod"
 
 local trade_off = {}
 
-trade_off.keep = {0.8, 0.6, 0.45, 0.3, 0.2, 0.1} -- of the nodes
+trade_off.keep = {0.8, 0.6, 0.45, 0.3, 0.2, 0.1} -- fractions of the nodes of the base
 trade_off.methods = {"compact plain", "compact calibrated"}
 
 local lines = {
@@ -16,17 +16,17 @@ local lines = {
   {method = "compact calibrated", measure = "f1..10", colour = "blue"},
 }
 
--- Writes PATH.svg and PATH.png. mean_of(level, method, measure) gives what was found, nil if
--- nothing was.
+-- Writes PATH.svg and PATH.png. mean_of(level, method, measure) returns the mean, or nil if it was
+-- not measured.
 function trade_off.chart(path, mean_of)
   local series = {}
   for i, line in ipairs(lines) do
     local points = {}
-    for level, part in ipairs(trade_off.keep) do
+    for level, share in ipairs(trade_off.keep) do
       local cost = mean_of(level, line.method, "base cost/cost")
       if cost then
         points[#points + 1] = {cost, mean_of(level, line.method, line.measure),
-                               label = i == 2 and ("%g %%"):format(100 * part) or nil}
+                               label = i == 2 and ("%g %%"):format(100 * share) or nil}
       end
     end
     series[i] = {name = ("%s, %s"):format(line.measure, line.method:match("%a+$")),

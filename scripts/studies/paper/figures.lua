@@ -1,5 +1,5 @@
--- The figures of the paper drawn anew: from bodies and scenes of lib/paper_scenes.lua, every number
--- counted or computed here. figures.draw draws them all.
+-- Redraws the figures of the paper from the bodies and scenes of studies/paper/scenes.lua. All
+-- numbers are counted or computed here. figures.draw draws all figures.
 
 local s = require "springlod"
 local paper_numbers = require "studies.paper.numbers"
@@ -8,7 +8,7 @@ local paper_variants = require "studies.paper.variants"
 
 local figures = {}
 
--- What the paper counts at each level of a figure.
+-- Node counts of the paper at each level of a figure.
 local function node_counts(...)
   local levels = {}
   for level, nodes in ipairs {...} do levels[level] = {nodes = nodes} end
@@ -25,7 +25,7 @@ local paper = {
   rods = hb_counts(paper_numbers.rods),
 }
 
--- "LOD-hb-1: 161 nodes, 1878 ends" and below it what the paper has.
+-- "LOD-hb-1: 161 nodes, 1878 ends", and the paper's counts on the next line.
 local function heading(name, model, counts)
   local text = ("%s: %d nodes, %d ends\npaper: %d nodes"):format(name, model.node_count,
     model.end_count, counts.nodes)
@@ -33,7 +33,7 @@ local function heading(name, model, counts)
   return text
 end
 
--- A panel for each level of a chain, its heading with the paper's counts; `options` go into each.
+-- A panel for each level of a chain with the paper's counts in its heading; `options` apply to all.
 local function level_panels(chain, variant, counts, options)
   local panels = {}
   for level, model in ipairs(chain.levels) do
@@ -50,15 +50,15 @@ local function simplify_hb(base, levels, seed)
   return s.simplify(base, {levels = levels, grouping = "priority", border = "weak", seed = seed})
 end
 
--- The rods from a mesh, so that they can be drawn solid: the cells are those of
--- paper_scenes.rods, laid along x.
+-- The rods built from a mesh, so that their surface can be drawn. The cells are those of
+-- paper_scenes.rods, but along x.
 local function solid_rods()
   local mesh = s.import(s.samples .. "/dumbbell.obj", {unit = "dm", up = "z"})
   local materials = dofile(s.samples .. "/dumbbell_materials.lua")
   return s.lattice(s.voxelize(mesh, {cell = "10 cm", materials = materials}), {style = "centers"})
 end
 
--- Bodies of the paper's tests, made once for all figures.
+-- The bodies of the paper, built once for all figures.
 local function make_bodies(seed)
   local cube, cube_grid = paper_scenes.block()
   return {
@@ -68,7 +68,7 @@ local function make_bodies(seed)
   }
 end
 
-local cut_open = {0, 1, 0, -0.01} -- what lies before the middle, as the camera looks, is left out
+local cut_open = {0, 1, 0, -0.01} -- hides the half in front of the middle, as seen by the camera
 
 -- Each figure: draws files into context.folder and returns a list of {file, title}.
 
@@ -88,17 +88,17 @@ local function lattices(context)
     {azimuth = -60, elevation = 22})
 end
 
--- Nodes of 1 kg in a row, each of four pieces, then the two in the middle merged. The pieces are
--- the base, so that proximity can share them out.
+-- Level 1: six nodes of 1 kg in a row, each merged from four base nodes. Level 2: the two in the
+-- middle merged, with the base nodes distributed by `mass_rule`.
 function figures.row_of_nodes(mass_rule)
-  local pieces, springs, four, all = {}, {}, {}, {}
+  local nodes, springs, four, all = {}, {}, {}, {}
   for i = 1, 24 do
-    pieces[i] = {(i - 2.5) / 4, 0, 0, mass = 1 / 4, volume = 1 / 64}
+    nodes[i] = {(i - 2.5) / 4, 0, 0, mass = 1 / 4, volume = 1 / 64}
     if i > 1 then springs[i - 1] = {i - 1, i, k = 100} end
     if i % 4 == 0 then four[i // 4] = {i - 3, i - 2, i - 1, i} end
   end
   all[1], all[2] = four, {{3, 4}}
-  return s.simplify(s.model{nodes = pieces, springs = springs},
+  return s.simplify(s.model{nodes = nodes, springs = springs},
     {levels = 2, grouping = all, mass = mass_rule, guards = false})
 end
 
@@ -115,7 +115,7 @@ local function masses_in_a_row(context)
     local masses, points = {}, {}
     for j, node in ipairs(case.model:nodes()) do
       masses[j] = ("%.4g"):format(node.mass)
-      -- A label only where the mass has changed, else they would cover each other.
+      -- Label only changed masses; more labels would overlap.
       points[j] = {node.x, node.mass, label = node.mass ~= 1 and masses[j] or nil}
     end
     panels[i] = {
@@ -149,13 +149,13 @@ local function cube_with_strong_border(context)
     {azimuth = -60, elevation = 22, bold_inner_nodes = true})
 end
 
--- When a run is pressed together the most [s].
-local function hardest_moment(run)
-  local hardest = run.ledger[1]
+-- Time of the largest elastic energy of a run, when it is compressed most [s].
+local function most_compressed(run)
+  local most = run.ledger[1]
   for _, energy in ipairs(run.ledger) do
-    if energy.elastic > hardest.elastic then hardest = energy end
+    if energy.elastic > most.elastic then most = energy end
   end
-  return hardest.time
+  return most.time
 end
 
 local function ball_falls_and_rolls(context)
@@ -164,7 +164,7 @@ local function ball_falls_and_rolls(context)
   return context:draw("figure-5",
     "Figure 5: scenario 1, a ball with a dense core and a soft shell thrown flat above a floor", {
       {run, time = run.first_contact / 2, title = "falls"},
-      {run, time = hardest_moment(run), title = "hits the floor"},
+      {run, time = most_compressed(run), title = "hits the floor"},
       {run, time = 1.5, title = "rolls"},
     }, {elevation = 10})
 end
@@ -214,7 +214,7 @@ local function throw_at_wall(context)
       nodes = false, springs = false})
 end
 
--- Eq. 2 on the nodes: Young's modulus above, density below.
+-- Eq. 2 on the nodes: Young's modulus in the first row, density in the second.
 local function eq2_on_nodes(context, name, chain, counts, options)
   local panels = {}
   for _, quantity in ipairs {"young", "density"} do
@@ -237,7 +237,7 @@ local function eq2_of_rods(context)
     {width = 560, height = 260, azimuth = -80, elevation = 20, cut = cut_open, springs = true})
 end
 
--- In the order of the paper, eq. 2 last.
+-- In the order of the paper; eq. 2 last.
 local all_figures = {
   lattices, masses_in_a_row, cube_merged, cube_with_strong_border, ball_falls_and_rolls,
   core_and_shell, rods_solid_and_wire, throw_at_wall, eq2_of_ball, eq2_of_rods,
@@ -257,8 +257,8 @@ function Context:draw(name, title, panels, options)
   return {{file = name .. ".png", title = title:match("^[^\n]*")}}
 end
 
--- Draws all figures into the folder and returns a list of {file, title}, the file's name without
--- the folder. Options: seed (of the simplification, else s.seed), quick (small pictures).
+-- Draws all figures into the folder and returns a list of {file, title}; `file` is a name without
+-- folder. Options: seed (of the simplification; default: s.seed), quick (small pictures).
 function figures.draw(folder, options)
   options = options or {}
   local seed = options.seed or s.seed

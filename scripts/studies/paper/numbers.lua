@@ -1,4 +1,4 @@
--- The numbers of the paper's tables, to print ours beside them.
+-- The numbers of the paper's tables, for comparison.
 
 local paper_numbers = {}
 
@@ -24,7 +24,7 @@ paper_numbers.rods = {
   ["LOD-b-2"] = {nodes = 65, ends = 640},
 }
 
--- Table 2: final distance from the wall and its +-, for each speed, in the paper's units.
+-- Table 2: final distance from the wall and its +- for each speed, in the paper's units.
 paper_numbers.speeds = {30, 31, 32, 33, 39, 40}
 paper_numbers.wall = {
   base = {{6.0, 0.5}, {3.6, 0.2}, {4.4, 0.9}, {3.4, 1.0}, {6.8, 0.3}, {5.7, 0.3}},
@@ -34,7 +34,7 @@ paper_numbers.wall = {
   ["LOD-b-2"] = {{5.6, 0.1}, {3.7, 0.1}, {4.7, 0.1}, {3.8, 0.1}, {4.0, 0.2}, {3.8, 0.1}},
 }
 
--- The entry of Table 2 at a speed; nil for a speed that the paper has not.
+-- The entry of Table 2 at a speed; nil if the paper has no such speed.
 function paper_numbers.at(label, speed)
   for i, known in ipairs(paper_numbers.speeds) do
     if known == speed and paper_numbers.wall[label] then return paper_numbers.wall[label][i] end

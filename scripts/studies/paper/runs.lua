@@ -1,24 +1,24 @@
--- The runs behind the paper's two tables: which there are, and how each is made.
+-- The runs for the two tables of the paper.
 
 local s = require "springlod"
 local noise_samples = require "lib.noise_samples"
 local paper_scenes = require "studies.paper.scenes"
 local paper_variants = require "studies.paper.variants"
-local teller = require "lib.teller"
+local progress = require "lib.progress"
 
 local paper_runs = {}
 
 local columns = {"start", "distance", "simulated", "spring_updates", "first_crossing"}
 
--- One throw of one body: scene as a Scenario and as the table it was made of. `variants`: those of
--- the paper's table.
+-- One throw of one body. `scene` is the Scenario, `table` the Lua table it was created from;
+-- `variants` are those of the paper's table.
 local function case(name, base, scene, variants)
   return {
     name = name, base = base, scene = s.scenario(scene), table = scene, variants = variants,
   }
 end
 
--- Table 1: one case. Table 2: one a speed.
+-- The cases of Table 1 (`ball`) and Table 2 (`rods`, one per speed).
 function paper_runs.cases(settings)
   local ball = paper_scenes.ball{materials = settings.ball_materials}
   local rods = paper_scenes.rods{materials = settings.rods_materials}
@@ -41,7 +41,7 @@ function paper_runs.each_level(one, visit)
   end
 end
 
--- visit(seed) of every simplification seed, as a list.
+-- A list of visit(seed) for all simplification seeds.
 function paper_runs.by_seed(settings, visit)
   local list = {}
   for seed = settings.seed, settings.seed + settings.simplifications - 1 do
@@ -50,11 +50,11 @@ function paper_runs.by_seed(settings, visit)
   return list
 end
 
--- The chain of a variant, made once; many seeds make many.
+-- The chain of a variant and a seed, built once.
 local chains = setmetatable({}, {__mode = "k"})
 function paper_runs.chain(base, variant, seed)
   chains[base] = chains[base] or {}
-  -- Variants may differ in how they are run alone.
+  -- Variants that differ only in their contact share a chain.
   local key = table.concat({tostring(variant.grouping), tostring(variant.border),
                             tostring(variant.calibrate), tostring(variant.moments), seed,
                             table.unpack(variant.keep or {})}, " ")
@@ -66,8 +66,8 @@ function paper_runs.chain(base, variant, seed)
   return chains[base][key]
 end
 
--- All samples of a case: name, kind ("base", "noise" or the label of a level), model (a function),
--- options of s.ensemble.
+-- All samples of a case: name, kind ("base", "noise" or the label of a level), model (a function
+-- that returns it) and options of s.ensemble.
 local function samples(one, settings)
   local list = {}
   local function add(name, kind, model, options)
@@ -90,8 +90,8 @@ local function samples(one, settings)
   return list
 end
 
--- The distances of a sample, run if the store has them not, and in how many of its runs springs
--- turned over.
+-- The distances of a sample, run if they are not in the store, and the number of its runs in which
+-- springs turned over.
 local function distances(sample, scene, store)
   local rows = store:rows(sample.name, columns, function()
     return s.ensemble(sample.model(), scene, sample.options)
@@ -104,8 +104,9 @@ local function distances(sample, scene, store)
   return list, turned_over
 end
 
--- Runs what the store lacks of `cases`. Each case gets base_distances, noise (several),
--- levels (by label, a list of distances a seed) and turned_over (by kind, a number of runs).
+-- Runs the samples of `cases` that are not in the store. Each case gets the fields base_distances,
+-- noise (one list per source), levels (by label, one list of distances per seed) and turned_over
+-- (by kind, the number of runs).
 function paper_runs.run(cases, settings, store)
   local missing = 0
   for _, one in ipairs(cases) do
@@ -114,14 +115,14 @@ function paper_runs.run(cases, settings, store)
       if not store:has(sample.name) then missing = missing + 1 end
     end
   end
-  local tell = teller(missing)
+  local report = progress(missing)
   for _, one in ipairs(cases) do
     one.noise, one.levels, one.turned_over = {}, {}, {}
     for _, sample in ipairs(one.samples) do
       local new = not store:has(sample.name)
       local found, turned_over = distances(sample, one.scene, store)
       one.turned_over[sample.kind] = (one.turned_over[sample.kind] or 0) + turned_over
-      if new then tell(sample.name) end
+      if new then report(sample.name) end
       if sample.kind == "base" then
         one.base_distances = found
       elseif sample.kind == "noise" then

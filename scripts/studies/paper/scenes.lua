@@ -1,18 +1,18 @@
--- The bodies and scenes of the paper as functions of their parameters. Materials, friction and
--- floor are ours, for the paper gives none: see docs/paper.md.
+-- The bodies and scenes of the paper as functions of their parameters. The paper does not specify
+-- materials, friction and floor; docs/paper.md explains the values used here.
 
 local s = require "springlod"
 
 local paper_scenes = {}
 
-local cell = 0.1 -- edge of all bodies' cells [m]
+local cell = 0.1 -- cell size of all bodies [m]
 
--- The options with what is missing taken from `usual`; a name that `usual` lacks is a mistake.
-local function with_defaults(options, usual)
+-- Fills missing options from `defaults`. An option without a default is an error.
+local function with_defaults(options, defaults)
   local complete = {}
-  for name, value in pairs(usual) do complete[name] = value end
+  for name, value in pairs(defaults) do complete[name] = value end
   for name, value in pairs(options or {}) do
-    if usual[name] == nil then error("there is no parameter '" .. name .. "'", 3) end
+    if defaults[name] == nil then error("unknown parameter '" .. name .. "'", 3) end
     complete[name] = value
   end
   return complete
@@ -20,15 +20,15 @@ end
 
 local function sample(name) return dofile(s.samples .. "/" .. name .. ".lua") end
 
--- Bodies: a model with a node at the centre of each cell, as in the paper.
+-- Bodies: models with a node at the center of each cell, as in the paper.
 
--- The `count` lattice points nearest to a point a little off a lattice point, those within
--- `core_radius` cells of it core, the others shell.
+-- The `count` cells closest to a point slightly off a cell center. Cells within `core_radius` cells
+-- of that point are core, the others shell.
 function paper_scenes.ball(options)
   local o = with_defaults(options, {
     count = 281, core_radius = 2.3, materials = sample("ball_materials"),
   })
-  local reach = math.ceil((o.count * 3 / (4 * math.pi)) ^ (1 / 3)) + 1 -- cells from the middle
+  local reach = math.ceil((o.count * 3 / (4 * math.pi)) ^ (1 / 3)) + 1 -- [cells]
   local points = {}
   for z = -reach, reach do
     for y = -reach, reach do
@@ -43,22 +43,22 @@ function paper_scenes.ball(options)
     return a.order > b.order
   end)
   local function key(x, y, z) return ("%d %d %d"):format(x, y, z) end
-  local part = {}
+  local material = {}
   for i = 1, o.count do
     local p = points[i]
-    part[key(p.x, p.y, p.z)] = p.distance <= o.core_radius and "core" or "shell"
+    material[key(p.x, p.y, p.z)] = p.distance <= o.core_radius and "core" or "shell"
   end
   local function nearest(x) return math.floor(x / cell + 0.5) end
   local corner = -(reach + 0.5) * cell
   local grid = s.grid{
     cell = cell, size = {2 * reach + 1, 2 * reach + 1, 2 * reach + 1},
     origin = {corner, corner, corner}, materials = o.materials,
-    fill = function(x, y, z) return part[key(nearest(x), nearest(y), nearest(z))] end,
+    fill = function(x, y, z) return material[key(nearest(x), nearest(y), nearest(z))] end,
   }
   return s.lattice(grid, {style = "centers"}), grid
 end
 
--- Two stiff rods of `width` x `width` x `rod` cells and `joint` cells of rubber between them.
+-- Two stiff rods of `width` x `width` x `rod` cells, joined by `joint` cells of rubber.
 function paper_scenes.rods(options)
   local o = with_defaults(options, {
     width = 4, rod = 9, joint = 5, materials = sample("dumbbell_materials"),
@@ -75,7 +75,7 @@ function paper_scenes.rods(options)
   return s.lattice(grid, {style = "centers"}), grid
 end
 
--- A block of one material, `size` nodes along each axis: the paper's cube if left out.
+-- A block of one material with `size` nodes along the axes; default: the paper's cube.
 function paper_scenes.block(options)
   local o = with_defaults(options, {
     size = {6, 6, 6},
@@ -90,9 +90,10 @@ function paper_scenes.block(options)
   return s.lattice(grid, {style = "centers"}), grid
 end
 
--- Scenes: a table for s.scenario.
+-- Scenes: tables for s.scenario.
 
--- Scenario 1: thrown flat just above a floor, rolls until it stops; how far it got.
+-- Scenario 1: the body is thrown horizontally just above a floor and rolls until it stops.
+-- Measured: distance travelled.
 function paper_scenes.roll(options)
   local o = with_defaults(options, {
     speed = 3.2, height = 0.6, friction = 0.5, floor_stiffness = 1e6, duration = 12,
@@ -108,8 +109,8 @@ function paper_scenes.roll(options)
   }
 end
 
--- Scenario 2: thrown at a wall, upright and turning end over end, bounces off and comes to rest;
--- how far from the wall.
+-- Scenario 2: the body is thrown at a wall, upright and spinning end over end, bounces off and
+-- comes to rest. Measured: distance from the wall.
 function paper_scenes.wall(options)
   local o = with_defaults(options, {
     speed = 10, spin = 6, height = 2, wall_distance = 2, friction = 0.5, floor_stiffness = 2e6,
@@ -128,8 +129,8 @@ function paper_scenes.wall(options)
   }
 end
 
--- The counter-example of the paper's section 6: a cube dropped askew, a thrown die. Measured: how
--- far it has gone sideways.
+-- The counter-example of section 6 of the paper, a thrown die: a tilted cube is dropped. Measured:
+-- horizontal displacement.
 function paper_scenes.die(options)
   local o = with_defaults(options, {
     height = 1.5, speed = 1, tilt = 25, friction = 0.5, floor_stiffness = 2e6, duration = 4,

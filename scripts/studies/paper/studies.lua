@@ -1,5 +1,6 @@
--- What stands beside the paper's two tables: errors before chaos, the paper's own three runs, the
--- energy measure that it cites, and how much each scene makes of a small change.
+-- The studies that accompany the two tables of the paper: early errors, the paper's own method of
+-- three runs, the energy measure it cites, elasticity without a scene, random models and the
+-- sensitivity of the scenes.
 
 local s = require "springlod"
 local cut = require "lib.cut_scene"
@@ -18,7 +19,7 @@ local function standard_deviation(list)
   return math.sqrt(sum / (#list - 1))
 end
 
--- What a study of the variants is kept as: a folder may get other ones later.
+-- The name of a study in the store; it depends on the variants, which may change between calls.
 local function kept_as(name, settings)
   return name .. "-of-" .. table.concat(settings.variants, "+")
 end
@@ -28,8 +29,8 @@ local function positions_at(model, scene, time, contact)
     {frame_rate = 0, ledger = false, quiet = true, contact = contact}).final.x
 end
 
--- Mass-weighted RMS distance of a level's nodes from the centres of mass of their groups in the
--- base.
+-- Mass-weighted rms distance between the nodes of a level and the centers of mass of their groups
+-- in the base.
 local function level_error(chain, level, of_base, of_level)
   local map, base, sums = chain:group_map(level), chain[0], {}
   for i, x in ipairs(of_base) do
@@ -48,8 +49,8 @@ local function level_error(chain, level, of_base, of_level)
   return math.sqrt(square / mass)
 end
 
--- Errors while runs are still alike: just before the base touches anything, and after 1 s. Means
--- over the simplification seeds.
+-- Errors before trajectories diverge: at the first contact of the base, and after 1 s. Means over
+-- the simplification seeds.
 function paper_studies.early_errors(cases, settings, store)
   local columns = {"case", "model", "contact_time", "at_contact", "after_1_s"}
   return store:rows(kept_as("early-errors", settings), columns, function()
@@ -78,8 +79,8 @@ function paper_studies.early_errors(cases, settings, store)
   end), columns
 end
 
--- The paper's way: the same start three times, with steps that differ. The +- is the standard
--- deviation of the three.
+-- The paper's method: three runs from the same start with different time steps. The spread is the
+-- standard deviation of the three distances.
 function paper_studies.three_runs(cases, settings, store)
   local columns = {"speed", "model", "distance", "spread", "paper_distance", "paper_spread"}
   local safeties = {0.8, 0.7, 0.6}
@@ -108,7 +109,8 @@ function paper_studies.three_runs(cases, settings, store)
   end), columns
 end
 
--- Mechanical energy of each frame and the largest kinetic energy, of a run from the plain start.
+-- Mechanical energy of each frame and the largest kinetic energy of a run from the unjittered
+-- start.
 local function energies(model, scene, options)
   local list, kinetic = {}, 0
   local run = s.run(model, scene,
@@ -126,8 +128,8 @@ local function largest_difference(a, b)
   return largest
 end
 
--- The largest energy difference of Yeh et al. 2009, over the base's largest kinetic energy, for
--- each level (mean over the simplification seeds) and for the base against itself at half the step.
+-- The largest energy difference (Yeh et al. 2009) relative to the largest kinetic energy of the
+-- base, for each level (mean over the simplification seeds) and for the base at half the time step.
 function paper_studies.energy(cases, settings, store)
   local columns = {"case", "model", "energy_difference"}
   return store:rows(kept_as("energy", settings), columns, function()
@@ -153,10 +155,10 @@ function paper_studies.energy(cases, settings, store)
   end), columns
 end
 
--- What each scene makes of a start that is a thousandth off: spread of the way that the base has
--- gone after some time, how many times larger than the change of the start that is, and how far
--- from the base LOD-hb-1 goes meanwhile. The cube is what the paper calls a thrown die and keeps
--- out of its tests.
+-- Sensitivity of each scene to a change of 0.1 % in the start. `way`: mean distance travelled by
+-- the base after `time`; `spread`: its standard deviation; `growth`: relative spread of the
+-- distance over that of the start; `level_difference`: difference of LOD-hb-1 from the base. The
+-- paper mentions the thrown die but excludes it from its tests.
 function paper_studies.sensitivity(settings, store)
   local columns = {"scene", "time", "way", "spread", "growth", "level_difference"}
   local jitter = 0.001 -- relative, uniform: a standard deviation of jitter / sqrt(3)
@@ -167,7 +169,7 @@ function paper_studies.sensitivity(settings, store)
   }
   return store:rows("sensitivity", columns, function()
     local rows = {}
-    local function ways(model, scene)
+    local function distances(model, scene)
       local list = {}
       local options = {starts = settings.starts, jitter = jitter, seed = settings.seed}
       for i, run in ipairs(s.ensemble(model, scene, options)) do list[i] = run.distance end
@@ -176,9 +178,10 @@ function paper_studies.sensitivity(settings, store)
     for _, entry in ipairs(scenes) do
       local name, base, scene = table.unpack(entry)
       local level = paper_runs.chain(base, paper_variants[4], settings.seed)[1]
-      scene.measure_from = nil -- the way from the start, in all of them
+      scene.measure_from = nil -- all scenes: measured from the start
       for _, time in ipairs{0.25, 0.5, 1, 2, 4} do
-        local of_base, of_level = ways(base, cut(scene, time)), ways(level, cut(scene, time))
+        local cut_short = cut(scene, time)
+        local of_base, of_level = distances(base, cut_short), distances(level, cut_short)
         local spread = standard_deviation(of_base)
         rows[#rows + 1] = {
           scene = name, time = time, way = mean(of_base), spread = spread,
@@ -197,8 +200,8 @@ local function frequencies(model)
   return list
 end
 
--- Ways to make a chain of `base`, and its options for a seed.
-local function ways(base, grid)
+-- The simplification methods that the elasticity study compares: a name and chain(seed).
+local function simplification_methods(base, grid)
   local list = {}
   local function add(name, options)
     list[#list + 1] = {name = name, chain = function(seed)
@@ -212,7 +215,7 @@ local function ways(base, grid)
   end
   add("LOD-h by gradient alone", {grouping = "priority_hard"})
   add("LOD with mass by proximity", {mass = "proximity"})
-  local counts = s.simplify(base, {levels = 2, seed = 1}) -- about as many nodes as by merging
+  local counts = s.simplify(base, {levels = 2, seed = 1}) -- node counts similar to merging
   for _, style in ipairs{"lattice", "random"} do
     list[#list + 1] = {name = "refilled " .. style, chain = function(seed)
       return s.refill(base, grid, {
@@ -226,8 +229,8 @@ end
 
 local function trace(inertia) return inertia[1][1] + inertia[2][2] + inertia[3][3] end
 
--- The elasticity alone, no scene: how far the ten lowest frequencies of each level are off the
--- base's, and to which side, and its moment of inertia; means over the simplification seeds.
+-- Elasticity without a scene: mean absolute and mean signed error of the ten lowest frequencies of
+-- each level, and the error of its moment of inertia. Means over the simplification seeds.
 function paper_studies.elasticity(settings, store)
   local columns = {
     "body", "way", "level", "nodes", "error_percent", "bias_percent", "inertia_percent",
@@ -241,10 +244,10 @@ function paper_studies.elasticity(settings, store)
     for _, body in ipairs(bodies) do
       local name, base, grid = table.unpack(body)
       local of_base = frequencies(base)
-      for _, way in ipairs(ways(base, grid)) do
+      for _, method in ipairs(simplification_methods(base, grid)) do
         local found = {{}, {}}
         for seed = settings.seed, settings.seed + settings.simplifications - 1 do
-          local chain = way.chain(seed)
+          local chain = method.chain(seed)
           for level = 1, 2 do
             local errors, biases = {}, {}
             for i, frequency in ipairs(frequencies(chain[level])) do
@@ -264,7 +267,7 @@ function paper_studies.elasticity(settings, store)
             return mean(list)
           end
           rows[#rows + 1] = {
-            body = name, way = way.name, level = level,
+            body = name, way = method.name, level = level,
             nodes = math.floor(over_seeds("nodes") + 0.5), error_percent = over_seeds("error"),
             bias_percent = over_seeds("bias"), inertia_percent = over_seeds("inertia"),
           }
@@ -275,8 +278,8 @@ function paper_studies.elasticity(settings, store)
   end), columns
 end
 
--- Random models: E by eq. 2 alone over the E that a solved stretch test shows, and Poisson's ratio;
--- means over seeds.
+-- Random models: Young's modulus by eq. 2 over the one measured in a static stretch test, and
+-- Poisson's ratio. Means over seeds.
 function paper_studies.random_models(settings, store)
   local columns = {"nodes", "ends_a_node", "eq_2_over_measured", "poisson"}
   return store:rows("random-models", columns, function()

@@ -1,5 +1,5 @@
--- The paper's two tables from samples of many runs (lib.paper_runs), with what a table needs to be
--- believed: intervals, the noise floor, and whether "the same" has been shown.
+-- The two tables of the paper, computed from samples of many runs (studies/paper/runs.lua), with
+-- confidence intervals, noise floor and equivalence tests.
 
 local s = require "springlod"
 local by_start = require "lib.by_start"
@@ -21,7 +21,7 @@ paper_tables.columns = {
   "paper_distance", "paper_difference",
 }
 
--- Nodes and ends of a level, means over the seeds.
+-- Node and end counts of a level, means over the seeds.
 local function counts(one, variant, level, settings)
   local function mean_of(field)
     return math.floor(mean(paper_runs.by_seed(settings, function(seed)
@@ -68,11 +68,11 @@ local function level_row(one, variant, level, floor, settings)
   }
 end
 
-local function beside_paper(row, one)
+local function with_paper_values(row, one)
   local counted
   if one.speed then counted = paper_numbers.rods[row.model]
   else counted = paper_numbers.roll[row.model] end
-  if not counted then return row end -- no variant of the paper's
+  if not counted then return row end -- not a variant of the paper
   row.paper_nodes, row.paper_ends = counted.nodes, counted.ends
   if one.speed then
     local theirs = paper_numbers.at(row.model, one.speed)
@@ -87,33 +87,33 @@ local function beside_paper(row, one)
   return row
 end
 
--- The rows of one case: the base, then every variant's levels.
+-- The rows of one case: the base, then the levels of every variant.
 function paper_tables.rows(one, settings)
   local floor = s.noise_floor(one.noise, {size = #one.base_distances})
-  local rows = {beside_paper(base_row(one), one)}
+  local rows = {with_paper_values(base_row(one), one)}
   paper_runs.each_level(one, function(_, variant, level)
-    rows[#rows + 1] = beside_paper(level_row(one, variant, level, floor, settings), one)
+    rows[#rows + 1] = with_paper_values(level_row(one, variant, level, floor, settings), one)
   end)
   return rows
 end
 
--- Of a model in all rows of tables: how many simplifications stay inside the noise floor, how many
--- there are, and in how many rows all of them together stay inside.
+-- Counts over all rows of a model: simplifications (seeds) inside the noise floor, simplifications,
+-- and rows whose pooled sample is inside the noise floor.
 local function inside_floor(model, all)
-  local inside, seeds, together = 0, 0, 0
+  local inside, seeds, pooled = 0, 0, 0
   for _, row in ipairs(all) do
     if row.model == model then
       inside, seeds = inside + row.seeds_inside, seeds + row.seeds
-      if row.wasserstein <= row.noise_floor then together = together + 1 end
+      if row.wasserstein <= row.noise_floor then pooled = pooled + 1 end
     end
   end
-  return inside, seeds, together
+  return inside, seeds, pooled
 end
 
--- Table 2 in few numbers a model: the mean over the speeds of |difference of the means|, beside the
--- paper's and beside what the base makes of itself with other starts; the same over the base's
--- spread; how many simplifications stay inside the noise floor, and at how many speeds all of them
--- together. `all`: the rows of all speeds.
+-- Table 2 summarized over the speeds, one row per model: mean |difference of the means| from the
+-- base, absolute and relative to the spread of the base, the paper's value, and the counts of
+-- inside_floor. The first row compares the base with itself at other starts. `all`: the rows of all
+-- speeds.
 function paper_tables.over_speeds(cases, all)
   local rows, spread = {}, {}
   for _, row in ipairs(all) do
@@ -140,10 +140,10 @@ function paper_tables.over_speeds(cases, all)
         theirs[#theirs + 1] = math.abs(paper[1] - paper_numbers.at("base", one.speed)[1])
       end
     end
-    local inside, seeds_of, together = inside_floor(label, all)
+    local inside, seed_count, pooled = inside_floor(label, all)
     rows[#rows + 1] = {
       model = label, mean_difference = mean(ours), mean_over_spread = mean(spreads),
-      seeds_inside = inside, seeds = seeds_of, speeds_inside = together,
+      seeds_inside = inside, seeds = seed_count, speeds_inside = pooled,
       paper_mean_difference = #theirs > 0 and mean(theirs) or nil,
     }
   end)
@@ -153,7 +153,7 @@ function paper_tables.over_speeds(cases, all)
   }
 end
 
--- The table as people read it: each interval in one cell.
+-- The table for readers: each value and its interval in one cell.
 function paper_tables.readable(rows)
   local short = {}
   for i, row in ipairs(rows) do

@@ -1,5 +1,5 @@
--- The paper's ways of merging and its names for them: b = weak border, h = priority, number =
--- level. Besides, ways of ours: levels fitted to the base.
+-- The simplification variants of the paper and their names (b = weak border, h = priority grouping,
+-- number = level), and our calibrated variants.
 
 local paper_variants = {
   {name = "", grouping = "standard", border = "none"},
@@ -8,9 +8,9 @@ local paper_variants = {
   {name = "hb", grouping = "priority", border = "weak"},
 }
 
--- The paper's groups and compact ones, fitted. With weak borders, for what touches floor and wall
--- then stays where the surface was, or (s) touching at the base's surface itself, or so and (p)
--- with the moments of pieces of one material kept; about as many nodes as the paper's levels.
+-- Calibrated levels of the paper's groups and of compact groups, with about as many nodes as the
+-- paper's levels. Weak borders (b) keep the contact nodes near the surface; s: contact on the
+-- surface of the base; p: the second moments of each material region are preserved too.
 paper_variants.calibrated = {
   {name = "fit-b", grouping = "standard", border = "weak", calibrate = "modes",
    keep = {0.45, 0.2}},
@@ -33,22 +33,22 @@ local function labels_of(variants)
   return labels
 end
 
--- "LOD", "LOD-b", ... of the paper's variants, and of all.
+-- "LOD", "LOD-b", ...: the labels of the paper's variants, and of all variants.
 function paper_variants.paper_labels() return labels_of(paper_variants) end
 function paper_variants.labels() return labels_of(with_calibrated(paper_variants)) end
 
--- Of `variants` and the calibrated ones those whose labels `settings.variants` lists.
+-- Those of `variants` and of the calibrated variants whose labels are in `settings.variants`.
 function paper_variants.wanted(variants, settings)
-  local asked, wanted = {}, {}
-  for _, label in ipairs(settings.variants) do asked[label] = true end
+  local requested, wanted = {}, {}
+  for _, label in ipairs(settings.variants) do requested[label] = true end
   for _, variant in ipairs(with_calibrated(variants)) do
-    if asked[paper_variants.label(variant.name)] then wanted[#wanted + 1] = variant end
+    if requested[paper_variants.label(variant.name)] then wanted[#wanted + 1] = variant end
   end
   return wanted
 end
 
--- "base", "LOD-1", "LOD-hb-2" of the variant's name and the level; without one that of all levels,
--- "LOD-hb".
+-- The label of a level of a variant: "base", "LOD-1", "LOD-hb-2". Without `level` the label of the
+-- variant: "LOD-hb".
 function paper_variants.label(name, level)
   if level == 0 then return "base" end
   local all = name == "" and "LOD" or "LOD-" .. name

@@ -1,4 +1,5 @@
--- The chains behind springlod pareto, kept as assets, and what they are whatever steps them.
+-- The chains of springlod pareto, kept as assets, and their elastic errors, which do not depend on
+-- the integrator.
 
 local s = require "springlod"
 local intervals = require "lib.intervals"
@@ -8,7 +9,8 @@ local pareto_chains = {}
 local frequency_count = 20
 local percent = 100
 
--- A strong border may leave more nodes than are asked for; then it gets as many as it makes.
+-- A strong border may be unable to reach the requested node counts; then the grouping determines
+-- them.
 local function simplify(base, making, settings, seed)
   local options = {grouping = making.grouping, border = making.border,
                    calibrate = making.calibration, seed = seed, keep = settings.keep}
@@ -22,25 +24,25 @@ local function simplify(base, making, settings, seed)
   return making.calibration == "modes" and chain or s.certify(chain)
 end
 
-local function kept(path)
+local function exists(path)
   local file = io.open(path, "rb")
   if file then file:close() end
   return file ~= nil
 end
 
--- The chains of a way of making levels, one a seed, with certificates (not of the base). `study`:
--- base, settings, folder. Calls tell(name) for each.
-function pareto_chains.of(study, making, tell)
+-- The certified chains of a simplification method, one per seed. `study`: base, settings, folder.
+-- Calls report(name) after each chain.
+function pareto_chains.of(study, making, report)
   if not making.grouping then return {{[0] = study.base}} end
   local chains = {}
   for i = 1, study.settings.seeds do
     local seed = study.settings.seed + i - 1
     local path = ("%s/models/%s-seed-%d.glb"):format(study.folder, making.name, seed)
-    if not kept(path) then
+    if not exists(path) then
       s.save(path, simplify(study.base, making, study.settings, seed))
     end
     chains[i] = s.load(path)
-    tell(("%s, seed %d"):format(making.name, seed))
+    report(("%s, seed %d"):format(making.name, seed))
   end
   return chains
 end
@@ -51,11 +53,11 @@ local function rms_of_frequencies(certificate)
   return math.sqrt(sum / count)
 end
 
-local nothing = {value = 0, low = 0, high = 0}
+local zero = {value = 0, low = 0, high = 0}
 
--- Errors of a level in percent, with intervals over the seeds.
+-- Elastic errors of a level in percent, with intervals over the seeds.
 function pareto_chains.elastic_errors(chains, level)
-  if level == 0 then return {frequencies = nothing, loads = nothing} end
+  if level == 0 then return {frequencies = zero, loads = zero} end
   local frequencies, loads = {}, {}
   for i, chain in ipairs(chains) do
     local certificate = s.info(chain).levels[level + 1].certificate

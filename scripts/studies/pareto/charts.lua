@@ -1,5 +1,5 @@
--- Cost against error as a chart: colour tells the calibration, symbol the grouping, rings the
--- paper's variants; the points of the front have names.
+-- Charts of cost against error: the colour shows the calibration, the symbol the grouping, rings
+-- the paper's variants. Points on the Pareto front are labelled.
 
 local s = require "springlod"
 local command = require "lib.command"
@@ -20,14 +20,14 @@ for i, grouping in ipairs(s.choices.grouping) do
   symbol_of[grouping] = symbol
 end
 
--- Errors this much below the floor are all the same: their points sit on the axis, which begins at
--- this part of the least of the others.
+-- Errors below this fraction of the noise floor are indistinguishable: their points are drawn on
+-- the lower end of the axis.
 local below_floor = 0.1
-local below_least = 0.5
-local early = 1e-3 -- of the floor: what is seen of the time before anything is touched
-local colour_count = 7 -- that series take by themselves; beyond them lines are dashed
+local below_least = 0.5 -- start of the axis, as a fraction of the least distinguishable error
+local early = 1e-3 -- start of the axis over time, as a fraction of the floor
+local colour_count = 7 -- size of the default palette; further lines are dashed
 
--- Points of an error axis: x and y as {value, low, high}.
+-- The points of one error axis: x, y, the variant, and cost and error with their intervals.
 local function points_of(variants, axis)
   local points = {}
   for _, variant in ipairs(variants) do
@@ -45,7 +45,7 @@ local function chart_point(point, label)
           low = point.error.low, high = point.error.high, label = label or nil}
 end
 
--- Down and to the right from point to point, and down to the axis at the first that sits there.
+-- The front as a descending step function, which ends at the first point on the axis.
 local function staircase(front, y_from)
   local line = {}
   for i, point in ipairs(front) do
@@ -56,13 +56,13 @@ local function staircase(front, y_from)
   return line
 end
 
--- Where the axis of errors begins.
+-- The lower end of the error axis.
 local function axis_from(points, floor)
-  local same, least = below_floor * (floor or 0), math.huge
+  local limit, least = below_floor * (floor or 0), math.huge
   for _, point in ipairs(points) do
-    if point.y > same then least = math.min(least, point.y) end
+    if point.y > limit then least = math.min(least, point.y) end
   end
-  return least < math.huge and math.max(same, below_least * least) or same
+  return least < math.huge and math.max(limit, below_least * least) or limit
 end
 
 local function floor_line(points, floor)
@@ -73,7 +73,7 @@ local function floor_line(points, floor)
   return {{low, floor}, {high, floor}}
 end
 
--- The legend: a line for each colour, a grey symbol for each grouping.
+-- The legend: a line for each calibration, a grey symbol for each grouping.
 local function add_legend(series, points)
   local seen = {}
   for _, point in ipairs(points) do
@@ -97,9 +97,9 @@ local function add_legend(series, points)
                          joined = false}
 end
 
--- A series for each grouping and calibration, and the paper's points. `front`: a set; it and the
--- base have names. Points not above `y_from` are shown if they are in it, so that of what has no
--- error the cheapest is told.
+-- One series per grouping and calibration, and the points of the paper's variants. `front` is a set
+-- of points; these and the base are labelled. Of the points not above `y_from` only those on the
+-- front are drawn.
 local function series_of(points, front, y_from)
   local series, of_look, paper = {}, {}, {}
   for _, point in ipairs(points) do
@@ -124,8 +124,8 @@ local function series_of(points, front, y_from)
   return series, paper
 end
 
--- The front of one axis; draws it with all its points as folder/NAME.svg and .png. `axis`: name,
--- title, x_label, y_label, floor (nil if there is none) and its name.
+-- Draws all points and the front of one axis to folder/NAME.svg and .png, and returns the front.
+-- `axis`: name, title, x_label, y_label, floor (nil if there is none) and floor_name.
 function pareto_charts.draw(folder, variants, axis)
   local points = points_of(variants, axis)
   if #points == 0 then return {} end
@@ -140,7 +140,7 @@ function pareto_charts.draw(folder, variants, axis)
     add{name = "the paper's", points = paper, symbol = "ring", colour = "black", joined = false}
   end
   if axis.floor then
-    local seen = axis.floor > y_from -- else the legend alone tells of it
+    local seen = axis.floor > y_from -- otherwise only the legend shows it
     add{name = ("%s: %.2g%s"):format(axis.floor_name, axis.floor, seen and "" or " (below)"),
         points = seen and floor_line(points, axis.floor) or {}, symbol = "none", colour = "green",
         dashed = true}
@@ -152,7 +152,7 @@ function pareto_charts.draw(folder, variants, axis)
   return front
 end
 
--- The surfaces' way over time of what is on a front, and of the floor.
+-- Draws surface error over time for the variants on a front, and for the noise floor.
 function pareto_charts.draw_over_time(folder, front, floor, title)
   local series, y_from = {}, below_floor * floor.value
   for _, point in ipairs(front) do

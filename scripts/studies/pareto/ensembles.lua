@@ -1,5 +1,5 @@
--- Where many starts of a level end, against where those of the base do, and how far the base is
--- from itself.
+-- Compares the distribution of final distances of a level with that of the base, and with the noise
+-- floor of the base.
 
 local s = require "springlod"
 local intervals = require "lib.intervals"
@@ -37,11 +37,11 @@ function pareto_ensembles.new(study)
   }, Ensembles)
 end
 
-local function in_squares(a, b) return math.sqrt(a ^ 2 + b ^ 2) end
+local function root_of_squares(a, b) return math.sqrt(a ^ 2 + b ^ 2) end
 
--- Wasserstein distance from the base's sample, mean over the seeds, and how many of them are inside
--- the noise floor. Each seed by itself, for the floor holds for samples of its size and a longer
--- one, of all seeds, would come nearer. What starts and what seeds leave open adds up in squares.
+-- Wasserstein distance to the sample of the base, mean over the seeds, and the number of seeds
+-- inside the noise floor. Seeds are not pooled: the floor holds for samples of its size, and larger
+-- samples have smaller distances. The uncertainties from starts and from seeds add in quadrature.
 function Ensembles:error_of(variant, chains)
   local values, below, above, inside = {}, 0, 0, 0
   for i, chain in ipairs(chains) do
@@ -54,8 +54,8 @@ function Ensembles:error_of(variant, chains)
     above = above + math.max(0, w.high - w.value) / #chains
   end
   local m = intervals.mean(values)
-  return {value = m.value, low = math.max(0, m.value - in_squares(below, m.value - m.low)),
-          high = m.value + in_squares(above, m.high - m.value), inside = inside}
+  return {value = m.value, low = math.max(0, m.value - root_of_squares(below, m.value - m.low)),
+          high = m.value + root_of_squares(above, m.high - m.value), inside = inside}
 end
 
 return pareto_ensembles

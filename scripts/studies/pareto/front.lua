@@ -1,12 +1,13 @@
--- Which of many points nothing else beats in cost and error both.
+-- The Pareto front of points in cost and error.
 
--- An error less by no more than this part is no gain: single and double precision differ by less.
+-- Relative reduction of the error that counts as a gain; single and double precision differ by
+-- less.
 local least_gain = 0.01
 
--- `points` are tables with `x` and `y`, less being better; errors up to `alike` are all the same.
--- Returns those of the front by rising x.
-return function(points, alike)
-  local function error_of(point) return math.max(point.y, alike) end
+-- `points`: tables with `x` and `y`, both to be minimized; values of y up to `floor` count as
+-- equal. Returns the points of the front, sorted by x.
+return function(points, floor)
+  local function error_of(point) return math.max(point.y, floor) end
   local sorted = table.move(points, 1, #points, 1, {})
   table.sort(sorted, function(p, q)
     if p.x ~= q.x then return p.x < q.x end

@@ -1,4 +1,5 @@
--- How far the surfaces of levels are from the base's over time, until the first chaos.
+-- Distance between the surfaces of a level and of the base over time, until shortly after the first
+-- contact.
 
 local s = require "springlod"
 local by_start = require "lib.by_start"
@@ -9,17 +10,17 @@ local pareto_surfaces = {}
 local Surfaces = {}
 Surfaces.__index = Surfaces
 
--- What bounces is chaotic: beyond so long after the first contact a single run says nothing, as in
--- s.compare [s].
+-- Comparison ends this long after the first contact [s], as in s.compare: bouncing is chaotic, so
+-- later deviations of single runs mean nothing.
 local after_contact = 0.25
--- Nor can a level be held against the base any longer once half the step moves the base's nodes by
--- this part of its size (rms).
-local lost = 0.01
-local half_step = {safety = 0.4} -- of the predicted stable step, where a run takes 0.8
+-- It ends earlier if halving the time step moves the surface of the base by more than this fraction
+-- of its size (rms).
+local diverged = 0.01
+local half_step = {safety = 0.4} -- fraction of the predicted stable step; runs use 0.8
 local frame_rate = 60 -- [1/s]
 local percent = 100
 
--- The scene of one of the jittered starts, without a rule that stops it.
+-- The scene of one jittered start, without a rest criterion.
 local function scene_of_start(study, number, duration)
   return s.jittered(cut_scene(study.scene, duration), study.base,
     {number = number, jitter = study.settings.jitter, seed = study.settings.seed})
@@ -31,9 +32,9 @@ local function run(model, scene, more)
   return s.run(model, scene, options)
 end
 
--- How far a start can be followed [s]: to the end asked for, else to shortly after its first
--- contact; no farther than the last frame before the base and the base with half the step part.
-local function time_of_chaos(study, start)
+-- Time up to which one start is comparable [s]: surface_time, or `after_contact` after its first
+-- contact; at most the last frame before the base and the base at half the step diverge.
+local function comparable_time_of_start(study, start)
   local longest = study.settings.surface_time
   if not longest then
     local contact = run(study.base, scene_of_start(study, start, study.scenario.duration),
@@ -43,45 +44,45 @@ local function time_of_chaos(study, start)
   local scene = scene_of_start(study, start, math.min(longest, study.scenario.duration))
   local last = 0
   for _, d in ipairs(s.deviation(run(study.base, scene, half_step), run(study.base, scene))) do
-    if d.surface > lost * study.size then break end
+    if d.surface > diverged * study.size then break end
     last = d.time
   end
   return last
 end
 
--- The first of all starts.
-local function first_chaos(study)
+-- The shortest comparable time of all starts [s].
+local function comparable_time(study)
   local rows = study.store:rows("chaos", {"start", "time"}, function()
     local found = {}
     for start = 1, study.settings.starts do
-      found[start] = {start = start, time = time_of_chaos(study, start)}
+      found[start] = {start = start, time = comparable_time_of_start(study, start)}
     end
     return found
   end)
   local first = math.huge
   for _, row in ipairs(rows) do first = math.min(first, row.time) end
   if first < 1 / frame_rate then
-    error("the base is lost within its first frame: half the step moves its nodes by more than "
-      .. "1 % of its size; look at the scene, or leave surface out of --errors", 0)
+    error("surfaces cannot be compared: halving the time step changes the first frame of the "
+      .. "base by more than 1 % of its size; check the scene, or remove surface from --errors", 0)
   end
   return first
 end
 
--- `study`: base, its size [m], scene, scenario, settings (starts, jitter, seed, surface_time) and
--- store. `floor`: what half the step makes of the base, as error_of returns it.
+-- `study`: base, size [m], scene, scenario, settings (starts, jitter, seed, surface_time) and
+-- store. The field `floor` is the error of the base at half the step, in the form of error_of.
 function pareto_surfaces.new(study)
-  local surfaces = setmetatable({study = study, until_chaos = first_chaos(study)}, Surfaces)
+  local surfaces = setmetatable({study = study, time = comparable_time(study)}, Surfaces)
   surfaces.floor = surfaces:summary{surfaces:rows("half-step", study.base, half_step)}
   return surfaces
 end
 
--- The base's runs, one a start.
+-- The runs of the base, one per start.
 function Surfaces:references()
   if not self.base_runs then
     self.base_runs = {}
     for start = 1, self.study.settings.starts do
       self.base_runs[start] = run(self.study.base,
-        scene_of_start(self.study, start, self.until_chaos))
+        scene_of_start(self.study, start, self.time))
     end
   end
   return self.base_runs
@@ -89,14 +90,14 @@ end
 
 local function column(start) return "start_" .. start end
 
--- A row a frame: the time and, for each start, the distance in percent of the base's size.
+-- One row per frame: the time and, for each start, the distance in percent of the size of the base.
 function Surfaces:rows(name, model, options)
   local columns = {"time"}
   for start = 1, self.study.settings.starts do columns[start + 1] = column(start) end
   return self.study.store:rows("surface/" .. name, columns, function()
     local frames = {}
     for start, reference in ipairs(self:references()) do
-      local level = run(model, scene_of_start(self.study, start, self.until_chaos), options)
+      local level = run(model, scene_of_start(self.study, start, self.time), options)
       for i, d in ipairs(s.deviation(level, reference)) do
         frames[i] = frames[i] or {d.time}
         frames[i][start + 1] = percent * d.surface / self.study.size
@@ -106,8 +107,8 @@ function Surfaces:rows(name, model, options)
   end)
 end
 
--- Mean over the frames, with its interval over starts and seeds, and the mean's way over time, of
--- one list of rows a seed.
+-- `seeds`: one list of rows per seed. Returns the mean over the frames with its interval over
+-- starts and seeds, and the mean over starts and seeds as a function of time (`curve`).
 function Surfaces:summary(seeds)
   local starts, means, curve = self.study.settings.starts, {}, {}
   for i, row in ipairs(seeds[1]) do curve[i] = {row.time, 0} end

@@ -1,10 +1,10 @@
--- What springlod pareto writes besides its charts.
+-- The tables of springlod pareto.
 
 local s = require "springlod"
 
 local pareto_tables = {}
 
--- The command that was called, to be called again.
+-- Saves the command line, so that it can be run again.
 function pareto_tables.save_command(path)
   local words = {"springlod", "--seed", tostring(s.seed), "pareto"}
   for i = 1, #arg do
@@ -22,7 +22,9 @@ local function add_interval(row, interval)
 end
 
 local function interval_columns(columns, name, unit)
-  for _, part in ipairs{"", " low", " high"} do columns[#columns + 1] = name .. part .. unit end
+  for _, bound in ipairs{"", " low", " high"} do
+    columns[#columns + 1] = name .. bound .. unit
+  end
 end
 
 local error_units = {{"frequencies", " [%]"}, {"loads", " [%]"}, {"surface", " [%]"},
@@ -81,7 +83,7 @@ local function text_of(interval)
   return ("%.3g (%.3g .. %.3g)"):format(interval.value, interval.low, interval.high)
 end
 
--- A front on the terminal and as folder/NAME-front.csv.
+-- Prints a front and writes it to folder/NAME-front.csv.
 function pareto_tables.show_front(folder, axis, front)
   local columns, rows, texts = {"variant", "label", "nodes"}, {}, {}
   interval_columns(columns, "cost / base", "")

@@ -1,4 +1,4 @@
--- What a simulated second costs by the clock, beside what the base costs at the same time.
+-- Wall-clock cost of a simulated second, relative to that of the base measured alternately.
 
 local s = require "springlod"
 local cut_scene = require "lib.cut_scene"
@@ -10,11 +10,11 @@ local pareto_times = {}
 local Times = {}
 Times.__index = Times
 
--- That a timed run of the base takes: long beside what clocks are off and what else the machine
--- does in between [s]. Shorter runs are repeated until they have taken half of it.
+-- Wall-clock time of a timed run of the base [s]: long compared with the clock's resolution and
+-- other activity of the machine. Shorter runs are repeated to fill at least half of it.
 local base_seconds = 0.1
 local least_seconds = base_seconds / 2
-local patience = 5 -- for the repeats of one variant [s]; after it three are enough
+local patience = 5 -- for the repeats of one variant [s]; afterwards least_repeats are enough
 local least_repeats = 3
 
 local columns = {"seed", "base_seconds", "seconds", "ratio", "spring_updates", "step"}
@@ -30,8 +30,8 @@ function pareto_times.new(study)
   }, Times)
 end
 
--- The base and the variant by turns, seed after seed, all from the scene's own start: medians, with
--- intervals over the repeats.
+-- Runs the base and the variant alternately, cycling through the seeds, from the unjittered start.
+-- Returns medians with intervals over the repeats.
 function Times:cost_of(variant, chains)
   local study = self.study
   local rows = study.store:rows("times/" .. variant.name, columns, function()
@@ -58,7 +58,7 @@ function Times:cost_of(variant, chains)
           repeats = #rows}
 end
 
--- Of the base, by all that were timed so far [s of a simulated second].
+-- Cost of the base over all timed runs so far [wall-clock s per simulated s].
 function Times:base_cost() return intervals.median(self.base_costs).value end
 
 return pareto_times

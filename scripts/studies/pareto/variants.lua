@@ -1,11 +1,11 @@
--- What springlod pareto compares: ways of making levels, ways of stepping them, and their names.
+-- The variants of springlod pareto: simplification methods, integrators with precision, and names.
 
 local s = require "springlod"
 local paper_variants = require "studies.paper.variants"
 
 local pareto_variants = {}
 
--- Every word of each axis.
+-- All values of each axis.
 pareto_variants.axes = {
   groupings = s.choices.grouping,
   borders = s.choices.border,
@@ -17,20 +17,20 @@ pareto_variants.axes = {
 
 local paper_groupings = {standard = true, priority = true}
 
-local short = { -- in labels, where every letter counts
+local short = { -- names in chart labels
   priority_hard = "hard", velocity_verlet = "Verlet", runge_kutta_4 = "RK4",
   backward_euler_cg = "BE", backward_euler_direct = "BE direct", xpbd = "XPBD",
   projective_dynamics = "PD",
 }
 
--- The ways of making levels; first the base as it is, which has no grouping.
-function pareto_variants.ways_of_making(axes)
-  local ways = {{name = "base"}}
+-- The simplification methods; the first is the base itself, which has no grouping.
+function pareto_variants.methods(axes)
+  local methods = {{name = "base"}}
   for _, grouping in ipairs(axes.groupings) do
     for _, border in ipairs(axes.borders) do
       for _, calibration in ipairs(axes.calibrations) do
         if border == "none" or s.choices.grouping[grouping].follows_border then
-          ways[#ways + 1] = {
+          methods[#methods + 1] = {
             name = ("%s-%s-%s"):format(grouping, border, calibration), grouping = grouping,
             border = border, calibration = calibration,
           }
@@ -38,25 +38,26 @@ function pareto_variants.ways_of_making(axes)
       end
     end
   end
-  return ways
+  return methods
 end
 
-function pareto_variants.ways_of_stepping(axes)
-  local ways = {}
+-- The integrators, each with the precisions that it supports.
+function pareto_variants.steppings(axes)
+  local steppings = {}
   for _, integrator in ipairs(axes.integrators) do
     for _, precision in ipairs(axes.precisions) do
       if precision == "double" or s.choices.integrator[integrator].fast then
-        ways[#ways + 1] = {
+        steppings[#steppings + 1] = {
           name = integrator .. "-" .. precision, integrator = integrator, precision = precision,
           usual = integrator == "symplectic_euler" and precision == "double",
         }
       end
     end
   end
-  return ways
+  return steppings
 end
 
--- "compact weak modes L1 RK4": what is usual is left out.
+-- "compact weak modes L1 RK4"; default choices are omitted.
 local function label(making, level, stepping)
   local words = {}
   local function add(word) words[#words + 1] = short[word] or word end
@@ -73,7 +74,8 @@ local function label(making, level, stepping)
   return table.concat(words, " ")
 end
 
--- The paper's name of a level, "LOD-hb-1", or ours where it has none; nil if it is not the paper's.
+-- The paper's name of a level, "LOD-hb-1", or ours if the paper has none; nil if the method is not
+-- the paper's.
 local function paper_name(making, level, stepping)
   if not (paper_groupings[making.grouping] and making.calibration == "none" and stepping.usual) then
     return nil
@@ -86,7 +88,7 @@ local function paper_name(making, level, stepping)
   return label(making, level, stepping)
 end
 
--- A level made in one way and stepped in one way; `step_options` are those of s.run.
+-- One level of one method with one integrator; `step_options` are options of s.run.
 function pareto_variants.variant(making, level, stepping, implicit_step)
   return {
     name = making.grouping and ("%s-%d-%s"):format(making.name, level, stepping.name)

@@ -1,8 +1,8 @@
--- The frequency of a vibration A cos(w t) + B sin(w t) + C, by least squares.
+-- Least-squares fit of a vibration A cos(w t) + B sin(w t) + C.
 
 local vibration = {}
 
--- Solves matrix x = right by elimination with pivots; changes both.
+-- Solves matrix x = right by Gaussian elimination with partial pivoting, in place.
 local function solve(matrix, right)
   local n = #right
   for column = 1, n do
@@ -25,9 +25,10 @@ local function solve(matrix, right)
   return right
 end
 
--- What the value at time t is by a fit, and how it changes with cosine, sine, offset and frequency.
--- The frequency turns the phase about the middle of the times, which keeps the four apart.
-local function value_and_slopes(fit, t)
+-- The fitted value at time t and its derivatives with respect to cosine, sine, offset and
+-- frequency. Time is measured from the middle of the samples, which decorrelates frequency and
+-- phase.
+local function value_and_derivatives(fit, t)
   local phase = 2 * math.pi * fit.frequency * (t - fit.middle)
   local c, s = math.cos(phase), math.sin(phase)
   local turn = 2 * math.pi * (t - fit.middle)
@@ -35,50 +36,52 @@ local function value_and_slopes(fit, t)
     {c, s, 1, turn * (fit.sine * c - fit.cosine * s)}
 end
 
--- The normal equations of the slopes, with the values' rest as right side, and that rest.
+-- The normal equations of the Gauss-Newton step, and the residuals (value minus fit).
 local function normal_equations(fit, times, values)
   local matrix = {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}
-  local right, rest = {0, 0, 0, 0}, {}
+  local right, residuals = {0, 0, 0, 0}, {}
   for i, t in ipairs(times) do
-    local value, slopes = value_and_slopes(fit, t)
-    rest[i] = values[i] - value
+    local value, derivatives = value_and_derivatives(fit, t)
+    residuals[i] = values[i] - value
     for j = 1, 4 do
-      right[j] = right[j] + slopes[j] * rest[i]
-      for k = 1, 4 do matrix[j][k] = matrix[j][k] + slopes[j] * slopes[k] end
+      right[j] = right[j] + derivatives[j] * residuals[i]
+      for k = 1, 4 do matrix[j][k] = matrix[j][k] + derivatives[j] * derivatives[k] end
     end
   end
-  return matrix, right, rest
+  return matrix, right, residuals
 end
 
--- The fit of values at times [s], from a frequency [Hz] good to a small part of a turn over all:
--- frequency, and rest (what the fit leaves of each value).
+-- Fits values at times [s]. The initial frequency [Hz] must be accurate to a small fraction of a
+-- period over the whole time. Fields of the result: frequency [Hz], residuals, and others.
 function vibration.fit(times, values, frequency)
   local fit = {frequency = frequency, middle = (times[1] + times[#times]) / 2,
     cosine = 0, sine = 0, offset = 0}
   local last = math.huge
-  for turn = 1, 50 do -- Gauss and Newton's; a handful are enough
-    local matrix, right, rest = normal_equations(fit, times, values)
-    fit.rest = rest
-    if turn == 1 then -- amplitude unknown: nothing tells the frequency yet
+  for iteration = 1, 50 do -- Gauss-Newton; converges in a few iterations
+    local matrix, right, residuals = normal_equations(fit, times, values)
+    fit.residuals = residuals
+    if iteration == 1 then -- keep the frequency while the amplitude is still 0
       matrix[4], right[4] = {0, 0, 0, 1}, 0
       for j = 1, 3 do matrix[j][4] = 0 end
     end
     local change = solve(matrix, right)
     fit.cosine, fit.sine = fit.cosine + change[1], fit.sine + change[2]
     fit.offset, fit.frequency = fit.offset + change[3], fit.frequency + change[4]
-    -- Until rounding is all that changes it.
-    if turn > 2 and math.abs(change[4]) >= last then return fit end
-    if turn > 1 then last = math.abs(change[4]) end
+    -- Converged: the change is down to rounding.
+    if iteration > 2 and math.abs(change[4]) >= last then return fit end
+    if iteration > 1 then last = math.abs(change[4]) end
   end
   return fit
 end
 
--- Standard error of the difference of two fits at the same times [Hz]: what both leave alike, such
--- as a bend of the springs' law, is no error of the difference.
+-- Standard error of the frequency difference of two fits at the same times [Hz]. Residuals common
+-- to both, such as those of the geometric nonlinearity, cancel.
 function vibration.error_of_difference(one, other, times)
   local squares = 0
-  for i, rest in ipairs(one.rest) do squares = squares + (rest - other.rest[i]) ^ 2 end
-  local inverse = solve(normal_equations(one, times, one.rest), {0, 0, 0, 1})
+  for i, residual in ipairs(one.residuals) do
+    squares = squares + (residual - other.residuals[i]) ^ 2
+  end
+  local inverse = solve(normal_equations(one, times, one.residuals), {0, 0, 0, 1})
   return math.sqrt(squares / (#times - 4) * inverse[4])
 end
 

@@ -26,7 +26,7 @@ double width(const Interval& interval) {
   return interval.high - interval.low;
 }
 
-/// A level that differs from the base by chance of the seed and of every single run.
+/// A level that differs from the base by random effects of the seed and of every run.
 StartSample by_seeds(int starts, int seeds, ChanceStream& chance) {
   const Values of_seed = normal_sample(chance, seeds);
   StartSample sample{{}, static_cast<std::uint32_t>(seeds)};
@@ -37,7 +37,7 @@ StartSample by_seeds(int starts, int seeds, ChanceStream& chance) {
 
 }  // namespace
 
-TEST_CASE("bootstrap intervals hold the truth about as often as they say") {
+TEST_CASE("bootstrap intervals have about their nominal coverage") {
   constexpr int kRepetitions = 500;
   const auto coverage = [&](const auto& sample, double truth, const OneSampleStatistic& statistic) {
     return frequency(kRepetitions, 11, [&](ChanceStream& chance) {
@@ -46,8 +46,8 @@ TEST_CASE("bootstrap intervals hold the truth about as often as they say") {
       return holds(interval(result, 0.9), truth);
     });
   };
-  // Intervals by resampling n values are short by 1 / (2 n) and more where the distribution is
-  // skew, hence the 2 % of room besides chance.
+  // Bootstrap intervals of n values are short by a fraction of 1 / (2 n), more for skewed
+  // distributions, hence a tolerance of 2 % in addition to the random error.
   const double room = stray(0.9, kRepetitions) + 0.02;
   const auto normal = [](ChanceStream& chance) { return normal_sample(chance, 40); };
   const auto exponential = [](ChanceStream& chance) { return exponential_sample(chance, 60); };
@@ -57,7 +57,7 @@ TEST_CASE("bootstrap intervals hold the truth about as often as they say") {
         Approx(0.9).margin(room));
 }
 
-TEST_CASE("the interval of a distance that is well above the noise holds it") {
+TEST_CASE("the interval of a distance well above the noise contains it") {
   constexpr int kRepetitions = 300;
   const double coverage = frequency(kRepetitions, 12, [](ChanceStream& chance) {
     const Values base = normal_sample(chance, 24);
@@ -69,11 +69,11 @@ TEST_CASE("the interval of a distance that is well above the noise holds it") {
   CHECK(coverage == Approx(0.95).margin(stray(0.95, kRepetitions)));
 }
 
-TEST_CASE("BCa follows the skew that percentiles miss") {
-  // The mean of a skew sample is skew: its interval reaches farther up.
+TEST_CASE("BCa intervals follow skewness, percentile intervals do not") {
+  // The mean of a skewed sample is skewed: its interval extends farther upwards.
   ChanceStream chance(3);
   const Bootstrap result = bootstrap({exponential_sample(chance, 30)}, mean);
-  CHECK(result.acceleration > 0.01);  // some 2 / (6 sqrt 30) for an exponential sample
+  CHECK(result.acceleration > 0.01);  // about 2 / (6 sqrt 30) for an exponential sample
   CHECK(interval(result).high > interval(result, 0.95, IntervalMethod::percentile).high);
   // The confidence at the end of a one-sided interval is that of the interval.
   for (const double confidence : {0.8, 0.9, 0.95})
@@ -81,14 +81,14 @@ TEST_CASE("BCa follows the skew that percentiles miss") {
           Approx(0.5 + 0.5 * confidence).margin(0.003));
 }
 
-TEST_CASE("a large sample is left out in blocks, to the same acceleration") {
+TEST_CASE("the jackknife of a large sample leaves out blocks and gives the same acceleration") {
   ChanceStream chance(9);
   const Bootstrap result = bootstrap({exponential_sample(chance, 20000)}, mean, {.resamples = 100});
-  // Skewness 2 over 6 sqrt(n); by chance of 500 blocks some sqrt(6 / 500) / (6 sqrt(500)) off.
+  // Skewness 2 over 6 sqrt(n); random error of 500 blocks about sqrt(6 / 500) / (6 sqrt(500)).
   CHECK(result.acceleration == Approx(2 / (6 * std::sqrt(20000))).margin(4 * 0.0008));
 }
 
-TEST_CASE("pairs that go together give a shorter interval than the same values apart") {
+TEST_CASE("correlated pairs give a shorter interval than the same values unpaired") {
   ChanceStream chance(4);
   const Values base = normal_sample(chance, 24);
   const Values other = partner_of(base, 0.95, chance);
@@ -98,7 +98,7 @@ TEST_CASE("pairs that go together give a shorter interval than the same values a
   CHECK(width(paired) < 0.4 * width(apart));
 }
 
-TEST_CASE("seeds that differ are counted as seeds, not as so many more runs") {
+TEST_CASE("seeds that differ count as seeds, not as additional runs") {
   constexpr int kRepetitions = 300;
   const auto coverage = [&](SeedDesign design, bool as_table) {
     return frequency(kRepetitions, 5, [&](ChanceStream& chance) {
@@ -110,10 +110,10 @@ TEST_CASE("seeds that differ are counted as seeds, not as so many more runs") {
       return holds(interval(result), 0);
     });
   };
-  // Eight seeds are few: Student's 7 degrees of freedom take 0.95 to 0.91.
+  // Eight seeds are few: with 7 degrees of freedom the coverage decreases from 0.95 to 0.91.
   CHECK(coverage(SeedDesign::crossed, true) > 0.91 - stray(0.91, kRepetitions));
   CHECK(coverage(SeedDesign::crossed, false) < 0.8);
-  CHECK(coverage(SeedDesign::nested, true) < 0.8);  // the wrong design for these
+  CHECK(coverage(SeedDesign::nested, true) < 0.8);  // the wrong design for these samples
 }
 
 TEST_CASE("nested seeds are drawn with their start") {
@@ -138,7 +138,7 @@ TEST_CASE("the same seed resamples the same bits") {
   const Bootstrap other = bootstrap(sample, mean, {.resamples = 100, .seed = 6});
   CHECK(one.resampled == same.resampled);
   CHECK(one.resampled != other.resampled);
-  // Means of whole numbers over 8 are exact; worked out by another program in another language.
+  // Means of multiples of 1/8 are exact. The expected values come from an independent program.
   CHECK(one.resampled.front() == 2.5);
   CHECK(mean(one.resampled) == Approx(4.56125).epsilon(1e-14));
 }
@@ -149,7 +149,8 @@ TEST_CASE("samples that cannot be resampled are refused") {
   CHECK_THROWS_WITH(bootstrap({{1, 2, 3, 4}}, mean), Contains("at least 5"));
   CHECK_THROWS_WITH(bootstrap(five, six, difference, {.paired = true}), Contains("paired"));
   CHECK_NOTHROW(bootstrap(five, six, difference));
-  CHECK_THROWS_WITH(bootstrap(StartSample{{1, 2, 3, 4, 5, 6, 7}, 2}, mean), Contains("no table"));
+  CHECK_THROWS_WITH(bootstrap(StartSample{{1, 2, 3, 4, 5, 6, 7}, 2}, mean),
+                    Contains("do not form a table"));
   CHECK_THROWS_WITH(bootstrap(five, mean, {.resamples = 3}), Contains("resamples"));
   const StartSample flat{{2, 2, 2, 2, 2}};
   CHECK_THROWS_WITH(bootstrap(flat, five, difference_over_spread), Contains("no spread"));
@@ -158,7 +159,7 @@ TEST_CASE("samples that cannot be resampled are refused") {
   CHECK_THROWS_WITH(bootstrap(five, {{1, 2, 3, 4, nan}}, difference), Contains("value 5"));
 }
 
-TEST_CASE("a comparison of samples measures all on the same resamples") {
+TEST_CASE("a comparison of samples uses the same resamples for all measures") {
   ChanceStream chance(8);
   const Values base = normal_sample(chance, 24, 5, 2);
   const SampleComparison same = compare_samples({base}, {base}, {.resampling = {.paired = true}});

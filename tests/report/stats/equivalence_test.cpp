@@ -17,7 +17,7 @@ namespace {
 constexpr int kStarts = 24;
 constexpr double kCorrelation = 0.95;  // of pairs
 
-/// How often "equivalent" is said of normal samples whose means are `apart` spreads apart.
+/// Rate of "equivalent" for normal samples whose means are `apart` spreads apart.
 double said(double apart, const EquivalenceOptions& options, int repetitions) {
   return frequency(repetitions, 21, [&](ChanceStream& chance) {
     const Values base = normal_sample(chance, kStarts);
@@ -29,7 +29,7 @@ double said(double apart, const EquivalenceOptions& options, int repetitions) {
 
 }  // namespace
 
-TEST_CASE("with a known spread the test is the textbook's two t-tests") {
+TEST_CASE("with a known spread the test equals two one-sided t-tests") {
   const Values base{1, 2, 3, 4, 5, 6};
   const Values other{1.5, 2, 3.5, 4, 5.5, 6};
   const EquivalenceOptions options{.margin = 0.5, .spread = 2, .paired = true};
@@ -46,7 +46,7 @@ TEST_CASE("with a known spread the test is the textbook's two t-tests") {
   CHECK_FALSE(apart.equivalent);
 }
 
-TEST_CASE("means a margin apart are called equivalent in alpha of the cases") {
+TEST_CASE("means a margin apart are declared equivalent at the rate alpha") {
   constexpr int kRepetitions = 3000;
   const double chance = stray(0.05, kRepetitions);
   const EquivalenceOptions apart{.margin = 1};
@@ -58,14 +58,14 @@ TEST_CASE("means a margin apart are called equivalent in alpha of the cases") {
   CHECK(said(2, apart, kRepetitions) == 0);
 }
 
-TEST_CASE("equal means are found equivalent, in pairs by far fewer starts") {
+TEST_CASE("equal means are declared equivalent, with far fewer starts if paired") {
   constexpr int kRepetitions = 500;
   CHECK(said(0, {.margin = 1}, kRepetitions) > 0.8);
-  CHECK(said(0, {.margin = 0.5}, kRepetitions) < 0.15);  // 24 starts cannot tell
+  CHECK(said(0, {.margin = 0.5}, kRepetitions) < 0.15);  // 24 starts are too few
   CHECK(said(0, {.margin = 0.5, .paired = true}, kRepetitions) > 0.99);
 }
 
-TEST_CASE("a margin taken as exact although it was estimated would be called the same too often") {
+TEST_CASE("treating an estimated margin as exact would make the test too liberal") {
   const double too_often = frequency(2000, 22, [](ChanceStream& chance) {
     const Values base = normal_sample(chance, kStarts);
     const Values other = shifted(partner_of(base, kCorrelation, chance), 1);
@@ -75,7 +75,7 @@ TEST_CASE("a margin taken as exact although it was estimated would be called the
   CHECK(too_often > 0.15);
 }
 
-TEST_CASE("seeds that differ keep the test from saying the same too soon") {
+TEST_CASE("seeds that differ make the test more conservative") {
   constexpr int kRepetitions = 2000;
   constexpr int kSeeds = 5;
   const auto rate = [&](double apart, SeedDesign design) {
@@ -91,7 +91,7 @@ TEST_CASE("seeds that differ keep the test from saying the same too soon") {
   };
   CHECK(rate(1, SeedDesign::crossed) == Approx(0.05).margin(stray(0.05, kRepetitions) + 0.01));
   CHECK(rate(0, SeedDesign::crossed) > 0.9);
-  CHECK(rate(1, SeedDesign::nested) > 0.1);  // as if the seeds were no source of chance
+  CHECK(rate(1, SeedDesign::nested) > 0.1);  // as if seeds had no random effect
 }
 
 TEST_CASE("the bootstrap form agrees with the test by Student's distribution") {
@@ -110,7 +110,7 @@ TEST_CASE("the bootstrap form agrees with the test by Student's distribution") {
 TEST_CASE("a margin must be stated and the base must have a spread") {
   const StartSample sample{{1, 2, 3, 4, 5}};
   const StartSample flat{{1, 1, 1, 1, 1}};
-  CHECK_THROWS_WITH(test_equivalence(sample, sample, {}), Contains("say how many"));
+  CHECK_THROWS_WITH(test_equivalence(sample, sample, {}), Contains("must be above 0"));
   CHECK_THROWS_WITH(test_equivalence(flat, sample, {.margin = 1}), Contains("jitter"));
   CHECK_NOTHROW(test_equivalence(flat, sample, {.margin = 1, .spread = 2}));
   CHECK_THROWS_AS(test_equivalence(sample, sample, {.margin = 1, .alpha = 0.7}), InputError);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kStarts = 24;
 
-/// How often a sample `apart` from the base's distribution falls inside the floor.
+/// Fraction of samples, shifted by `apart` from the base's distribution, inside the floor.
 double inside(const NoiseFloor& floor, double apart, int repetitions) {
   return frequency(repetitions, 31, [&](ChanceStream& chance) {
     const Values base = exponential_sample(chance, kStarts);
@@ -33,7 +33,7 @@ std::vector<Values> many_sources(int count, int size) {
 
 }  // namespace
 
-TEST_CASE("the base falls inside its own noise floor 95 times of 100, a shifted one outside") {
+TEST_CASE("95 % of base samples are inside their noise floor, shifted samples are outside") {
   constexpr int kRepetitions = 1000;
   const double chance = stray(0.95, kRepetitions);
   for (const auto distance : {SampleDistance::wasserstein, SampleDistance::energy}) {
@@ -42,7 +42,7 @@ TEST_CASE("the base falls inside its own noise floor 95 times of 100, a shifted 
     CHECK_FALSE(drawn.with_replacement);
     CHECK(inside(drawn, 0, kRepetitions) == Approx(0.95).margin(chance + 0.01));
     CHECK(inside(drawn, 1.5, kRepetitions) < 0.05);
-    // All pairs of 40 samples of that size: the same floor, without drawing.
+    // All pairs of 40 samples of that size give the same floor without resampling.
     const NoiseFloor measured = noise_floor(many_sources(40, kStarts), {.distance = distance});
     CHECK(measured.distances.size() == 40 * 39 / 2);
     CHECK(measured.level == Approx(drawn.level).epsilon(0.15));
@@ -50,8 +50,8 @@ TEST_CASE("the base falls inside its own noise floor 95 times of 100, a shifted 
   }
 }
 
-TEST_CASE("a floor made of few base values holds less often than it says, by a known amount") {
-  // A new base sample each time, as in use: its own chance counts too.
+TEST_CASE("a floor from few base values has less than its nominal coverage, by a known amount") {
+  // A new base sample each time, as in practice, so that its randomness counts too.
   const auto rate = [](int size) {
     constexpr int kRepetitions = 300;
     return frequency(kRepetitions, 33, [&](ChanceStream& chance) {
@@ -63,8 +63,8 @@ TEST_CASE("a floor made of few base values holds less often than it says, by a k
       return inside_noise_floor(floor, base, exponential_sample(chance, kStarts)).inside;
     });
   };
-  // The floor strays with the base's spread, which so few values of a skew kind tell badly; the
-  // header gives the figures of many repetitions.
+  // The floor varies with the estimated spread of the base, which is inaccurate for few skewed
+  // values; the header has the figures of many repetitions.
   CHECK(rate(2 * kStarts) == Approx(0.90).margin(stray(0.90, 300)));
   CHECK(rate(kStarts) == Approx(0.87).margin(stray(0.87, 300)));
 }
@@ -73,7 +73,7 @@ TEST_CASE("a source that differs raises the floor") {
   std::vector<Values> sources = many_sources(2, 100);
   const NoiseFloorOptions options{.base_size = kStarts};
   const double level = noise_floor(sources, options).level;
-  sources.push_back(shifted(sources[0], 1));  // half the step does make a difference
+  sources.push_back(shifted(sources[0], 1));  // as if half the step made a difference
   CHECK(noise_floor(sources, options).level > 1.3 * level);
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("a noise floor repeats by seed and falls as samples grow") {
   CHECK(noise_floor(sources, {.base_size = 24, .other_size = 120}).level < one.level);
 }
 
-TEST_CASE("the verdict says how far, and how often the base is as far from itself") {
+TEST_CASE("the verdict has the distance and its p-value") {
   const NoiseFloor floor = noise_floor(many_sources(1, 1000), {.base_size = 5});
   const Values sample{1, 2, 3, 4, 5};
   const FloorVerdict same = inside_noise_floor(floor, sample, sample);
@@ -100,10 +100,10 @@ TEST_CASE("the verdict says how far, and how often the base is as far from itsel
   CHECK(far.p == Approx(1.0 / 2001));
 }
 
-TEST_CASE("a noise floor refuses what it cannot be made of or applied to") {
+TEST_CASE("a noise floor refuses unsuitable sources and samples") {
   const auto sources = many_sources(3, 24);
   CHECK_THROWS_WITH(noise_floor({}), Contains("at least one"));
-  CHECK_THROWS_WITH(noise_floor(sources), Contains("3 sources make 3 pairs"));
+  CHECK_THROWS_WITH(noise_floor(sources), Contains("3 sources form 3 pairs"));
   CHECK_THROWS_WITH(noise_floor(sources, {.base_size = 30}), Contains("smallest source has 24"));
   CHECK_THROWS_WITH(noise_floor({{1, 2, 3}}), Contains("source 1"));
   CHECK_THROWS_AS(noise_floor(sources, {.base_size = 12, .part = 1}), InputError);
@@ -111,5 +111,5 @@ TEST_CASE("a noise floor refuses what it cannot be made of or applied to") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(noise_floor({{1, 2, 3, 4, 5, nan}}), Contains("value 6"));
   const NoiseFloor floor = noise_floor(sources, {.base_size = 12});
-  CHECK_THROWS_WITH(inside_noise_floor(floor, sources[0], sources[1]), Contains("12 against 12"));
+  CHECK_THROWS_WITH(inside_noise_floor(floor, sources[0], sources[1]), Contains("sizes 12 and 12"));
 }

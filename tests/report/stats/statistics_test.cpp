@@ -28,7 +28,7 @@ double energy_by_pairs(const Values& x, const Values& y) {
   return 2 * mean_distance(x, y) - mean_distance(x, x) - mean_distance(y, y);
 }
 
-/// Values that cut a distribution into equal parts: all but free of chance.
+/// Quantiles at equal steps of probability: a sample almost without random error.
 Values even_sample(int size, const std::function<double(double)>& quantile_function) {
   Values values;
   for (int i = 0; i < size; ++i) values.push_back(quantile_function((i + 0.5) / size));
@@ -44,7 +44,7 @@ TEST_CASE("mean, deviation and quantiles of a sample") {
   CHECK(quantile(sample, 0) == 1);
   CHECK(quantile(sample, 1) == 4);
   CHECK(quantile(sample, 0.5) == 2.5);
-  CHECK(quantile(sample, 0.25) == 1.75);  // as R and NumPy have it
+  CHECK(quantile(sample, 0.25) == 1.75);  // as in R and NumPy
   CHECK(quantile({7}, 0.3) == 7);
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("the difference of means is measured in spreads of the base") {
   CHECK(difference_over_spread({2, 2}, {1}) == -std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("distances of small samples are those worked out by hand") {
+TEST_CASE("distances of small samples match hand calculations") {
   CHECK(wasserstein_distance({0, 1}, {3, 0, 0}) == Approx(5.0 / 6).epsilon(1e-14));
   CHECK(wasserstein_distance({1, 2, 3}, {3, 1, 2}) == 0);
   CHECK(wasserstein_distance({0}, {-2}) == 2);
@@ -104,7 +104,7 @@ TEST_CASE("distances of large samples are those of their distributions") {
   ChanceStream chance(2);
   const Values base = normal_sample(chance, kSize);
   const Values other = normal_sample(chance, kSize, 1);
-  // By chance 4 sqrt(2 / n) = 0.04; E|N(1, 2)| by hand.
+  // Random error 4 sqrt(2 / n) = 0.04; E|N(1, 2)| by hand.
   CHECK(wasserstein_distance(base, other) == Approx(1).margin(0.04));
   const double between = 2 / std::sqrt(std::numbers::pi) * std::exp(-0.25) + 1 -
                          2 * cdf(boost::math::normal(), -std::sqrt(0.5));
