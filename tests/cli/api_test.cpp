@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "scripting/bind/topics.hpp"
 #include "scripting/engine/help.hpp"
 #include "scripting/engine/state.hpp"
 #include "tests/cli/program.hpp"

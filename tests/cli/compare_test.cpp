@@ -65,7 +65,7 @@ TEST_CASE("compare writes table, chart, frames and timings, with identical resul
   CHECK(std::count(one["table.csv"].begin(), one["table.csv"].end(), '\n') == 4);
   CHECK(std::count(one["timings.csv"].begin(), one["timings.csv"].end(), '\n') == 1 + 3 * 2);
   CHECK(one["table.csv"].find("wall") == std::string::npos);
-  CHECK(springlod::load_png(scratch / "one/frames/frame_0000.png").width == 3 * 160);
+  CHECK(springlod::render::load_png(scratch / "one/frames/frame_0000.png").width == 3 * 160);
   // gnuplot draws the chart and ffmpeg the video; without them the commands are printed.
   CHECK((one.count("chart.svg") == 1 || ran.err.find("gnuplot") != std::string::npos));
   CHECK((one.count("chart.png") == 1 || ran.err.find("gnuplot") != std::string::npos));

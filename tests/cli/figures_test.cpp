@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::size_t colour_count(const springlod::Image& image) {
+std::size_t colour_count(const springlod::render::Image& image) {
   std::set<std::array<std::uint8_t, 3>> colours;
   for (std::size_t p = 0; p < image.rgb.size(); p += 3)
     colours.insert({image.rgb[p], image.rgb[p + 1], image.rgb[p + 2]});
@@ -36,7 +36,7 @@ TEST_CASE("all figures of the paper are drawn, and none is blank") {
     REQUIRE(fs::exists(path));
     pictures.insert(path.filename().string());
     if (path.extension() != ".png") continue;
-    const auto image = springlod::load_png(path);
+    const auto image = springlod::render::load_png(path);
     CHECK(image.width > 400);
     CHECK(image.height > 200);
     CHECK(colour_count(image) > 500);

@@ -6,13 +6,13 @@
 
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
-using springlod::test::Scratch;
 using springlod::test::slurp;
 using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
 
 namespace {
 
-Ran run_lua(const Scratch& scratch, const std::string& code) {
+Ran run_lua(const TemporaryFolder& scratch, const std::string& code) {
   return springlod_run({"-q", "-e",
                         "local s = require 'springlod'\n"
                         "local folder = '" +
@@ -22,7 +22,7 @@ Ran run_lua(const Scratch& scratch, const std::string& code) {
 }  // namespace
 
 TEST_CASE("text is saved byte for byte, in folders that need not be there") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Ran ran = run_lua(scratch, R"(
     s.save_text(folder .. "new/deep/text", "old")
     s.save_text(folder .. "new/deep/text", "a\0b\r\n")
@@ -34,7 +34,7 @@ TEST_CASE("text is saved byte for byte, in folders that need not be there") {
 }
 
 TEST_CASE("the hash of a file is that of its text, and depends on every byte") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Ran ran = run_lua(scratch, R"(
     s.save_text(folder .. "file", "a\0b")
     print(s.hash{file = folder .. "file"} == s.hash{text = "a\0b"},

@@ -64,7 +64,7 @@ TEST_CASE("panels of one picture can show different things and times, in rows") 
                        scratch);
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
-  const auto picture = springlod::load_png(scratch / "a.png");
+  const auto picture = springlod::render::load_png(scratch / "a.png");
   CHECK(picture.width == 240);
   CHECK(picture.height > 270);
 }

@@ -100,9 +100,9 @@ TEST_CASE("A refill that is no coarser than the level before is an error") {
   const MassSpringModel base = build_lattice(grid).model;
   CHECK_THROWS_AS(refill(base, refill_levels(grid, {})), InputError);
   CHECK_THROWS_WITH(refill(base, refill_levels(grid, {.nodes = {64, 64}})),
-                    Catch::Contains("ask for fewer"));
+                    Catch::Contains("use fewer"));
   CHECK_THROWS_WITH(refill(base, refill_levels(grid, {.nodes = {300}})),
-                    Catch::Contains("ask for fewer"));
+                    Catch::Contains("use fewer"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ TEST_CASE("Maps of merges made level by level compose") {
 TEST_CASE("Group numbers must be below the count, and every group has a node") {
   CHECK_NOTHROW(validate(Groups{{1, 0, 1}, 2}));
   CHECK_THROWS_WITH(validate(Groups{{0, 2}, 2}), Contains("node 2") && Contains("group 3"));
-  CHECK_THROWS_WITH(validate(Groups{{0, 2}, 3}), Contains("group 1 is empty"));
+  CHECK_THROWS_WITH(validate(Groups{{0, 2}, 3}), Contains("group 2 is empty"));
 }
 
 TEST_CASE("Provenance keeps its order and one value a key") {

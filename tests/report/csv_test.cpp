@@ -34,7 +34,7 @@ TEST_CASE("cells with commas, quotes and line breaks are quoted by RFC 4180") {
 }
 
 TEST_CASE("a CSV file has numbers in full, a terminal four digits of them") {
-  const TemporaryFolder folder("csv");
+  const TemporaryFolder folder;
   const auto path = folder.path() / "table.csv";
   const Table table{{"n", "x"}, {{whole(123456789), 1. / 3}, {Cell(), 2.0}}};
   save_csv(table, path);

@@ -23,6 +23,12 @@ namespace {
 
 enum class Way { slow, fast };
 
+constexpr Choice<Way> kWays[] = {{Way::slow, "slow", "takes its time"}, {Way::fast, "fast", ""}};
+constexpr Choice<Way> kOneWay[] = {{Way::slow, "slow", ""}};
+constexpr ChoiceTable<Choice<Way>> choices(Way) {
+  return {"way", kWays};
+}
+
 /// A reader of the Lua table `text` for a function "test".
 class Options {
  public:
@@ -96,16 +102,17 @@ TEST_CASE("Wrong values are refused with what was expected and what came") {
 }
 
 TEST_CASE("Words are chosen from those that are listed") {
-  const std::vector<Parameter> listed{{.name = "way", .choices = {"slow", "fast"}}};
+  const std::vector<Parameter> listed{{.name = "way", .choices = words_of<Way>()}};
   Way way = Way::slow;
   Options fast(listed, "{way = 'fast'}");
-  fast->choose("way", way, {{"slow", Way::slow}, {"fast", Way::fast}});
+  fast->read("way", way);
   CHECK(way == Way::fast);
   Options wrong(listed, "{way = 'fats'}");
-  CHECK_THROWS_WITH(wrong->choose("way", way, {{"slow", Way::slow}, {"fast", Way::fast}}),
+  CHECK_THROWS_WITH(wrong->read("way", way),
                     "test: way must be one of slow, fast, got \"fats\"; did you mean 'fast'?");
   Options unlisted(listed, "{}");
-  CHECK_THROWS_AS(unlisted->choose("way", way, {{"slow", Way::slow}}), std::logic_error);
+  CHECK_THROWS_AS(unlisted->choose("way", way, ChoiceTable<Choice<Way>>("way", kOneWay)),
+                  std::logic_error);
 }
 
 TEST_CASE("Keys that are not listed, and entries without one, are refused") {

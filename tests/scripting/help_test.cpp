@@ -34,7 +34,7 @@ FunctionEntry sample() {
                        .type = "one of",
                        .fallback = "\"slow\"",
                        .help = "how",
-                       .choices = {"slow", "fast"}}},
+                       .choices = {"way", {{"slow"}, {"fast"}}}}},
           .returns = "Material",
           .errors = "A material of stone.",
           .example = "soften(stone, {young = \"1 MPa\"})"};
