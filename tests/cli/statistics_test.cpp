@@ -89,6 +89,6 @@ TEST_CASE("invalid samples are refused with their position") {
        {"other[3] must be a number, not a string",
         "other[2] and other[1] differ in length, 1 and 2", "other[2] must be a list as other[1] is",
         "bad argument 2 (other) of compare_samples", "value 3 of the sample",
-        "has 0 values, but at least 5", "cannot be paired", "2 sources make 1 pairs"})
+        "has 0 values, but at least 5", "cannot be paired", "2 sources form 1 pairs"})
     CHECK_THAT(ran.out, Contains(message));
 }
