@@ -22,7 +22,7 @@ namespace springlod::lod {
 struct GroupingTask;
 
 /// Rule that selects the nodes to merge. Each is described in its row, see choices(Grouping).
-enum class Grouping { standard, priority_soft, priority_hard, compact, metis, grid };
+enum class Grouping { standard, priority_soft, priority_hard, compact, metis };
 
 /// A row of the table of groupings.
 struct GroupingChoice : Choice<Grouping> {

@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/script_number.hpp"
 #include "lod/grouping/compact_groups.hpp"
-#include "lod/grouping/grid_groups.hpp"
 #include "lod/grouping/grouping_keys.hpp"
 #include "lod/grouping/grown_groups.hpp"
 #include "lod/grouping/metis_groups.hpp"
@@ -34,9 +33,6 @@ constexpr GroupingChoice kGroupings[] = {
      {.from_base = true}},
     {{Grouping::metis, "metis", "graph partitions that cut few springs, straight from the base"},
      metis_groups,
-     {.from_base = true, .follows_border = false}},
-    {{Grouping::grid, "grid", "nodes of one cell of a cubic grid, straight from the base"},
-     grid_groups,
      {.from_base = true, .follows_border = false}},
 };
 
