@@ -10,7 +10,7 @@
 
 namespace springlod::voxelize {
 
-/// Ends of springs that every node of a random model has at least (spec 2.5).
+/// Ends of springs that every node of a random model has at least.
 inline constexpr std::uint32_t kLeastRandomEnds = 14;
 
 struct RandomOptions {
@@ -62,12 +62,12 @@ struct RandomModel {
 };
 
 /// Nodes spread as blue noise through the solid, some of them on its surface, each joined with its
-/// nearest (spec 2.3, 2.5). Masses, volumes and contact areas: each small piece of a cell or of an
-/// exposed face goes to the nearest node (of the surface, for faces), so they add up to those of
-/// the grid. k is chosen by eq. 2 of the paper node by node (unit_stiffness) and then times one
-/// number for the whole network, the rescale; between nodes of two materials E is the harmonic
-/// mean, as in a `centers` lattice. A node's material is that of most of its volume. Border: the
-/// nodes on the surface.
+/// nearest (docs/method.md, section 2). Masses, volumes and contact areas: each small piece of a
+/// cell or of an exposed face goes to the nearest node (of the surface, for faces), so they add up
+/// to those of the grid. k is chosen by eq. 2 of the paper node by node (unit_stiffness) and then
+/// times one number for the whole network, the rescale; between nodes of two materials E is the
+/// harmonic mean, as in a `centers` lattice. A node's material is that of most of its volume.
+/// Border: the nodes on the surface.
 ///
 /// Nodes are in the order (z, y, x). The same seed gives the same bits. Throws InputError: an empty
 /// grid, fewer than 15 nodes or more than the cells have room for, fewer than 14 ends.

@@ -1,4 +1,5 @@
-// What bars of the lattices show in a solved stretch test (spec 2.4), and their mechanisms.
+// What bars of the lattices show in a solved stretch test (docs/method.md, eqs. 1, 4, 5), and their
+// mechanisms.
 
 #include <vector>
 

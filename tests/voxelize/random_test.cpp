@@ -194,7 +194,8 @@ TEST_CASE("A random model that cannot be is an error that says why") {
 }
 
 TEST_CASE("A periodic random network is below eq. 2 as the specification says, with nu near 1/4") {
-  // Spec 2.3: 6 to 25 % below at 14 ends, 6 to 13 % at 24, by how the nodes are placed.
+  // Eq. 2 is an upper bound: 6 to 25 % below at 14 ends, 6 to 13 % at 24, by how the nodes are
+  // placed.
   const auto below = [](const PeriodicRandomOptions& options) {
     const elastic::PeriodicModuli m = elastic::periodic_stretch(build_periodic_random(options));
     CHECK(m.eq2_young == Approx(1).epsilon(1e-12));
