@@ -8,8 +8,8 @@
 
 namespace springlod::inline base {
 
-/// Elements 0 .. count - 1 joined into sets (union-find; Tarjan and van Leeuwen 1984, path halving,
-/// linked by the lower number). A set is known by its lowest element.
+/// Disjoint sets of the elements 0 .. count - 1 (union-find with path halving, Tarjan and van
+/// Leeuwen 1984; linked towards the lower number). The lowest element represents its set.
 class DisjointSets {
  public:
   explicit DisjointSets(std::uint32_t count) : parent_(count) {
@@ -23,7 +23,7 @@ class DisjointSets {
     return i;
   }
 
-  /// False if they were in one set already.
+  /// Merges the sets of x and y. Returns false if they were one set already.
   bool unite(std::uint32_t x, std::uint32_t y) {
     x = lowest(x);
     y = lowest(y);
@@ -33,14 +33,14 @@ class DisjointSets {
     return true;
   }
 
-  /// Makes `i` a set by itself again. To be called for all elements of its set, or others still
-  /// lead to it.
+  /// Makes `i` a set of its own again. Call it for all elements of the set: the others still refer
+  /// to `i`.
   void separate(std::uint32_t i) {
     assert(i < parent_.size());
     parent_[i] = i;
   }
 
-  /// The number of the set of each element, sets numbered by their lowest element.
+  /// Set number of each element. Sets are numbered by their lowest element.
   struct Numbers {
     std::vector<std::uint32_t> of;
     std::uint32_t count = 0;

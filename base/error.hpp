@@ -7,26 +7,26 @@
 
 namespace springlod::inline base {
 
-/// Base of every error that springlod throws on purpose. The message says what is wrong, where,
-/// and what to do next.
+/// Base of every error that springlod throws itself. The message states what is wrong, where, and
+/// what to do next.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A value, option or model that the caller handed over is wrong.
+/// A value, option or model given by the caller is invalid.
 class InputError : public Error {
  public:
   using Error::Error;
 };
 
-/// A file cannot be read, understood or written.
+/// A file cannot be read, parsed or written.
 class IoError : public Error {
  public:
   using Error::Error;
 };
 
-/// A simulation diverged: names the first node that did and when.
+/// A simulation diverged. Holds the first node whose state is not finite, and the time.
 class UnstableError : public Error {
  public:
   UnstableError(const std::string& message, std::uint32_t node, double time)
@@ -40,15 +40,15 @@ class UnstableError : public Error {
   double time_;
 };
 
-/// A node went through an obstacle that is thinner than its way in one step, or too soft to hold
-/// it: what the run would go on with has nothing to do with the scenario any more.
+/// A node passed through an obstacle: its displacement in one step exceeded the thickness, or the
+/// obstacle was too soft to hold it. The run would no longer follow the scenario.
 class TunnelError : public Error {
  public:
   TunnelError(const std::string& message, std::uint32_t node, std::string obstacle, double time)
       : Error(message), node_(node), obstacle_(std::move(obstacle)), time_(time) {}
   std::uint32_t node() const { return node_; }  ///< counted from 0
   const std::string& obstacle() const { return obstacle_; }
-  /// Simulated time at the end of the step that did it [s].
+  /// Simulated time at the end of that step [s].
   double time() const { return time_; }
 
  private:

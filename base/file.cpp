@@ -22,7 +22,7 @@ void write_aside(const fs::path& path, const std::function<void(const fs::path&)
   if (error)
     throw IoError(
         fmt::format("cannot make the folder {}: {}", path.parent_path().string(), error.message()));
-  // The ending stays last: some writers choose the format by it.
+  // The extension is kept: some writers choose the format by it.
   const fs::path aside = path.parent_path() / fmt::format(".{}.{}{}", path.stem().string(),
                                                           getpid(), path.extension().string());
   try {
@@ -54,7 +54,7 @@ std::string read_file(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw IoError(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
   std::string bytes;
-  // At one go where the size is known; pipes and the like have none.
+  // Reads the file at once if its size is known. Pipes have no size.
   const auto size = fs::file_size(path, error);
   if (!error) {
     bytes.resize(size);

@@ -7,9 +7,9 @@
 
 namespace springlod::inline base {
 
-/// Calls `write` with a temporary path beside `path`, then renames it over `path`: readers see the
-/// old file or the new one, never half of one. Makes missing folders. On an exception the
-/// temporary file is removed and `path` is untouched. Throws IoError.
+/// Calls `write` with a temporary path beside `path`, then renames it to `path`. Readers see either
+/// the old file or the complete new one. Creates missing folders. If `write` throws, the temporary
+/// file is removed and `path` is unchanged. Throws IoError.
 void write_aside(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path&)>& write);
 void write_text_file(const std::filesystem::path& path, std::string_view text);

@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
 
-/// The lowest failed job so far. Jobs below it go on: one of them may fail too and is then the one
-/// to tell of.
+/// The lowest failed job so far. Jobs below it continue: if one of them fails too, its exception is
+/// the one to report.
 class Failure {
  public:
-  /// Whether `job` is to stop.
+  /// Whether `job` should stop.
   bool stops(std::uint64_t job) const { return interrupted_ || job > lowest_; }
 
-  /// To be called within a catch block.
+  /// Call it within a catch block.
   void keep(std::uint64_t job) {
     const std::lock_guard lock(mutex_);
     if (job >= lowest_) return;
@@ -30,7 +30,7 @@ class Failure {
     what_ = std::current_exception();
   }
   void keep_interrupt(std::uint64_t job) {
-    if (stops(job)) return;  // only obeyed
+    if (stops(job)) return;  // a reaction to stopped()
     keep(job);
     interrupted_ = true;
   }

@@ -4,14 +4,14 @@
 
 namespace springlod::inline base {
 
-/// Asks for memory ahead of its use. A hint: any address is allowed.
+/// Prefetches a cache line. This is a hint: any address is allowed.
 inline void prefetch(const void* address) {
   __builtin_prefetch(address);
-  // Else g++ takes functions that do nothing but this for pure ones, and drops calls of them.
+  // Without this line, g++ treats a function that only prefetches as pure and drops calls to it.
   asm volatile("");
 }
 
-/// The same for all from `first` up to `last`.
+/// Prefetches all cache lines from `first` up to `last`.
 template <class T>
 void prefetch(const T* first, const T* last) {
   constexpr std::ptrdiff_t kCacheLine = 64;  // bytes; of all x86-64 and most other processors

@@ -11,16 +11,17 @@ class Progress {
  public:
   virtual ~Progress() = default;
   virtual void begin(std::string_view /*task*/, std::uint64_t /*total*/) {}
-  /// May throw InterruptedError: that is how long work is stopped.
+  /// Reports `count` finished items. May throw InterruptedError to stop the work.
   virtual void advance(std::uint64_t /*count*/) {}
   virtual void end() {}
-  /// What the work that began last is at, shown beside how far it is; from several threads.
+  /// Current state of the task that began last, shown beside its progress. Called from several
+  /// threads.
   virtual void detail(std::string_view /*text*/) {}
-  /// A remark that the user should read; from several threads.
+  /// A message for the user. Called from several threads.
   virtual void say(std::string_view /*text*/) {}
 };
 
-/// One piece of long work, reported to `sink` (which may be null) for as long as it lives.
+/// A task whose begin, progress and end are reported to `sink` (may be null).
 class Task {
  public:
   Task(Progress* sink, std::string_view name, std::uint64_t total) : sink_(sink) {

@@ -109,7 +109,7 @@ ProgramResult run_program(const fs::path& program, const std::vector<std::string
       posix_spawn(&child, program.c_str(), actions.get(), nullptr, argv.data(), environ);
   if (error != 0)
     throw IoError(fmt::format("cannot start {}: {}", program.string(), std::strerror(error)));
-  writing.close();  // or the end of the child's errors would never come
+  writing.close();  // otherwise reading the child's stderr would never reach its end
   ProgramResult result;
   result.errors = read_all(reading.number());
   result.exit_code = wait_for(child);

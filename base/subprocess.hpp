@@ -7,23 +7,23 @@
 
 namespace springlod::inline base {
 
-/// Where PATH has the program; nothing if it is not installed.
+/// Path of a program found through PATH; empty if it is not installed.
 std::optional<std::filesystem::path> find_program(const std::string& name);
 
 struct ProgramResult {
-  int exit_code = 0;   ///< 128 + signal if it was killed, as in a shell
-  std::string errors;  ///< what it wrote to stderr
+  int exit_code = 0;   ///< 128 + signal number if a signal ended it, as in a shell
+  std::string errors;  ///< its stderr
 };
 
-/// Runs a program with these arguments (no shell in between) in `folder` (empty: here) and waits.
-/// stdin is empty, stdout is dropped. Throws IoError if it cannot be started.
+/// Runs a program without a shell, in `folder` (empty: the current one), and waits for it. Its
+/// stdin is empty and its stdout is discarded. Throws IoError if it cannot be started.
 ProgramResult run_program(const std::filesystem::path& program,
                           const std::vector<std::string>& arguments,
                           const std::filesystem::path& folder = {});
 
-/// One word as a POSIX shell reads it back: quoted where needed.
+/// Quotes one word for a POSIX shell where needed.
 std::string shell_word(const std::string& word);
-/// Program and arguments as a line to paste into a shell.
+/// Program and arguments as one line for a POSIX shell.
 std::string shell_line(const std::string& program, const std::vector<std::string>& arguments);
 
 }  // namespace springlod::inline base

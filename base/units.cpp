@@ -20,7 +20,7 @@ struct Unit {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The SI unit first.
+// The SI unit stands first.
 constexpr std::array kLength{Unit{"m", 1},     Unit{"nm", 1e-9},   Unit{"um", 1e-6},
                              Unit{"mm", 1e-3}, Unit{"cm", 1e-2},   Unit{"dm", 1e-1},
                              Unit{"km", 1e3},  Unit{"in", 0.0254}, Unit{"ft", 0.3048}};
@@ -62,7 +62,7 @@ std::span<const Unit> units_of(Dimension dimension) {
   return {};
 }
 
-/// Units a human form may use, in rising order.
+/// Units that format_quantity may use, in rising order.
 std::span<const Unit> display_units(Dimension dimension) {
   static constexpr std::array kShownLength{Unit{"nm", 1e-9}, Unit{"um", 1e-6}, Unit{"mm", 1e-3},
                                            Unit{"m", 1}, Unit{"km", 1e3}};
@@ -123,11 +123,11 @@ double parse_quantity(std::string_view text, Dimension dimension, std::string_vi
                        units.front().name);
   };
   std::string_view rest = trim(text);
-  if (rest.starts_with('+')) rest.remove_prefix(1);  // from_chars knows no plus sign
+  if (rest.starts_with('+')) rest.remove_prefix(1);  // from_chars does not accept a plus sign
   double number = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (error == std::errc::result_out_of_range)
-    throw InputError(fmt::format("{}: \"{}\" is beyond the range of numbers", what, text));
+    throw InputError(fmt::format("{}: \"{}\" is out of range; use 1e-300 to 1e300", what, text));
   if (error != std::errc{} || !std::isfinite(number))
     throw InputError(
         fmt::format("{}: \"{}\" does not start with a number; {}", what, text, expected()));
@@ -139,7 +139,7 @@ double parse_quantity(std::string_view text, Dimension dimension, std::string_vi
         fmt::format("{}: \"{}\" has the unknown unit \"{}\"; {}", what, text, name, expected()));
   const double value = number * unit->in_si;
   if (!std::isfinite(value))
-    throw InputError(fmt::format("{}: \"{}\" is beyond the range of numbers", what, text));
+    throw InputError(fmt::format("{}: \"{}\" is out of range; use 1e-300 to 1e300", what, text));
   return value;
 }
 
@@ -147,7 +147,7 @@ double length_unit(std::string_view name) {
   const Unit* unit = find_unit(kLength, trim(name));
   if (unit == nullptr)
     throw InputError(
-        fmt::format("\"{}\" is no unit of length; known are {}", name, names(kLength)));
+        fmt::format("\"{}\" is not a unit of length; use one of {}", name, names(kLength)));
   return unit->in_si;
 }
 
@@ -156,7 +156,7 @@ std::string format_quantity(double value, Dimension dimension) {
   if (units.empty()) return fmt::format("{:.4g}", value);
   const Unit* best = find_unit(units, si_unit(dimension));
   if (value != 0 && std::isfinite(value)) {
-    // The largest unit that leaves a number of at least 1, rounding included: 999.99 Pa is 1 kPa.
+    // The largest unit in which the rounded number is at least 1: 999.99 Pa is 1 kPa.
     constexpr double kRoundsToOne = 0.99995;
     best = &units.front();
     for (const Unit& unit : units)

@@ -8,7 +8,8 @@
 
 namespace springlod::inline base {
 
-/// What a number measures. Everything inside is SI; scripts may write "5 mm" or "1 MPa".
+/// Physical dimension of a number. All values inside are in SI units; scripts may write "5 mm" or
+/// "1 MPa".
 enum class Dimension {
   number,            ///< no unit
   length,            ///< m: nm um mm cm dm m km in ft
@@ -35,17 +36,17 @@ constexpr ChoiceTable<Choice<Dimension>> choices(Dimension) {
 /// Names of the units of a dimension, the SI unit first.
 std::vector<std::string> unit_names(Dimension dimension);
 
-/// Name of the SI unit, e.g. "Pa".
+/// Name of the SI unit, such as "Pa".
 std::string_view si_unit(Dimension dimension);
 
-/// Reads "5 mm", "5mm", "1e3 kg/m3" or a bare "5" (SI) as an SI number.
-/// `what` names the quantity in messages. Throws InputError naming the units that are known.
+/// Parses "5 mm", "5mm", "1e3 kg/m3" or a bare "5" (SI unit) to a value in SI units. `what` is the
+/// name of the quantity in error messages. Throws InputError with a list of the known units.
 double parse_quantity(std::string_view text, Dimension dimension, std::string_view what);
 
-/// Metres in one unit of length: "mm" -> 0.001. Throws InputError.
+/// Length of one unit in metres: "mm" -> 0.001. Throws InputError for an unknown unit.
 double length_unit(std::string_view name);
 
-/// A short human form with an SI prefix, e.g. 0.002 -> "2 mm", 1e7 Pa -> "10 MPa"; 4 digits.
+/// Formats a value with 4 digits and an SI prefix: 0.002 -> "2 mm", 1e7 Pa -> "10 MPa".
 std::string format_quantity(double value, Dimension dimension);
 
 }  // namespace springlod::inline base

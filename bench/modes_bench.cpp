@@ -36,7 +36,7 @@ MassSpringModel plate() {
 }
 
 void factorise(benchmark::State& state, const MassSpringModel& model) {
-  for (auto _ : state) benchmark::DoNotOptimize(elastic::elastic_body(model).parts.size());
+  for (auto _ : state) benchmark::DoNotOptimize(elastic::elastic_body(model).components.size());
   state.counters["nodes"] = model.node_count();
 }
 

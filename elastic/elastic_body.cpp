@@ -17,41 +17,41 @@
 #include "elastic/stiffness.hpp"
 #include "elastic/zero_modes.hpp"
 #include "model/anchors.hpp"
-#include "model/parts.hpp"
+#include "model/components.hpp"
 
 namespace springlod::elastic {
 namespace {
 
-/// Shift over the bound of the largest squared frequency: far above rounding in the factors (1e-15)
-/// and below the softest modes.
+/// Shift / bound of the largest squared frequency: far above rounding in the factors (1e-15), and
+/// below the softest modes.
 constexpr double kShift = 1e-12;
-/// What the shift is raised by if a pivot is lost to rounding, and how often.
+/// Factor by which the shift grows if rounding makes a pivot negative, and how often it may.
 constexpr double kRaise = 30;
 constexpr int kRaises = 3;
-/// Numbers in the zero modes of one part that are still stored [8 bytes each].
+/// Most values in the stored zero modes of a component [8 bytes each].
 constexpr double kMostStored = 5e7;
 
-/// Orthonormal rigid motions in mass-weighted unknowns: three translations and the `rotations`
-/// turns about principal axes that move the part (2 for a straight line, 0 for a single node).
-Eigen::MatrixXd rigid_motions(const MassSpringModel& part, const Eigen::VectorXd& root_mass,
+/// Orthonormal rigid motions in mass-weighted unknowns: three translations, and the `rotations`
+/// about principal axes that move the component (2 for a straight line, 0 for a single node).
+Eigen::MatrixXd rigid_motions(const MassSpringModel& component, const Eigen::VectorXd& root_mass,
                               Eigen::Index rotations) {
-  const MassProperties whole = mass_properties(part);
+  const MassProperties whole = mass_properties(component);
   const Eigen::SelfAdjointEigenSolver<Mat3> principal(whole.inertia);  // moments in rising order
   Eigen::MatrixXd motions(root_mass.size(), 3 + rotations);
-  for (std::uint32_t i = 0; i < part.node_count(); ++i) {
+  for (std::uint32_t i = 0; i < component.node_count(); ++i) {
     const auto row = 3 * static_cast<Eigen::Index>(i);
     motions.block<3, 3>(row, 0) = Mat3::Identity() * root_mass[row] / std::sqrt(whole.mass);
     for (Eigen::Index d = 0; d < rotations; ++d) {
       const Vec3 axis = principal.eigenvectors().col(2 - d);
       const double moment = principal.eigenvalues()[2 - d];
       motions.block<3, 1>(row, 3 + d) =
-          axis.cross(part.rest[i] - whole.center) * root_mass[row] / std::sqrt(moment);
+          axis.cross(component.rest[i] - whole.center) * root_mass[row] / std::sqrt(moment);
     }
   }
   return motions;
 }
 
-/// The 3n x 3n block of a 3N x 3N matrix that belongs to `n` rising nodes.
+/// The 3n x 3n block of a 3N x 3N matrix that belongs to `nodes` (n, rising).
 Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix,
                                      const std::vector<std::uint32_t>& nodes) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -64,71 +64,74 @@ Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix,
   return select.transpose() * matrix * select;
 }
 
-void factorise(ElasticPart& part, const MassSpringModel& model, const std::vector<Vec3>& points,
-               Progress* progress) {
+void factorise(ElasticComponent& component, const MassSpringModel& model,
+               const std::vector<Vec3>& points, Progress* progress) {
   const double bound = frequency_bound(model);
-  part.shift = bound > 0 ? kShift * bound * bound : 1;
-  for (int attempt = 0; attempt <= kRaises; ++attempt, part.shift *= kRaise) {
-    Eigen::SparseMatrix<double> shifted = part.stiffness;
-    for (Eigen::Index i = 0; i < part.unknowns(); ++i) shifted.coeffRef(i, i) += part.shift;
-    part.factor = std::make_shared<const SparseCholesky>(shifted, points, progress);
-    if (part.factor->positive()) return;
+  component.shift = bound > 0 ? kShift * bound * bound : 1;
+  for (int attempt = 0; attempt <= kRaises; ++attempt, component.shift *= kRaise) {
+    Eigen::SparseMatrix<double> shifted = component.stiffness;
+    for (Eigen::Index i = 0; i < component.unknowns(); ++i)
+      shifted.coeffRef(i, i) += component.shift;
+    component.factor = std::make_shared<const SparseCholesky>(shifted, points, progress);
+    if (component.factor->positive()) return;
   }
-  throw InputError(
-      fmt::format("elastic analysis: the stiffness of the part at node {} cannot be factorised; "
-                  "its springs or masses differ too much",
-                  script_number(part.nodes.front())));
+  throw InputError(fmt::format(
+      "elastic analysis: the stiffness of the component at node {} cannot be factorised; "
+      "its springs or masses differ too much",
+      script_number(component.nodes.front())));
 }
 
-/// Inverse iteration: what the springs do not resist outgrows all else by lambda / sigma a pass.
-void find_mechanisms(ElasticPart& part, Eigen::Index count) {
+/// Inverse iteration: in each pass, motions that no spring resists grow relative to the others by
+/// lambda / sigma.
+void find_mechanisms(ElasticComponent& component, Eigen::Index count) {
   constexpr int kPasses = 3;
-  constexpr std::uint64_t kSeed = 1;  // any start finds the same space
-  Eigen::MatrixXd motions = random_block(part.unknowns(), count, kSeed);
+  constexpr std::uint64_t kSeed = 1;  // any start vectors lead to the same space
+  Eigen::MatrixXd motions = random_block(component.unknowns(), count, kSeed);
   for (int pass = 0; pass < kPasses; ++pass) {
-    motions = part.solve_shifted(motions);
+    motions = component.solve_shifted(motions);
     motions = Eigen::HouseholderQR<Eigen::MatrixXd>(motions).householderQ() *
-              Eigen::MatrixXd::Identity(part.unknowns(), count);
+              Eigen::MatrixXd::Identity(component.unknowns(), count);
   }
-  part.remove_zero_modes(motions);
-  part.zero_modes.conservativeResize(Eigen::NoChange, part.zero_modes.cols() + count);
-  part.zero_modes.rightCols(count) = motions;
+  component.remove_zero_modes(motions);
+  component.zero_modes.conservativeResize(Eigen::NoChange, component.zero_modes.cols() + count);
+  component.zero_modes.rightCols(count) = motions;
 }
 
-/// `free`: the nodes of `whole` that can move.
-ElasticPart make_part(const ModelPart& whole, const std::vector<std::uint32_t>& free,
-                      const PartModes& found, Progress* progress) {
+/// `free`: the nodes of `whole` that are not anchored.
+ElasticComponent make_component(const ModelComponent& whole, const std::vector<std::uint32_t>& free,
+                                const ComponentModes& found, Progress* progress) {
   const MassSpringModel& model = whole.model;
-  ElasticPart part;
+  ElasticComponent component;
   std::vector<Vec3> points;
-  part.root_mass.resize(3 * static_cast<Eigen::Index>(free.size()));
+  component.root_mass.resize(3 * static_cast<Eigen::Index>(free.size()));
   for (std::size_t i = 0; i < free.size(); ++i) {
-    part.nodes.push_back(whole.nodes[free[i]]);
+    component.nodes.push_back(whole.nodes[free[i]]);
     points.push_back(model.rest[free[i]]);
-    part.root_mass.segment<3>(3 * static_cast<Eigen::Index>(i))
+    component.root_mass.segment<3>(3 * static_cast<Eigen::Index>(i))
         .setConstant(std::sqrt(model.mass[free[i]]));
   }
-  if (static_cast<double>(found.zero_modes) * static_cast<double>(part.unknowns()) > kMostStored)
+  if (static_cast<double>(found.zero_modes) * static_cast<double>(component.unknowns()) >
+      kMostStored)
     throw InputError(
-        fmt::format("elastic analysis: the part at node {} has {} zero modes, too many to store; "
-                    "zero_modes tells which nodes hang loose",
-                    script_number(part.nodes.front()), found.zero_modes));
-  part.stiffness = stiffness_matrix(model);
-  if (free.size() < model.node_count()) part.stiffness = block_of(part.stiffness, free);
-  for (Eigen::Index c = 0; c < part.unknowns(); ++c)
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(part.stiffness, c); entry; ++entry)
-      entry.valueRef() /= part.root_mass[entry.row()] * part.root_mass[c];
-  part.zero_modes.resize(part.unknowns(), 0);
+        fmt::format("elastic analysis: the component at node {} has {} zero modes, too many to "
+                    "store; zero_modes lists the loose nodes",
+                    script_number(component.nodes.front()), found.zero_modes));
+  component.stiffness = stiffness_matrix(model);
+  if (free.size() < model.node_count()) component.stiffness = block_of(component.stiffness, free);
+  for (Eigen::Index c = 0; c < component.unknowns(); ++c)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(component.stiffness, c); entry; ++entry)
+      entry.valueRef() /= component.root_mass[entry.row()] * component.root_mass[c];
+  component.zero_modes.resize(component.unknowns(), 0);
   if (found.anchored == 0)
-    part.zero_modes =
-        rigid_motions(model, part.root_mass, static_cast<Eigen::Index>(found.expected) - 3);
-  factorise(part, model, points, progress);
+    component.zero_modes =
+        rigid_motions(model, component.root_mass, static_cast<Eigen::Index>(found.expected) - 3);
+  factorise(component, model, points, progress);
   if (found.zero_modes > found.expected)
-    find_mechanisms(part, static_cast<Eigen::Index>(found.zero_modes - found.expected));
-  return part;
+    find_mechanisms(component, static_cast<Eigen::Index>(found.zero_modes - found.expected));
+  return component;
 }
 
-/// Numbers that are not finite would send the solvers round and round.
+/// Values that are not finite would keep the solvers iterating to their limits.
 void require_finite(const MassSpringModel& model) {
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     if (!model.rest[i].allFinite() || !(model.mass[i] > 0 && std::isfinite(model.mass[i])))
@@ -147,13 +150,13 @@ void require_finite(const MassSpringModel& model) {
 
 }  // namespace
 
-void ElasticPart::remove_zero_modes(Eigen::MatrixXd& y) const {
-  // Twice is enough to take them out to rounding.
+void ElasticComponent::remove_zero_modes(Eigen::MatrixXd& y) const {
+  // Two passes remove them up to rounding.
   for (int pass = 0; pass < 2; ++pass)
     subtract_product(zero_modes, transposed_product(zero_modes, y), y);
 }
 
-Eigen::MatrixXd ElasticPart::solve_shifted(const Eigen::MatrixXd& b) const {
+Eigen::MatrixXd ElasticComponent::solve_shifted(const Eigen::MatrixXd& b) const {
   Eigen::MatrixXd y = b;
   remove_zero_modes(y);
   y = factor->solve(y);
@@ -161,38 +164,42 @@ Eigen::MatrixXd ElasticPart::solve_shifted(const Eigen::MatrixXd& b) const {
   return y;
 }
 
-Eigen::VectorXd ElasticPart::gather(const std::vector<Vec3>& of_model) const {
+Eigen::VectorXd ElasticComponent::gather(const std::vector<Vec3>& of_model) const {
   Eigen::VectorXd y(unknowns());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     y.segment<3>(3 * static_cast<Eigen::Index>(i)) = of_model[nodes[i]];
   return y;
 }
 
-void ElasticPart::scatter(const Eigen::VectorXd& of_part, std::vector<Vec3>& of_model) const {
+void ElasticComponent::scatter(const Eigen::VectorXd& of_component,
+                               std::vector<Vec3>& of_model) const {
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    of_model[nodes[i]] = of_part.segment<3>(3 * static_cast<Eigen::Index>(i));
+    of_model[nodes[i]] = of_component.segment<3>(3 * static_cast<Eigen::Index>(i));
 }
 
 std::uint32_t ElasticBody::zero_mode_count() const {
   std::uint32_t count = 0;
-  for (const ElasticPart& part : parts) count += static_cast<std::uint32_t>(part.zero_modes.cols());
+  for (const ElasticComponent& component : components)
+    count += static_cast<std::uint32_t>(component.zero_modes.cols());
   return count;
 }
 
 ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& options) {
   require_finite(model);
   const std::vector<std::uint8_t> held = anchor_flags(model, options.anchored);
-  const std::vector<PartModes> found = zero_modes(model, options.anchored);
-  const std::vector<ModelPart> parts = split_parts(model, connected_components(model));
+  const std::vector<ComponentModes> found = zero_modes(model, options.anchored);
+  const std::vector<ModelComponent> components =
+      split_components(model, connected_components(model));
   ElasticBody body;
   body.node_count = model.node_count();
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     if (held[i] != 0) body.anchored.push_back(i);
-  for (std::size_t p = 0; p < parts.size(); ++p) {
+  for (std::size_t p = 0; p < components.size(); ++p) {
     std::vector<std::uint32_t> free;
-    for (std::uint32_t i = 0; i < parts[p].nodes.size(); ++i)
-      if (held[parts[p].nodes[i]] == 0) free.push_back(i);
-    if (!free.empty()) body.parts.push_back(make_part(parts[p], free, found[p], options.progress));
+    for (std::uint32_t i = 0; i < components[p].nodes.size(); ++i)
+      if (held[components[p].nodes[i]] == 0) free.push_back(i);
+    if (!free.empty())
+      body.components.push_back(make_component(components[p], free, found[p], options.progress));
   }
   return body;
 }

@@ -14,55 +14,55 @@ namespace springlod::elastic {
 
 class SparseCholesky;
 
-/// One connected part of a model, ready to be solved with: n nodes that can move, 3n unknowns
-/// y = M^1/2 u, in which the stiffness is D = M^-1/2 K M^-1/2 [1/s2] and modes are orthonormal.
-/// Springs to anchored nodes count in K; the anchored nodes themselves have no unknowns.
-struct ElasticPart {
+/// A factorised connected component of a model: n free nodes and 3n unknowns y = M^1/2 u. In these
+/// unknowns the stiffness is D = M^-1/2 K M^-1/2 [1/s2], and modes are orthonormal. K includes the
+/// springs to anchored nodes; anchored nodes have no unknowns.
+struct ElasticComponent {
   std::vector<std::uint32_t> nodes;       ///< n, rising
   Eigen::VectorXd root_mass;              ///< sqrt(m) of each unknown [kg^1/2], 3n
-  Eigen::SparseMatrix<double> stiffness;  ///< D, 3n x 3n, both halves
-  /// 3n x z, orthonormal: rigid motions and mechanisms. z = 0 where anchors leave neither.
+  Eigen::SparseMatrix<double> stiffness;  ///< D, 3n x 3n, both triangles
+  /// 3n x z, orthonormal: rigid motions and mechanisms. z = 0 if the anchors leave none.
   Eigen::MatrixXd zero_modes;
   double shift = 0;                              ///< sigma [1/s2] > 0
   std::shared_ptr<const SparseCholesky> factor;  ///< of D + sigma I
 
   Eigen::Index unknowns() const { return root_mass.size(); }
-  /// Takes the zero modes out of each column of y.
+  /// Projects the zero modes out of each column of y.
   void remove_zero_modes(Eigen::MatrixXd& y) const;
-  /// (D + sigma I)^-1 b without zero modes, for each column of b.
+  /// (D + sigma I)^-1 b without zero modes, for each column of b (docs/method.md, eq. 13).
   Eigen::MatrixXd solve_shifted(const Eigen::MatrixXd& b) const;
-  /// The 3n numbers of this part's nodes, out of N vectors of the model.
+  /// The 3n values of this component's nodes, from N vectors of the model.
   Eigen::VectorXd gather(const std::vector<Vec3>& of_model) const;
-  /// The other way; leaves the nodes of other parts alone.
-  void scatter(const Eigen::VectorXd& of_part, std::vector<Vec3>& of_model) const;
+  /// The inverse of gather(); the entries of other components are unchanged.
+  void scatter(const Eigen::VectorXd& of_component, std::vector<Vec3>& of_model) const;
 };
 
-/// A model factorised once for all that is asked about its elasticity: modes, static loads.
-/// Treat as immutable.
+/// A model factorised once for several analyses: modes and static loads. Treat it as immutable.
 struct ElasticBody {
   std::uint32_t node_count = 0;
-  std::vector<std::uint32_t> anchored;  ///< rising, each once; empty: nothing holds the body
-  std::vector<ElasticPart> parts;       ///< by their lowest node; those that can move
+  std::vector<std::uint32_t> anchored;       ///< rising, each once; empty: the body is free
+  std::vector<ElasticComponent> components;  ///< by their lowest node; those with a free node
   std::uint32_t zero_mode_count() const;
 };
 
 struct ElasticOptions {
-  /// Nodes held where they are, in any order: what is solved for then is the body fixed there. On
-  /// a level, `carried` takes those of level 0 along.
+  /// Nodes with prescribed displacement 0, in any order. `mapped_nodes` maps those of level 0 to a
+  /// level.
   std::vector<std::uint32_t> anchored = {};
   Progress* progress = nullptr;  ///< may be null
 };
 
-/// Finds the zero modes of each part and factorises it with a small shift: 1e-12 of the square
-/// of the largest frequency, which the bends of a bar a hundred times as long as thick still exceed
-/// a hundred times.
+/// Finds the zero modes of each connected component and factorises it with a small shift: 1e-12 of
+/// the square of the largest frequency (docs/method.md, eq. 13). The lowest squared bending
+/// frequency of a bar a hundred times as long as thick is still a hundred times the shift.
 ///
-/// 20k nodes as a cube: 4 s and 0.7 GB; time goes with N^2, storage with N^4/3.
-/// Throws InputError for places, masses or stiffnesses that are not finite or masses not above 0,
-/// for a model with more mechanisms than can be stored (hundreds, in a large
-/// part), for stiffnesses so uneven that no small shift makes the matrix positive, and for anchored
-/// nodes that the model does not have. Anchors that leave motions free are no error here: those
-/// are zero modes, which solve_static refuses to push at.
+/// Cost of a cube of 20k nodes: 4 s and 0.7 GB; the time grows with N^2, the memory with N^4/3.
+///
+/// Throws InputError: positions, masses or stiffnesses that are not finite, masses that are not
+/// above 0, more mechanisms than can be stored (hundreds, in a large component), stiffnesses so
+/// uneven that no small shift makes the matrix positive definite, anchored nodes that the model
+/// does not have. Anchors that leave motions free are no error here: such motions are zero modes,
+/// and solve_static rejects loads on them.
 ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& options = {});
 
 }  // namespace springlod::elastic

@@ -8,94 +8,97 @@
 #include "elastic/elastic_body.hpp"
 #include "model/mass_spring.hpp"
 
-// Static loads and how a body answers to them: the face of loads/.
+// Static loads and the response of a body to them: the public header of loads/.
 namespace springlod::elastic {
 
-// Loads on the whole body, and solving (static_loads.cpp).
+// Loads on the whole body, and their solution (static_loads.cpp).
 
-/// Forces on the nodes of a model. For a body that nothing holds they need not balance: what would
-/// only push or turn a part, or move a mechanism, is taken out when the load is solved for.
+/// Forces on the nodes of a model. On a free body they need not be in equilibrium: the component of
+/// a load along rigid motions and mechanisms is projected out when it is solved (docs/method.md,
+/// eq. 17).
 struct StaticLoad {
   std::string name;
   std::vector<Vec3> force;  ///< N [N]
 };
 
-/// How a body gives way to a load.
+/// Static response of a body to a load.
 struct StaticSolution {
-  /// N [m]; without rigid motion: sum m u = 0 and sum m r x u = 0 over each part that nothing
-  /// holds. 0 for anchored nodes.
+  /// N [m]. In each connected component of a free body without rigid motion: sum m u = 0 and sum m
+  /// r x u = 0. Anchored nodes: 0.
   std::vector<Vec3> displacement;
-  /// Work of the balanced (anchored: of the given) forces along the displacement, f.u [J]: twice
-  /// the elastic energy.
+  /// Work of the projected forces (anchored body: of the given ones) along the displacement, f.u
+  /// [J]: twice the elastic energy.
   double compliance = 0;
-  /// Size of the iteration's last step over that of the displacement, both weighted by mass: what
-  /// iterating on would change.
+  /// Norm of the last iteration step / norm of the displacement, both weighted by mass. 0 if the
+  /// solve ended without iterating.
   double residual = 0;
 };
 
 struct StaticOptions {
-  /// What may be left of the forces, over them (both over the root of the masses), for a load to
-  /// count as solved; 0: iterate until nothing changes but by rounding. Above 0 one solution with
-  /// the factors is mostly enough, and `residual` tells nothing.
-  double balance = 0;
+  /// Relative residual at which a load counts as solved: norm of the residual force / norm of the
+  /// force, both divided by the root of the masses. 0: iterate until rounding stops the progress.
+  /// Above 0, one solution with the factors usually suffices, and `residual` is then 0.
+  double relative_tolerance = 0;
 };
 
 /// Nine smooth loads: "stretch x", "stretch y", "stretch z", "shear yz", "shear xz", "shear xy",
-/// two bends of the longest axis of the bounding box ("bend z to x") and a twist about it
-/// ("twist z"); nodes without volume count for nothing. Forces per volume are linear in the place
-/// (bends and twist: of second order) about the centre of volume; of each load their amounts add up
-/// to 1 N. A load that finds nothing to pull at (the width of a flat model) is all zeros.
+/// two bends of the longest axis of the bounding box ("bend z to x") and a twist about it ("twist
+/// z"). Forces per volume are linear (bends and twist: quadratic) in the position relative to the
+/// centre of volume. The magnitudes of the nodal forces of a load add up to 1 N. A load without a
+/// lever arm (along the thickness of a flat model) is zero.
 std::vector<StaticLoad> smooth_loads(const MassSpringModel& model);
 
-/// K u = f for each load, with the rigid motions projected out: of the forces as the inertia of the
-/// accelerated body would balance them (f - M Z Z^T f), of the displacements by mass. Conjugate
-/// gradients, preconditioned by the factors of the body.
-/// Throws InputError for a load of another size than N or with forces that are not finite; for a
-/// body with anchored nodes, also where a load pushes at a motion that the anchors leave free.
+/// Solves K u = f for each load (docs/method.md, eq. 17). The rigid motions are projected out of
+/// the forces, f - M Z Z^T f (the inertia of the accelerated body), and out of the displacements,
+/// weighted by mass. Conjugate gradients, preconditioned by the factors of the body.
+///
+/// Throws InputError for a load with a size other than N or with forces that are not finite. With
+/// anchored nodes it also throws for a load on a motion that the anchors leave free.
 std::vector<StaticSolution> solve_static(const ElasticBody& body,
                                          const std::vector<StaticLoad>& loads,
                                          const StaticOptions& options = {});
 
 // Loads on patches of the surface (local_loads.cpp).
 
-/// Loads on patches of the surface: the border nodes around one of them, which share 1 N evenly.
-/// Where they pull is drawn at random, the same for the same seed. All throw InputError if there is
-/// no border node to pull at.
+/// Loads on surface patches: the border nodes around a random one share 1 N evenly. The same seed
+/// gives the same patches. All functions throw InputError if no border node can be loaded.
 struct LocalLoadOptions {
   std::uint32_t count = 24;
   std::uint64_t seed = 1;
-  /// Radius of a patch over the mean spring length: some thirty nodes, of which a level of a fifth
-  /// of them keeps half a dozen. How a level answers to smaller ones depends on which groups they
-  /// happen to cover.
+  /// Radius of a patch / mean spring length. With 3, a patch has some thirty nodes, and a level of
+  /// a fifth of the nodes has half a dozen of them. The response of a level to smaller patches
+  /// depends on which groups they happen to cover.
   double radius = 3;
-  /// Nodes that patches lie within, of which those on the border count; empty: all of the model.
+  /// Nodes that patches are restricted to; those on the border count. Empty: the whole model.
   std::vector<std::uint32_t> within = {};
 };
 
-/// Two patches, pulled apart: every other pair near each other (at most two radii), the others
-/// anywhere; about half of them along the line through their middles, half in any direction.
-/// "patches 1", ... Fewer than asked for, or none, where there is no room for two.
+/// Two patches, pulled apart: "patches 1", ... Every other pair is close together (at most two
+/// radii), the others are anywhere. About half of the pairs are pulled along the line between their
+/// centres, the others in a random direction. Fewer loads, or none, come back if the surface has no
+/// room for two patches.
 std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoadOptions& options);
 
-/// A patch and the one that lies opposite as seen along the surface's normal, squeezed together:
-/// "pinch 1", ... The one opposite may lie outside the nodes chosen.
+/// A patch and the one opposite along the surface normal, pressed together: "pinch 1", ... The
+/// opposite patch may lie outside the chosen nodes.
 std::vector<StaticLoad> pinches(const MassSpringModel& model, const LocalLoadOptions& options);
 
-/// One patch pushed in any direction: "push 1", ... What balances it is the inertia of the body, or
-/// whatever holds it; see solve_static.
+/// One patch pushed in a random direction: "push 1", ... The inertia of the body or its anchors
+/// balance it; see solve_static.
 std::vector<StaticLoad> pushes(const MassSpringModel& model, const LocalLoadOptions& options);
 
-// Loads on each material region alone (piece_loads.cpp).
+// Loads on each material region alone (region_loads.cpp).
 
-struct PieceOptions {
-  std::size_t most_pieces = 6;   ///< the largest ones
-  std::size_t least_nodes = 20;  ///< of a piece: fewer have no stiffness of their own
+struct RegionLoadOptions {
+  std::size_t most_regions = 6;  ///< the largest are taken
+  std::size_t least_nodes = 20;  ///< in a region; smaller ones have hardly any stiffness alone
 };
 
-/// The nine smooth loads on each piece of one material alone (nodes joined by springs within the
-/// material) that reaches the surface, for how stiff it is by itself: loads on the whole body tell
-/// little of stiff pieces that soft ones join. "stretch x of rod at node 0", ... None if the body
-/// is one piece.
-std::vector<StaticLoad> piece_loads(const MassSpringModel& model, const PieceOptions& options = {});
+/// The nine smooth loads on each material region (connected nodes of one material) that reaches the
+/// surface: "stretch x of rod at node 0", ... They measure the stiffness of the region by itself;
+/// loads on the whole body hardly depend on stiff regions that soft ones connect. None if the body
+/// is one region.
+std::vector<StaticLoad> region_loads(const MassSpringModel& model,
+                                     const RegionLoadOptions& options = {});
 
 }  // namespace springlod::elastic

@@ -18,56 +18,58 @@
 namespace springlod::elastic {
 namespace {
 
-/// Vectors that are iterated together: as many copies of a frequency are found for sure, and
-/// solving for 8 at once costs little more than twice one.
+/// Block size: multiple frequencies are found reliably up to this multiplicity. Solving for 8
+/// vectors at once costs little more than twice one.
 constexpr Eigen::Index kBlock = 8;
-/// Up to so many unknowns a dense eigenvalue solver is quicker than iterating.
+/// Up to this many unknowns a dense eigenvalue solver is faster than the iteration.
 constexpr Eigen::Index kDenseUnknowns = 240;
-/// Where the iteration runs out of room the dense solver takes over up to here (a minute).
+/// If the iteration does not converge, the dense solver takes over up to this many unknowns (a
+/// minute).
 constexpr Eigen::Index kMostDenseUnknowns = 4000;
-/// Eigenvalues over the shift that rounding in the matrix still leaves something of.
+/// Smallest eigenvalue / shift that is significant despite rounding in the matrix.
 constexpr double kLeastOfShift = 1e-3;
 
-/// Modes of one part in its mass-weighted unknowns.
-struct PartSpectrum {
+/// Modes of one component in its mass-weighted unknowns.
+struct ComponentSpectrum {
   Eigen::VectorXd squared_frequency;  // rising
   Eigen::VectorXd residual;
   Eigen::MatrixXd shapes;  // orthonormal columns
 };
 
-/// All of the spectrum but the zero modes, up to `count`.
-PartSpectrum solve_dense(const ElasticPart& part, Eigen::Index count) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(part.stiffness)};
-  const Eigen::Index zeros = part.zero_modes.cols();
-  const Eigen::Index found = std::min(count, part.unknowns() - zeros);
-  PartSpectrum spectrum;
+/// The spectrum without the zero modes, up to `count` modes.
+ComponentSpectrum solve_dense(const ElasticComponent& component, Eigen::Index count) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(component.stiffness)};
+  const Eigen::Index zeros = component.zero_modes.cols();
+  const Eigen::Index found = std::min(count, component.unknowns() - zeros);
+  ComponentSpectrum spectrum;
   spectrum.squared_frequency = solver.eigenvalues().segment(zeros, found).cwiseMax(0);
   spectrum.shapes = solver.eigenvectors().middleCols(zeros, found);
-  const Eigen::MatrixXd rest =
-      part.stiffness * spectrum.shapes - spectrum.shapes * spectrum.squared_frequency.asDiagonal();
+  const Eigen::MatrixXd rest = component.stiffness * spectrum.shapes -
+                               spectrum.shapes * spectrum.squared_frequency.asDiagonal();
   spectrum.residual = rest.colwise().norm().transpose().cwiseQuotient(spectrum.squared_frequency);
   return spectrum;
 }
 
-/// Block Lanczos for the largest eigenvalues theta = 1 / (lambda + sigma), every vector made
-/// orthogonal to all before it.
+/// Block Lanczos for the largest eigenvalues theta = 1 / (lambda + sigma), with full
+/// reorthogonalization.
 class BlockLanczos {
  public:
-  BlockLanczos(const ElasticPart& part, Eigen::Index count, const ModeOptions& options)
-      : part_(part),
+  BlockLanczos(const ElasticComponent& component, Eigen::Index count, const ModeOptions& options)
+      : component_(component),
         count_(count),
         accuracy_(options.accuracy),
-        // Most bodies need two to five vectors a mode.
-        most_vectors_(std::min(8 * count + 300, part.unknowns() - part.zero_modes.cols() - kBlock)),
+        // Most bodies need two to five vectors for each mode.
+        most_vectors_(
+            std::min(8 * count + 300, component.unknowns() - component.zero_modes.cols() - kBlock)),
         task_(options.progress, "iterating for modes", static_cast<std::uint64_t>(count)),
         next_look_(count) {
-    next_ = random_block(part.unknowns(), kBlock, options.seed);
-    part_.remove_zero_modes(next_);
+    next_ = random_block(component.unknowns(), kBlock, options.seed);
+    component_.remove_zero_modes(next_);
     orthonormalise(next_);
   }
 
-  /// None if there is no room left for more vectors.
-  std::optional<PartSpectrum> run() {
+  /// Returns nothing if the iteration has not converged within most_vectors_.
+  std::optional<ComponentSpectrum> run() {
     while (vectors_ + kBlock <= most_vectors_) {
       expand();
       task_.advance(0);  // lets the user interrupt
@@ -77,7 +79,7 @@ class BlockLanczos {
   }
 
  private:
-  /// Splits `block` into orthonormal columns, which it becomes, and what they are multiplied by.
+  /// QR decomposition: `block` becomes Q, and R is returned.
   static Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& block) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(block);
     const Eigen::Index columns = block.cols();
@@ -91,39 +93,39 @@ class BlockLanczos {
   void expand() {
     if (basis_.cols() < vectors_ + kBlock) {  // grow by half: copying stays cheap
       const Eigen::Index room = std::max(vectors_ + kBlock, basis_.cols() * 3 / 2);
-      basis_.conservativeResize(part_.unknowns(), room);
+      basis_.conservativeResize(component_.unknowns(), room);
     }
     basis_.middleCols(vectors_, kBlock) = next_;
     vectors_ += kBlock;
     const auto basis = basis_.leftCols(vectors_);
 
-    next_ = part_.solve_shifted(next_);
+    next_ = component_.solve_shifted(next_);
     Eigen::MatrixXd along = transposed_product(basis, next_);
     subtract_product(basis, along, next_);
-    const Eigen::MatrixXd again = transposed_product(basis, next_);  // what rounding left
+    const Eigen::MatrixXd again = transposed_product(basis, next_);  // left by rounding
     subtract_product(basis, again, next_);
     along += again;
     projected_.conservativeResize(vectors_, vectors_);
-    projected_.bottomRows(kBlock) = along.transpose();  // the solver reads the lower half alone
+    projected_.bottomRows(kBlock) = along.transpose();  // the solver reads the lower triangle only
     coupling_ = orthonormalise(next_);
-    // Where the space is exhausted (bodies with many equal frequencies) that made vectors of mere
-    // rounding; they are as good a new start as any once they are orthogonal.
+    // If the Krylov space is exhausted (bodies with many equal frequencies), the new vectors are
+    // rounding errors. Made orthogonal, they serve as new start vectors.
     subtract_product(basis, transposed_product(basis, next_), next_);
-    part_.remove_zero_modes(next_);
+    component_.remove_zero_modes(next_);
     coupling_ = orthonormalise(next_) * coupling_;
   }
 
   bool converged() {
-    // Looking costs the cube of the vectors: do so when there are a tenth more.
+    // The test costs the cube of the number of vectors: it is repeated when there are a tenth more.
     next_look_ = vectors_ + vectors_ / 10;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(projected_);
     theta_ = solver.eigenvalues().tail(count_).reverse();
     ritz_ = solver.eigenvectors().rightCols(count_).rowwise().reverse();
     const Eigen::VectorXd rest =
         (coupling_ * ritz_.bottomRows(kBlock)).colwise().norm().transpose();
-    // What theta misses by counts for more in a lambda that is smaller than sigma.
+    // The residual of theta is amplified in a lambda that is smaller than sigma.
     const Eigen::VectorXd amplified =
-        (1 - part_.shift * theta_.array()).max(kLeastOfShift).inverse();
+        (1 - component_.shift * theta_.array()).max(kLeastOfShift).inverse();
     residual_ = rest.cwiseQuotient(theta_).cwiseProduct(amplified);
     const auto done = (residual_.array() <= accuracy_).count();
     if (done > reported_) task_.advance(static_cast<std::uint64_t>(done - reported_));
@@ -131,17 +133,17 @@ class BlockLanczos {
     return done == count_;
   }
 
-  PartSpectrum spectrum() const {
-    PartSpectrum spectrum;
-    spectrum.squared_frequency = (theta_.cwiseInverse().array() - part_.shift).max(0.0);
+  ComponentSpectrum spectrum() const {
+    ComponentSpectrum spectrum;
+    spectrum.squared_frequency = (theta_.cwiseInverse().array() - component_.shift).max(0.0);
     spectrum.residual = residual_;
-    // One more product damps what is left of high frequencies, which weigh much in strains.
-    spectrum.shapes = part_.solve_shifted(basis_.leftCols(vectors_) * ritz_);
+    // One more product damps the remaining high frequencies, which would distort strains.
+    spectrum.shapes = component_.solve_shifted(basis_.leftCols(vectors_) * ritz_);
     spectrum.shapes.colwise().normalize();
     return spectrum;
   }
 
-  const ElasticPart& part_;
+  const ElasticComponent& component_;
   Eigen::Index count_;
   double accuracy_;
   Eigen::Index most_vectors_;
@@ -151,35 +153,35 @@ class BlockLanczos {
   Eigen::Index reported_ = 0;
   Eigen::MatrixXd basis_;      // orthonormal, the first vectors_ columns
   Eigen::MatrixXd next_;       // the next block of it
-  Eigen::MatrixXd projected_;  // basis^T (D + sigma)^-1 basis, lower half
+  Eigen::MatrixXd projected_;  // basis^T (D + sigma)^-1 basis, lower triangle
   Eigen::MatrixXd coupling_;   // of the last block to the next
   Eigen::VectorXd theta_, residual_;
   Eigen::MatrixXd ritz_;
 };
 
-/// Iterating on what is not a number neither converges nor fails until all room is used up.
-void require_finite(const ElasticPart& part) {
-  const Eigen::Map<const Eigen::VectorXd> entries(part.stiffness.valuePtr(),
-                                                  part.stiffness.nonZeros());
+/// With values that are not finite the iteration would neither converge nor fail before its limit.
+void require_finite(const ElasticComponent& component) {
+  const Eigen::Map<const Eigen::VectorXd> entries(component.stiffness.valuePtr(),
+                                                  component.stiffness.nonZeros());
   if (!entries.allFinite())
     throw InputError(fmt::format(
-        "modes: the stiffness over the masses of the part at node {} "
-        "is not finite; look for springs that are far too stiff or masses far too small",
-        script_number(part.nodes.front())));
+        "modes: the stiffness over the masses of the component at node {} "
+        "is not finite; check for springs that are far too stiff or masses far too small",
+        script_number(component.nodes.front())));
 }
 
-PartSpectrum solve(const ElasticPart& part, const ModeOptions& options) {
-  require_finite(part);
-  const Eigen::Index there = part.unknowns() - part.zero_modes.cols();
+ComponentSpectrum solve(const ElasticComponent& component, const ModeOptions& options) {
+  require_finite(component);
+  const Eigen::Index there = component.unknowns() - component.zero_modes.cols();
   const auto count = std::min(static_cast<Eigen::Index>(options.count), there);
-  if (part.unknowns() > kDenseUnknowns)
-    if (auto spectrum = BlockLanczos(part, count, options).run()) return *std::move(spectrum);
-  if (part.unknowns() > kMostDenseUnknowns)
-    throw InputError(
-        fmt::format("modes: not converged for {} modes of {} nodes; ask for fewer, or "
-                    "for less accuracy than {}",
-                    count, part.nodes.size(), options.accuracy));
-  return solve_dense(part, count);
+  if (component.unknowns() > kDenseUnknowns)
+    if (auto spectrum = BlockLanczos(component, count, options).run()) return *std::move(spectrum);
+  if (component.unknowns() > kMostDenseUnknowns)
+    throw InputError(fmt::format(
+        "modes: the iteration for {} modes of {} nodes did not converge; request fewer, or "
+        "an accuracy coarser than {}",
+        count, component.nodes.size(), options.accuracy));
+  return solve_dense(component, count);
 }
 
 void check(const ModeOptions& options) {
@@ -200,13 +202,13 @@ Modes lowest_modes(const ElasticBody& body, const ModeOptions& options) {
   check(options);
   struct Found {
     double squared_frequency;
-    std::size_t part;
+    std::size_t component;
     Eigen::Index column;
   };
-  std::vector<PartSpectrum> spectra;
+  std::vector<ComponentSpectrum> spectra;
   std::vector<Found> found;
-  for (const ElasticPart& part : body.parts) {
-    const PartSpectrum& spectrum = spectra.emplace_back(solve(part, options));
+  for (const ElasticComponent& component : body.components) {
+    const ComponentSpectrum& spectrum = spectra.emplace_back(solve(component, options));
     for (Eigen::Index c = 0; c < spectrum.squared_frequency.size(); ++c)
       found.push_back({spectrum.squared_frequency[c], spectra.size() - 1, c});
   }
@@ -218,13 +220,14 @@ Modes lowest_modes(const ElasticBody& body, const ModeOptions& options) {
   Modes modes;
   modes.zero_modes_skipped = body.zero_mode_count();
   for (const Found& each : found) {
-    const ElasticPart& part = body.parts[each.part];
+    const ElasticComponent& component = body.components[each.component];
     Mode& mode = modes.modes.emplace_back();
     mode.angular_frequency = std::sqrt(each.squared_frequency);
-    mode.residual = spectra[each.part].residual[each.column];
+    mode.residual = spectra[each.component].residual[each.column];
     mode.shape.assign(body.node_count, Vec3::Zero());
-    part.scatter(spectra[each.part].shapes.col(each.column).cwiseQuotient(part.root_mass),
-                 mode.shape);
+    component.scatter(
+        spectra[each.component].shapes.col(each.column).cwiseQuotient(component.root_mass),
+        mode.shape);
   }
   return modes;
 }

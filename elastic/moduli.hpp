@@ -7,14 +7,14 @@
 #include "model/mass_spring.hpp"
 #include "model/vec.hpp"
 
-// Elastic moduli that a model shows, estimated or measured: the face of moduli/.
+// Effective elastic moduli of a model, estimated or measured: the public header of moduli/.
 namespace springlod::elastic {
 
-// Estimated by eq. 2 of the paper (estimate.cpp).
+// Estimated by eq. 2 (estimate.cpp).
 
-/// What eq. 2 of the paper says of some nodes of a model: with W = sum of k L^2 over their springs,
-/// a spring counted half at either end, and V their volume, E = W / (6 V), lambda = mu = W / (15 V)
-/// and K = W / (9 V).
+/// Moduli of some nodes of a model by eq. 2 (docs/method.md). With W the sum of k L^2 over their
+/// springs, half of a spring at either end, and V the volume: E = W / (6 V), lambda = mu = W / (15
+/// V), K = W / (9 V).
 struct Eq2Estimate {
   std::uint32_t nodes = 0;
   double mass = 0;     ///< [kg]
@@ -28,19 +28,19 @@ struct Eq2Estimate {
 
 struct ModelEstimate {
   Eq2Estimate whole;
-  /// One for each of model.materials, of the nodes that have it; all 0 if none has.
+  /// For each of model.materials, over the nodes that have it; all 0 if none has.
   std::vector<Eq2Estimate> materials;
   std::vector<double> young;    ///< of each node [Pa] N
   std::vector<double> density;  ///< of each node [kg/m3] N
 };
 
-/// An upper bound, as the nodes need not move affinely; stretch_test measures. Springs across a
-/// joint belong half to the material of each end, so that they blur what is told of either.
+/// Moduli by eq. 2: upper bounds, as nodes need not move affinely (stretch_test measures). Springs
+/// across an interface count half for the material of each end, which blurs the estimates of both.
 ModelEstimate estimate(const MassSpringModel& model);
 
 // Measured from solved loads, by material (measured_moduli.cpp).
 
-/// Moduli that one material of a model shows.
+/// Effective moduli of one material of a model.
 struct MaterialModuli {
   std::uint32_t material = 0;  ///< number in the model's list
   double young = 0;            ///< E [Pa]
@@ -48,50 +48,48 @@ struct MaterialModuli {
   double volume = 0;           ///< of its nodes [m3]
 };
 
-/// E and nu of each material from how the model gives way to loads: the isotropic law nearest to
-/// the volume averages of stress (virial of the springs, one between two materials half to each)
-/// and strain (of each node from its springs within the material), every solution of the same
-/// weight. Solutions that strain a material to and fro (bends, twists) have averages near zero and
-/// are left out for it.
+/// E and nu of each material, fitted to static solutions (docs/method.md, eqs. 9 and 10): the
+/// isotropic law closest to the volume averages of stress (virial of the springs; one between two
+/// materials counts half for each) and strain (of each node from its springs within the material).
+/// All solutions have the same weight. Averages near zero (bends, twists) are left out.
 ///
-/// Within 1 % for one material on a lattice; within some percent where much of a material lies at
-/// its border with another, whose strain its nodes there share.
+/// The error is below 1 % for one material on a lattice, and some percent where much of a material
+/// lies at an interface, whose nodes have springs of both materials.
 ///
-/// Materials that this tells nothing of are not in the list: no node, most of the volume in nodes
-/// whose springs within the material lie in a plane, or no solution that strains it.
-/// Throws InputError for displacements of another size than N.
+/// A material is omitted if it has no nodes, if most of its volume is in nodes whose springs within
+/// the material are coplanar, or if no solution strains it. Throws InputError for displacements of
+/// a size other than N.
 std::vector<MaterialModuli> measured_moduli(const MassSpringModel& model,
                                             const std::vector<StaticSolution>& solutions);
 
 // Measured by pulling the surface of a body of any shape (surface_stretch.cpp).
 
-/// What a body of any shape shows when its surface is pulled as in uniform stress.
+/// Effective moduli of a body of any shape.
 struct SurfaceStretchResult {
   double young = 0;    ///< mean over x, y, z [Pa]
   double poisson = 0;  ///< mean over the six pairs of axes
 };
 
-/// A stretch test for any shape: under surface tractions sigma n a body of one material is in
-/// uniform stress sigma wherever its surface runs, so that the work of the tractions tells E and nu
-/// (as the virial gives the mean stress; Nemat-Nasser & Hori 1999, sect. 2). `surface` holds for
-/// each node the sum of outward normal times area [m2] of the surface it stands for. Three pulls,
-/// along x, y and z, each solved by conjugate gradients with no node held. For a model of several
-/// materials the result is a mean without a target to compare with.
+/// A stretch test for any shape: under surface tractions sigma n, a body of one material is in
+/// uniform stress sigma whatever its shape (Nemat-Nasser & Hori 1999, sect. 2), and the mean strain
+/// gives E and nu. `surface`: for each node the sum of outward normal times area [m2] of its share
+/// of the surface. Three loads, along x, y and z, on the free body, solved by conjugate gradients.
+/// For a model of several materials the result is a mean without a reference value.
 ///
-/// Throws InputError: other than one area a node, areas that do not close the surface, a model that
-/// is not solid (the iteration does not converge).
+/// Throws InputError for a number of areas other than N, areas that do not close the surface, and a
+/// model that is not solid (the iteration does not converge).
 SurfaceStretchResult surface_stretch(const MassSpringModel& model,
                                      const std::vector<Vec3>& surface);
 
 // Measured on a network without a surface (periodic.cpp).
 
-/// A network of springs that repeats itself along x, y and z: N nodes and S springs of one box. It
-/// has no surface, so it shows what a material made of such springs does.
+/// A network of springs that repeats periodically along x, y and z: N nodes and S springs in one
+/// box. Without a surface, it shows the moduli of the bulk material.
 struct PeriodicNetwork {
   Vec3 box = Vec3::Ones();          ///< edges [m]
   std::vector<Vec3> rest;           ///< positions [m] N
   std::vector<std::uint32_t> a, b;  ///< ends S
-  std::vector<Vec3> span;           ///< from a to the image of b that is meant [m] S
+  std::vector<Vec3> span;           ///< from a to the joined image of b [m] S
   std::vector<double> stiffness;    ///< k [N/m] S
 };
 
@@ -99,12 +97,13 @@ struct PeriodicNetwork {
 struct PeriodicModuli {
   double young = 0;      ///< E [Pa]
   double poisson = 0;    ///< nu
-  double eq2_young = 0;  ///< E by eq. 2 of the paper, if all nodes moved affinely [Pa]
+  double eq2_young = 0;  ///< E by eq. 2, for affine motion of all nodes [Pa]
 };
 
-/// The six strains of the box, each with the nodes relaxed to equilibrium (conjugate gradients);
-/// from the 6 x 6 stiffness the isotropic averages of Voigt (1889). Throws InputError for arrays
-/// that do not fit each other, and should the iteration not converge.
+/// Moduli of a periodic network. For each of the six strains of the box the nodes are relaxed to
+/// equilibrium by conjugate gradients; the 6 x 6 stiffness gives the isotropic averages of Voigt
+/// (1889). Throws InputError for arrays of inconsistent sizes, and if the iteration does not
+/// converge.
 PeriodicModuli periodic_stretch(const PeriodicNetwork& network);
 
 }  // namespace springlod::elastic

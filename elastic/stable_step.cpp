@@ -15,17 +15,17 @@
 namespace springlod::elastic {
 namespace {
 
-/// Below this many unknowns a dense eigenvalue solver is quicker than Lanczos, and certain.
+/// Up to this many unknowns a dense eigenvalue solver is faster than Lanczos and always converges.
 constexpr Eigen::Index kDenseUnknowns = 120;
-/// Size of the Krylov space. The top of a lattice's spectrum is dense; still, on 100k nodes larger
-/// spaces cost more in orthogonalising than they save in products (16: 1.3 s, 40: 2.9 s).
+/// Size of the Krylov space. The upper end of a lattice's spectrum is dense; still, on 100k nodes
+/// larger spaces cost more in orthogonalization than they save in products (16: 1.3 s, 40: 2.9 s).
 constexpr Eigen::Index kKrylovVectors = 16;
 constexpr Eigen::Index kMaxRestarts = 200;
-/// Residual over eigenvalue at which Lanczos stops. The residual is added to the result, so this is
-/// also how far (half of it, for the frequency) the result may lie above the truth.
+/// Residual / eigenvalue at which Lanczos stops. The residual is added to the result, so the
+/// eigenvalue is at most this much too large, the frequency half as much.
 constexpr double kResidualTolerance = 1e-4;
 
-/// x -> (M^-1/2 K M^-1/2 + G/M) x, the form in which Spectra wants an operator.
+/// The operator x -> (M^-1/2 K M^-1/2 + G/M) x in the form that Spectra needs.
 class MassWeightedStiffness {
  public:
   using Scalar = double;
@@ -117,7 +117,7 @@ std::vector<Mat3> node_stiffness_at(const MassSpringModel& model, const std::vec
   return sum_at_nodes(model, [&](std::uint32_t s) -> Mat3 {
     const Vec3 along = x[model.b[s]] - x[model.a[s]];
     const double length = along.norm();
-    if (!(length > 0)) return Mat3::Zero();  // no direction
+    if (!(length > 0)) return Mat3::Zero();  // the direction is undefined
     const Mat3 lengthwise = along * along.transpose() / (length * length);
     const double across = std::max(0.0, 1 - model.rest_length[s] / length);
     return model.stiffness[s] * (lengthwise + across * (Mat3::Identity() - lengthwise));

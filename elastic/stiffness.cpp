@@ -17,7 +17,7 @@ struct Block {
   Mat3 value;
 };
 
-/// The blocks of node j's columns, by rising row.
+/// The 3 x 3 blocks in the columns of node j, by rising row.
 void fill_column(const MassSpringModel& model, const SpringRows& rows, std::uint32_t j,
                  std::vector<Block>& column) {
   column.clear();

@@ -9,30 +9,31 @@
 #include <Eigen/SparseCholesky>
 
 #include "base/error.hpp"
-#include "elastic/rigid_pieces.hpp"
+#include "elastic/rigid_clusters.hpp"
 #include "elastic/solver/random_block.hpp"
 #include "model/anchors.hpp"
 
 namespace springlod::elastic {
 namespace {
 
-/// Eigenvalues of the stiffness of unit springs below this are zero: far above rounding (1e-15),
-/// far below the softest motion of a sound body (some 1e-7 for a beam of a hundred nodes).
+/// Eigenvalues of the stiffness of unit springs below this count as zero: far above rounding
+/// (1e-15), far below the softest mode of a beam of a hundred nodes (some 1e-7).
 constexpr double kZero = 1e-10;
-/// Random motions whose part in the mechanisms is looked at: the chance that all of them miss a
-/// node's motion is nil.
+/// Number of random motions that are projected on the mechanisms. The probability that all of them
+/// are orthogonal to the motion of a node is negligible.
 constexpr Eigen::Index kProbes = 8;
-/// A node takes part in a mechanism if it moves more than this part of the one that moves most.
+/// A node belongs to a mechanism if it moves more than this fraction of the largest motion.
 constexpr double kMoves = 1e-3;
 
-/// Nodes that move as one: a rigid piece with six ways to move, or a single node with three.
+/// Nodes that move as one rigid body: a rigid cluster with six degrees of freedom, or a single node
+/// with three.
 struct Body {
   std::vector<std::uint32_t> nodes;
   bool rigid = false;
-  Eigen::Index first_unknown = -1;  // -1: at rest
+  Eigen::Index first_unknown = -1;  // -1: the body is at rest
   Vec3 centre = Vec3::Zero();
   Mat3 axes = Mat3::Identity();  // of rotation
-  Vec3 swing = Vec3::Ones();     // sqrt(sum |axis x r|^2) for each axis
+  Vec3 arm = Vec3::Ones();       // sqrt(sum |axis x r|^2) for each axis
   Eigen::Index unknowns() const { return rigid ? 6 : 3; }
 };
 
@@ -47,24 +48,24 @@ void measure(Body& body, const MassSpringModel& model) {
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(inertia);
   body.axes = eigen.eigenvectors();
-  body.swing = eigen.eigenvalues().cwiseSqrt();
+  body.arm = eigen.eigenvalues().cwiseSqrt();
 }
 
-/// Displacement of node i for each unknown of its body. The columns over all nodes are orthonormal,
-/// so eigenvalues lie between those of the whole model.
+/// Displacement of a node for each unknown of its body. Over all nodes the columns are orthonormal,
+/// so the eigenvalues lie between those of the whole model.
 Eigen::Matrix3Xd motions(const Body& body, const Vec3& rest) {
   if (!body.rigid) return Mat3::Identity();
   Eigen::Matrix3Xd columns(3, 6);
   columns.leftCols<3>() = Mat3::Identity() / std::sqrt(static_cast<double>(body.nodes.size()));
   for (int d = 0; d < 3; ++d) {
     const Vec3 axis = body.axes.col(d);
-    columns.col(3 + d) = axis.cross(rest - body.centre) / body.swing[d];
+    columns.col(3 + d) = axis.cross(rest - body.centre) / body.arm[d];
   }
   return columns;
 }
 
-/// One connected part, its bodies and the stiffness of unit springs between them.
-struct Part {
+/// A connected component, its bodies and the stiffness of unit springs between them.
+struct Component {
   std::vector<std::uint32_t> nodes;
   std::vector<std::uint32_t> springs;
   std::vector<Body> bodies;
@@ -78,55 +79,55 @@ class ZeroModes {
   ZeroModes(const MassSpringModel& model, const std::vector<std::uint32_t>& anchored)
       : model_(model), held_(anchor_flags(model, anchored)), body_of_(model.node_count(), 0) {}
 
-  std::vector<PartModes> run() {
-    std::vector<PartModes> all;
-    for (Part& part : parts()) all.push_back(solve(part));
+  std::vector<ComponentModes> run() {
+    std::vector<ComponentModes> all;
+    for (Component& component : components()) all.push_back(solve(component));
     return all;
   }
 
  private:
-  std::vector<Part> parts() {
-    const Components components = connected_components(model_);
-    const RigidPieces pieces = rigid_pieces(model_);
-    std::vector<Part> parts(components.count);
-    constexpr std::uint32_t kNone = kNoPiece;
-    std::vector<std::uint32_t> body_of_piece(pieces.count, kNone);
+  std::vector<Component> components() {
+    const Components connected = connected_components(model_);
+    const RigidClusters clusters = rigid_clusters(model_);
+    std::vector<Component> components(connected.count);
+    constexpr std::uint32_t kNone = kNoCluster;
+    std::vector<std::uint32_t> body_of_cluster(clusters.count, kNone);
     for (std::uint32_t i = 0; i < model_.node_count(); ++i) {
-      Part& part = parts[components.of_node[i]];
-      part.nodes.push_back(i);
-      part.anchored += held_[i];
-      const std::uint32_t piece = pieces.of_node[i];
-      std::uint32_t body = piece == kNoPiece ? kNone : body_of_piece[piece];
+      Component& component = components[connected.of_node[i]];
+      component.nodes.push_back(i);
+      component.anchored += held_[i];
+      const std::uint32_t cluster = clusters.of_node[i];
+      std::uint32_t body = cluster == kNoCluster ? kNone : body_of_cluster[cluster];
       if (body == kNone) {
-        body = static_cast<std::uint32_t>(part.bodies.size());
-        part.bodies.emplace_back().rigid = piece != kNoPiece;
-        if (piece != kNoPiece) body_of_piece[piece] = body;
+        body = static_cast<std::uint32_t>(component.bodies.size());
+        component.bodies.emplace_back().rigid = cluster != kNoCluster;
+        if (cluster != kNoCluster) body_of_cluster[cluster] = body;
       }
       body_of_[i] = body;
-      part.bodies[body].nodes.push_back(i);
+      component.bodies[body].nodes.push_back(i);
     }
     for (std::uint32_t s = 0; s < model_.spring_count(); ++s)
-      parts[components.of_node[model_.a[s]]].springs.push_back(s);
-    for (Part& part : parts) number_unknowns(part);
-    return parts;
+      components[connected.of_node[model_.a[s]]].springs.push_back(s);
+    for (Component& component : components) number_unknowns(component);
+    return components;
   }
 
-  void number_unknowns(Part& part) const {
-    const auto largest =
-        std::max_element(part.bodies.begin(), part.bodies.end(), [](const Body& p, const Body& q) {
+  void number_unknowns(Component& component) const {
+    const auto largest = std::max_element(
+        component.bodies.begin(), component.bodies.end(), [](const Body& p, const Body& q) {
           return std::pair(p.rigid, p.nodes.size()) < std::pair(q.rigid, q.nodes.size());
         });
-    // Where nodes are anchored, the largest piece may still turn about them.
-    part.has_resting_body = largest->rigid && part.anchored == 0;
-    for (Body& body : part.bodies) {
+    // In an anchored component the largest cluster may still rotate about the anchors.
+    component.has_resting_body = largest->rigid && component.anchored == 0;
+    for (Body& body : component.bodies) {
       measure(body, model_);
-      if (part.has_resting_body && &body == &*largest) continue;
-      body.first_unknown = part.unknowns;
-      part.unknowns += body.unknowns();
+      if (component.has_resting_body && &body == &*largest) continue;
+      body.first_unknown = component.unknowns;
+      component.unknowns += body.unknowns();
     }
   }
 
-  /// Three unit springs, one an axis, from a node at `rest` to the ground.
+  /// Three unit springs, one along each axis, from a node at `rest` to the ground.
   static void add_ground(const Body& body, const Vec3& rest,
                          std::vector<Eigen::Triplet<double>>& entries) {
     const Eigen::Matrix3Xd columns = motions(body, rest);
@@ -137,17 +138,17 @@ class ZeroModes {
                              static_cast<int>(body.first_unknown + j), block(i, j));
   }
 
-  Eigen::SparseMatrix<double> stiffness(const Part& part) const {
+  Eigen::SparseMatrix<double> stiffness(const Component& component) const {
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<std::pair<Eigen::Index, double>> row;
-    for (const std::uint32_t s : part.springs) {
+    for (const std::uint32_t s : component.springs) {
       const std::uint32_t a = model_.a[s];
       const std::uint32_t b = model_.b[s];
       if (body_of_[a] == body_of_[b]) continue;
       row.clear();
       const Vec3 u = spring_direction(model_, s);
       for (const auto& [node, sign] : {std::pair(a, -1.0), std::pair(b, 1.0)}) {
-        const Body& body = part.bodies[body_of_[node]];
+        const Body& body = component.bodies[body_of_[node]];
         if (body.first_unknown < 0) continue;
         const Eigen::VectorXd along = motions(body, model_.rest[node]).transpose() * u;
         for (Eigen::Index d = 0; d < along.size(); ++d)
@@ -157,33 +158,33 @@ class ZeroModes {
         for (const auto& [j, y] : row)
           entries.emplace_back(static_cast<int>(i), static_cast<int>(j), x * y);
     }
-    for (const std::uint32_t i : part.nodes)
-      if (held_[i] != 0) add_ground(part.bodies[body_of_[i]], model_.rest[i], entries);
-    Eigen::SparseMatrix<double> matrix(part.unknowns, part.unknowns);
+    for (const std::uint32_t i : component.nodes)
+      if (held_[i] != 0) add_ground(component.bodies[body_of_[i]], model_.rest[i], entries);
+    Eigen::SparseMatrix<double> matrix(component.unknowns, component.unknowns);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
   }
 
-  /// Orthonormal rigid motions of a part all of whose bodies are single nodes.
-  Eigen::MatrixXd rigid_motions(const Part& part) const {
+  /// Orthonormal rigid motions of a component without rigid clusters.
+  Eigen::MatrixXd rigid_motions(const Component& component) const {
     Vec3 centre = Vec3::Zero();
-    for (const std::uint32_t i : part.nodes)
-      centre += model_.rest[i] / static_cast<double>(part.nodes.size());
+    for (const std::uint32_t i : component.nodes)
+      centre += model_.rest[i] / static_cast<double>(component.nodes.size());
     double size = 0;
-    for (const std::uint32_t i : part.nodes)
+    for (const std::uint32_t i : component.nodes)
       size = std::max(size, (model_.rest[i] - centre).norm());
     if (size == 0) size = 1;
-    Eigen::MatrixXd motion(part.unknowns, 6);
-    for (const std::uint32_t i : part.nodes) {
-      const Eigen::Index row = part.bodies[body_of_[i]].first_unknown;
+    Eigen::MatrixXd motion(component.unknowns, 6);
+    for (const std::uint32_t i : component.nodes) {
+      const Eigen::Index row = component.bodies[body_of_[i]].first_unknown;
       const Vec3 r = (model_.rest[i] - centre) / size;
       motion.block<3, 3>(row, 0) = Mat3::Identity();
       for (int d = 0; d < 3; ++d) motion.block<3, 1>(row, 3 + d) = Vec3::Unit(d).cross(r);
     }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(motion);
-    constexpr double kStraight = 1e-9;  // width over length at which nodes lie in a line
+    constexpr double kStraight = 1e-9;  // width / length at which nodes count as collinear
     qr.setThreshold(kStraight);
-    return qr.householderQ() * Eigen::MatrixXd::Identity(part.unknowns, qr.rank());
+    return qr.householderQ() * Eigen::MatrixXd::Identity(component.unknowns, qr.rank());
   }
 
   using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
@@ -193,7 +194,7 @@ class ZeroModes {
     if (stiffness.rows() == 0) return 0;
     Factor factor;
     factor.analyzePattern(stiffness);
-    // A pivot that vanishes exactly is bad luck, which another shift does not have.
+    // If a pivot is exactly zero, another shift avoids it.
     for (const double shift : {1.0, 1.37, 1.88, 2.57, 3.52, 4.83}) {
       factor.setShift(-shift * kZero);
       factor.factorize(stiffness);
@@ -205,7 +206,7 @@ class ZeroModes {
         "nodes do not coincide");
   }
 
-  /// Random motions with all but the zero modes, and of these the rigid ones, filtered out.
+  /// Random motions; all but the zero modes are filtered out, and of these the rigid motions.
   static Eigen::MatrixXd mechanism_motions(const Eigen::SparseMatrix<double>& stiffness,
                                            const Eigen::MatrixXd& rigid) {
     Eigen::MatrixXd motion = random_block(stiffness.rows(), kProbes, 1);
@@ -220,16 +221,17 @@ class ZeroModes {
     return motion;
   }
 
-  std::vector<std::uint32_t> moving_nodes(const Part& part, const Eigen::MatrixXd& motion) const {
+  std::vector<std::uint32_t> moving_nodes(const Component& component,
+                                          const Eigen::MatrixXd& motion) const {
     std::vector<std::pair<double, std::uint32_t>> moves;
     double most = 0;
-    for (const Body& body : part.bodies) {
+    for (const Body& body : component.bodies) {
       if (body.first_unknown < 0) continue;
       for (const std::uint32_t i : body.nodes) {
         const double move =
             (motions(body, model_.rest[i]) * motion.middleRows(body.first_unknown, body.unknowns()))
                 .norm();
-        moves.emplace_back(-move, i);  // sorts the farthest first, then by node
+        moves.emplace_back(-move, i);  // the largest first, then by node
         most = std::max(most, move);
       }
     }
@@ -240,36 +242,36 @@ class ZeroModes {
     return nodes;
   }
 
-  PartModes solve(const Part& part) const {
-    PartModes modes;
-    modes.first_node = part.nodes.front();
-    modes.node_count = static_cast<std::uint32_t>(part.nodes.size());
-    modes.anchored = part.anchored;
-    const Eigen::SparseMatrix<double> k = stiffness(part);
-    Eigen::MatrixXd rigid(part.unknowns, 0);
+  ComponentModes solve(const Component& component) const {
+    ComponentModes modes;
+    modes.first_node = component.nodes.front();
+    modes.node_count = static_cast<std::uint32_t>(component.nodes.size());
+    modes.anchored = component.anchored;
+    const Eigen::SparseMatrix<double> k = stiffness(component);
+    Eigen::MatrixXd rigid(component.unknowns, 0);
     modes.zero_modes = count_zeros(k);
-    if (part.anchored > 0) {
+    if (component.anchored > 0) {
       modes.expected = 0;
-    } else if (part.has_resting_body) {
+    } else if (component.has_resting_body) {
       modes.zero_modes += 6;  // those of the body at rest
     } else {
-      rigid = rigid_motions(part);
+      rigid = rigid_motions(component);
       modes.expected = static_cast<std::uint32_t>(rigid.cols());
     }
     if (modes.zero_modes > modes.expected)
-      modes.mechanism_nodes = moving_nodes(part, mechanism_motions(k, rigid));
+      modes.mechanism_nodes = moving_nodes(component, mechanism_motions(k, rigid));
     return modes;
   }
 
   const MassSpringModel& model_;
   std::vector<std::uint8_t> held_;      // 1 for anchored nodes
-  std::vector<std::uint32_t> body_of_;  // node -> body within its part
+  std::vector<std::uint32_t> body_of_;  // node -> body within its component
 };
 
 }  // namespace
 
-std::vector<PartModes> zero_modes(const MassSpringModel& model,
-                                  const std::vector<std::uint32_t>& anchored) {
+std::vector<ComponentModes> zero_modes(const MassSpringModel& model,
+                                       const std::vector<std::uint32_t>& anchored) {
   return ZeroModes(model, anchored).run();
 }
 

@@ -7,29 +7,29 @@
 
 namespace springlod::elastic {
 
-/// Motions of one connected part that no spring resists.
-struct PartModes {
-  std::uint32_t first_node = 0;  ///< lowest node of the part
+/// Zero modes of one connected component: the motions that no spring resists.
+struct ComponentModes {
+  std::uint32_t first_node = 0;  ///< lowest node of the component
   std::uint32_t node_count = 0;
-  std::uint32_t anchored = 0;  ///< how many of its nodes are held
+  std::uint32_t anchored = 0;  ///< number of its anchored nodes
   std::uint32_t zero_modes = 0;
-  /// What a sound part of this shape has: 6, a straight line of nodes 5, a single node 3; none if
-  /// it is anchored.
+  /// Rigid motions of a component of this shape: 6, for nodes in a straight line 5, for a single
+  /// node 3, for an anchored component 0.
   std::uint32_t expected = 6;
-  /// Nodes that take part in a mechanism (a zero mode that is no rigid motion; of an anchored part
-  /// any zero mode), worst first: those that move while the largest rigid piece of the part rests.
-  /// Where there is no such piece (no four nodes joined each to each), those that move when the
-  /// rigid motions are taken out.
+  /// Nodes that move in a mechanism, the largest motion first. A mechanism is a zero mode that is
+  /// not a rigid motion; in an anchored component every zero mode. The largest rigid cluster of the
+  /// component is at rest; without such a cluster (no four nodes connected each to each) the rigid
+  /// motions are projected out.
   std::vector<std::uint32_t> mechanism_nodes;
 };
 
-/// Counts the zero modes of each connected part, to first order about rest; they depend on where
-/// the springs run and not on how stiff they are. Pieces that are rigid beyond doubt are found
-/// first and move as one body each, which leaves few unknowns even of large models; the zero modes
-/// of the rest are counted by Sylvester's law of inertia and their motions found by inverse
-/// iteration. Anchored nodes are held by springs to the ground, as stiff as all others.
-/// Throws InputError for an anchored node that the model does not have.
-std::vector<PartModes> zero_modes(const MassSpringModel& model,
-                                  const std::vector<std::uint32_t>& anchored = {});
+/// Counts the zero modes of each connected component, in linear theory about rest. They depend on
+/// the geometry of the springs and not on their stiffnesses. Clusters that are rigid beyond doubt
+/// are found first, and each moves as one body; few unknowns remain even of large models. The zero
+/// modes of the remaining system are counted by Sylvester's law of inertia, and their motions are
+/// found by inverse iteration. Anchored nodes are held by springs to the ground, as stiff as
+/// the other springs. Throws InputError for an anchored node that the model does not have.
+std::vector<ComponentModes> zero_modes(const MassSpringModel& model,
+                                       const std::vector<std::uint32_t>& anchored = {});
 
 }  // namespace springlod::elastic

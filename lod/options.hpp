@@ -168,10 +168,10 @@ constexpr ChoiceTable<Choice<TargetKinds>> choices(TargetKinds) {
 }
 
 struct TargetOptions {
-  /// The loads are smooth_loads, piece_loads, and loads on patches and regions.
+  /// The loads are smooth_loads, region_loads, and loads on patches and regions.
   TargetKinds kinds = TargetKinds::both;
   std::uint32_t modes = 20;
-  double piece_weight = 0.3;  ///< of each of piece_loads, relative to a smooth load [1]
+  double piece_weight = 0.3;  ///< of each of region_loads, relative to a smooth load [1]
   /// Number of patch pairs on the surface, see patch_pairs; empty: see patch_count. Without them a
   /// fit increases the error of loads that are not fitted.
   std::optional<std::uint32_t> patches = {};

@@ -8,10 +8,10 @@
 
 namespace springlod::inline model {
 
-/// Anchored nodes are held where they are. Everything that takes them takes a list of their
-/// numbers, in any order; a number that comes twice counts once.
+/// Anchored nodes keep their positions. Functions take them as a list of node numbers, in any
+/// order; duplicates count once.
 
-/// 1 for each anchored node, N. Throws InputError for a node that the model does not have.
+/// Flags, N: 1 for an anchored node. Throws InputError for a node that the model does not have.
 std::vector<std::uint8_t> anchor_flags(const MassSpringModel& model,
                                        const std::vector<std::uint32_t>& anchored);
 

@@ -15,17 +15,18 @@
 namespace springlod::inline model {
 namespace {
 
-/// A point nearer to a node than this part of the candidates' reach lies on it.
+/// A point closer to a node than this fraction of the candidates' radius coincides with it.
 constexpr double kOnNode = 1e-9;
 /// A point may lie this many (weighted) standard deviations of the candidates outside before it is
-/// pulled back: ten lets a point one spacing outside a lattice through (it has 9 at most) and keeps
-/// the weights of nearly flat sets from exploding.
+/// projected back. With 10, a point one spacing outside a lattice is kept (it has at most 9), and
+/// the weights of nearly flat sets stay bounded.
 constexpr double kFarthestDeviations = 10;
-/// Variance below this part of the largest is rounding: the nodes do not span that direction.
+/// A variance below this fraction of the largest is rounding: the nodes do not span that direction.
 constexpr double kFlatVariance = 1e-12;
-/// Candidates thinner than this part of their width should be joined by one off their plane.
+/// If the candidates are thinner than this fraction of their width, one outside their plane is
+/// added.
 constexpr double kThin = 0.05;
-/// ... which must be this part of their width off it.
+/// Least distance of that one from the plane, as a fraction of the width.
 constexpr double kOffPlane = 0.2;
 
 struct Candidate {
@@ -50,16 +51,16 @@ std::vector<Candidate> by_distance(const Vec3& point, const MassSpringModel& mod
   return candidates;
 }
 
-/// Kernel of the distance over the reach of the candidates: infinite at 0, so that weights tend to
-/// the node's own as a point comes near it; gentle far out, so that a point outside does not hang
-/// on the outermost layer alone.
+/// Kernel of the distance over the candidates' radius. It is infinite at 0, so the weights tend to
+/// those of a node as the point approaches it. It decreases slowly at large distances, so a point
+/// outside depends on more than the outermost layer.
 double kernel(double distance2, double reach2) {
   const double rho2 = distance2 / reach2;
   return std::exp(-2 * rho2) / rho2;
 }
 
-/// Step g from the kernel-weighted centre to the point, in the metric of the variance: weights are
-/// phi_j (1 + (X_j - centre) . g).
+/// Step g from the kernel-weighted centre to the point, in the metric of the variance. The weights
+/// are phi_j (1 + (X_j - centre) . g).
 Vec3 metric_step(const Mat3& variance, const Vec3& offset) {
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(variance);
   Vec3 step = Vec3::Zero();
@@ -91,7 +92,7 @@ void append_weights(Binding& binding, const Vec3& point, const MassSpringModel& 
   double sum = 0;
   for (std::size_t j = 0; j < phi.size(); ++j)
     sum += phi[j] = kernel(candidates[j].distance2, reach2);
-  Vec3 centre = Vec3::Zero();  // relative to the point, which keeps the digits
+  Vec3 centre = Vec3::Zero();  // relative to the point, against cancellation
   for (std::size_t j = 0; j < phi.size(); ++j)
     centre += (phi[j] /= sum) * (model.rest[candidates[j].node] - point);
   Mat3 variance = Mat3::Zero();
@@ -109,8 +110,8 @@ void append_weights(Binding& binding, const Vec3& point, const MassSpringModel& 
   end_row(binding);
 }
 
-/// The first `count` candidates; where these lie in a plane or a line although later ones do not,
-/// the nearest of those replace the farthest of the first.
+/// The first `count` candidates. If these lie in a plane or a line and later ones do not, the
+/// nearest of the later ones replace the farthest of the first.
 std::vector<Candidate> choose(const std::vector<Candidate>& candidates, std::size_t count,
                               const MassSpringModel& model) {
   if (candidates.size() <= count) return candidates;
@@ -140,8 +141,7 @@ std::vector<Candidate> choose(const std::vector<Candidate>& candidates, std::siz
   return chosen;
 }
 
-/// Nodes up to two springs away from `centre`, itself included. `mark` holds N zeros and does so
-/// again afterwards.
+/// Nodes up to two springs away from `centre`, including it. `mark` holds N zeros before and after.
 std::vector<std::uint32_t> two_springs_around(std::uint32_t centre, const SpringRows& springs,
                                               std::vector<std::uint8_t>& mark) {
   std::vector<std::uint32_t> found{centre};
@@ -161,7 +161,7 @@ std::vector<std::uint32_t> two_springs_around(std::uint32_t centre, const Spring
   return found;
 }
 
-/// What nanoflann asks of a set of points.
+/// Interface to a set of points that nanoflann requires.
 struct NodeCloud {
   const std::vector<Vec3>& points;
   std::size_t kdtree_get_point_count() const { return points.size(); }
@@ -187,7 +187,7 @@ void validate(const Binding& binding, std::uint32_t node_count) {
           ? !binding.node.empty()
           : binding.start.front() != 0 || binding.start.back() != binding.node.size() ||
                 !std::is_sorted(binding.start.begin(), binding.start.end()))
-    throw InputError("binding: its rows do not cover its entries");
+    throw InputError("binding: start must rise from 0 to the number of entries");
   for (std::size_t e = 0; e < binding.node.size(); ++e) {
     if (binding.node[e] >= node_count)
       throw InputError(fmt::format("binding: entry {} names node {}, but there are only {}",
@@ -200,7 +200,8 @@ void validate(const Binding& binding, std::uint32_t node_count) {
 
 void append_bound_point(Binding& binding, const Vec3& point, const MassSpringModel& model,
                         const std::vector<std::uint32_t>& nodes) {
-  if (nodes.empty()) throw InputError("binding: a point was given no nodes to hang on");
+  if (nodes.empty())
+    throw InputError("binding: the point has no candidate nodes; give at least one");
   append_weights(binding, point, model, by_distance(point, model, nodes));
 }
 
@@ -238,7 +239,7 @@ Binding compose(const Binding& outer, const Binding& inner) {
     for (std::uint32_t e = outer.start[p]; e < outer.start[p + 1]; ++e) {
       const std::uint32_t q = outer.node[e];
       if (q >= inner.point_count())
-        throw InputError(fmt::format("binding: point {} hangs on point {}, of which there are {}",
+        throw InputError(fmt::format("binding: point {} refers to point {}, but there are only {}",
                                      script_number(p), script_number(q), inner.point_count()));
       for (std::uint32_t f = inner.start[q]; f < inner.start[q + 1]; ++f)
         row.emplace_back(inner.node[f], outer.weight[e] * inner.weight[f]);
@@ -258,7 +259,7 @@ Binding compose(const Binding& outer, const Binding& inner) {
   return composed;
 }
 
-std::vector<Vec3> carry(const Binding& binding, const std::vector<Vec3>& nodes) {
+std::vector<Vec3> interpolate(const Binding& binding, const std::vector<Vec3>& nodes) {
   std::vector<Vec3> points(binding.point_count(), Vec3::Zero());
   for (std::uint32_t p = 0; p < binding.point_count(); ++p)
     for (std::uint32_t e = binding.start[p]; e < binding.start[p + 1]; ++e)

@@ -8,12 +8,12 @@
 
 namespace springlod::inline model {
 
-/// A linear map from node positions (or velocities) to points: point p = sum over its entries of
-/// weight * node. Weights of a point add up to 1 and reproduce the point's rest position, so rigid
-/// and affine motions are carried exactly. (Where the nodes at hand lie in a plane, a line or a
-/// point, the rest position is that of the point's projection.) Compressed rows, P points.
+/// A linear map from node positions (or velocities) to P points, as compressed rows: a point is the
+/// sum of weight * node over the entries of its row. The weights of a point add up to 1 and
+/// reproduce its rest position, so rigid and affine motions are interpolated exactly. If the nodes
+/// of a row lie in a plane, a line or a point, they reproduce the projection of the rest position.
 struct Binding {
-  std::vector<std::uint32_t> start;  ///< P + 1
+  std::vector<std::uint32_t> start;  ///< P + 1; entries start[p] .. start[p+1]-1 belong to point p
   std::vector<std::uint32_t> node;
   std::vector<double> weight;
   std::uint32_t point_count() const {
@@ -21,36 +21,39 @@ struct Binding {
   }
 };
 
-/// Throws InputError unless the rows are well formed, the weights finite and the nodes below
+/// Throws InputError unless the rows are valid, the weights finite and the nodes below
 /// `node_count`.
 void validate(const Binding& binding, std::uint32_t node_count);
 
 struct BindOptions {
-  /// Nodes per point at most: 8 as in a cell of the lattice; 4 is the least for linear precision.
+  /// Maximum number of nodes per point: 8 as in a cell of the lattice; affine motions need at least
+  /// 4.
   std::uint32_t nodes_per_point = 8;
 };
 
-/// Binds points to the nearest node and the nearest of that node's neighbours up to two springs
-/// away, so that a point never hangs on a limb that is near but not joined. If those lie in a plane
-/// though the node has others off it, the farthest make room for such. Throws InputError for a
+/// Binds each point to its nearest node and the nearest of the neighbours up to two springs away. A
+/// point is so never bound to a limb that is close to it but not connected. If these nodes are
+/// coplanar and others nearby are not, the farthest are replaced by such. Throws InputError for a
 /// model without nodes or fewer than 4 nodes per point.
 Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& model,
                     const BindOptions& options = {});
 
-/// Moving-least-squares weights of first order (Lancaster & Salkauskas 1981) of one point over the
-/// candidate nodes `nodes` of `model`, appended as a new row, the nearest node first: the w that
-/// minimise sum w_j^2 / phi_j under sum w_j = 1 and sum w_j X_j = point, phi falling with distance.
-/// A point on a node gets that node alone. Weights stay tame: a point many times farther outside
-/// than the nodes are apart is pulled back towards them. The building block of `bind_points` and of
-/// the transfer between levels. Throws InputError for no candidates.
+/// Appends a row with the moving-least-squares weights of first order of one point (Lancaster &
+/// Salkauskas 1981; docs/method.md, eq. 26): the w that minimise sum w_j^2 / phi_j with sum w_j = 1
+/// and sum w_j X_j = point, over the candidate nodes `nodes` of `model`. The kernel phi decreases
+/// with the distance. The nearest node stands first; a point at a node depends on that node alone.
+///
+/// The weights are bounded: a point far outside the nodes, compared with their distances, is
+/// projected back towards them. `bind_points` and the transfer between levels are built on it.
+/// Throws InputError for an empty list.
 void append_bound_point(Binding& binding, const Vec3& point, const MassSpringModel& model,
                         const std::vector<std::uint32_t>& nodes);
 
-/// The map `outer` after `inner`: outer binds to points that inner binds to nodes. Entries of a
-/// row in rising order of node.
+/// The map `outer` after `inner`: `outer` maps the points of `inner`, which maps nodes. The entries
+/// of a row are in rising order of node.
 Binding compose(const Binding& outer, const Binding& inner);
 
-/// Positions (or velocities) of the points, carried by the nodes.
-std::vector<Vec3> carry(const Binding& binding, const std::vector<Vec3>& nodes);
+/// Positions (or velocities) of the P points, interpolated from N node values.
+std::vector<Vec3> interpolate(const Binding& binding, const std::vector<Vec3>& nodes);
 
 }  // namespace springlod::inline model

@@ -14,7 +14,7 @@ namespace {
 void check_finite(std::initializer_list<double> numbers, const std::string& owner) {
   for (const double number : numbers)
     if (!std::isfinite(number))
-      throw InputError(fmt::format("certificate: {} is {}, not finite", owner, number));
+      throw InputError(fmt::format("certificate: {} is {}; it must be finite", owner, number));
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void validate(const Certificate& c) {
     check_finite({f.level, f.base, f.mac}, owner);
     if (f.base <= 0)
       throw InputError(
-          fmt::format("certificate: {} of the base is {} Hz, not above 0; leave out "
+          fmt::format("certificate: {} of the base is {} Hz; it must be above 0; leave out "
                       "the zero modes",
                       owner, f.base));
   }
@@ -37,7 +37,7 @@ void validate(const Certificate& c) {
     check_finite({load.compliance, load.error}, fmt::format("a number of load {}", load.name));
   check_finite({c.mass_error, c.center_shift, c.second_moment_error}, "an error of the mass");
   check_finite({c.highest_frequency, c.base_highest_frequency}, "a highest frequency");
-  check_finite({c.stable_step, c.base_stable_step}, "a stable step");
+  check_finite({c.stable_step, c.base_stable_step}, "a stable time step");
   check_finite({c.cost, c.base_cost}, "a cost");
   check_finite({c.tolerance}, "the tolerance");
 }

@@ -6,10 +6,12 @@
 
 namespace springlod::inline model {
 
-/// What a level is measured to be beside its base: kept with it in the asset. Relative errors are
-/// level over base minus 1, all at rest and to first order.
+/// Measured properties of a level beside those of its base, stored with it in the asset
+/// (docs/method.md, section 6). Relative errors are level / base - 1. All values are linear, about
+/// rest.
 struct Certificate {
-  /// Averages of stress over averages of strain within one material, under the smooth loads.
+  /// Moduli of a material from its average stress and strain under the smooth loads
+  /// (docs/method.md, eqs. 9 and 10).
   struct Moduli {
     std::string material;
     double young = 0, base_young = 0;      ///< [Pa]
@@ -17,15 +19,15 @@ struct Certificate {
   };
   struct Frequency {
     double level = 0, base = 0;  ///< [Hz]
-    /// Modal assurance criterion 0..1: how much of the level's mode lies in those of the base that
-    /// have this frequency, within 5 %.
+    /// Modal assurance criterion 0..1 (docs/method.md, eq. 49): the fraction of the level's mode
+    /// within the base's modes of this frequency, plus or minus 5 %.
     double mac = 0;
   };
   struct Load {
     std::string name;
-    bool held_out = false;  ///< of a kind that calibration is never fitted to
-    double compliance = 0;  ///< of the base [J]
-    double error = 0;       ///< of the compliance [1]
+    bool held_out = false;  ///< no calibration is fitted to loads of this kind
+    double compliance = 0;  ///< of the base, f.u [J]
+    double error = 0;       ///< relative error of the compliance [1]
   };
 
   std::vector<Moduli> moduli;
@@ -33,26 +35,27 @@ struct Certificate {
   std::vector<Load> loads;
   double mass_error = 0;           ///< [1]
   double center_shift = 0;         ///< of the centre of mass, over the radius of gyration [1]
-  double second_moment_error = 0;  ///< largest of the tensor's entries, over its largest [1]
+  double second_moment_error = 0;  ///< largest entry of the tensor's error / largest entry [1]
   double highest_frequency = 0, base_highest_frequency = 0;  ///< omega_max [rad/s]
   double stable_step = 0, base_stable_step = 0;              ///< [s]
-  /// Springs over the stable step: what a simulated second takes [1/s].
+  /// Number of springs / stable time step: the work for a simulated second [1/s].
   double cost = 0, base_cost = 0;
   std::uint32_t zero_modes = 0, expected_zero_modes = 0;
-  /// Mean error of the ten lowest frequencies that was asked for [1].
+  /// Requested bound of the mean error of the ten lowest frequencies [1].
   double tolerance = 0;
-  /// What of it was not reached, in words; empty: the level is what was asked for.
-  std::vector<std::string> misses;
+  /// Descriptions of the targets outside tolerance; empty: all are within tolerance.
+  std::vector<std::string> unmet;
 };
 
-/// Throws InputError for a number that is not finite, or a frequency of the base that is not above
-/// 0 (errors are relative to it).
+/// Throws InputError for a value that is not finite, and for a frequency of the base that is not
+/// above 0 (errors are relative to it).
 void validate(const Certificate& certificate);
 
-/// Mean |error| of the frequencies first..last-1, counted from 0; of those there are.
+/// Mean |error| of the frequencies first .. last-1, counted from 0; missing frequencies are
+/// skipped.
 double mean_frequency_error(const Certificate& certificate, std::uint32_t first,
                             std::uint32_t last);
-/// Mean |error| of the loads that were, or were not, held out.
+/// Mean |error| of the loads that were, or were not, held out of the calibration.
 double mean_load_error(const Certificate& certificate, bool held_out);
 
 }  // namespace springlod::inline model

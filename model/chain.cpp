@@ -18,18 +18,19 @@ Groups identity_groups(std::uint32_t node_count) {
 Groups compose(const Groups& finer, const Groups& coarser) {
   if (coarser.of.size() != finer.count)
     throw InputError(
-        fmt::format("groups: the finer map has {} groups, the coarser one starts from {}",
+        fmt::format("groups: the finer map has {} groups, but the coarser map has {} entries",
                     finer.count, coarser.of.size()));
   Groups composed{std::vector<std::uint32_t>(finer.of.size()), coarser.count};
   for (std::size_t i = 0; i < finer.of.size(); ++i) composed.of[i] = coarser.of[finer.of[i]];
   return composed;
 }
 
-std::vector<std::uint32_t> carried(const Groups& groups, const std::vector<std::uint32_t>& nodes) {
+std::vector<std::uint32_t> mapped_nodes(const Groups& groups,
+                                        const std::vector<std::uint32_t>& nodes) {
   std::vector<bool> holds(groups.count, false);
   for (const std::uint32_t node : nodes) {
     if (node >= groups.of.size())
-      throw InputError(fmt::format("groups: there is no node {} among the {} that were grouped",
+      throw InputError(fmt::format("groups: there is no node {}; the map has {} nodes",
                                    script_number(node), groups.of.size()));
     holds[groups.of[node]] = true;
   }
@@ -73,14 +74,16 @@ void validate(const LodAsset& asset) {
       throw InputError(fmt::format("level {}: {}", n, e.what()));
     }
     if (level.of_base.of.size() != base || level.of_base.count != level.model.node_count())
-      throw InputError(fmt::format("level {}: its map must go from {} base nodes to its {} nodes",
-                                   n, base, level.model.node_count()));
+      throw InputError(
+          fmt::format("level {}: its map must have {} base nodes and {} groups, one for each node",
+                      n, base, level.model.node_count()));
   }
   validate(asset.surface);
   const std::uint32_t bound = asset.surface_of_base.point_count();
   if (bound != asset.surface.positions.size())
-    throw InputError(fmt::format("asset: the surface has {} vertices, of which {} are bound",
-                                 asset.surface.positions.size(), bound));
+    throw InputError(
+        fmt::format("asset: the surface has {} vertices, but {} of them are bound; bind all",
+                    asset.surface.positions.size(), bound));
   validate(asset.surface_of_base, base);
 }
 

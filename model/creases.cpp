@@ -64,7 +64,7 @@ std::vector<Edge> sorted_edges(const TriangleMesh& mesh) {
   return edges;
 }
 
-// Calls use(edges of one pair of vertices) for every pair.
+// Calls use(edges) for every pair of vertices, with all edges between them.
 template <typename Use>
 void for_each_edge(const std::vector<Edge>& edges, Use use) {
   for (std::size_t first = 0; first < edges.size();) {
@@ -77,7 +77,7 @@ void for_each_edge(const std::vector<Edge>& edges, Use use) {
   }
 }
 
-// Corners that share a smooth edge at their vertex are shaded together.
+// Corners that share a smooth edge at their vertex have one normal.
 DisjointSets smoothing_groups(const TriangleMesh& mesh, const std::vector<Edge>& edges,
                               const std::vector<std::uint32_t>& part, double crease_degrees) {
   const double least_cosine = std::cos(crease_degrees * std::numbers::pi / 180);

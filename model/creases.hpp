@@ -7,21 +7,21 @@
 
 namespace springlod::inline model {
 
-/// A surface as it is drawn: mesh vertices are split where the rest mesh has a crease or the part
-/// changes, so that rims stay crisp and the rest is smooth. Made once; positions then move.
+/// A surface split for smooth shading: mesh vertices are duplicated along creases of the rest mesh
+/// and between parts. Made once; positions then move.
 struct SplitSurface {
   std::vector<std::uint32_t> source;  ///< drawn vertex -> mesh vertex
-  std::vector<std::uint32_t> part;    ///< drawn vertex -> part
+  std::vector<std::uint32_t> part;    ///< drawn vertex -> mesh part
   std::vector<Triangle> triangles;    ///< of drawn vertices
-  /// Angle of each corner at rest [rad]: the weight of its triangle's normal. Taken once: a
-  /// deformation that changes it much has worse trouble than its shading.
+  /// Angle of each corner at rest [rad]: the weight of its triangle's normal. It is not updated
+  /// when the surface deforms.
   std::vector<std::array<float, 3>> corner_angle;
-  /// Every edge has two triangles and every part faces outwards: back faces need not be drawn.
+  /// Every edge has two triangles and every part faces outwards: back faces need no drawing.
   bool closed = false;
 };
 
-/// Edges bent by more than this stay sharp: above the facets of a coarse cylinder (30 deg for 12
-/// sides), below any rim that is meant.
+/// Edges with a larger angle between their faces are creases [deg]. A coarse cylinder of 12 sides
+/// has 30 deg; intended rims have more than 40.
 constexpr double kCreaseDegrees = 40;
 
 SplitSurface split_at_creases(const TriangleMesh& mesh, double crease_degrees = kCreaseDegrees);

@@ -44,12 +44,11 @@ void validate_springs(const MassSpringModel& m) {
       throw InputError(fmt::format("model: spring {} ({} - {}): {}", script_number(s),
                                    script_number(m.a[s]), script_number(m.b[s]), rule));
     };
-    if (m.b[s] >= m.node_count()) fail("it names a node that is not there");
-    if (m.a[s] >= m.b[s]) fail("its nodes must be two different ones, the lower first");
+    if (m.b[s] >= m.node_count()) fail("it refers to a node that does not exist");
+    if (m.a[s] >= m.b[s]) fail("its nodes must differ, the lower one first");
     if (s > 0 && (m.a[s - 1] > m.a[s] || (m.a[s - 1] == m.a[s] && m.b[s - 1] >= m.b[s])))
       fail("springs must be sorted by their nodes, no pair twice");
-    if (m.rest[m.a[s]] == m.rest[m.b[s]])
-      fail("its nodes lie at the same place; move or merge them");
+    if (m.rest[m.a[s]] == m.rest[m.b[s]]) fail("its nodes coincide; move or merge them");
     if (!(m.rest_length[s] > 0) || !std::isfinite(m.rest_length[s]))
       fail("its rest length must be above 0");
     if (!(m.stiffness[s] > 0) || !std::isfinite(m.stiffness[s]))

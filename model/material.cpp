@@ -25,7 +25,7 @@ void validate(const Material& material) {
 }
 
 Colour palette_colour(std::size_t index) {
-  // Okabe & Ito's palette: told apart by colour-blind readers too.
+  // Okabe & Ito's palette, which colour-blind readers can distinguish too.
   static constexpr std::array<Colour, 8> kPalette{{{0.90F, 0.62F, 0.00F},
                                                    {0.34F, 0.71F, 0.91F},
                                                    {0.00F, 0.62F, 0.45F},

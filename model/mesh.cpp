@@ -12,7 +12,7 @@ Box3 bounds(const TriangleMesh& mesh) {
 
 double signed_volume(const TriangleMesh& mesh, const MeshPart& part) {
   if (part.triangle_count == 0) return 0;
-  // Taken about a vertex of the part: far from the origin the terms would cancel.
+  // Relative to a vertex of the part: far from the origin the terms would cancel.
   const Vec3 o = mesh.positions[mesh.triangles[part.first_triangle][0]];
   double six_volumes = 0;
   for (std::uint32_t t = 0; t < part.triangle_count; ++t) {
@@ -39,8 +39,8 @@ void validate(const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t v : mesh.triangles[t])
       if (v >= mesh.positions.size())
-        throw InputError(fmt::format("mesh: triangle {} names vertex {}, but there are only {}", t,
-                                     v, mesh.positions.size()));
+        throw InputError(fmt::format("mesh: triangle {} refers to vertex {}, but there are only {}",
+                                     t, v, mesh.positions.size()));
   std::size_t next = 0;
   for (const MeshPart& part : mesh.parts) {
     if (part.first_triangle != next)

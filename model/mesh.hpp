@@ -11,7 +11,7 @@ namespace springlod::inline model {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A run of triangles that came from one named object of the file.
+/// A mesh part: the consecutive triangles of one named object and material of the file.
 struct MeshPart {
   std::string name;      ///< object name in the file; "part_3" if it had none
   std::string material;  ///< material name in the file; may be empty
@@ -19,7 +19,7 @@ struct MeshPart {
   std::uint32_t triangle_count = 0;
 };
 
-/// Triangles in metres, z up, counter-clockwise seen from outside. Parts cover all triangles, in
+/// Triangles in metres, z up, counter-clockwise seen from outside. The parts cover all triangles in
 /// order, without overlap.
 struct TriangleMesh {
   std::vector<Vec3> positions;      ///< [m]
@@ -28,11 +28,11 @@ struct TriangleMesh {
 };
 
 Box3 bounds(const TriangleMesh& mesh);
-/// Volume enclosed by one part by the divergence theorem [m3]; negative if it is inside out.
+/// Volume enclosed by one part, by the divergence theorem [m3]; negative if the part is inside out.
 double signed_volume(const TriangleMesh& mesh, const MeshPart& part);
 double surface_area(const TriangleMesh& mesh);
 
-/// Throws InputError on an index out of range, a coordinate that is not finite, or parts that do
+/// Throws InputError for an index out of range, a coordinate that is not finite, and parts that do
 /// not cover the triangles.
 void validate(const TriangleMesh& mesh);
 

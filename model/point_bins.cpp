@@ -7,7 +7,7 @@
 namespace springlod::inline model {
 namespace {
 
-// Bodies that fill little of their box get larger bins rather than a table of empty ones.
+// Limits the number of bins: points that fill little of their box get larger bins.
 constexpr double kMostBinsPerPoint = 16;
 constexpr double kFewBins = 4096;
 
@@ -91,7 +91,7 @@ PointBins::Near PointBins::nearest(const Vec3& place) const {
       best_squared = squared;
     });
   };
-  // Shells of bins around the place; what lies beyond shell n is at least n bins away.
+  // Searches shells of bins around the place. All points beyond shell n are at least n bins away.
   for (int shell = 0; shell <= last; ++shell) {
     for (int z = -shell; z <= shell; ++z)
       for (int y = -shell; y <= shell; ++y) {

@@ -11,26 +11,27 @@
 
 namespace springlod::inline model {
 
-/// Points sorted into the bins of a box, to find those near a place. Refers to the points, which
-/// must outlive it and lie in the box. A periodic box repeats itself along every axis; offsets are
-/// then those of the nearest image.
+/// Points sorted into the bins of a box, for neighbour searches. Refers to the points, which must
+/// outlive it and lie in the box. A periodic box repeats along every axis; offsets are then those
+/// of the nearest image.
 class PointBins {
  public:
   static constexpr auto kNoPoint = std::numeric_limits<std::uint32_t>::max();
   enum class Edges { closed, periodic };
-  /// `bin` is the edge of a bin aimed at [m]: about the distance of neighbouring points is best.
+  /// `bin` is the intended edge of a bin [m]; the distance between neighbouring points is a good
+  /// value.
   PointBins(const std::vector<Vec3>& points, const Box3& box, double bin,
             Edges edges = Edges::closed);
 
   struct Near {
     std::uint32_t point = kNoPoint;  ///< kNoPoint if there are none
-    Vec3 offset = Vec3::Zero();      ///< from the point to the place asked for [m]
+    Vec3 offset = Vec3::Zero();      ///< place - point [m]
   };
-  /// Of points equally near the lower number counts.
+  /// The nearest point; of equally near points the lowest number.
   Near nearest(const Vec3& place) const;
 
-  /// Calls visit(point, offset from `place` to the point) for every point within `radius`; in a
-  /// periodic box `radius` must be below half its edges.
+  /// Calls visit(point, offset) for every point within `radius`; the offset runs from `place` to
+  /// the point. In a periodic box `radius` must be below half its edges.
   template <class Visit>
   void within(const Vec3& place, double radius, const Visit& visit) const {
     const std::array<int, 3> reach{steps(0, radius), steps(1, radius), steps(2, radius)};

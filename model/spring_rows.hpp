@@ -10,9 +10,10 @@
 
 namespace springlod::inline model {
 
-/// The springs of each node, by rising neighbour. A node's springs to higher nodes already stand
-/// side by side in the model, which is sorted by (a, b): only those to lower nodes are listed,
-/// half the memory of a full adjacency. Refers to the ends of the springs, which must outlive it.
+/// The springs of each node in rising order of neighbour, in half the memory of a full adjacency:
+/// the model is sorted by (a, b), so the springs from a node to higher nodes are consecutive
+/// already and only those to lower nodes are listed. Refers to the ends of the springs, which must
+/// outlive it.
 class SpringRows {
  public:
   explicit SpringRows(const MassSpringModel& model)
@@ -48,8 +49,8 @@ class SpringRows {
                               std::max(i, j));
   }
 
-  /// Who goes through nodes in no order waits for memory at each, unless it is asked for ahead:
-  /// `prefetch_row` some visits before, `prefetch_start` some visits before that.
+  /// Prefetching, for loops that visit nodes in random order: call `prefetch_row` some visits
+  /// before a node, and `prefetch_start` some visits before that.
   void prefetch_start(std::uint32_t node) const { prefetch(&start_[node]); }
   void prefetch_row(std::uint32_t node) const {
     const Start& start = start_[node];

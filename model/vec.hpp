@@ -13,7 +13,7 @@ using Mat3 = Eigen::Matrix3d;
 /// Axis-aligned box; default construction makes the empty box.
 using Box3 = Eigen::AlignedBox3d;
 
-/// The smallest box that holds the points.
+/// The bounding box of the points.
 inline Box3 bounds(const std::vector<Vec3>& points) {
   Box3 box;
   for (const Vec3& point : points) box.extend(point);

@@ -254,7 +254,7 @@ class PanelPlayer {
     nodes_ = positions_at(runs_.first.frames, t);
     body_.node_positions = &nodes_;
     if (body_.surface != nullptr) {
-      surface_ = carry(asset_.surface_of_base, positions_at(runs_.base_frames, t));
+      surface_ = interpolate(asset_.surface_of_base, positions_at(runs_.base_frames, t));
       body_.surface_positions = &surface_;
     }
     render::Panel panel = panel_;

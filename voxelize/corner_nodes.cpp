@@ -17,7 +17,7 @@ std::vector<CellIndex> all_corners(const std::vector<CellIndex>& cells) {
   std::vector<CellIndex> corners;
   corners.reserve(5 * cells.size());
   for (std::size_t n = 0; n < cells.size(); ++n) {
-    // The +x corners are the -x corners of the next cell of the row, if there is one.
+    // The +x corners are the -x corners of the next cell of the row, if it is filled.
     const CellIndex next_in_row{cells[n][0] + 1, cells[n][1], cells[n][2]};
     const bool row_goes_on = n + 1 < cells.size() && cells[n + 1] == next_in_row;
     for (unsigned c = 0; c < 8; ++c)
@@ -32,7 +32,7 @@ bool has(std::uint8_t mask, unsigned octant) {
   return (mask >> octant & 1U) != 0;
 }
 
-// Gives all octants of cluster `from` to cluster `to`.
+// Moves all octants of cluster `from` to cluster `to`.
 void join(std::array<std::uint8_t, 8>& of, std::uint8_t from, std::uint8_t to) {
   std::replace(of.begin(), of.end(), from, to);
 }
@@ -52,7 +52,7 @@ OctantClusters clusters_of(std::uint8_t mask) {
   };
   for (const unsigned face : {1U, 2U, 4U}) join_across(face);
   OctantClusters clusters;
-  // Joining keeps the lower label, so every cluster is named by its lowest octant.
+  // Joining keeps the lower label, so the label of a cluster is its lowest octant.
   for (unsigned o = 0; o < 8; ++o) {
     if (!has(mask, o)) continue;
     clusters.of[o] = label[o] == o ? clusters.count++ : clusters.of[label[o]];

@@ -6,9 +6,10 @@
 
 namespace springlod::voxelize {
 
-/// How deep the centre of each cell of `grid`, which voxelize() filled from `mesh`, lies under the
-/// surface of all solids together [m]: exact next to the surface, about 0.2 of a cell at most too
-/// large deep inside. Takes longer than all of voxelize(), so only those who need it ask.
+/// Depth [m] of the centre of each cell of `grid` under the common surface of all solids;
+/// voxelize() made the grid from `mesh`. Exact in cells next to the surface; far from it up to
+/// about 0.2 of a cell too large. It takes longer than voxelize(), so it is computed only on
+/// request.
 std::vector<float> measure_depth(const MaterialGrid& grid, const TriangleMesh& mesh);
 
 }  // namespace springlod::voxelize

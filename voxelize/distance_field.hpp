@@ -12,7 +12,7 @@ class DistanceField {
   openvdb::FloatGrid::Ptr grid;
 };
 
-/// Registers OpenVDB's types, once. Call it before anything else of OpenVDB.
+/// Registers OpenVDB's types once. Call it before any other function of OpenVDB.
 void start_openvdb();
 
 }  // namespace springlod::voxelize

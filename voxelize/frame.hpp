@@ -8,7 +8,7 @@
 
 namespace springlod::voxelize {
 
-/// A box of cells (0, 0, 0) .. size - 1 in space.
+/// A box of cells with the indices (0, 0, 0) .. size - 1.
 struct CellFrame {
   double cell = 0;             ///< [m]
   Vec3 origin = Vec3::Zero();  ///< low corner of cell (0, 0, 0) [m]
@@ -35,15 +35,15 @@ struct CellFrame {
   Vec3 center(const CellIndex& c) const {
     return origin + cell * Vec3(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5);
   }
-  /// Where a point lies, in cells, with the centre of cell (0, 0, 0) at 0.
+  /// Position of a point in units of cells; the centre of cell (0, 0, 0) is at 0.
   Vec3 to_index(const Vec3& point) const { return (point - origin) / cell - Vec3::Constant(0.5); }
 };
 
-/// Cells laid around the middle of a bounding box: along each axis the whole number of them that is
-/// nearest to its length, so that a box of n cells gives n cells and no face of the box runs
-/// through cell centres. Throws InputError: a flat or empty box, a cell that is no length
-/// or longer than twice the box, a box too far from the origin for its size, too many cells (says
-/// the smallest cell that does).
+/// A frame of cells centred on a bounding box. The number of cells along each axis is its length /
+/// cell, rounded, so a box of n cells has exactly n cells and no face of it passes through cell
+/// centres. Throws InputError: a flat or empty box, a cell that is not a length above 0 or is more
+/// than twice as long as the box, a box too far from the origin for its size, too many cells (the
+/// message has the smallest possible cell).
 CellFrame frame_around(const Box3& box, double cell);
 
 }  // namespace springlod::voxelize

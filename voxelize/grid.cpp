@@ -10,7 +10,7 @@
 namespace springlod::voxelize {
 namespace {
 
-// Neighbours and corners of a cell must be numbers of 32 bits too.
+// Neighbours and corners of a cell must have 32-bit indices too.
 constexpr std::int32_t kLargestIndex = 1 << 30;
 
 std::string text_of(const CellIndex& c) {
@@ -21,7 +21,7 @@ void validate_cell(const MaterialGrid& grid, std::size_t n) {
   const CellIndex& c = grid.cells[n];
   for (const std::int32_t i : c)
     if (i < -kLargestIndex || i > kLargestIndex)
-      throw InputError(fmt::format("grid: cell {} lies further than {} cells from the origin",
+      throw InputError(fmt::format("grid: cell {} lies more than {} cells from the origin",
                                    text_of(c), kLargestIndex));
   if (n > 0 && grid.cells[n - 1] == c)
     throw InputError(fmt::format("grid: cell {} occurs twice", text_of(c)));

@@ -8,7 +8,7 @@
 namespace springlod::voxelize {
 namespace {
 
-// A hinge at a node, or along the edge that leaves it in the positive direction `axis`.
+// A hinge at a node, or along the edge from it in the positive direction `axis`.
 struct Site {
   std::uint32_t node = 0;
   int axis = -1;  // -1: at the corner
@@ -57,7 +57,7 @@ CellIndex cell_in_octant(const CellIndex& node, unsigned octant) {
           node[2] - 1 + static_cast<std::int32_t>(octant >> 2U & 1U)};
 }
 
-// The empty cells that could give the contact a face.
+// The empty cells whose filling could connect the two sides by faces.
 std::vector<CellIndex> candidates(const CornerNodes& nodes, const Site& site) {
   std::vector<CellIndex> cells;
   const auto& around = nodes.around[site.node];
@@ -93,7 +93,7 @@ struct AddedCell {
   std::uint16_t material = 0;
 };
 
-// One cell for each hinge that no cell chosen before it already changes.
+// One cell for each hinge; hinges next to a cell chosen before are skipped.
 std::vector<AddedCell> choose_cells(const MaterialGrid& grid, const CornerNodes& nodes,
                                     const std::vector<Site>& sites) {
   const IndexLookup lookup(grid.cells);
@@ -160,7 +160,7 @@ std::vector<Hinge> find_hinges(const MaterialGrid& grid, const CornerNodes& node
 
 std::uint32_t fill_hinges(MaterialGrid& grid) {
   const std::size_t before = grid.cells.size();
-  // Every pass fills at least one cell inside the bounding box, so this ends.
+  // Every pass fills at least one cell inside the bounding box, so the loop ends.
   while (true) {
     const CornerNodes nodes = corner_nodes(grid.cells);
     const std::vector<Site> sites = find_sites(nodes);

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FBX counts in centimetres: its UnitScaleFactor says how many.
+// FBX units are multiples of a centimetre: UnitScaleFactor is the multiple.
 constexpr double kFbxUnit = 0.01;
 // More characters than any <unit> element has: bounds the search in a damaged file.
 constexpr std::size_t kLongTag = 1000;
@@ -56,8 +56,8 @@ std::string format_of(const fs::path& path) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const Format& format : kFormats)
     if (format.ending == ending) return std::string(format.name);
-  throw IoError(fmt::format("{} is no mesh file that springlod reads; it reads {}", path.string(),
-                            known_formats()));
+  throw IoError(fmt::format("{} is not a mesh file of a known format; springlod reads {}",
+                            path.string(), known_formats()));
 }
 
 // ---------------------------------------------------------------- units and axes
@@ -66,7 +66,7 @@ struct FileFrame {
   std::optional<double> unit;  ///< stated by the file or fixed by the format [m]
   std::optional<UpAxis> up;    ///< likewise
   bool up_reversed = false;    ///< FBX: up is the negative axis
-  double unit_applied = 1;     ///< assimp has multiplied by this already
+  double unit_applied = 1;     ///< factor that assimp has applied already
 };
 
 // Metres in the first <unit name="..." meter="..."> of a Collada file; nothing if there is none.
@@ -76,7 +76,7 @@ std::optional<double> collada_unit(const std::string& text) {
   const std::string element = text.substr(start, std::min(text.find('>', start) - start, kLongTag));
   constexpr std::string_view kSpace = " \t\r\n";
   constexpr std::string_view kAttribute = "meter";
-  // The name may well be "meter" too: the attribute is the one with an equals sign after it.
+  // The name may also be "meter": the attribute is followed by an equals sign.
   for (std::size_t at = element.find(kAttribute); at != std::string::npos;
        at = element.find(kAttribute, at + 1)) {
     const std::size_t equals = element.find_first_not_of(kSpace, at + kAttribute.size());
@@ -90,8 +90,8 @@ std::optional<double> collada_unit(const std::string& text) {
   return std::nullopt;
 }
 
-// assimp multiplies by the unit but does not tell it; a missing unit is a metre, a missing up axis
-// Y by the Collada specification (1.4.1, <asset>).
+// assimp multiplies by the unit of a Collada file without reporting it. Without a <unit> the unit
+// is a metre, without an <up_axis> it is Y (Collada 1.4.1, <asset>).
 FileFrame collada_frame(const std::string& text) {
   FileFrame frame{1.0, UpAxis::y};
   if (const auto unit = collada_unit(text)) frame.unit = frame.unit_applied = *unit;
@@ -128,7 +128,7 @@ FileFrame frame_of(const std::string& format, const aiScene& scene, const std::s
   return {};
 }
 
-// Rotation that turns the up axis into z.
+// Rotation from the up axis to z.
 Mat3 turn_up(UpAxis up, bool reversed) {
   Mat3 turn = Mat3::Identity();
   if (up == UpAxis::x) turn << 0, -1, 0, 0, 0, -1, 1, 0, 0;
@@ -145,7 +145,7 @@ Eigen::Affine3d affine(const aiMatrix4x4& m) {
   return t;
 }
 
-// Names that assimp makes up where the file has none.
+// Names that assimp generates for unnamed objects.
 bool is_placeholder(std::string_view name) {
   return name.empty() || name.front() == '<' || name == "defaultobject" ||
          name == "DefaultMaterial" || name.starts_with("nodes[") || name.starts_with("meshes[");
@@ -166,8 +166,8 @@ struct PlacedMesh {
   std::string material;
 };
 
-// All meshes of the scene, in the order of the node tree. An unnamed node's meshes share one
-// made-up name, for together they may be one solid.
+// All meshes of the scene, in the order of the node tree. The meshes of an unnamed node get one
+// common name, because together they may form a solid.
 std::vector<PlacedMesh> placed_meshes(const aiScene& scene, const Eigen::Affine3d& to_meters) {
   struct Visit {
     const aiNode* node;
@@ -193,8 +193,8 @@ std::vector<PlacedMesh> placed_meshes(const aiScene& scene, const Eigen::Affine3
   return placed;
 }
 
-// Groups the meshes by name and then material, each in the order of first appearance: a part of the
-// result is all that has one name and one material.
+// Groups the meshes by name and then material, both in the order of first appearance. One part of
+// the result has one name and one material.
 std::vector<std::vector<PlacedMesh>> by_part(std::vector<PlacedMesh> placed) {
   std::map<std::string, std::size_t> name_rank;
   std::map<std::pair<std::size_t, std::string>, std::size_t> part_rank;
@@ -220,8 +220,8 @@ struct PositionHash {
     for (const double x : p) {
       std::uint64_t bits = 0;
       std::memcpy(&bits, &x, sizeof bits);
-      // Multiply and fold (the constant is 2^64 over the golden ratio): spreads the few bits in
-      // which neighbouring coordinates differ.
+      // Multiply and fold; the constant is 2^64 over the golden ratio. Neighbouring coordinates
+      // differ in few bits, which this spreads.
       hash = (hash ^ bits) * 0x9E3779B97F4A7C15U;
       hash ^= hash >> 32U;
     }
@@ -239,7 +239,7 @@ class MeshBuilder {
     const aiMesh& mesh = *placed.mesh;
     std::vector<std::uint32_t> welded(mesh.mNumVertices);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) welded[v] = vertex(placed, v);
-    // A mirror turns faces inside out.
+    // A reflection turns faces inside out.
     const bool mirrored = placed.to_world.linear().determinant() < 0;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
@@ -247,7 +247,7 @@ class MeshBuilder {
       for (unsigned i = 0; i < 3; ++i)
         if (face.mIndices[i] >= mesh.mNumVertices)
           throw IoError(
-              fmt::format("part \"{}\": face {} names vertex {} of {}; the file is damaged",
+              fmt::format("part \"{}\": face {} refers to vertex {} of {}; the file is damaged",
                           placed.name, f, face.mIndices[i], mesh.mNumVertices));
       Triangle t{welded[face.mIndices[0]], welded[face.mIndices[1]], welded[face.mIndices[2]]};
       if (mirrored) std::swap(t[1], t[2]);
@@ -270,7 +270,7 @@ class MeshBuilder {
 
   std::uint32_t vertex(const PlacedMesh& placed, unsigned v) {
     const aiVector3D& q = placed.mesh->mVertices[v];
-    // Adding zero makes -0 and 0 one.
+    // Adding zero turns -0 into 0.
     const Vec3 p = placed.to_world * Vec3(q.x, q.y, q.z) + Vec3::Zero();
     if (!p.allFinite())
       throw InputError(fmt::format(
@@ -287,21 +287,22 @@ class MeshBuilder {
 };
 
 const aiScene& read_scene(Assimp::Importer& importer, const fs::path& path) {
-  // We turn the up axis ourselves, for the caller may know better than the file.
+  // The up axis is rotated here: the caller may override that of the file.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
   const aiScene* scene =
       importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_ValidateDataStructure);
   if (scene == nullptr || scene->mRootNode == nullptr)
-    throw IoError(fmt::format(
-        "cannot read {} as a mesh: {}; check that the file is whole and of one of the formats {}",
-        path.string(), importer.GetErrorString(), known_formats()));
+    throw IoError(
+        fmt::format("cannot read {} as a mesh: {}; check that the file is complete and of one of "
+                    "the formats {}",
+                    path.string(), importer.GetErrorString(), known_formats()));
   return *scene;
 }
 
 void require_unit(const std::optional<double>& unit) {
   if (unit && !(std::isfinite(*unit) && *unit > 0))
-    throw InputError(fmt::format("unit = {} m: give a finite length above 0", *unit));
+    throw InputError(fmt::format("unit = {} m must be a finite length above 0", *unit));
 }
 
 }  // namespace
@@ -346,12 +347,13 @@ std::string describe(const ImportReport& report) {
   const char* up = kAxes[static_cast<std::size_t>(report.up)];
   std::string text;
   if (report.unit_assumed)
-    text += fmt::format("assumed 1 unit = {:g} m ({} does not say; the option unit changes it)\n",
-                        report.unit, report.format);
+    text +=
+        fmt::format("assumed 1 unit = {:g} m ({} does not state it; the option unit changes it)\n",
+                    report.unit, report.format);
   else
     text += fmt::format("1 unit = {:g} m\n", report.unit);
   if (report.up_assumed)
-    text += fmt::format("assumed {} is up ({} does not say; the option up changes it)\n", up,
+    text += fmt::format("assumed {} is up ({} does not state it; the option up changes it)\n", up,
                         report.format);
   else
     text += fmt::format("{} is up\n", up);

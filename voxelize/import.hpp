@@ -18,15 +18,15 @@ constexpr ChoiceTable<Choice<UpAxis>> choices(UpAxis) {
 }
 
 struct ImportOptions {
-  std::optional<double> unit;  ///< metres in one unit of the file; left out: the file's, or metres
-  std::optional<UpAxis> up;    ///< left out: the file's, or the format's custom
+  std::optional<double> unit;  ///< unit of the file [m]; default: that stated by the file, or 1 m
+  std::optional<UpAxis> up;    ///< default: stated by the file, or usual for the format
 };
 
-/// What was read and what had to be assumed.
+/// Properties of the file, and which of them were assumed.
 struct ImportReport {
   std::string format;         ///< "OBJ", "glTF", ...
-  double unit = 1;            ///< metres in one unit of the file
-  bool unit_assumed = false;  ///< neither given nor stated by the file
+  double unit = 1;            ///< unit of the file [m]
+  bool unit_assumed = false;  ///< neither given in the options nor stated by the file
   UpAxis up = UpAxis::z;
   bool up_assumed = false;
   std::string content_hash;  ///< of the file
@@ -37,12 +37,13 @@ struct ImportedMesh {
   ImportReport report;
 };
 
-/// Reads OBJ, STL, PLY, GLB/glTF, FBX, OFF and Collada through assimp. Vertices are welded by
-/// position. Throws IoError (missing, unreadable, empty, not a mesh format: the message lists the
-/// formats) and InputError (NaN or infinite vertices, no triangles).
+/// Imports OBJ, STL, PLY, GLB/glTF, FBX, OFF and Collada files through assimp. Vertices of equal
+/// position are merged. Throws IoError (missing, unreadable, empty, or not a mesh format: the
+/// message lists the formats) and InputError (vertices that are not finite, no triangles).
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
-/// "assumed 1 unit = 1 m (OBJ does not say; the option unit changes it)", ... one line each.
+/// Describes unit and up axis, one line each: "assumed 1 unit = 1 m (OBJ does not state it; the
+/// option unit changes it)".
 std::string describe(const ImportReport& report);
 
 }  // namespace springlod::voxelize

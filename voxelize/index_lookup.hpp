@@ -11,15 +11,15 @@ namespace springlod::voxelize {
 /// No cell or node at this place.
 inline constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
 
-/// The order of cells and nodes everywhere: z first, then y, then x.
+/// The order of cells and nodes: by z, then y, then x.
 inline bool grid_order(const CellIndex& l, const CellIndex& r) {
   if (l[2] != r[2]) return l[2] < r[2];
   if (l[1] != r[1]) return l[1] < r[1];
   return l[0] < r[0];
 }
 
-/// Where an index stands in a list sorted by grid_order. Refers to the list, which must outlive it.
-/// A dense table over the bounding box where that is affordable, else binary search.
+/// Finds an index in a list sorted by grid_order: by a dense table over the bounding box if that is
+/// small enough, else by binary search. Refers to the list, which must outlive it.
 class IndexLookup {
  public:
   explicit IndexLookup(const std::vector<CellIndex>& sorted);

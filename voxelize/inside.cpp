@@ -15,11 +15,11 @@
 namespace springlod::voxelize {
 namespace {
 
-// Half width of the narrow band in cells: the least that level set tools of OpenVDB expect.
+// Half width of the narrow band in cells: the smallest that OpenVDB's level set tools support.
 constexpr float kBand = 3;
-// A centre this near to the surface, in cells, is on it and counts as inside: else the plane where
-// two parts meet would leave a gap of cells that belong to neither. Well above the rounding of the
-// level set (single precision, distances of a cell or less), well below anything one would see.
+// A centre this close to the surface, in cells, counts as inside: otherwise a plane between two
+// parts could leave a gap of cells that belong to neither. Far above the rounding of the level set
+// (single precision, distances of a cell or less), far below any visible size.
 constexpr double kOnSurface = 1e-4;
 
 openvdb::Coord coord(const CellIndex& c) {
@@ -44,7 +44,7 @@ struct SurfaceInCells {
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
-// Cells are claimed row by row: x is what changes fastest in a frame.
+// Assigns cells row by row: x is the innermost index of a frame.
 class Claim {
  public:
   Claim(const CellFrame& frame, std::uint16_t claimant, std::vector<std::uint16_t>& owner)
@@ -137,7 +137,7 @@ std::size_t claim_cells(const DistanceField& field, const CellFrame& frame, std:
   const openvdb::FloatTree& tree = field.grid->tree();
   std::vector<const Leaf*> leaves;
   tree.getNodes(leaves);
-  // What lies deeper than the band is held by tiles of one negative value, not active.
+  // Values deeper than the band are in inactive tiles with one negative value.
   std::vector<openvdb::CoordBBox> boxes;
   auto tile = tree.cbeginValueAll();
   tile.setMaxDepth(openvdb::FloatTree::ValueAllCIter::LEAF_DEPTH - 1);

@@ -14,7 +14,7 @@
 namespace springlod::voxelize {
 namespace {
 
-// Cubic lattice of 6 + 12 neighbours with one constant k: E = 2.5 k / a (Ladd & Kinney 1997).
+// Cubic lattice of 6 + 12 neighbours with one constant k: E = 2.5 k / a (docs/method.md, eq. 1).
 constexpr double kYoungPerStiffness = 2.5;
 // An edge of the lattice is shared by 4 cells, a face diagonal by 2.
 constexpr double kEdgeShare = 0.25;
@@ -72,7 +72,7 @@ void add_corner_node(MassSpringModel& model, const MaterialGrid& grid, const Cor
       if (around[o ^ across] == kNoIndex) area += quarter_face;
   }
   add_node(model, corner_position(grid, nodes.at[node]), mass, volume, area, border,
-           commonest_material(grid, around));  // all cells have one size: most cells, most volume
+           commonest_material(grid, around));  // cells are equal, so most cells have most volume
 }
 
 struct SpringSum {
@@ -151,9 +151,10 @@ struct SpringConstants {
   double c = 0;
 };
 
-// Two half springs 2 k1 and 2 k2 in series. They share the stretch as k2 : k1, so what the two
-// half dampers 2 c1 and 2 c2 take in slow motion is that of one damper of beta k with beta the mean
-// of the two, each weighted with the other's k: the softer half moves more and damps more.
+// Two half springs 2 k1 and 2 k2 in series (docs/method.md, eq. 5). Their elongations are in the
+// ratio k2 : k1. In slow motion, the half dampers 2 c1 and 2 c2 dissipate as much as one damper
+// beta k, with beta the mean of both, each weighted with the k of the other: the softer half moves
+// more and dissipates more.
 SpringConstants series(const Material& m1, const Material& m2, double cell) {
   const double k1 = cell_stiffness(m1, cell);
   const double k2 = cell_stiffness(m2, cell);
@@ -167,7 +168,7 @@ MassSpringModel centers_model(const MaterialGrid& grid) {
   const IndexLookup lookup(grid.cells);
   const double face = grid.cell * grid.cell;
   const double volume = face * grid.cell;
-  // Springs go to higher nodes, whose positions must be there: so first all nodes.
+  // Springs need the positions of higher nodes, so all nodes are added first.
   std::vector<std::array<std::uint32_t, kFirstHigher>> higher(grid.cells.size());
   for (std::size_t n = 0; n < grid.cells.size(); ++n) {
     const CellIndex& cell = grid.cells[n];
@@ -232,7 +233,7 @@ LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& optio
   else
     lattice.model = centers_model(grid);
   validate(lattice.model);
-  lattice.parts = connected_components(lattice.model).count;
+  lattice.components = connected_components(lattice.model).count;
   return lattice;
 }
 

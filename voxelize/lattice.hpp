@@ -11,15 +11,17 @@
 
 namespace springlod::voxelize {
 
-/// Where the nodes of the cubic lattice sit (Ladd & Kinney 1997; 6 + 12 neighbours, k = E a / 2.5).
+/// Positions of the nodes of the cubic lattice (6 + 12 neighbours, k = E a / 2.5; Ladd & Kinney
+/// 1997; docs/method.md, eq. 1).
 enum class LatticeStyle {
-  /// At the corners of the cells: every filled cell gives rho a^3/8 to each corner, k/4 to each of
-  /// its 12 edges, k/2 to each of its 12 face diagonals. No border error.
+  /// Nodes at the corners of the cells: every filled cell contributes rho a^3/8 to each corner, k/4
+  /// to each of its 12 edges and k/2 to each of its 12 face diagonals (docs/method.md, eq. 4). The
+  /// surface is as stiff as the inside.
   corners,
-  /// At the centres (the paper's): one k a spring, across materials that of two half springs in
-  /// series, 2 k1 k2 / (k1 + k2), with the damping of their two half dampers in slow motion,
-  /// c = k (beta1 k2 + beta2 k1) / (k1 + k2). Has no hinges as `corners` has them: diagonal springs
-  /// join cells that touch along an edge, cells that touch at a corner are not joined.
+  /// Nodes at the centres of the cells, as in the paper. A spring between two materials is two half
+  /// springs in series, k = 2 k1 k2 / (k1 + k2), c = k (beta1 k2 + beta2 k1) / (k1 + k2)
+  /// (docs/method.md, eq. 5). No hinges are reported: diagonal springs connect cells that touch
+  /// along an edge, and no spring connects cells that touch at a corner.
   centers,
 };
 
@@ -32,9 +34,9 @@ constexpr ChoiceTable<Choice<LatticeStyle>> choices(LatticeStyle) {
 
 /// What to do where cells touch only along an edge or at a corner (a hinge).
 enum class HingePolicy {
-  report,    ///< leave it and say so
-  fill,      ///< fill a neighbouring cell until the contact has a face
-  separate,  ///< double the shared nodes, so that the cells come apart
+  report,    ///< keep and report them
+  fill,      ///< fill neighbouring cells until the cells share faces
+  separate,  ///< duplicate the shared nodes, which disconnects the cells
 };
 
 inline constexpr Choice<HingePolicy> kHingePolicies[] = {
@@ -47,7 +49,7 @@ constexpr ChoiceTable<Choice<HingePolicy>> choices(HingePolicy) {
 
 struct Hinge {
   Vec3 position = Vec3::Zero();  ///< of the shared corner, or the middle of the shared edge [m]
-  bool along_edge = false;       ///< false: at a corner only
+  bool along_edge = false;       ///< false: at a corner
 };
 
 struct LatticeOptions {
@@ -62,15 +64,14 @@ constexpr auto option_rows(const LatticeOptions*) {
 
 struct LatticeModel {
   MassSpringModel model;
-  std::vector<Hinge> hinges;       ///< found (and for fill/separate: mended)
+  std::vector<Hinge> hinges;       ///< those of the grid; fill and separate remove them
   std::uint32_t filled_cells = 0;  ///< added by HingePolicy::fill
-  std::uint32_t parts = 0;         ///< connected parts of the model
+  std::uint32_t components = 0;    ///< number of connected components
 };
 
-/// Nodes in the order (z, y, x). Contact areas are the areas of the exposed cell faces (a quarter
-/// to each corner under `corners`). Border: a node that lacks one of its 18 lattice neighbours
-/// (`centers`: 6 axis neighbours or 12 diagonal ones; `corners`: one of its 8 cells is not filled).
-/// Throws InputError for an empty grid.
+/// Builds a lattice. Nodes are in the order (z, y, x). Contact areas are the areas of the exposed
+/// cell faces (`corners`: a quarter for each corner). A border node lacks one of its 18 lattice
+/// neighbours (`centers`) or one of its 8 cells (`corners`). Throws InputError for an empty grid.
 LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& options = {});
 
 }  // namespace springlod::voxelize

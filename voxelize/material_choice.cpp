@@ -16,9 +16,9 @@ MaterialChoice::MaterialChoice(const VoxelizeOptions& options)
     validate(material);
     const auto [at, is_new] = seen.try_emplace(material.name, &material);
     if (!is_new && !(*at->second == material))
-      throw InputError(
-          fmt::format("voxelize: two different materials are called \"{}\"; give each its own name",
-                      material.name));
+      throw InputError(fmt::format(
+          "voxelize: two different materials have the name \"{}\"; give each its own name",
+          material.name));
   };
   for (auto& [key, material] : by_key_) {
     if (material.name.empty()) material.name = key;
@@ -64,8 +64,8 @@ std::uint16_t MaterialChoice::of_name(const std::string& name) {
   if (fallback_.name == name) return number_of(fallback_);
   if (core_) known += fmt::format("\"{}\", ", core_->name);
   throw InputError(
-      fmt::format("voxelize: paint returned \"{}\", which is no material; there are {}\"{}\"", name,
-                  known, fallback_.name));
+      fmt::format("voxelize: paint returned \"{}\", which is not a material; use one of {}\"{}\"",
+                  name, known, fallback_.name));
 }
 
 std::vector<std::string> MaterialChoice::unused() const {

@@ -10,23 +10,23 @@
 
 namespace springlod::voxelize {
 
-/// The materials of a grid in the making: one entry a name, numbered in the order of first use.
+/// Collects the materials of a grid: one entry for each name, numbered in the order of first use.
 class MaterialChoice {
  public:
-  /// Throws InputError: a material is out of range, or two that differ share a name.
+  /// Throws InputError for a material out of range, and for different materials of one name.
   explicit MaterialChoice(const VoxelizeOptions& options);
 
-  /// Of a part by its name, else by the file's material name, else the fallback.
+  /// The material of a part: by its name, else by its material name in the file, else the fallback.
   std::uint16_t of_part(const MeshPart& part);
   std::uint16_t of_core();
-  /// By the name a paint function gave: a material's own or its key in the options. Throws
-  /// InputError listing the names.
+  /// The material of a name that a paint function returned: a material's own name or its key in the
+  /// options. Throws InputError with the list of names.
   std::uint16_t of_name(const std::string& name);
 
   const std::string& name(std::uint16_t number) const { return list_[number].name; }
-  /// Keys of options.materials that nothing asked for.
+  /// Keys of options.materials that were never used.
   std::vector<std::string> unused() const;
-  /// The materials that cells have; renumbers the cells.
+  /// The materials that occur in cells; renumbers the cells.
   std::vector<Material> finish(std::vector<std::uint16_t>& material_of_cell) const;
 
  private:

@@ -10,19 +10,20 @@
 namespace springlod::voxelize {
 namespace {
 
-// The surface passes between a cell and an empty one of its 26 neighbours, so it is at most
-// sqrt(3) cells away.
+// The surface passes between an outer cell and one of its 26 neighbours that is empty, so it is at
+// most sqrt(3) cells away.
 constexpr double kReach = 1.75;
-// A sample one cell off the surface falls in a cell whose centre is on the same side: centres are
-// at most sqrt(3)/2 from any point of their cell.
+// A point one cell from the surface lies in a cell whose centre is on the same side: centres are at
+// most sqrt(3)/2 from any point of their cell.
 constexpr double kSideStep = 1;
 // Rounds of the propagation. Measured on spheres of 40 to 256 cells: the first reaches all cells,
-// the second leaves an error of 0.12 to 0.21 of a cell at worst, more bring it to 0.12 to 0.14.
+// the second leaves an error of at most 0.12 to 0.21 of a cell, further ones of 0.12 to 0.14.
 constexpr int kMostRounds = 2;
 
 constexpr float kNotFound = std::numeric_limits<float>::infinity();
 
-// Place of each cell in the list, with a margin of one empty cell so that neighbours need no test.
+// Position of each cell in the list, with a margin of one empty cell, so that neighbours need no
+// range test.
 class CellTable {
  public:
   CellTable(const CellFrame& frame, const std::vector<CellIndex>& cells)
@@ -91,7 +92,7 @@ class Search {
         if (table_.neighbour(n, i) == kNoIndex) outer_[n] = 1;
   }
 
-  // Offers one triangle to all outer cells in reach.
+  // Tests one triangle for all outer cells within reach.
   void offer(const Face& face, std::uint32_t label) {
     CellIndex low{};
     CellIndex high{};
@@ -110,7 +111,7 @@ class Search {
         }
   }
 
-  // Where no triangle was found: half way to an empty neighbour, the nearest kind first.
+  // Cells for which no triangle was found take the point half way to the closest empty neighbour.
   void close_gaps() {
     for (std::uint32_t n = 0; n < cells_.size(); ++n) {
       if (outer_[n] == 0 || squared_[n] != kNotFound) continue;
@@ -126,7 +127,8 @@ class Search {
     }
   }
 
-  // Layer by layer inwards, each cell asking its 26 neighbours, and once more.
+  // Propagates the points inwards, layer by layer, each cell from its 26 neighbours; then once
+  // more.
   void propagate() {
     const std::vector<std::uint32_t> order = inward_order();
     for (int round = 0; round < kMostRounds; ++round) {
@@ -215,7 +217,7 @@ std::vector<NearestPoint> nearest_surface(const CellFrame& frame,
               frame.to_index(positions[triangles[t][2]]), Vec3::Zero()};
     face.normal = (face.b - face.a).cross(face.c - face.a);
     const double doubled_area = face.normal.norm();
-    if (!(doubled_area > 0)) continue;  // its neighbours cover a needle
+    if (!(doubled_area > 0)) continue;  // degenerate; its neighbours cover it
     face.normal /= doubled_area;
     search.offer(face, labels[t]);
   }

@@ -19,15 +19,15 @@
 namespace springlod::voxelize {
 namespace {
 
-/// Places a node for placing it: Lloyd's middles are then known to a tenth of the spacing and less.
+/// Samples for each node: the error of Lloyd's centroids is then below a tenth of the spacing.
 constexpr double kSamplesPerNode = 48;
-/// More than fit into memory with their samples.
+/// More nodes than fit into memory with their samples.
 constexpr double kMostNodes = 1e8;
 
 std::uint32_t node_count(const MaterialGrid& grid, const RandomOptions& options) {
   if (!(options.ends >= kLeastRandomEnds) || !(options.ends < 1000))
     throw InputError(
-        fmt::format("random: ends = {}; give {} or more, so that no node hangs loose (18 is usual)",
+        fmt::format("random: ends = {} must be {} or more, so that no node is loose (18 is usual)",
                     options.ends, kLeastRandomEnds));
   double nodes = options.nodes.value_or(0);
   if (!options.nodes) {
@@ -38,8 +38,8 @@ std::uint32_t node_count(const MaterialGrid& grid, const RandomOptions& options)
   }
   if (nodes <= kLeastRandomEnds || nodes > kMostNodes)
     throw InputError(
-        fmt::format("random: {} nodes; there must be at least {} for {} ends each, and at most {}",
-                    nodes, kLeastRandomEnds + 1, kLeastRandomEnds, kMostNodes));
+        fmt::format("random: nodes = {}; use at least {} for {} ends each, and at most {}", nodes,
+                    kLeastRandomEnds + 1, kLeastRandomEnds, kMostNodes));
   return static_cast<std::uint32_t>(nodes);
 }
 
@@ -61,7 +61,7 @@ void sort_nodes(RandomNodes& nodes, std::vector<bool>& on_surface) {
   nodes = std::move(sorted);
 }
 
-/// Gives each piece of the volume to the nearest node.
+/// Assigns each sample of the volume to the nearest node.
 void share_volume(const MaterialGrid& grid, const GridSamples& samples, double spacing,
                   MassSpringModel& model) {
   const std::size_t kinds = grid.materials.size();
@@ -80,8 +80,8 @@ void share_volume(const MaterialGrid& grid, const GridSamples& samples, double s
     }
     if (volume == 0)
       throw InputError(
-          fmt::format("random: the node at ({:.4g}, {:.4g}, {:.4g}) m has no volume of its own; "
-                      "ask for fewer nodes",
+          fmt::format("random: no volume is left for the node at ({:.4g}, {:.4g}, {:.4g}) m; "
+                      "use fewer nodes",
                       model.rest[n].x(), model.rest[n].y(), model.rest[n].z()));
     model.volume.push_back(volume);
     model.mass.push_back(mass);
@@ -90,8 +90,8 @@ void share_volume(const MaterialGrid& grid, const GridSamples& samples, double s
   }
 }
 
-/// Gives each piece of the surface to the nearest node of the surface. Returns the sums of outward
-/// normal times area.
+/// Assigns each sample of the surface to the nearest surface node. Returns for each node the sum of
+/// outward normal times area [m2].
 std::vector<Vec3> share_surface(const GridSamples& samples, double spacing,
                                 const std::vector<bool>& on_surface, MassSpringModel& model) {
   std::vector<Vec3> outer;
@@ -114,7 +114,7 @@ std::vector<Vec3> share_surface(const GridSamples& samples, double spacing,
 }
 
 struct Measured {
-  double young = 0;  // as a part of the target
+  double young = 0;  // as a fraction of the target
   double poisson = 0;
 };
 
@@ -129,8 +129,7 @@ bool is_box(const MaterialGrid& grid) {
   return size.prod() == static_cast<double>(grid.cells.size());
 }
 
-/// A box is stretched as the bar it is, along each of its edges; any other shape by the tractions
-/// of uniform stress.
+/// A box is measured by stretch tests along its edges, any other shape by surface tractions.
 Measured measure(const MaterialGrid& grid, const MassSpringModel& model,
                  const std::vector<Vec3>& surface) {
   if (!is_box(grid)) {
@@ -151,14 +150,14 @@ struct PairMaterial {
   double damping = 0;
 };
 
-/// Two half springs in series, as in a `centers` lattice.
+/// Two half springs in series, as in a `centers` lattice (docs/method.md, eq. 8).
 PairMaterial series(const Material& m1, const Material& m2) {
   if (m1.young == m2.young && m1.damping == m2.damping) return {m1.young, m1.damping};
   const double sum = m1.young + m2.young;
   return {2 * m1.young * m2.young / sum, (m1.damping * m2.young + m2.damping * m1.young) / sum};
 }
 
-/// Of E = 1 Pa and without damping: the network that is measured.
+/// Springs for E = 1 Pa without damping: the network that is measured.
 void add_unit_springs(const std::vector<NodePair>& pairs, MassSpringModel& model) {
   model.stiffness = unit_stiffness(pairs, model.volume);
   model.damping.assign(pairs.size(), 0);
@@ -207,7 +206,7 @@ RandomModel build_random(const MaterialGrid& grid, const RandomOptions& options)
   const std::vector<Vec3> surface = share_surface(samples, nodes.spacing, on_surface, model);
   add_unit_springs(choose_pairs(grid, nodes, samples.box, options.ends, kLeastRandomEnds), model);
   validate(model);
-  random.parts = connected_components(model).count;
+  random.components = connected_components(model).count;
   count_ends(random);
 
   const Measured measured = measure(grid, model, surface);

@@ -10,21 +10,19 @@
 
 namespace springlod::voxelize {
 
-/// Ends of springs that every node of a random model has at least.
+/// Least number of spring ends at every node of a random model (docs/method.md, section 2).
 inline constexpr std::uint32_t kLeastRandomEnds = 14;
 
 struct RandomOptions {
-  /// Nodes to place; left out: as many as `spacing` asks for.
+  /// Number of nodes; default: volume / spacing^3.
   std::optional<std::uint32_t> nodes{};
-  /// Edge of the cube that a node stands for [m]: volume / spacing^3 nodes. Both left out: the edge
-  /// of a cell.
+  /// Edge of the cube that a node represents [m]; default: the edge of a cell.
   std::optional<double> spacing{};
-  /// Spring ends a node on average (18: as many as a node inside a lattice has), at least 14. As
-  /// nodes of the surface must have 14 too, the mean of a model that is mostly surface comes out
-  /// higher than 14.
+  /// Mean number of spring ends at a node, at least 14 (18 as at a node inside a lattice). Surface
+  /// nodes need 14 too, so a model that is mostly surface has a higher mean than 14.
   double ends = 18;
   std::uint64_t seed = 1;
-  /// One factor for all springs, from a solved stretch test.
+  /// Scale all springs by one factor, measured by a stretch test.
   bool rescale = true;
   Progress* progress = nullptr;
 };
@@ -46,28 +44,27 @@ constexpr auto option_rows(const RandomOptions*) {
              "E; false: k by eq. 2 of the paper alone"));
 }
 
-/// A random model and what was measured of its network, the same nodes and springs all of one
-/// material: in a box of cells the mean of the stretch tests along its three edges, in any other
-/// shape the answer to the tractions of uniform stress (surface_stretch). Its Young's modulus is
-/// told as a part of what was asked for.
+/// A random model and the measured moduli of its network, taken with one material for all springs:
+/// in a box of cells the means of the stretch tests along its three edges, in any other shape those
+/// of surface_stretch. Young's moduli are fractions of the target.
 struct RandomModel {
   MassSpringModel model;
-  double eq2_young = 0;  ///< before the rescale, as k is chosen by eq. 2 of the paper
-  double young = 0;      ///< with the rescale: 1, but for the solver's residual
-  double poisson = 0;    ///< no rescale changes it
-  double rescaled = 1;   ///< factor of every stiffness and damping
+  double eq2_young = 0;  ///< before rescaling, with k by eq. 2
+  double young = 0;      ///< after rescaling: 1 up to the solver's residual
+  double poisson = 0;    ///< rescaling does not change it
+  double rescaled = 1;   ///< factor of all stiffnesses and damping coefficients
   double mean_ends = 0;
   std::uint32_t least_ends = 0;
-  std::uint32_t parts = 0;  ///< connected parts of the model
+  std::uint32_t components = 0;  ///< number of connected components
 };
 
-/// Nodes spread as blue noise through the solid, some of them on its surface, each joined with its
-/// nearest (docs/method.md, section 2). Masses, volumes and contact areas: each small piece of a
-/// cell or of an exposed face goes to the nearest node (of the surface, for faces), so they add up
-/// to those of the grid. k is chosen by eq. 2 of the paper node by node (unit_stiffness) and then
-/// times one number for the whole network, the rescale; between nodes of two materials E is the
-/// harmonic mean, as in a `centers` lattice. A node's material is that of most of its volume.
-/// Border: the nodes on the surface.
+/// Builds a random model (docs/method.md, eqs. 6 to 8): blue-noise nodes inside the solid and on
+/// its surface, each connected with its nearest ones. Masses, volumes and contact areas are those
+/// of small samples of the cells and exposed faces: each sample belongs to its nearest node (faces:
+/// surface node), so the sums are those of the grid. k satisfies eq. 2 at each node
+/// (unit_stiffness) and is then multiplied by one factor for the whole network. Between two
+/// materials E is the harmonic mean, as in a `centers` lattice. The material of a node is that of
+/// most of its volume. Border nodes are the nodes on the surface.
 ///
 /// Nodes are in the order (z, y, x). The same seed gives the same bits. Throws InputError: an empty
 /// grid, fewer than 15 nodes or more than the cells have room for, fewer than 14 ends.

@@ -7,28 +7,28 @@
 
 #include <fmt/format.h>
 
-#include "base/chance.hpp"
 #include "base/error.hpp"
+#include "base/random.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/index_lookup.hpp"
 
 namespace springlod::voxelize {
 namespace {
 
-// Radius of a dart's disk in spacings. A maximal set of disks of radius r holds about 0.73 / r^3
-// points a volume and 0.70 / r^2 an area (saturated random packing), so that these two give a node
-// a cube and a square of one spacing each.
+// Disk radius in spacings. A maximal set of disks of radius r has about 0.73 / r^3 points per
+// volume and 0.70 / r^2 per area (saturated random packing). With these two, each node represents a
+// cube or a square of one spacing.
 constexpr double kInnerDisk = 0.90;
 constexpr double kOuterDisk = 0.83;
-// Rounds of Lloyd's relaxation: E of a periodic network of 18 ends rises from 0.84 of eq. 2 without
-// any to 0.92 after 5, 0.927 after 20 and no further (docs/choices.md).
+// Rounds of Lloyd's relaxation. E of a periodic network with 18 ends rises from 0.84 of eq. 2
+// without any to 0.92 after 5 and 0.927 after 20, and no further (docs/choices.md).
 constexpr int kRelaxations = 20;
-// Halvings of the bracket of the spacing; then the count is off by a node or so.
+// Bisections of the spacing; the error of the count is then about one node.
 constexpr int kHalvings = 12;
-// The disk shrinks by this factor where darts are still wanted and no place is left.
+// Factor on the disk radius if more nodes are wanted and no place is left.
 constexpr double kShrink = 0.9;
 
-/// Nodes thrown so far, to be asked for their distance while more are thrown.
+/// The nodes placed so far, in bins, with a test of the distance to a new one.
 class Darts {
  public:
   Darts(const Box3& box, double bin) : box_(box), bin_(bin) {
@@ -84,13 +84,14 @@ class Darts {
   Box3 box_;
   double bin_;
   std::array<std::int64_t, 3> count_{};
-  std::vector<std::uint32_t> head_;  // last dart of each bin
-  std::vector<std::uint32_t> next_;  // dart before it in the bin
+  std::vector<std::uint32_t> head_;  // last node of each bin
+  std::vector<std::uint32_t> next_;  // previous node of the same bin
 };
 
 std::vector<std::uint32_t> shuffled(std::size_t count, std::uint64_t seed, std::uint64_t what) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(count);
-  for (std::uint32_t i = 0; i < count; ++i) keys[i] = {mix(mix(mix(seed) ^ what) ^ i), i};
+  for (std::uint32_t i = 0; i < count; ++i)
+    keys[i] = {split_mix(split_mix(split_mix(seed) ^ what) ^ i), i};
   std::sort(keys.begin(), keys.end());
   std::vector<std::uint32_t> order(count);
   for (std::size_t i = 0; i < count; ++i) order[i] = keys[i].second;
@@ -123,7 +124,7 @@ class Placing {
   }
 
  private:
-  /// Number of darts that find a place at this spacing; stops once there are more than wanted.
+  /// Number of nodes that fit at this spacing; stops above the wanted number.
   std::uint32_t throw_darts(double spacing) {
     Darts darts(samples_.box, spacing);
     result_ = {};
@@ -148,7 +149,7 @@ class Placing {
     return found;
   }
 
-  /// Exactly as many as wanted: the last ones go, or more go where there is most room left.
+  /// Corrects the number of nodes: removes the last ones, or adds some with smaller disks.
   void complete() {
     Darts darts(samples_.box, result_.spacing);
     for (const Vec3& place : result_.at) darts.add(place);
@@ -229,16 +230,16 @@ class Placing {
     return sum;
   }
 
-  /// Moves the `chosen` nodes from `first` on to that of their own places which is nearest to where
-  /// they would like to be.
-  void snap(const std::vector<Vec3>& wish, const std::vector<Vec3>& places,
+  /// Moves nodes to the closest sample to their target. Only the samples owned by a node are
+  /// considered; only nodes with number >= `first` and a set flag in `chosen` move.
+  void snap(const std::vector<Vec3>& target, const std::vector<Vec3>& places,
             const std::vector<std::uint32_t>& cells, const std::vector<std::uint32_t>& owner,
             std::uint32_t first, const std::vector<bool>& chosen) {
-    std::vector<double> best(wish.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> best(target.size(), std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < places.size(); ++i) {
       const std::uint32_t node = owner[i];
       if (node < first || !chosen[node]) continue;
-      const double squared = (places[i] - wish[node]).squaredNorm();
+      const double squared = (places[i] - target[node]).squaredNorm();
       if (squared >= best[node]) continue;
       best[node] = squared;
       result_.at[node] = places[i];
@@ -307,7 +308,7 @@ GridSamples sample_grid(const MaterialGrid& grid, std::uint32_t nodes, double pe
   GridSamples samples;
   samples.volume = static_cast<double>(grid.cells.size()) * std::pow(grid.cell, 3);
   samples.inner_volume = std::pow(grid.cell / parts, 3);
-  // Nodes sit on places of the surface, so these are twice as dense as those inside.
+  // Surface nodes are at samples of the surface, so these are twice as dense along each axis.
   const int face_parts = 2 * parts;
   samples.outer_area = std::pow(grid.cell / face_parts, 2);
   for (std::uint32_t n = 0; n < grid.cells.size(); ++n) sample_cell(grid, n, parts, samples);
@@ -319,7 +320,8 @@ RandomNodes place_nodes(const MaterialGrid& grid, const GridSamples& samples, st
                         std::uint64_t seed, Progress* progress) {
   if (samples.inner.size() < nodes)
     throw InputError(
-        fmt::format("random: {} nodes do not fit into {} places", nodes, samples.inner.size()));
+        fmt::format("random: {} nodes do not fit the {} samples of the grid; use fewer nodes",
+                    nodes, samples.inner.size()));
   return Placing(grid, samples, nodes, seed).run(progress);
 }
 

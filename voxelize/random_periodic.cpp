@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "base/chance.hpp"
 #include "base/error.hpp"
+#include "base/random.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/random_springs.hpp"
 #include "voxelize/random_stiffness.hpp"
@@ -14,10 +14,10 @@ namespace springlod::voxelize {
 namespace {
 
 constexpr std::uint32_t kLeastNodes = 100;
-/// Places tried for each node; the one farthest from the nodes there are is taken.
+/// Candidates for each node; the one farthest from the existing nodes is taken.
 constexpr std::uint32_t kCandidates = 10;
 constexpr double kSamplesPerNode = 60;
-/// In spacings; twice as many neighbours as are wanted.
+/// In spacings: within it are twice as many neighbours as a node needs.
 constexpr double kSearchRadius = 2.0;
 
 Vec3 shortest(Vec3 offset) {
@@ -26,14 +26,14 @@ Vec3 shortest(Vec3 offset) {
 }
 
 std::vector<Vec3> best_candidates(std::uint32_t count, std::uint64_t seed) {
-  ChanceStream chance(seed);
+  RandomStream random(seed);
   std::vector<Vec3> nodes;
   for (std::uint32_t i = 0; i < count; ++i) {
     Vec3 best = Vec3::Zero();
     double most = -1;
     for (std::uint32_t c = 0; c < kCandidates; ++c) {
       Vec3 place;
-      for (double& x : place) x = chance.unit();
+      for (double& x : place) x = random.unit();
       double nearest = 3;
       for (const Vec3& node : nodes)
         nearest = std::min(nearest, shortest(node - place).squaredNorm());
@@ -56,7 +56,7 @@ class UnitBox {
   }
   double spacing() const { return spacing_; }
 
-  /// Moves each node to the middle of what is nearest to it and tells the volume of that.
+  /// Moves each node to the centroid of its Voronoi cell. Returns the volumes of the cells.
   std::vector<double> relax(std::vector<Vec3>& nodes) const {
     std::vector<Vec3> sum(nodes.size(), Vec3::Zero());
     std::vector<double> count(nodes.size(), 0);

@@ -11,18 +11,18 @@ namespace springlod::voxelize {
 namespace {
 
 // Within this many spacings a node of an even packing has some 44 neighbours, twice as many as it
-// wants; on a flat surface half as many.
+// needs; on a flat surface half as many.
 constexpr double kSearchRadius = 2.2;
 constexpr double kWiden = 1.5;
-// Cells whose centre lies within this many cells of the straight line may lead around a step of
-// the surface; across a gap they lead nowhere.
+// A path of cells may lead around a step of the surface if their centres lie within this many cells
+// of the straight line; it cannot lead across a gap.
 constexpr double kDetour = 1.5;
-// The line is looked at this often in a cell.
-constexpr double kLooksPerCell = 3;
-// Nodes on a face are looked for a little inside the cell behind it.
+// Tests of the line per cell.
+constexpr double kTestsPerCell = 3;
+// Nodes on a face are moved into the cell behind it by this fraction of the way to its centre.
 constexpr double kInset = 1e-3;
 
-/// Tells whether filled cells join two nodes along the straight line between them.
+/// Tests whether filled cells connect two nodes along the straight line between them.
 class Sight {
  public:
   Sight(const MaterialGrid& grid, const RandomNodes& nodes)
@@ -47,9 +47,9 @@ class Sight {
   }
 
   bool straight(const Vec3& from, const Vec3& to) const {
-    const int looks = 1 + static_cast<int>(kLooksPerCell * (to - from).norm());
-    for (int i = 1; i < looks; ++i) {
-      const Vec3 at = from + (to - from) * (static_cast<double>(i) / looks);
+    const int tests = 1 + static_cast<int>(kTestsPerCell * (to - from).norm());
+    for (int i = 1; i < tests; ++i) {
+      const Vec3 at = from + (to - from) * (static_cast<double>(i) / tests);
       const CellIndex cell{static_cast<std::int32_t>(std::floor(at.x())),
                            static_cast<std::int32_t>(std::floor(at.y())),
                            static_cast<std::int32_t>(std::floor(at.z()))};
@@ -64,7 +64,7 @@ class Sight {
     return (place - from - t * along).squaredNorm() <= kDetour * kDetour;
   }
 
-  // Over the faces between filled cells near the line.
+  // A path across the faces of filled cells near the line.
   bool detour(std::uint32_t start, std::uint32_t goal, const Vec3& from, const Vec3& to) {
     ++search_;
     stack_.assign(1, start);
@@ -89,7 +89,7 @@ class Sight {
   const MaterialGrid& grid_;
   const RandomNodes& nodes_;
   IndexLookup lookup_;
-  std::vector<std::uint64_t> seen_;  // the last search that came to each cell
+  std::vector<std::uint64_t> seen_;  // the last search that reached each cell
   std::uint64_t search_ = 0;
   std::vector<std::uint32_t> stack_;
 };
@@ -102,7 +102,7 @@ bool same_pair(const NodePair& l, const NodePair& r) {
   return l.a == r.a && l.b == r.b;
 }
 
-/// Springs chosen so far among candidates, the shortest of which stand first.
+/// The springs chosen so far among the candidates, which are sorted by length.
 class Selection {
  public:
   Selection(const std::vector<NodePair>& candidates, std::uint32_t nodes, std::uint32_t least)
@@ -162,7 +162,7 @@ class Selection {
   std::size_t count_ = 0;
 };
 
-/// Finds the pairs that filled cells join.
+/// Finds the pairs of nodes that filled cells connect.
 class Search {
  public:
   Search(const MaterialGrid& grid, const RandomNodes& nodes, const Box3& box)
@@ -189,7 +189,7 @@ class Search {
  private:
   std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.at.size()); }
 
-  // For a node that sees too few within the search radius.
+  // For a node with too few connected nodes within the search radius.
   void append_far_pairs(std::uint32_t node, std::uint32_t least, std::vector<NodePair>& pairs) {
     std::vector<NodePair> found;
     double radius = kSearchRadius * nodes_.spacing;

@@ -16,16 +16,16 @@ struct NodePair {
   double length = 0;         ///< of span [m]
 };
 
-/// Of `candidates`, no pair twice, the shortest, so that every node has at least `least` springs
-/// and a node `mean` of them on average, each spring counted at both ends; sorted by (a, b). First
-/// each node is joined with its `least` nearest, then the shortest pairs left are added, or the
-/// longest taken away that both ends can spare, until the number is right.
+/// Selects the shortest of `candidates` (each pair once) so that every node has at least `least`
+/// springs and a node has `mean` springs on average, counting each spring at both ends. Sorted by
+/// (a, b). First each node is connected with its `least` nearest; then the shortest remaining pairs
+/// are added, or the longest pairs are removed that neither end needs.
 std::vector<NodePair> select_pairs(std::vector<NodePair> candidates, std::uint32_t nodes,
                                    double mean, std::uint32_t least);
 
-/// select_pairs among all pairs of near nodes that do not reach across empty space: the straight
-/// line must run through filled cells, or filled cells near it must lead from one end to the other.
-/// So a node in a part too small for `least` has fewer.
+/// select_pairs among the pairs of close nodes that the solid connects: the straight line between
+/// them runs through filled cells, or a path of filled cells near the line connects its ends. A
+/// node in a component too small for `least` has fewer springs.
 std::vector<NodePair> choose_pairs(const MaterialGrid& grid, const RandomNodes& nodes,
                                    const Box3& box, double mean, std::uint32_t least);
 

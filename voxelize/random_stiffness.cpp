@@ -7,8 +7,7 @@
 namespace springlod::voxelize {
 namespace {
 
-// No spring gets less or more than this part of an even share: A cannot make up for springs that
-// hardly run in some direction.
+// Bounds of the weight of a spring: A cannot compensate for directions with hardly any springs.
 constexpr double kLeastShare = 0.2;
 constexpr double kMostShare = 5;
 
@@ -21,13 +20,13 @@ Symmetric outer_product(const Vec3& u) {
   return t;
 }
 
-/// Of u A u, A with its off-diagonal entries doubled: both halves of the tensor count.
+/// u A u, with the off-diagonal entries of A doubled: they occur twice in the tensor.
 double quadratic(const Symmetric& doubled, const Vec3& u) {
   return doubled.dot(outer_product(u));
 }
 
-/// A of each node, its off-diagonal entries doubled: the least that makes
-/// sum (1 + u A u) L^2 u u^T a multiple of the unit tensor.
+/// A of each node, with its off-diagonal entries doubled: the smallest that makes sum (1 + u A u)
+/// L^2 u u^T a multiple of the unit tensor.
 std::vector<Symmetric> share_tensors(const std::vector<NodePair>& pairs, std::size_t nodes) {
   struct Sums {
     Symmetric fabric = Symmetric::Zero();

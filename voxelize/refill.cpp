@@ -14,8 +14,9 @@
 namespace springlod::voxelize {
 namespace {
 
-// Cells tried, as parts of the edge of the cube that a node would stand for: `corners` has more
-// nodes than cells, so its cells are larger. Steps of 1 % miss no count of a small body.
+// Tried cell edges, as multiples of the edge of the cube that a node represents. `corners` has more
+// nodes than cells, so its cells are larger. Steps of 1 % find every possible count of a small
+// body.
 constexpr double kSmallestTried = 0.6;
 constexpr double kStep = 1.01;
 constexpr int kTries = 144;  // up to 2.5
@@ -44,7 +45,7 @@ GridSums sums_of(const MaterialGrid& grid) {
   return sums;
 }
 
-/// The same body in cells of edge `cell`, each of the material at its centre.
+/// The body in cells of edge `cell`, each with the material at its centre.
 MaterialGrid resampled(const MaterialGrid& grid, const IndexLookup& lookup, const Box3& box,
                        double cell) {
   MaterialGrid coarse;
@@ -73,8 +74,8 @@ std::size_t node_count(const MaterialGrid& grid, LatticeStyle style) {
   return style == LatticeStyle::centers ? grid.cells.size() : corner_nodes(grid.cells).at.size();
 }
 
-/// Gives a model the volume, mass and centre of mass of the grid: a body of one material only grows
-/// or shrinks a little, k and c with its lengths, so that E by eq. 2 stays.
+/// Scales a model to the volume, mass and centre of mass of the grid. A body of one material
+/// changes its size slightly; k and c scale with its lengths, so that E by eq. 2 is kept.
 void fit(MassSpringModel& model, const GridSums& target) {
   const MassProperties now = mass_properties(model);
   const double length = std::cbrt(target.volume / now.volume);
@@ -115,25 +116,25 @@ MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes,
                                  LatticeStyle style) {
   validate(grid);
   if (grid.cells.empty() || nodes == 0)
-    throw InputError("refill: there must be filled cells in the grid and nodes to fill them with");
+    throw InputError("refill: the grid must have filled cells, and a level at least one node");
   const GridSums target = sums_of(grid);
   const IndexLookup lookup(grid.cells);
   const double even = std::cbrt(target.volume / nodes);
   MaterialGrid best;
-  std::size_t least_off = std::numeric_limits<std::size_t>::max();
+  std::size_t least_error = std::numeric_limits<std::size_t>::max();
   for (int i = 0; i < kTries; ++i) {
     const double cell = kSmallestTried * even * std::pow(kStep, i);
     MaterialGrid tried = resampled(grid, lookup, target.box, cell);
     if (tried.cells.empty()) continue;
     const std::size_t count = node_count(tried, style);
-    const std::size_t off = count > nodes ? count - nodes : nodes - count;
-    if (off >= least_off) continue;
-    least_off = off;
+    const std::size_t error = count > nodes ? count - nodes : nodes - count;
+    if (error >= least_error) continue;
+    least_error = error;
     best = std::move(tried);
   }
   if (best.cells.empty())
     throw InputError(fmt::format(
-        "refill: no lattice of about {} nodes meets the body; ask for more nodes", nodes));
+        "refill: a lattice of about {} nodes has no cell in the body; use more nodes", nodes));
   MassSpringModel model = build_lattice(best, {.style = style, .hinges = HingePolicy::fill}).model;
   fit(model, target);
   return model;
@@ -141,7 +142,8 @@ MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes,
 
 std::vector<Level> refill_levels(const MaterialGrid& grid, const RefillOptions& options) {
   if (options.nodes.empty())
-    throw InputError("refill: say how many nodes each level shall have, as in nodes = {161, 78}");
+    throw InputError(
+        "refill: nodes is missing; give the number for each level, as in nodes = {161, 78}");
   Task task(options.progress, "refilling", options.nodes.size());
   std::vector<Level> levels;
   for (const std::uint32_t nodes : options.nodes) {

@@ -13,7 +13,7 @@
 
 namespace springlod::voxelize {
 
-/// What the volume is refilled with.
+/// Model that refills the volume.
 enum class RefillStyle { lattice, random };
 
 inline constexpr Choice<RefillStyle> kRefillStyles[] = {
@@ -24,13 +24,13 @@ constexpr ChoiceTable<Choice<RefillStyle>> choices(RefillStyle) {
 }
 
 struct RefillOptions {
-  /// Nodes wanted at level 1, 2, ..., each fewer than before. A random model has exactly as many; a
-  /// lattice comes as near as the size of its cells allows.
+  /// Number of nodes of level 1, 2, ..., decreasing. A random model has exactly this number; a
+  /// lattice has the closest number that its cell size permits.
   std::vector<std::uint32_t> nodes;
   RefillStyle style = RefillStyle::lattice;
   LatticeStyle lattice = LatticeStyle::corners;
-  double ends = 18;        ///< of springs a node, random
-  std::uint64_t seed = 1;  ///< random
+  double ends = 18;        ///< mean number of spring ends at a node (random)
+  std::uint64_t seed = 1;  ///< of a random model
   Progress* progress = nullptr;
 };
 constexpr auto option_rows(const RefillOptions*) {
@@ -41,17 +41,17 @@ constexpr auto option_rows(const RefillOptions*) {
                     option("seed", &RefillOptions::seed, kPlacesHelp));
 }
 
-/// Models of the volume of `grid`, each of about as many nodes as wanted: levels of a chain, but
-/// for the map from its base, which lod's refill makes.
+/// New models of the volume of `grid`, one of about each wanted number of nodes: the levels of a
+/// chain without the maps from its base, which lod's refill adds.
 ///
-/// For a lattice the grid is sampled at the centres of larger cells, laid around the middle of its
-/// box, and mended where cells come to touch along an edge only (HingePolicy::fill); the model is
-/// then resized and moved, its masses scaled, so that volume, mass and centre of mass are those of
-/// the grid, with E by eq. 2 of the paper kept. Throws InputError: no nodes wanted,
-/// what build_lattice and build_random throw.
+/// For a lattice the grid is sampled at the centres of larger cells, laid around the centre of its
+/// bounding box, and hinges are filled (HingePolicy::fill). The model is then scaled and translated
+/// so that its volume, mass and centre of mass are those of the grid; E by eq. 2 of the paper is
+/// kept. Throws InputError if a level of no nodes is wanted, and where build_lattice and
+/// build_random throw.
 std::vector<Level> refill_levels(const MaterialGrid& grid, const RefillOptions& options);
 
-/// The lattice whose number of nodes comes nearest to `nodes`.
+/// The lattice whose number of nodes is closest to `nodes`.
 MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes, LatticeStyle style);
 
 }  // namespace springlod::voxelize

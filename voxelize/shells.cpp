@@ -23,7 +23,7 @@ void for_each_triangle(const TriangleMesh& mesh, const SolidReport& solid, Visit
       visit(mesh.triangles[mesh.parts[p].first_triangle + i]);
 }
 
-// `sets` serves one solid after the other, so that many small ones cost no more than one large one.
+// `sets` is reused for all solids, so that many small ones cost no more than one large one.
 std::vector<Shell> split(const TriangleMesh& mesh, const SolidReport& solid,
                          const std::vector<std::uint32_t>& welded, DisjointSets& sets) {
   for_each_triangle(mesh, solid, [&](const Triangle& t) {

@@ -8,17 +8,17 @@
 
 namespace springlod::voxelize {
 
-/// The connected surfaces of one solid, sorted by what they do.
+/// The connected surfaces of one solid, by kind.
 struct Shells {
-  std::vector<Triangle> outer;   ///< all that enclose material
-  std::vector<Triangle> cavity;  ///< all that enclose a hollow inside the outer ones
-  double volume = 0;             ///< outer less cavities [m3] >= 0
-  bool turned = false;           ///< a shell was inside out and not taken for a cavity
+  std::vector<Triangle> outer;   ///< of the shells that enclose material
+  std::vector<Triangle> cavity;  ///< of the shells that enclose a cavity
+  double volume = 0;             ///< outer shells minus cavities [m3] >= 0
+  bool turned = false;           ///< an outer shell was inside out
 };
 
-/// Those of each solid. A shell that faces inwards while the solid as a whole faces outwards is a
-/// cavity if its bounding box lies in that of an outer shell, and else an outer shell the wrong way
-/// round. `welded` is weld_vertices(mesh).
+/// The shells of each solid. A shell that faces inwards while the solid as a whole faces outwards
+/// is a cavity if its bounding box lies in that of an outer shell; otherwise it is an outer shell
+/// with the wrong orientation. `welded` is weld_vertices(mesh).
 std::vector<Shells> sort_shells(const TriangleMesh& mesh, const std::vector<SolidReport>& solids,
                                 const std::vector<std::uint32_t>& welded);
 

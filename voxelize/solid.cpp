@@ -14,14 +14,15 @@
 namespace springlod::voxelize {
 namespace {
 
-// A solid's triangle runs along an edge.
+// An edge of a triangle of a solid.
 struct EdgeUse {
-  std::uint32_t high = 0;  // vertex, above the one that the edge is listed under
+  std::uint32_t high = 0;  // the higher vertex; the edge is listed under the lower one
   std::uint32_t solid = 0;
   int direction = 0;  // +1 if the triangle runs towards `high`
 };
 
-/// The edges of all triangles, listed under their lower vertex: in time linear in the triangles.
+/// The edges of all triangles, listed under their lower vertex; the time is linear in the
+/// triangles.
 class EdgeLists {
  public:
   EdgeLists(const TriangleMesh& mesh, const std::vector<std::uint32_t>& welded,
@@ -32,7 +33,7 @@ class EdgeLists {
     });
     std::size_t uses = 0;
     for (std::size_t& first : first_)
-      first = uses += first;  // the end of its list, until that is filled
+      first = uses += first;  // the end of its list until it is filled
     uses_.resize(uses);
     for_each_edge(mesh, welded, [&](std::uint32_t from, std::uint32_t to, std::size_t part) {
       uses_[--first_[std::min(from, to)]] = {std::max(from, to), solid_of_part[part],
@@ -40,7 +41,7 @@ class EdgeLists {
     });
   }
 
-  /// Its list, to be sorted at will.
+  /// The edges under vertex `low`; the caller may sort them.
   std::span<EdgeUse> under(std::uint32_t low) {
     return std::span(uses_).subspan(first_[low], first_[low + 1] - first_[low]);
   }
@@ -64,7 +65,7 @@ class EdgeLists {
   std::vector<EdgeUse> uses_;
 };
 
-// All triangles of one solid at one edge, where they are not two that run against each other.
+// An edge of a solid that does not have two triangles of opposite direction.
 struct FaultyEdge {
   std::uint32_t solid = 0;
   std::uint32_t low = 0;  // vertices, low < high
@@ -72,23 +73,23 @@ struct FaultyEdge {
   std::uint32_t count = 0;
 };
 
-// Those under one vertex, by solid and their other vertex.
+// Collects those under one vertex, by solid and by their other vertex.
 void find_faulty(std::uint32_t low, std::span<EdgeUse> uses, std::vector<FaultyEdge>& faulty) {
   std::sort(uses.begin(), uses.end(), [](const EdgeUse& l, const EdgeUse& r) {
     return std::tie(l.solid, l.high) < std::tie(r.solid, r.high);
   });
   for (std::size_t i = 0; i < uses.size();) {
     FaultyEdge edge{uses[i].solid, low, uses[i].high, 0};
-    int balance = 0;  // of the directions; 0 where neighbours agree
+    int direction = 0;  // sum; 0 if the orientations agree
     for (; i < uses.size() && uses[i].solid == edge.solid && uses[i].high == edge.high; ++i) {
       ++edge.count;
-      balance += uses[i].direction;
+      direction += uses[i].direction;
     }
-    if (edge.count % 2 == 1 || balance != 0) faulty.push_back(edge);
+    if (edge.count % 2 == 1 || direction != 0) faulty.push_back(edge);
   }
 }
 
-// By solid, low, high.
+// Sorted by solid, low, high.
 std::vector<FaultyEdge> faulty_edges(const TriangleMesh& mesh,
                                      const std::vector<std::uint32_t>& welded,
                                      const std::vector<std::uint32_t>& solid_of_part) {
@@ -119,7 +120,7 @@ std::vector<std::uint32_t> solids_by_name(const TriangleMesh& mesh) {
   return solid_of_part;
 }
 
-// Joins solids whose boundaries share an edge. Returns whether it joined any.
+// Merges solids whose boundaries share an edge. Returns whether any were merged.
 bool join_open_solids(const std::vector<FaultyEdge>& faulty,
                       std::vector<std::uint32_t>& solid_of_part) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> first_at;
@@ -143,7 +144,7 @@ bool join_open_solids(const std::vector<FaultyEdge>& faulty,
   return joined;
 }
 
-// One reference point for all parts of a solid: each alone may be open.
+// All parts of a solid have one reference point: a single part may be open.
 double volume_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& parts) {
   const Vec3 o = mesh.positions[mesh.triangles[mesh.parts[parts.front()].first_triangle][0]];
   double six_volumes = 0;

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the metadata below; raised when their meaning changes.
+// Version of the metadata below; it grows when their meaning changes.
 constexpr std::int32_t kFileVersion = 1;
 constexpr const char* kVersion = "springlod_version";
 constexpr const char* kCell = "springlod_cell";
@@ -93,14 +93,14 @@ openvdb::GridCPtrVec grids_of(const MaterialGrid& grid) {
   return grids;
 }
 
-// OpenVDB may hang on what is no .vdb file, so its first bytes are looked at before.
+// OpenVDB may hang on a file that is not a .vdb file, so its first bytes are checked first.
 void require_magic(const fs::path& path) {
   if (fs::is_directory(path))
     throw IoError(fmt::format("{} is a folder; name a .vdb file", path.string()));
   std::ifstream in(path, std::ios::binary);
   if (!in)
     throw IoError(
-        fmt::format("cannot read {}; there is no such file or it may not be read", path.string()));
+        fmt::format("cannot read {}; the file is missing or not readable", path.string()));
   std::int64_t magic = 0;
   in.read(reinterpret_cast<char*>(&magic), sizeof magic);
   if (!in || magic != openvdb::OPENVDB_MAGIC)
@@ -138,8 +138,9 @@ class Reader {
   typename Grid::Ptr read_grid(const char* name) {
     auto grid = openvdb::gridPtrCast<Grid>(file_.readGrid(name));
     if (grid == nullptr)
-      throw IoError(fmt::format("{}: its grid \"{}\" has another type than springlod writes",
-                                path_.string(), name));
+      throw IoError(
+          fmt::format("{}: the type of its grid \"{}\" is not the one that springlod writes",
+                      path_.string(), name));
     return grid;
   }
 
@@ -151,8 +152,9 @@ class Reader {
                       path_.string()));
     const auto version = value<std::int32_t>(kVersion);
     if (version > kFileVersion)
-      throw IoError(fmt::format("{} is of version {}, newer than this springlod reads ({})",
-                                path_.string(), version, kFileVersion));
+      throw IoError(fmt::format(
+          "{} has format version {}; this springlod reads versions up to {}; update springlod",
+          path_.string(), version, kFileVersion));
   }
 
   void read_materials(MaterialGrid& grid) const {
@@ -173,10 +175,10 @@ class Reader {
   void read_cells(MaterialGrid& grid) {
     const auto numbers = read_grid<openvdb::Int32Grid>("material");
     std::vector<std::pair<CellIndex, std::uint16_t>> cells;
-    // A tile stands for all cells of its box.
+    // A tile represents all cells of its box.
     for (auto at = numbers->cbeginValueOn(); at; ++at) {
       if (*at < 0 || static_cast<std::size_t>(*at) >= grid.materials.size())
-        throw IoError(fmt::format("{}: it names material {} of {}; the file is damaged",
+        throw IoError(fmt::format("{}: a cell has material {} of {}; the file is damaged",
                                   path_.string(), *at, grid.materials.size()));
       const openvdb::CoordBBox box = at.getBoundingBox();
       for (auto c = box.begin(); c; ++c)

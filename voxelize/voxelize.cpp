@@ -20,13 +20,13 @@
 namespace springlod::voxelize {
 namespace {
 
-// Cells along the longest side where no cell is asked for: some thousands of nodes.
+// Default number of cells along the longest side: some thousand nodes.
 constexpr double kDefaultCells = 32;
-// Part of its volume by which a solid may change unremarked when it becomes cells.
+// Relative error of a solid's volume in cells above which a warning is given.
 constexpr double kVolumeTolerance = 0.1;
-// A cell of this part of the one asked for shows a solid in which no cell fits; for the message.
+// Factor on the cell that is proposed if no cell is filled.
 constexpr double kFinerCell = 0.25;
-// Solids are numbered in 16 bits, 0 is empty.
+// Solids have 16-bit numbers; 0 is empty.
 constexpr std::size_t kMostSolids = 65535;
 
 std::string quoted(const std::vector<std::string>& names) {
@@ -39,13 +39,13 @@ std::string quoted(const std::vector<std::string>& names) {
 void require_closed(const std::vector<SolidReport>& solids) {
   if (solids.empty()) throw InputError("voxelize: the mesh has no triangles");
   if (solids.size() > kMostSolids)
-    throw InputError(
-        fmt::format("voxelize: {} solids, the limit is {}; join some", solids.size(), kMostSolids));
+    throw InputError(fmt::format("voxelize: the mesh has {} solids, the limit is {}; join some",
+                                 solids.size(), kMostSolids));
   for (const SolidReport& solid : solids)
     if (!solid.closed())
       throw InputError(fmt::format(
-          "voxelize: part \"{}\" is not closed: {} boundary edges, the first at ({:.6g}, {:.6g}, "
-          "{:.6g}) m; fill its holes in a mesh editor, it bounds no volume",
+          "voxelize: part \"{}\" is not closed: it has {} boundary edges, the first at ({:.6g}, "
+          "{:.6g}, {:.6g}) m; fill its holes in a mesh editor",
           solid.part, solid.boundary_edges, solid.first_hole.x(), solid.first_hole.y(),
           solid.first_hole.z()));
 }
@@ -70,14 +70,14 @@ std::vector<std::size_t> claim_order(const TriangleMesh& mesh,
     std::vector<std::string> names;
     names.reserve(solids.size());
     for (const SolidReport& solid : solids) names.push_back(solid.part);
-    throw InputError(
-        fmt::format("voxelize: priority names \"{}\", but the parts are {}", name, quoted(names)));
+    throw InputError(fmt::format("voxelize: priority has the unknown part \"{}\"; the parts are {}",
+                                 name, quoted(names)));
   }
   for (std::size_t s = 0; s < solids.size(); ++s) take(s);
   return order;
 }
 
-// The work in progress; each member function is one stage.
+// The state of a voxelization; each member function is one stage.
 class Voxelizer {
  public:
   Voxelizer(const TriangleMesh& mesh, const VoxelizeOptions& options)
@@ -120,8 +120,8 @@ class Voxelizer {
     owner_.assign(frame_.count(), 0);
   }
 
-  // Level sets are made of as many solids at once as there are threads; then the solids claim their
-  // cells one after the other, so that threads change nothing.
+  // The level sets of as many solids as there are threads are made at once. The solids then claim
+  // their cells in sequence, so the number of threads does not change the result.
   void fill_solids(const std::vector<Shells>& shells) {
     const std::vector<std::size_t> order = claim_order(mesh_, solids_, options_.priority);
     const std::vector<Vec3> positions = positions_in_cells();
@@ -164,10 +164,11 @@ class Voxelizer {
 
   void fill_solid(std::size_t s, const Shells& shells, Field field) {
     const SolidReport& solid = solids_[s];
-    if (shells.turned) warn(fmt::format("part \"{}\" was inside out; it was turned", solid.part));
+    if (shells.turned)
+      warn(fmt::format("part \"{}\" was inside out; its triangles were reversed", solid.part));
     if (solid.nonmanifold_edges > 0)
       warn(
-          fmt::format("part \"{}\" has {} edges where its triangles do not agree; look at the "
+          fmt::format("part \"{}\" has {} non-manifold or inconsistently oriented edges; check the "
                       "result",
                       solid.part, solid.nonmanifold_edges));
     compare_volume(solid.part, shells.volume,
@@ -183,14 +184,15 @@ class Voxelizer {
     const double filled = static_cast<double>(cells) * std::pow(frame_.cell, 3);
     if (cells == 0)
       warn(
-          fmt::format("part \"{}\" is lost: no cell of {:.4g} m has its centre in it; use a "
+          fmt::format("part \"{}\" is lost: no cell of {:.4g} m has its centre inside; use a "
                       "smaller cell",
                       part, frame_.cell));
     else if (std::abs(filled - mesh_volume) > kVolumeTolerance * mesh_volume)
       warn(
-          fmt::format("part \"{}\" has {:.4g} m3 in cells against {:.4g} m3 in the mesh "
-                      "({:+.0f} %); use a smaller cell or look for crossing surfaces",
-                      part, filled, mesh_volume, 100 * (filled / mesh_volume - 1)));
+          fmt::format("part \"{}\": the volume of its cells has an error of {:+.0f} % ({:.4g} m3 "
+                      "against {:.4g} m3 in the mesh); use a smaller cell or check for crossing "
+                      "surfaces",
+                      part, 100 * (filled / mesh_volume - 1), filled, mesh_volume));
   }
 
   void gather_cells() {
@@ -205,7 +207,7 @@ class Voxelizer {
     grid().origin = frame_.origin;
     grid().distance = distance_;
     grid().cells.reserve(count);
-    grid().material.reserve(count);  // the solid, until materials are chosen
+    grid().material.reserve(count);  // the number of the solid until materials are assigned
     std::size_t n = 0;
     CellIndex c{};
     for (c[2] = 0; c[2] < frame_.size[2]; ++c[2])
@@ -218,13 +220,14 @@ class Voxelizer {
     std::vector<std::uint16_t>().swap(owner_);
   }
 
-  // A solid of one material gives it to all its cells; in a solid of several each cell takes that
-  // of the nearest triangle.
+  // All cells of a solid of one material have that material. In a solid of several, each cell takes
+  // that of the nearest triangle.
   void assign_part_materials() {
     std::vector<std::uint16_t> of_part;
     for (const MeshPart& part : mesh_.parts) of_part.push_back(materials_.of_part(part));
     std::vector<std::uint16_t> of_solid;
-    std::vector<std::vector<std::uint32_t>> mixed_cells(solids_.size());  // of solids of several
+    std::vector<std::vector<std::uint32_t>> mixed_cells(
+        solids_.size());  // of solids of several materials
     std::vector<std::uint8_t> mixed;
     for (const SolidReport& solid : solids_) {
       of_solid.push_back(of_part[solid.parts.front()]);
@@ -300,7 +303,7 @@ class Voxelizer {
   CellFrame frame_;
   std::vector<SolidReport> solids_;
   std::vector<std::uint16_t>
-      owner_;  // solid + 1 of each cell of the frame, until they are gathered
+      owner_;  // solid + 1 of each cell of the frame until cells are gathered
   Field distance_;
   VoxelizedMesh result_;
 };

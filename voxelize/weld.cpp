@@ -9,19 +9,19 @@
 namespace springlod::voxelize {
 namespace {
 
-// Part of the bounding diagonal below which two vertices are one: some 10 times the rounding of
-// single precision, far below any detail that a grid of cells could show.
+// Fraction of the bounding diagonal below which two vertices are merged: some 10 times the rounding
+// of single precision, far below any detail that a grid of cells resolves.
 constexpr double kWeldTolerance = 1e-6;
-// Side of a hash cell in tolerances: so large that few points lie near two cells, so small that few
+// Side of a hash cell in tolerances: so large that few points are near two cells, so small that few
 // share one.
 constexpr double kHashCell = 64;
-// Bits of a hash cell's number along one axis: there are some 1 / (64 * 1e-6) = 15625.
+// Bits of a hash cell's index along one axis: there are some 1 / (64 * 1e-6) = 15625 cells.
 constexpr unsigned kCellBits = 16;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 using HashCell = std::array<std::uint32_t, 3>;
 
-/// Vertices that are welded to none before them, by their hash cell.
+/// Vertices that are not merged with a lower one, by their hash cell.
 class KeptVertices {
  public:
   explicit KeptVertices(std::size_t vertices)
@@ -41,7 +41,7 @@ class KeptVertices {
  private:
   struct Slot {
     std::uint64_t key = 0;
-    std::uint32_t first = kNone;  // none: the slot is free
+    std::uint32_t first = kNone;  // kNone: the slot is free
   };
 
   static std::uint64_t key_of(const HashCell& cell) {
@@ -49,9 +49,9 @@ class KeptVertices {
     for (const std::uint32_t c : cell) key = (key << kCellBits) | c;
     return key;
   }
-  /// The slot of a key, or the free one where it belongs (linear probing; at most half are used).
+  /// The slot of a key, or the free slot where it belongs (linear probing; at most half are used).
   Slot& slot_of(std::uint64_t key) {
-    // Knuth's multiplicative hashing, by the golden ratio of 2^64: the high bits are well mixed.
+    // Knuth's multiplicative hashing with 2^64 over the golden ratio: the high bits are well mixed.
     constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15;
     const std::size_t mask = slots_.size() - 1;
     std::size_t at = (key * kGolden) >> (64 - std::countr_zero(slots_.size()));
@@ -60,7 +60,7 @@ class KeptVertices {
   }
 
   std::vector<Slot> slots_;
-  std::vector<std::uint32_t> next_;  // vertex of the same cell, kNone after the last
+  std::vector<std::uint32_t> next_;  // next vertex of the same cell, kNone after the last
 };
 
 class Welder {
@@ -91,8 +91,8 @@ class Welder {
   }
 
  private:
-  // No point asked for lies below `low_`, so that cutting off the fraction rounds down; rounding
-  // may leave one a hair below, which makes it 0 too.
+  // No point lies below `low_` except by rounding, so truncation rounds down, and a value slightly
+  // below 0 becomes 0 too.
   HashCell cell_of(const Vec3& p) const {
     HashCell cell{};
     for (int d = 0; d < 3; ++d)

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "base/chance.hpp"
 #include "base/error.hpp"
+#include "base/random.hpp"
 #include "base/script_number.hpp"
 #include "elastic/loads.hpp"
 
 namespace springlod::elastic {
 namespace {
 
-/// Where patches can be, and how wide they are.
+/// The border nodes, and the patches around them.
 class Surface {
  public:
   Surface(const MassSpringModel& model, const LocalLoadOptions& options)
@@ -31,19 +31,19 @@ class Surface {
     if (middles_.empty())
       throw InputError(
           options.within.empty()
-              ? "local loads: the model has no border nodes to push at"
-              : "local loads: none of the nodes chosen is a border node to push at; choose "
-                "nodes of the surface");
+              ? "local loads: the model has no border nodes; mark the nodes of its surface"
+              : "local loads: none of the chosen nodes is a border node; choose nodes of the "
+                "surface");
     find_normals();
   }
 
-  /// The middle of a patch.
-  std::uint32_t any(ChanceStream& chance) const {
-    return middles_[chance.below(static_cast<std::uint32_t>(middles_.size()))];
+  /// A random centre of a patch.
+  std::uint32_t any(RandomStream& random) const {
+    return middles_[random.below(static_cast<std::uint32_t>(middles_.size()))];
   }
 
-  /// Shares `force` among the border nodes around `center`; a patch does not reach across the edge
-  /// of what is chosen.
+  /// Distributes `force` over the border nodes around `center`. A patch ends at the boundary of the
+  /// chosen nodes.
   void pull(std::uint32_t center, const Vec3& force, StaticLoad& load) const {
     std::vector<std::uint32_t> patch;
     for (const std::uint32_t i : border_)
@@ -53,17 +53,17 @@ class Surface {
     for (const std::uint32_t i : patch) load.force[i] += force / static_cast<double>(patch.size());
   }
 
-  /// The border node nearest to the line that goes from `from` into the body, a patch or more away;
+  /// The border node nearest to the line from `from` into the body, at least a patch radius away;
   /// `from` itself if there is none.
   std::uint32_t opposite(std::uint32_t from) const {
     std::uint32_t best = from;
     double nearest = 0;
     for (const std::uint32_t i : border_) {
-      const Vec3 way = model_.rest[i] - model_.rest[from];
-      const double depth = -way.dot(normal_[from]);
+      const Vec3 offset = model_.rest[i] - model_.rest[from];
+      const double depth = -offset.dot(normal_[from]);
       if (depth < radius_) continue;
-      const double aside = (way + depth * normal_[from]).norm();
-      // Of two on the line the nearer is what the patch squeezes.
+      const double aside = (offset + depth * normal_[from]).norm();
+      // Of several candidates the nearest counts: it is on the other side of the same wall.
       const double distance = aside + depth;
       if (aside > radius_ || (best != from && distance >= nearest)) continue;
       best = i;
@@ -75,13 +75,13 @@ class Surface {
   double radius() const { return radius_; }
 
  private:
-  /// Away from where the springs of the patch lead.
+  /// The normal of a node is the negative sum of its spring vectors, normalized.
   void find_normals() {
     normal_.assign(model_.node_count(), Vec3::Zero());
     for (std::uint32_t s = 0; s < model_.spring_count(); ++s) {
-      const Vec3 way = model_.rest[model_.b[s]] - model_.rest[model_.a[s]];
-      normal_[model_.a[s]] -= way;
-      normal_[model_.b[s]] += way;
+      const Vec3 span = model_.rest[model_.b[s]] - model_.rest[model_.a[s]];
+      normal_[model_.a[s]] -= span;
+      normal_[model_.b[s]] += span;
     }
     for (Vec3& normal : normal_) normal.normalize();
   }
@@ -90,26 +90,25 @@ class Surface {
   double radius_;             // of a patch [m]
   std::vector<bool> chosen_;  // N
   std::vector<std::uint32_t> border_;
-  std::vector<std::uint32_t> middles_;  // the chosen ones of them
-  std::vector<Vec3> normal_;            // N, length 1, or 0 where the springs cancel out
+  std::vector<std::uint32_t> middles_;  // the chosen border nodes
+  std::vector<Vec3> normal_;            // N, of length 1, or 0 if the springs cancel out
 };
 
-/// Evenly over the sphere.
-Vec3 any_direction(ChanceStream& chance) {
-  constexpr double kTooShort = 0.1;  // to be stretched to length 1 without losing digits
+/// A direction uniformly distributed over the sphere.
+Vec3 any_direction(RandomStream& random) {
+  constexpr double kTooShort = 0.1;  // shorter vectors lose digits when normalized
   for (;;) {
-    Vec3 way;
-    for (int d = 0; d < 3; ++d) way[d] = 2 * chance.unit() - 1;
-    const double length = way.norm();
-    if (length <= 1 && length > kTooShort) return way / length;
+    Vec3 direction;
+    for (int d = 0; d < 3; ++d) direction[d] = 2 * random.unit() - 1;
+    const double length = direction.norm();
+    if (length <= 1 && length > kTooShort) return direction / length;
   }
 }
 
-/// Draws so often for each load wanted before a body counts as too small for more.
+/// Most draws for each requested load; then the surface counts as too small for more.
 constexpr std::uint32_t kTries = 100;
 
-/// Up to `count` loads of those that draw(number, load) fills in; it returns false if a draw was no
-/// good.
+/// Up to `count` loads filled in by draw(number, load), which returns false for an unusable draw.
 template <class Draw>
 std::vector<StaticLoad> draw_loads(const MassSpringModel& model, std::uint32_t count,
                                    const char* name, const Draw& draw) {
@@ -126,28 +125,28 @@ std::vector<StaticLoad> draw_loads(const MassSpringModel& model, std::uint32_t c
 
 std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoadOptions& options) {
   const Surface surface(model, options);
-  ChanceStream chance(options.seed);
+  RandomStream random(options.seed);
   return draw_loads(model, options.count, "patches", [&](std::size_t number, StaticLoad& load) {
-    const std::uint32_t p = surface.any(chance);
-    const std::uint32_t q = surface.any(chance);
+    const std::uint32_t p = surface.any(random);
+    const std::uint32_t q = surface.any(random);
     const bool near = number % 2 == 1;
-    const bool along = chance.unit() < 0.5;
+    const bool along = random.unit() < 0.5;
     const Vec3 apart = model.rest[q] - model.rest[p];
     const double distance = apart.norm();
     if (p == q || distance < surface.radius()) return false;
     if (near && distance > 2 * surface.radius()) return false;
-    const Vec3 way = along ? Vec3(apart / distance) : any_direction(chance);
-    surface.pull(p, -way, load);
-    surface.pull(q, way, load);
+    const Vec3 direction = along ? Vec3(apart / distance) : any_direction(random);
+    surface.pull(p, -direction, load);
+    surface.pull(q, direction, load);
     return true;
   });
 }
 
 std::vector<StaticLoad> pinches(const MassSpringModel& model, const LocalLoadOptions& options) {
   const Surface surface(model, options);
-  ChanceStream chance(options.seed);
+  RandomStream random(options.seed);
   return draw_loads(model, options.count, "pinch", [&](std::size_t, StaticLoad& load) {
-    const std::uint32_t p = surface.any(chance);
+    const std::uint32_t p = surface.any(random);
     const std::uint32_t q = surface.opposite(p);
     if (p == q) return false;
     const Vec3 across = (model.rest[q] - model.rest[p]).normalized();
@@ -159,10 +158,10 @@ std::vector<StaticLoad> pinches(const MassSpringModel& model, const LocalLoadOpt
 
 std::vector<StaticLoad> pushes(const MassSpringModel& model, const LocalLoadOptions& options) {
   const Surface surface(model, options);
-  ChanceStream chance(options.seed);
+  RandomStream random(options.seed);
   return draw_loads(model, options.count, "push", [&](std::size_t, StaticLoad& load) {
-    const std::uint32_t p = surface.any(chance);
-    surface.pull(p, any_direction(chance), load);
+    const std::uint32_t p = surface.any(random);
+    surface.pull(p, any_direction(random), load);
     return true;
   });
 }

@@ -12,11 +12,11 @@
 namespace springlod::elastic {
 namespace {
 
-/// The shifted factors precondition conjugate gradients so well (eigenvalues lambda / (lambda +
-/// sigma)) that the second step only corrects rounding; bars a thousand times as long as thick,
-/// whose bends are as soft as the shift, take some more.
+/// Most steps of conjugate gradients. The preconditioned matrix has the eigenvalues lambda /
+/// (lambda + sigma), so the second step usually only corrects rounding. A bar a thousand times as
+/// long as thick, whose lowest bending eigenvalues are of the size of the shift, needs a few more.
 constexpr int kMostSteps = 30;
-/// Step over solution at which a load is solved.
+/// Step / solution at which a load counts as solved.
 constexpr double kSolved = 1e-12;
 
 void check(const ElasticBody& body, const StaticLoad& load) {
@@ -29,76 +29,79 @@ void check(const ElasticBody& body, const StaticLoad& load) {
                                    script_number(i)));
 }
 
-/// A load does not count as pushing at a zero mode if its part along it, over its size, is less
-/// than this: far above rounding in either.
+/// Largest component of a load along the zero modes / norm of the load that counts as 0: far above
+/// rounding in either.
 constexpr double kPushes = 1e-9;
 
-/// What the anchors of a body do not hold has no rest to go to.
-void check_held(const ElasticPart& part, const StaticLoad& load, const Eigen::VectorXd& force) {
-  const Eigen::VectorXd free = part.zero_modes.transpose() * force;
+/// Rejects a load that acts on a motion which the anchors leave free: it has no static solution.
+void check_held(const ElasticComponent& component, const StaticLoad& load,
+                const Eigen::VectorXd& force) {
+  const Eigen::VectorXd free = component.zero_modes.transpose() * force;
   if (free.norm() <= kPushes * force.norm()) return;
-  const Eigen::VectorXd motion = (part.zero_modes * free).cwiseQuotient(part.root_mass);
+  const Eigen::VectorXd motion = (component.zero_modes * free).cwiseQuotient(component.root_mass);
   Eigen::Index farthest = 0;
   motion.reshaped(3, motion.size() / 3).colwise().norm().maxCoeff(&farthest);
   throw InputError(fmt::format(
-      "static load {}: no spring resists it, and the anchors leave the part free to move with it, "
-      "most of all node {}; anchor more nodes: three that do not lie in a line "
-      "hold a solid part, and zero_modes tells what is loose",
-      load.name, script_number(part.nodes[static_cast<std::size_t>(farthest)])));
+      "static load {}: it acts on a motion that neither springs nor anchors resist; node {} moves "
+      "most; anchor more nodes: three that do not lie in a line hold a solid component, and "
+      "zero_modes lists the loose nodes",
+      load.name, script_number(component.nodes[static_cast<std::size_t>(farthest)])));
 }
 
-/// D y = force by conjugate gradients preconditioned with the shifted factor; `direction` is what
-/// that gives for the forces.
-ConjugateGradientSolution iterate(const ElasticPart& part, const Eigen::MatrixXd& force,
-                                  Eigen::MatrixXd direction, double balance) {
+/// Solves D y = force by conjugate gradients, preconditioned with the shifted factor. `direction`:
+/// the preconditioned force.
+ConjugateGradientSolution iterate(const ElasticComponent& component, const Eigen::MatrixXd& force,
+                                  Eigen::MatrixXd direction, double relative_tolerance) {
   return conjugate_gradients(
       force, std::move(direction), kMostSteps,
-      [&](const Eigen::MatrixXd& y) -> Eigen::MatrixXd { return part.stiffness * y; },
-      [&](const Eigen::MatrixXd& residual) { return part.solve_shifted(residual); },
+      [&](const Eigen::MatrixXd& y) -> Eigen::MatrixXd { return component.stiffness * y; },
+      [&](const Eigen::MatrixXd& residual) { return component.solve_shifted(residual); },
       [&](Eigen::Index c, const ConjugateGradientSolution& solved,
           const Eigen::MatrixXd& residual) {
         return solved.last_step[c] <= kSolved * kSolved * solved.x.col(c).squaredNorm() ||
-               residual.col(c).norm() <= balance * force.col(c).norm();
+               residual.col(c).norm() <= relative_tolerance * force.col(c).norm();
       });
 }
 
-ConjugateGradientSolution solve_balanced(const ElasticPart& part, const Eigen::MatrixXd& force,
-                                         double balance) {
-  Eigen::MatrixXd y = part.solve_shifted(force);
-  // What is out of balance, force - D y = shift y, is known without another product. Most bodies
-  // are so much stiffer than the shift that nothing is left to do.
-  const Eigen::VectorXd left = part.shift * y.colwise().norm();
-  const Eigen::VectorXd allowed = balance * force.colwise().norm();
-  if ((left.array() > allowed.array()).any()) return iterate(part, force, std::move(y), balance);
+ConjugateGradientSolution solve_balanced(const ElasticComponent& component,
+                                         const Eigen::MatrixXd& force, double relative_tolerance) {
+  Eigen::MatrixXd y = component.solve_shifted(force);
+  // The residual, force - D y = shift y, is known without a matrix product. For most bodies, which
+  // are much stiffer than the shift, it is within the tolerance already.
+  const Eigen::VectorXd left = component.shift * y.colwise().norm();
+  const Eigen::VectorXd allowed = relative_tolerance * force.colwise().norm();
+  if ((left.array() > allowed.array()).any())
+    return iterate(component, force, std::move(y), relative_tolerance);
   return {std::move(y), Eigen::VectorXd::Zero(force.cols())};
 }
 
-/// Sums of squares over the parts, for each load.
+/// Sums of squares over the components, for each load.
 struct Sizes {
   Eigen::VectorXd solution, last_step;
 };
 
-void solve_part(const ElasticPart& part, bool anchored, const std::vector<StaticLoad>& loads,
-                double balance, std::vector<StaticSolution>& solutions, Sizes& sizes) {
+void solve_component(const ElasticComponent& component, bool anchored,
+                     const std::vector<StaticLoad>& loads, double relative_tolerance,
+                     std::vector<StaticSolution>& solutions, Sizes& sizes) {
   const auto count = static_cast<Eigen::Index>(loads.size());
-  Eigen::MatrixXd force(part.unknowns(), count);
+  Eigen::MatrixXd force(component.unknowns(), count);
   for (Eigen::Index c = 0; c < count; ++c) {
     const StaticLoad& load = loads[static_cast<std::size_t>(c)];
-    force.col(c) = part.gather(load.force).cwiseQuotient(part.root_mass);
-    if (anchored) check_held(part, load, force.col(c));
+    force.col(c) = component.gather(load.force).cwiseQuotient(component.root_mass);
+    if (anchored) check_held(component, load, force.col(c));
   }
-  part.remove_zero_modes(force);
-  const auto [y, last_step] = solve_balanced(part, force, balance);
+  component.remove_zero_modes(force);
+  const auto [y, last_step] = solve_balanced(component, force, relative_tolerance);
   sizes.solution += y.colwise().squaredNorm().transpose();
   sizes.last_step += last_step;
   for (Eigen::Index c = 0; c < count; ++c) {
     StaticSolution& solution = solutions[static_cast<std::size_t>(c)];
-    part.scatter(y.col(c).cwiseQuotient(part.root_mass), solution.displacement);
+    component.scatter(y.col(c).cwiseQuotient(component.root_mass), solution.displacement);
     solution.compliance += force.col(c).dot(y.col(c));
   }
 }
 
-/// Forces f_i = V_i field(r_i), scaled so that their amounts add up to 1 N.
+/// Forces f_i = V_i field(r_i), scaled so that their magnitudes add up to 1 N.
 template <class Field>
 StaticLoad load_of(const MassSpringModel& model, const Vec3& center, std::string name,
                    const Field& field) {
@@ -142,7 +145,7 @@ std::vector<StaticLoad> smooth_loads(const MassSpringModel& model) {
   }
   for (Eigen::Index across = 0; across < 3; ++across) {
     if (across == longest) continue;
-    // Pulls along one side and pushes along the other: a bending moment largest in the middle.
+    // Pulls on one side and pushes on the other: a bending moment that is largest in the middle.
     loads.push_back(load_of(model, center,
                             fmt::format("bend {} to {}", name(longest), name(across)),
                             [longest, across](const Vec3& r) -> Vec3 {
@@ -165,8 +168,9 @@ std::vector<StaticSolution> solve_static(const ElasticBody& body,
     solution.displacement.assign(body.node_count, Vec3::Zero());
   const auto count = static_cast<Eigen::Index>(loads.size());
   Sizes sizes{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
-  for (const ElasticPart& part : body.parts)
-    solve_part(part, !body.anchored.empty(), loads, options.balance, solutions, sizes);
+  for (const ElasticComponent& component : body.components)
+    solve_component(component, !body.anchored.empty(), loads, options.relative_tolerance, solutions,
+                    sizes);
   for (Eigen::Index c = 0; c < count; ++c)
     if (sizes.solution[c] > 0)
       solutions[static_cast<std::size_t>(c)].residual =

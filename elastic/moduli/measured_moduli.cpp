@@ -11,22 +11,22 @@
 namespace springlod::elastic {
 namespace {
 
-/// Springs around a node lie in a plane if their spread out of it, over that in it, is less (both
-/// squared): of a surface node of a lattice it is 0.3.
+/// The springs of a node are coplanar if their spread normal to the plane / spread within it (both
+/// squared) is below this. It is 0.3 for a surface node of a lattice.
 constexpr double kFlat = 1e-3;
-/// Average over largest local strain below which the average is what cancellation left over:
-/// stretches and shears have 0.3 and more, bends and twists of irregular models up to 0.05.
+/// Average strain / largest local strain below which the average is left over from cancellation.
+/// Stretches and shears have 0.3 and more, bends and twists of irregular models up to 0.05.
 constexpr double kCancelled = 0.1;
-/// Determinant of the normal equations over the square of mu's entry: below, all strains are of one
-/// kind (pure shear, equal stretch) but for rounding and tell only one of two moduli.
+/// Determinant of the normal equations / square of mu's entry. Below this, all strains are of one
+/// kind (pure shear, isotropic) up to rounding, and determine only one of the two moduli.
 constexpr double kSingular = 1e-6;
 
 bool within_one_material(const MassSpringModel& model, std::uint32_t spring) {
   return model.material[model.a[spring]] == model.material[model.b[spring]];
 }
 
-/// For each node the inverse of the sum of u u^T over its springs within its material; zero where
-/// these lie in a plane.
+/// For each node the inverse of the sum of u u^T over its springs within its material; zero if
+/// these are coplanar.
 std::vector<Mat3> inverse_spreads(const MassSpringModel& model) {
   std::vector<Mat3> spread(model.node_count(), Mat3::Zero());
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
@@ -43,9 +43,10 @@ std::vector<Mat3> inverse_spreads(const MassSpringModel& model) {
   return spread;
 }
 
-/// Strain of each node from the affine motion nearest to that of its neighbours. One affine motion
-/// for all nodes of a material would not do: its slope is no average where strain is uneven (loads
-/// by volume), and pieces of one material that move apart would count as strained.
+/// Strain of each node from the affine motion closest to that of its neighbours. One affine motion
+/// for all nodes of a material would not do: its gradient is not the average of uneven strain
+/// (forces per volume), and the relative motion of two regions of one material would count as
+/// strain.
 std::vector<Mat3> node_strains(const MassSpringModel& model, const std::vector<Mat3>& inverse,
                                const std::vector<Vec3>& displacement) {
   std::vector<Mat3> strain(model.node_count(), Mat3::Zero());
@@ -64,10 +65,10 @@ std::vector<Mat3> node_strains(const MassSpringModel& model, const std::vector<M
   return strain;
 }
 
-/// What the nodes of a material stand for.
+/// Volume of a material's nodes [m3].
 struct Volumes {
   double all = 0;
-  double solid = 0;  ///< of those whose springs do not lie in a plane
+  double solid = 0;  ///< of nodes whose springs are not coplanar
 };
 
 std::vector<Volumes> material_volumes(const MassSpringModel& model,
@@ -81,7 +82,7 @@ std::vector<Volumes> material_volumes(const MassSpringModel& model,
   return volumes;
 }
 
-/// Sums over a material of volume times stress and strain.
+/// Sums over a material of volume times stress and volume times strain.
 struct Sums {
   Mat3 stress = Mat3::Zero();
   Mat3 strain = Mat3::Zero();
@@ -123,7 +124,8 @@ struct IsotropicFit {
     }
   }
 
-  /// None where the strains do not tell both, or what they tell is no solid.
+  /// Nothing if the strains do not determine both moduli, or the moduli are not those of a stable
+  /// solid.
   std::optional<MaterialModuli> moduli() const {
     if (!(normal.determinant() > kSingular * normal(1, 1) * normal(1, 1))) return std::nullopt;
     const Eigen::Vector2d solved = normal.inverse() * right;
@@ -139,7 +141,7 @@ void add(const Sums& sums, const Volumes& volume, IsotropicFit& fit) {
   const Mat3 strain = sums.strain / volume.solid;
   const double size = strain.norm();
   if (!(size > kCancelled * sums.largest)) return;
-  // Of size 1 each: a soft load tells no more than a stiff one.
+  // All strains are scaled to norm 1, so soft and stiff loads have the same weight.
   fit.add(sums.stress / volume.all / size, strain / size);
 }
 
@@ -154,7 +156,7 @@ std::vector<MaterialModuli> measured_moduli(const MassSpringModel& model,
     if (solution.displacement.size() != model.rest.size())
       throw InputError(
           fmt::format("measured moduli: {} displacements for {} nodes; solve the "
-                      "loads for this very model",
+                      "loads for this model",
                       solution.displacement.size(), model.rest.size()));
     const std::vector<Sums> sums = material_sums(model, inverse, solution.displacement);
     for (std::size_t m = 0; m < fits.size(); ++m) add(sums[m], volumes[m], fits[m]);

@@ -10,7 +10,7 @@ namespace {
 
 using Strain = Eigen::Matrix<double, 6, 1>;  // xx, yy, zz, yz, zx, xy (engineering shears)
 
-/// Lengthening of a spring for each strain: u . strain . u L.
+/// Lengthening of a spring for each strain: L u . strain . u.
 Strain lengthening(const Vec3& u, double length) {
   Strain e;
   e << u.x() * u.x(), u.y() * u.y(), u.z() * u.z(), u.y() * u.z(), u.z() * u.x(), u.x() * u.y();
@@ -24,8 +24,8 @@ void require_sizes(const PeriodicNetwork& n) {
         fmt::format("periodic network: every spring array must have {} entries", springs));
   for (std::size_t s = 0; s < springs; ++s)
     if (n.a[s] >= n.rest.size() || n.b[s] >= n.rest.size())
-      throw InputError(fmt::format("periodic network: spring {} names a node that is not there",
-                                   script_number(s)));
+      throw InputError(fmt::format(
+          "periodic network: spring {} refers to a node that does not exist", script_number(s)));
 }
 
 }  // namespace

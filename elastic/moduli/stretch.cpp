@@ -14,16 +14,16 @@
 namespace springlod::elastic {
 namespace {
 
-/// Relative residual of the solution; the moduli come out to about as many digits.
+/// Relative residual of the solution; the moduli have about as many digits.
 constexpr double kTolerance = 1e-9;
-/// Lattices of 20k nodes take some hundred steps, strongly uneven ones some thousand.
+/// Lattices of 20k nodes need some hundred steps, strongly uneven ones some thousand.
 constexpr Eigen::Index kMaxSteps = 50000;
 
 struct Bar {
   Eigen::Index axis = 2;
   double low = 0;
   double high = 0;
-  double end_depth = 0;  // how far from the extremes a node still belongs to an end
+  double end_depth = 0;  // largest distance from the extreme nodes of a node of an end
   double length() const { return high - low; }
   bool at_low(const Vec3& p) const { return p[axis] <= low + end_depth; }
   bool at_high(const Vec3& p) const { return p[axis] >= high - end_depth; }
@@ -43,7 +43,7 @@ Bar measure_bar(const MassSpringModel& model, int axis) {
         fmt::format("stretch test: the model has fewer than two planes of nodes along "
                     "{}; stretch it along another axis",
                     "xyz"[axis]));
-  // At most a quarter of the length each, so that the ends do not meet.
+  // At most a quarter of the length each, so that the ends do not overlap.
   bar.end_depth = std::min(mean_spring_length(model) / 2, bar.length() / 4);
   return bar;
 }
@@ -59,7 +59,7 @@ Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& stiffness, const MassSp
     const bool held = bar.at_low(p) || bar.at_high(p);
     for (Eigen::Index d = 0; d < 3; ++d) {
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(i) + d;
-      // Uniform strain is what is prescribed, and a good first guess in between.
+      // Uniform strain is prescribed at the ends, and is a good initial guess elsewhere.
       if (d == bar.axis) u[row] = p[d] - bar.low;
       if (d != bar.axis || !held) free_of[static_cast<std::size_t>(row)] = free_count++;
     }
@@ -82,7 +82,7 @@ Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& stiffness, const MassSp
   for (std::size_t row = 0; row < free_of.size(); ++row)
     if (free_of[row] >= 0) free_force[free_of[row]] = force[static_cast<Eigen::Index>(row)];
 
-  // The bar may float sideways, but the forces balance.
+  // The matrix is singular (lateral rigid motions), but the forces are in equilibrium.
   const BalancedSolver solver(free_stiffness,
                               {.name = "stretch test",
                                .advice = "the stiffness of the springs may differ too much",
@@ -94,15 +94,15 @@ Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& stiffness, const MassSp
   return u;
 }
 
-/// Contraction along `across` per length over the middle half; a turn about the axis and a shift
-/// are fitted along with it.
+/// Contraction along `across` per length over the middle half. A rotation about the axis and a
+/// translation are fitted along with it.
 std::optional<double> contraction(const MassSpringModel& model, const Eigen::VectorXd& u,
                                   const Bar& bar, Eigen::Index across) {
   const Eigen::Index other = 3 - bar.axis - across;
   const double middle = (bar.low + bar.high) / 2;
   Vec3 centre = Vec3::Zero();
   std::vector<std::uint32_t> nodes;
-  // A hair more than a quarter to either side, so that rounding takes no plane of nodes in half.
+  // Slightly more than a quarter to either side, so that rounding does not split a plane of nodes.
   constexpr double kQuarter = 0.25 * (1 + 1e-9);
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     if (std::abs(model.rest[i][bar.axis] - middle) <= kQuarter * bar.length()) {
@@ -120,9 +120,10 @@ std::optional<double> contraction(const MassSpringModel& model, const Eigen::Vec
     normal += row * row.transpose();
     right += u[3 * static_cast<Eigen::Index>(i) + across] * row;
   }
-  constexpr double kNoWidth = 1e-12;  // mean square of width over length
+  constexpr double kNoWidth = 1e-12;  // mean square of width / length
   if (normal(1, 1) <= kNoWidth * normal(0, 0)) return std::nullopt;
-  if (normal(2, 2) <= kNoWidth * normal(0, 0)) normal(2, 2) = 1;  // flat: no turn to fit
+  if (normal(2, 2) <= kNoWidth * normal(0, 0))
+    normal(2, 2) = 1;  // flat: there is no rotation to fit
   return -normal.ldlt().solve(right)[1] / bar.length();
 }
 

@@ -12,43 +12,46 @@
 namespace springlod::elastic {
 namespace {
 
-/// Takes from the forces of each connected part the push and the turn they leave on it: areas
-/// shared out among nodes balance only nearly.
-void balance(const MassSpringModel& model, const Components& parts, Eigen::VectorXd& force) {
-  struct Part {
+/// Subtracts the resultant force and torque on each connected component: nodal shares of the areas
+/// are in equilibrium only approximately.
+void balance(const MassSpringModel& model, const Components& components, Eigen::VectorXd& force) {
+  struct Component {
     double nodes = 0;
     Vec3 centre = Vec3::Zero(), push = Vec3::Zero(), torque = Vec3::Zero();
     Mat3 inertia = Mat3::Zero();
-    Vec3 turn = Vec3::Zero();
+    Vec3 rotation = Vec3::Zero();
   };
-  std::vector<Part> all(parts.count);
+  std::vector<Component> all(components.count);
   const auto at = [](std::uint32_t i) { return 3 * static_cast<Eigen::Index>(i); };
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    Part& part = all[parts.of_node[i]];
-    part.nodes += 1;
-    part.centre += model.rest[i];
-    part.push += force.segment<3>(at(i));
+    Component& component = all[components.of_node[i]];
+    component.nodes += 1;
+    component.centre += model.rest[i];
+    component.push += force.segment<3>(at(i));
   }
-  for (Part& part : all) {
-    part.centre /= part.nodes;
-    part.push /= part.nodes;
+  for (Component& component : all) {
+    component.centre /= component.nodes;
+    component.push /= component.nodes;
   }
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    Part& part = all[parts.of_node[i]];
-    const Vec3 r = model.rest[i] - part.centre;
-    part.torque += r.cross(force.segment<3>(at(i)));
-    part.inertia += r.squaredNorm() * Mat3::Identity() - r * r.transpose();
+    Component& component = all[components.of_node[i]];
+    const Vec3 r = model.rest[i] - component.centre;
+    component.torque += r.cross(force.segment<3>(at(i)));
+    component.inertia += r.squaredNorm() * Mat3::Identity() - r * r.transpose();
   }
-  for (Part& part : all)
-    part.turn = part.inertia.completeOrthogonalDecomposition().solve(part.torque);
+  for (Component& component : all)
+    component.rotation =
+        component.inertia.completeOrthogonalDecomposition().solve(component.torque);
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    const Part& part = all[parts.of_node[i]];
-    force.segment<3>(at(i)) -= part.push + part.turn.cross(model.rest[i] - part.centre);
+    const Component& component = all[components.of_node[i]];
+    force.segment<3>(at(i)) -=
+        component.push + component.rotation.cross(model.rest[i] - component.centre);
   }
 }
 
-/// Mean gradient of a displacement field: the affine field nearest to it, nodes weighted by volume.
-/// Unlike the work of the tractions it does not mind how unevenly these are shared among nodes.
+/// Mean gradient of a displacement field: the closest affine field, nodes weighted by volume.
+/// Unlike the work of the tractions, it does not depend on how evenly these are distributed over
+/// nodes.
 Mat3 mean_gradient(const MassSpringModel& model, const Eigen::VectorXd& moved) {
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
@@ -68,20 +71,20 @@ Mat3 mean_gradient(const MassSpringModel& model, const Eigen::VectorXd& moved) {
 SurfaceStretchResult surface_stretch(const MassSpringModel& model,
                                      const std::vector<Vec3>& surface) {
   if (surface.size() != model.rest.size())
-    throw InputError(
-        fmt::format("surface stretch: {} areas for {} nodes", surface.size(), model.rest.size()));
-  const Components parts = connected_components(model);
+    throw InputError(fmt::format("surface stretch: {} areas for {} nodes; give one for each node",
+                                 surface.size(), model.rest.size()));
+  const Components components = connected_components(model);
   const BalancedSolver::Matrix stiffness = stiffness_matrix(model);
   const BalancedSolver solver(stiffness, {.name = "surface stretch",
                                           .advice = "zero_modes tells whether the model is solid"});
   const double volume = mass_properties(model).volume;
-  double stretch = 0;      // sum of strain along the pull over stress: 3 / E
+  double stretch = 0;      // sum of longitudinal strain / stress: 3 / E
   double contraction = 0;  // 6 nu / E
   for (int d = 0; d < 3; ++d) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(stiffness.rows());
     for (std::size_t i = 0; i < surface.size(); ++i)
       force[3 * static_cast<Eigen::Index>(i) + d] = surface[i][d];
-    balance(model, parts, force);
+    balance(model, components, force);
     double virial = 0;
     for (std::size_t i = 0; i < surface.size(); ++i)
       virial += force[3 * static_cast<Eigen::Index>(i) + d] * model.rest[i][d];

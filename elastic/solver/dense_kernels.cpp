@@ -10,12 +10,12 @@
 namespace springlod::elastic {
 namespace {
 
-/// Up to so many rows Eigen's kernels lose nothing to wider vectors.
+/// Up to this many rows Eigen's kernels are as fast as BLAS.
 constexpr Eigen::Index kSmall = 48;
 
-/// Held while BLAS is called. Threads are this program's own: BLAS gets one each. Its
-/// builds without threads mix up the calls of several (1 in 100 products comes out wrong), so with
-/// these one calls at a time.
+/// Held during a BLAS call. The threads are the program's own, and BLAS uses one for each call. A
+/// BLAS built without threads is not safe for concurrent calls (1 in 100 products is wrong), so its
+/// calls are serialized.
 class BlasTurn {
  public:
   BlasTurn() {
@@ -35,7 +35,7 @@ int size(Eigen::Index n) {
   return static_cast<int>(n);
 }
 
-/// The distance of columns; BLAS wants it above 0 even of empty matrices.
+/// The distance between columns; BLAS needs it above 0 even for empty matrices.
 int stride(const ConstDenseRef& m) {
   return size(std::max<Eigen::Index>(1, m.outerStride()));
 }

@@ -4,19 +4,19 @@
 
 namespace springlod::elastic {
 
-/// The dense kernels in which factorising and solving spend their time, with the widest vectors of
-/// the machine (BLAS). Matrices are stored by columns. One thread; the same bits every time on
-/// processors of one kind.
+/// Dense kernels (BLAS), which take most of the time of factorising and solving. They use the
+/// widest vectors of the machine. Matrices are stored by columns. One thread; the same bits every
+/// time on processors of one kind.
 using DenseRef = Eigen::Ref<Eigen::MatrixXd>;
 using ConstDenseRef = Eigen::Ref<const Eigen::MatrixXd>;
 
-/// A = L L^T in the lower half of a; the upper half is left alone. False if a pivot is not
-/// positive.
+/// Factorises A = L L^T in the lower triangle of a; the upper triangle is unchanged. Returns false
+/// if a pivot is not positive.
 bool factorise_lower(DenseRef a);
-/// b = b L^-T and b = b L^-1, L the lower half of `l`.
+/// b = b L^-T and b = b L^-1, with L the lower triangle of `l`.
 void solve_right_transposed(const ConstDenseRef& l, DenseRef b);
 void solve_right(const ConstDenseRef& l, DenseRef b);
-/// c -= a a^T, in the lower half of c.
+/// c -= a a^T, in the lower triangle of c.
 void subtract_square(const ConstDenseRef& a, DenseRef c);
 /// a^T a.
 Eigen::MatrixXd gram(const ConstDenseRef& a);

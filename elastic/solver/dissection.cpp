@@ -10,10 +10,10 @@
 namespace springlod::elastic {
 namespace {
 
-/// Regions of at most so many nodes are not cut any further: smaller ones make the dense blocks too
-/// small for fast kernels, larger ones store zeros (8 to 48 differ by a tenth in time).
+/// Regions of at most this many nodes are not cut further. Smaller ones make the dense blocks too
+/// small for fast kernels, larger ones store zeros (the time of 8 to 48 differs by a tenth).
 constexpr std::size_t kLeafNodes = 24;
-/// Where the planes are tried: parts of the nodes below them.
+/// Positions of the tried planes: fractions of the nodes below them.
 constexpr std::array kFractions{0.42, 0.5, 0.58};
 
 using Nodes = std::vector<std::uint32_t>;
@@ -21,7 +21,7 @@ using Nodes = std::vector<std::uint32_t>;
 struct Cut {
   Eigen::Index axis = 0;
   double place = 0;
-  bool from_low = false;  // the separator is taken from the low side
+  bool from_low = false;  // the separator consists of nodes of the low side
   double cost = 0;
 };
 
@@ -40,32 +40,32 @@ class Dissector {
  private:
   enum Side : std::uint8_t { kOutside, kLow, kHigh };
 
-  /// Returns the pieces on top of the trees it made: several if the region falls apart.
+  /// Returns the roots of the trees it made: several if the region is disconnected.
   std::vector<std::uint32_t> cut_up(Nodes nodes) {
     if (nodes.empty()) return {};
     const std::optional<Cut> cut = nodes.size() > kLeafNodes ? best_cut(nodes) : std::nullopt;
-    if (!cut) return {add_piece(nodes, {})};
+    if (!cut) return {add_supernode(nodes, {})};
     auto [low, high, separator] = apart(nodes, *cut);
     nodes = {};
     std::vector<std::uint32_t> tops = cut_up(std::move(low));
     const std::vector<std::uint32_t> others = cut_up(std::move(high));
     tops.insert(tops.end(), others.begin(), others.end());
     if (separator.empty()) return tops;
-    return {add_piece(separator, tops)};
+    return {add_supernode(separator, tops)};
   }
 
-  std::uint32_t add_piece(const Nodes& nodes, const std::vector<std::uint32_t>& children) {
-    const auto number = static_cast<std::uint32_t>(result_.pieces.size());
-    for (const std::uint32_t child : children) result_.pieces[child].parent = number;
-    Dissection::Piece piece;
-    piece.begin = static_cast<std::uint32_t>(result_.order.size());
+  std::uint32_t add_supernode(const Nodes& nodes, const std::vector<std::uint32_t>& children) {
+    const auto number = static_cast<std::uint32_t>(result_.supernodes.size());
+    for (const std::uint32_t child : children) result_.supernodes[child].parent = number;
+    Dissection::Supernode supernode;
+    supernode.begin = static_cast<std::uint32_t>(result_.order.size());
     result_.order.insert(result_.order.end(), nodes.begin(), nodes.end());
-    piece.end = static_cast<std::uint32_t>(result_.order.size());
-    result_.pieces.push_back(piece);
+    supernode.end = static_cast<std::uint32_t>(result_.order.size());
+    result_.supernodes.push_back(supernode);
     return number;
   }
 
-  /// None if the nodes all lie in one place.
+  /// Nothing if all nodes coincide.
   std::optional<Cut> best_cut(const Nodes& nodes) {
     std::optional<Cut> best;
     std::vector<double> along(nodes.size());
@@ -92,7 +92,7 @@ class Dissector {
   void unmark(const Nodes& nodes) {
     for (const std::uint32_t i : nodes) side_[i] = kOutside;
   }
-  /// Whether a node of the region is coupled to the other side of it.
+  /// Whether a node of the region is coupled to its other side.
   bool crosses(std::uint32_t i) const {
     const Side other = side_[i] == kLow ? kHigh : kLow;
     for (std::uint32_t e = graph_.start[i]; e < graph_.start[i + 1]; ++e)
@@ -110,7 +110,7 @@ class Dissector {
     unmark(nodes);
     if (low == 0) return std::nullopt;
     Cut cut{axis, place, low_crossing < high_crossing, 0};
-    // Few nodes in the separator come first; among equals, equal halves.
+    // The fewest nodes in the separator win; among equals, the most equal halves.
     const auto size = static_cast<double>(nodes.size());
     const double left = static_cast<double>(cut.from_low ? low - low_crossing : low) / size;
     const double right =

@@ -7,7 +7,8 @@
 
 namespace springlod::elastic {
 
-/// Uniform numbers in [-0.5, 0.5), the same with every standard library: starts of iterations.
+/// Uniform numbers in [-0.5, 0.5), the same with every standard library: start vectors of
+/// iterations.
 inline Eigen::MatrixXd random_block(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   Eigen::MatrixXd block(rows, columns);

@@ -27,8 +27,8 @@ NodeGraph node_graph(const Eigen::SparseMatrix<double>& matrix) {
   return graph;
 }
 
-/// Fills the fronts, piece by piece. What a front leaves over for the pieces above it (its update)
-/// is added to its parent.
+/// Fills the fronts, supernode by supernode. The Schur complement of a front (its update) is added
+/// to its parent.
 class SparseCholesky::Builder {
  public:
   Builder(SparseCholesky& factor, const Eigen::SparseMatrix<double>& matrix,
@@ -37,37 +37,37 @@ class SparseCholesky::Builder {
     assert(matrix.rows() == matrix.cols());
     assert(matrix.rows() == 3 * static_cast<Eigen::Index>(points.size()));
     Dissection dissection = dissect(points, graph_);
-    pieces_ = std::move(dissection.pieces);
+    supernodes_ = std::move(dissection.supernodes);
     factor_.order_ = std::move(dissection.order);
     place_.resize(factor_.order_.size());
     for (std::uint32_t k = 0; k < place_.size(); ++k) place_[factor_.order_[k]] = k;
     local_.resize(place_.size());
-    children_.resize(pieces_.size());
-    updates_.resize(pieces_.size());
+    children_.resize(supernodes_.size());
+    updates_.resize(supernodes_.size());
   }
 
   bool run(Progress* progress) {
     Task task(progress, "factorising the stiffness", place_.size());
-    for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
+    for (std::uint32_t p = 0; p < supernodes_.size(); ++p) {
       start_front(p);
       add_matrix(p);
       for (const std::uint32_t child : children_[p]) add_update(p, child);
       if (!eliminate(p)) return false;
-      task.advance(pieces_[p].end - pieces_[p].begin);
+      task.advance(supernodes_[p].end - supernodes_[p].begin);
     }
     return true;
   }
 
  private:
   void start_front(std::uint32_t p) {
-    const Dissection::Piece& piece = pieces_[p];
+    const Dissection::Supernode& supernode = supernodes_[p];
     Front& front = factor_.fronts_.emplace_back();
-    front.first = 3 * static_cast<Eigen::Index>(piece.begin);
-    front.parent = piece.parent;
-    if (piece.parent != Dissection::kNoParent) children_[piece.parent].push_back(p);
+    front.first = 3 * static_cast<Eigen::Index>(supernode.begin);
+    front.parent = supernode.parent;
+    if (supernode.parent != Dissection::kNoParent) children_[supernode.parent].push_back(p);
 
     std::vector<std::uint32_t>& rows = front.rows;
-    for (std::uint32_t k = piece.begin; k < piece.end; ++k) {
+    for (std::uint32_t k = supernode.begin; k < supernode.end; ++k) {
       const std::uint32_t node = factor_.order_[k];
       for (std::uint32_t e = graph_.start[node]; e < graph_.start[node + 1]; ++e)
         rows.push_back(place_[graph_.neighbour[e]]);
@@ -76,37 +76,38 @@ class SparseCholesky::Builder {
       const std::vector<std::uint32_t>& more = factor_.fronts_[child].rows;
       rows.insert(rows.end(), more.begin(), more.end());
     }
-    rows.erase(
-        std::remove_if(rows.begin(), rows.end(), [&](std::uint32_t k) { return k < piece.end; }),
-        rows.end());
+    rows.erase(std::remove_if(rows.begin(), rows.end(),
+                              [&](std::uint32_t k) { return k < supernode.end; }),
+               rows.end());
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 
     std::uint32_t next = 0;
-    for (std::uint32_t k = piece.begin; k < piece.end; ++k) local_[k] = next++;
+    for (std::uint32_t k = supernode.begin; k < supernode.end; ++k) local_[k] = next++;
     for (const std::uint32_t k : rows) local_[k] = next++;
-    const auto width = 3 * static_cast<Eigen::Index>(piece.end - piece.begin);
+    const auto width = 3 * static_cast<Eigen::Index>(supernode.end - supernode.begin);
     const auto below = 3 * static_cast<Eigen::Index>(rows.size());
     front.block.setZero(width + below, width);
     updates_[p].setZero(below, below);
   }
 
   void add_matrix(std::uint32_t p) {
-    const Dissection::Piece& piece = pieces_[p];
+    const Dissection::Supernode& supernode = supernodes_[p];
     Front& front = factor_.fronts_[p];
-    for (std::uint32_t k = piece.begin; k < piece.end; ++k)
+    for (std::uint32_t k = supernode.begin; k < supernode.end; ++k)
       for (Eigen::Index d = 0; d < 3; ++d)
         for (Eigen::SparseMatrix<double>::InnerIterator e(
                  matrix_, 3 * static_cast<Eigen::Index>(factor_.order_[k]) + d);
              e; ++e) {
           const std::uint32_t row = place_[static_cast<std::size_t>(e.row() / 3)];
-          if (row < piece.begin) continue;  // stands in the front of that piece
+          if (row < supernode.begin) continue;  // belongs to the front of that supernode
           front.block(3 * static_cast<Eigen::Index>(local_[row]) + e.row() % 3,
-                      3 * static_cast<Eigen::Index>(k - piece.begin) + d) += e.value();
+                      3 * static_cast<Eigen::Index>(k - supernode.begin) + d) += e.value();
         }
   }
 
-  /// Both number their rows in the order of elimination, so lower halves stay lower halves.
+  /// Both fronts number their rows in the order of elimination, so lower triangles stay lower
+  /// triangles.
   void add_update(std::uint32_t p, std::uint32_t child) {
     Front& front = factor_.fronts_[p];
     const std::vector<std::uint32_t>& rows = factor_.fronts_[child].rows;
@@ -140,11 +141,11 @@ class SparseCholesky::Builder {
   SparseCholesky& factor_;
   const Eigen::SparseMatrix<double>& matrix_;
   NodeGraph graph_;
-  std::vector<Dissection::Piece> pieces_;
+  std::vector<Dissection::Supernode> supernodes_;
   std::vector<std::vector<std::uint32_t>> children_;
   std::vector<Eigen::MatrixXd> updates_;
   std::vector<std::uint32_t> place_;  // node -> place in the order
-  std::vector<std::uint32_t> local_;  // place in the order -> row of blocks of the present front
+  std::vector<std::uint32_t> local_;  // place in the order -> row of blocks of the current front
 };
 
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& matrix,
@@ -159,7 +160,7 @@ std::size_t SparseCholesky::stored() const {
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& b) const {
-  // Transposed: what belongs to a node lies together.
+  // Transposed, so that the entries of a node are contiguous.
   Eigen::MatrixXd x(b.cols(), b.rows());
   const auto nodes = static_cast<Eigen::Index>(order_.size());
   for (Eigen::Index k = 0; k < nodes; ++k)

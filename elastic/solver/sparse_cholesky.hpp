@@ -11,34 +11,34 @@
 
 namespace springlod::elastic {
 
-/// Which nodes a 3N x 3N matrix couples (rows 3i..3i+2 belong to node i).
+/// Graph of the nodes that a 3N x 3N matrix couples (rows 3i..3i+2 belong to node i).
 NodeGraph node_graph(const Eigen::SparseMatrix<double>& matrix);
 
 /// Cholesky factors A = L L^T of a symmetric positive definite matrix of 3 x 3 blocks, one row of
-/// blocks a node. Multifrontal (Duff & Reid 1983) on the tree of a dissection: each piece is one
-/// dense block of columns, so that nearly all the work is done by dense kernels.
+/// blocks for each node. Multifrontal (Duff & Reid 1983) on the tree of a dissection: each
+/// supernode is one dense block of columns, so dense kernels do nearly all the work.
 ///
 /// One thread; the same bits every time.
 class SparseCholesky {
  public:
-  /// Both halves of the matrix must be stored. `points` are the N places of the nodes, by which the
-  /// order of elimination is chosen.
+  /// Both triangles of the matrix must be stored. `points`: positions of the N nodes, which
+  /// determine the order of elimination.
   SparseCholesky(const Eigen::SparseMatrix<double>& matrix, const std::vector<Vec3>& points,
                  Progress* progress = nullptr);
 
-  /// False if a pivot was not positive: the matrix is not positive definite, as far as rounding
-  /// tells. Then there is nothing to solve with.
+  /// False if a pivot was not positive: the matrix is not positive definite, up to rounding.
+  /// solve() must not be called then.
   bool positive() const { return positive_; }
   /// x = A^-1 b for each column of b (3N rows).
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
-  /// Numbers stored in L, zeros within its dense blocks included.
+  /// Number of stored values in L, including zeros within its dense blocks.
   std::size_t stored() const;
 
  private:
-  /// Columns of one piece: a dense block, its own rows first, then those of nodes further up.
+  /// Columns of one supernode: a dense block, first its own rows, then those of its ancestors.
   struct Front {
-    Eigen::Index first = 0;           // unknown, in the order of elimination
-    std::vector<std::uint32_t> rows;  // nodes further up, by their place in the order; rising
+    Eigen::Index first = 0;           // its first unknown, in the order of elimination
+    std::vector<std::uint32_t> rows;  // nodes of its ancestors, by their place in the order; rising
     std::uint32_t parent = Dissection::kNoParent;
     Eigen::MatrixXd block;
     Eigen::Index width() const { return block.cols(); }

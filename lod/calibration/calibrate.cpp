@@ -15,19 +15,19 @@
 #include "lod/calibration/long_springs.hpp"
 #include "lod/calibration/second_moments.hpp"
 #include "model/anchors.hpp"
-#include "model/parts.hpp"
+#include "model/components.hpp"
 
 namespace springlod::lod {
 namespace {
 
 /// A connected component of the base with its targets.
 struct PartTargets {
-  ModelPart part;
+  ModelComponent part;
   ElasticTargets targets;
 };
 
 /// The chosen nodes that lie in the component, numbered within it.
-std::vector<std::uint32_t> nodes_of_part(const ModelPart& part,
+std::vector<std::uint32_t> nodes_of_part(const ModelComponent& part,
                                          const std::vector<std::uint8_t>& chosen) {
   std::vector<std::uint32_t> nodes;
   for (std::uint32_t i = 0; i < part.nodes.size(); ++i)
@@ -52,7 +52,7 @@ void require_surface(const MassSpringModel& base, const TargetOptions& options) 
 
 /// The options for a component of the base: those of the call with its own anchored nodes and
 /// regions.
-TargetOptions options_of_part(const ModelPart& part, const std::vector<std::uint8_t>& anchored,
+TargetOptions options_of_part(const ModelComponent& part, const std::vector<std::uint8_t>& anchored,
                               const std::vector<std::vector<std::uint8_t>>& regions,
                               const CalibrateOptions& options) {
   TargetOptions of_part = options.targets;
@@ -83,7 +83,7 @@ std::vector<PartTargets> measure_parts(const MassSpringModel& base, const Calibr
   for (const TargetRegion& region : options.targets.regions)
     regions.push_back(anchor_flags(base, region.nodes));
   std::vector<PartTargets> all;
-  for (ModelPart& part : split_parts(base, connected_components(base))) {
+  for (ModelComponent& part : split_components(base, connected_components(base))) {
     const TargetOptions of_part = options_of_part(part, anchored, regions, options);
     std::vector<LoadTarget> loads = target_loads(part.model, of_part);
     const BaseMeasurements measured =
@@ -95,7 +95,8 @@ std::vector<PartTargets> measure_parts(const MassSpringModel& base, const Calibr
 }
 
 /// The map from the nodes of a component of the base to those of the level's component.
-Groups groups_of_part(const ModelPart& base, const ModelPart& level, const Groups& of_base) {
+Groups groups_of_part(const ModelComponent& base, const ModelComponent& level,
+                      const Groups& of_base) {
   Groups groups{{}, level.model.node_count()};
   std::vector<std::uint32_t> place(of_base.count);
   for (std::uint32_t i = 0; i < level.nodes.size(); ++i) place[level.nodes[i]] = i;
@@ -103,7 +104,7 @@ Groups groups_of_part(const ModelPart& base, const ModelPart& level, const Group
   return groups;
 }
 
-void write_back(const ModelPart& part, const MassSpringModel& fitted, MassSpringModel& level) {
+void write_back(const ModelComponent& part, const MassSpringModel& fitted, MassSpringModel& level) {
   for (std::size_t i = 0; i < part.nodes.size(); ++i) level.mass[part.nodes[i]] = fitted.mass[i];
   for (std::size_t s = 0; s < part.springs.size(); ++s) {
     level.stiffness[part.springs[s]] = fitted.stiffness[s];
@@ -189,11 +190,11 @@ class Calibrator {
     restore_second_moments(chain_.levels.front().model, level.of_base, level.model);
     favour_long_springs(level.model);
     const Components components = connected_components(level.model);
-    const std::vector<ModelPart> parts = split_parts(level.model, components);
+    const std::vector<ModelComponent> parts = split_components(level.model, components);
     for (std::size_t p = 0; p < base_.size(); ++p) {
       const PartTargets& of_base = base_[p];
       const std::uint32_t first = level.of_base.of[of_base.part.nodes.front()];
-      const ModelPart& part = parts[components.of_node[first]];
+      const ModelComponent& part = parts[components.of_node[first]];
       if (part.springs.empty()) {
         task.advance(steps_of(number));
         continue;

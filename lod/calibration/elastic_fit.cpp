@@ -43,7 +43,7 @@ Eigen::VectorXd dots(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
 std::vector<Vec3> rigid_acceleration(const elastic::ElasticBody& body,
                                      const elastic::StaticLoad& load) {
   std::vector<Vec3> acceleration(body.node_count, Vec3::Zero());
-  for (const elastic::ElasticPart& part : body.parts) {
+  for (const elastic::ElasticComponent& part : body.components) {
     const Eigen::VectorXd force = part.gather(load.force).cwiseQuotient(part.root_mass);
     const Eigen::VectorXd rigid = part.zero_modes * (part.zero_modes.transpose() * force);
     part.scatter(rigid.cwiseQuotient(part.root_mass), acceleration);
@@ -57,7 +57,7 @@ ElasticFit::ElasticFit(const MassSpringModel& level, const Groups& of_base,
                        const ElasticTargets& targets, std::uint32_t threads)
     : targets_(targets),
       threads_(threads),
-      anchored_(carried(of_base, targets.anchored)),
+      anchored_(mapped_nodes(of_base, targets.anchored)),
       stretch_(level.spring_count(), 3 * static_cast<Eigen::Index>(level.node_count())) {
   for (const LoadTarget& target : targets.loads)
     loads_.push_back(summed_over_groups(of_base, target.load));
@@ -126,7 +126,7 @@ void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticB
 void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticBody& body,
                            Eigen::Index first, ElasticResiduals& all) const {
   const std::vector<elastic::StaticSolution> solved =
-      elastic::solve_static(body, loads_, {.balance = kLoadBalance});
+      elastic::solve_static(body, loads_, {.relative_tolerance = kLoadBalance});
   const auto k = as_vector(level.stiffness).array();
   const auto m = as_vector(level.mass).array();
   for (std::size_t l = 0; l < loads_.size(); ++l) {

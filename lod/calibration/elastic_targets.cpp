@@ -69,7 +69,7 @@ std::vector<double> compliances(const elastic::ElasticBody& body,
     std::vector<elastic::StaticLoad> loads;
     for (std::size_t l = first; l < last; ++l) loads.push_back(targets[l].load);
     for (const elastic::StaticSolution& solution :
-         elastic::solve_static(body, loads, {.balance = kLoadBalance}))
+         elastic::solve_static(body, loads, {.relative_tolerance = kLoadBalance}))
       all.push_back(solution.compliance);
   }
   return all;
@@ -120,7 +120,7 @@ std::vector<LoadTarget> target_loads(const MassSpringModel& base, const TargetOp
   };
   if (options.kinds != TargetKinds::modes) {
     add(LoadKind::smooth, 1, elastic::smooth_loads(base));
-    add(LoadKind::piece, options.piece_weight, elastic::piece_loads(base));
+    add(LoadKind::piece, options.piece_weight, elastic::region_loads(base));
   }
   const std::uint32_t patches = patch_count(options, base.node_count());
   if (patches > 0 && border_count(base) > 0)

@@ -15,7 +15,7 @@ namespace springlod::lod {
 /// Kinds of static loads. Each kind has its own weight and tolerance.
 enum class LoadKind {
   smooth,  ///< on the whole body: smooth_loads
-  piece,   ///< on one material region: piece_loads
+  piece,   ///< on one material region: region_loads
   patch,   ///< on patches anywhere on the surface: patch_pairs
   region,  ///< within a TargetRegion of the surface: patch_pairs and pushes
 };
@@ -46,8 +46,8 @@ std::uint32_t mode_count(const TargetOptions& options);
 /// patches, so fewer patch load cases suffice.
 std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes);
 
-/// StaticOptions::balance in a calibration: a relative residual that leaves less than 0.01 % of
-/// error in a compliance.
+/// StaticOptions::relative_tolerance in a calibration: leaves less than 0.01 % of error in a
+/// compliance.
 constexpr double kLoadBalance = 1e-8;
 
 /// Measured values of a base. Measuring a large base takes minutes.

@@ -6,7 +6,7 @@
 
 #include <Eigen/QR>
 
-#include "model/material_pieces.hpp"
+#include "model/material_regions.hpp"
 
 namespace springlod::lod {
 namespace {
@@ -23,7 +23,7 @@ constexpr std::size_t kLeastPiece = 20;
 
 /// The nodes of each large material region, then those of all small regions together.
 std::vector<std::vector<std::uint32_t>> pieces_of(const MassSpringModel& model) {
-  std::vector<std::vector<std::uint32_t>> pieces = material_pieces(model);
+  std::vector<std::vector<std::uint32_t>> pieces = material_regions(model);
   const auto small = std::stable_partition(
       pieces.begin(), pieces.end(), [](const auto& nodes) { return nodes.size() >= kLeastPiece; });
   std::vector<std::uint32_t> rest;

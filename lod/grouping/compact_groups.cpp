@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "base/chance.hpp"
 #include "base/error.hpp"
+#include "base/random.hpp"
 #include "elastic/stable_step.hpp"
 #include "lod/grouping/connected_groups.hpp"
 #include "lod/grouping/graded_shares.hpp"
@@ -58,7 +58,7 @@ class CompactKind {
   CompactKind(const MassSpringModel& model, const Nodes& nodes, std::uint32_t count,
               std::uint64_t seed)
       : model_(model), nodes_(nodes), of_(nodes.size(), 0), center_(count, Vec3::Zero()) {
-    ChanceStream chance(seed);
+    RandomStream chance(seed);
     // A lattice has many equal coordinates; the jitter assigns them to a random side of a cut.
     const double jitter = kJitter * bounds_of(nodes).diagonal().norm() / std::cbrt(nodes.size());
     for (const std::uint32_t i : nodes) {
@@ -171,7 +171,7 @@ Groups compact_groups(const MassSpringModel& model, const CompactOptions& option
   const std::vector<std::uint32_t> share =
       graded_shares(frequencies_of(model, kinds), wanted, options.grading);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    CompactKind kind(model, kinds[k], share[k], mix(options.seed) + k);
+    CompactKind kind(model, kinds[k], share[k], split_mix(options.seed) + k);
     kind.relax(options.passes);
     for (std::size_t i = 0; i < kinds[k].size(); ++i)
       groups.of[kinds[k][i]] = groups.count + kind.groups()[i];

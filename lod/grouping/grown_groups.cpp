@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/chance.hpp"
+#include "base/random.hpp"
 #include "lod/grouping/grouping_keys.hpp"
 #include "lod/grouping/radix_sort.hpp"
 
@@ -20,11 +20,11 @@ enum class Draw : std::uint64_t { order = 1, size = 2, tie = 3 };
 // Random numbers by hashing of the seed and the arguments, independent of the order of evaluation.
 class Chance {
  public:
-  explicit Chance(std::uint64_t seed) : seed_(mix(seed)) {}
-  std::uint64_t operator()(Draw what, std::uint64_t x) const { return mix(state(what, x)); }
-  /// State for numbers of two arguments: mix(state ^ y) is the number for (x, y).
+  explicit Chance(std::uint64_t seed) : seed_(split_mix(seed)) {}
+  std::uint64_t operator()(Draw what, std::uint64_t x) const { return split_mix(state(what, x)); }
+  /// State for numbers of two arguments: split_mix(state ^ y) is the number for (x, y).
   std::uint64_t state(Draw what, std::uint64_t x) const {
-    return mix(mix(seed_ ^ static_cast<std::uint64_t>(what)) ^ x);
+    return split_mix(split_mix(seed_ ^ static_cast<std::uint64_t>(what)) ^ x);
   }
 
  private:
@@ -109,7 +109,7 @@ class Grouper {
       const double first = keys_.first(spring);
       if (first > best.first || first == kForbidden) return;
       const double second = keys_.second(spring);
-      const std::uint64_t tie = mix(chance ^ j);
+      const std::uint64_t tie = split_mix(chance ^ j);
       if (std::tie(first, second, tie) < std::tie(best.first, best.second, best.tie))
         best = {first, second, tie, j};
     });

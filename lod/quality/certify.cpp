@@ -120,8 +120,8 @@ void check_tolerances(const CertifyOptions& options, const LodChain& chain, cons
   constexpr double kPercent = 100;
   const auto check = [&](const char* what, double error, double most) {
     if (error > most)
-      c.misses.push_back(fmt::format("{}: error {:.3g} %, tolerance {:.3g} %", what,
-                                     kPercent * error, kPercent * most));
+      c.unmet.push_back(fmt::format("{}: error {:.3g} %, tolerance {:.3g} %", what,
+                                    kPercent * error, kPercent * most));
   };
   check("lowest ten frequencies", mean_frequency_error(c, 0, kLowestModes), c.tolerance);
   check("higher frequencies", mean_frequency_error(c, kLowestModes, options.modes),
@@ -132,7 +132,7 @@ void check_tolerances(const CertifyOptions& options, const LodChain& chain, cons
   check("centre of mass", c.center_shift, kExact);
   check("second moments of mass", c.second_moment_error, kExact);
   if (c.zero_modes > c.expected_zero_modes)
-    c.misses.push_back(
+    c.unmet.push_back(
         fmt::format("{} zero modes instead of {}", c.zero_modes, c.expected_zero_modes));
 }
 
@@ -155,7 +155,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
                summed.push_back(summed_over_groups(level.of_base, load));
              const Measured found =
                  measure(level.model, summed, loads.smooth,
-                         carried(level.of_base, options.anchored), options.modes);
+                         mapped_nodes(level.of_base, options.anchored), options.modes);
              Certificate c;
              compare_modes(chain, level, of_base.modes, found.modes, c);
              compare_loads(loads, of_base, found, c);
@@ -167,7 +167,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
              c.base_stable_step = of_base.stable_step;
              c.cost = found.cost;
              c.base_cost = of_base.cost;
-             for (const elastic::PartModes& part : elastic::zero_modes(level.model)) {
+             for (const elastic::ComponentModes& part : elastic::zero_modes(level.model)) {
                c.zero_modes += part.zero_modes;
                c.expected_zero_modes += part.expected;
              }

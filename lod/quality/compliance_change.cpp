@@ -33,7 +33,7 @@ class Contributions {
   }
 
   std::vector<double> of(const std::vector<Vec3>& u, const std::vector<Vec3>& coarse_u) const {
-    const std::vector<Vec3> v = carry(fine_from_coarse_, coarse_u);
+    const std::vector<Vec3> v = interpolate(fine_from_coarse_, coarse_u);
     const std::vector<Vec3> w = group_means(u, pair_.fine.mass, pair_.groups);
     std::vector<double> contribution(pair_.groups.count, 0);
     for (std::uint32_t s = 0; s < pair_.fine.spring_count(); ++s)

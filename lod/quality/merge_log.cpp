@@ -64,7 +64,7 @@ Questions questions_of(const LodChain& chain, std::uint32_t level, const elastic
   if (modes > 0) questions.modes = elastic::lowest_modes(body, {.count = modes}).modes;
   const Binding from_level = base_from_level(chain, level);
   for (std::size_t i = 0; i < questions.modes.size(); ++i) {
-    questions.modes[i].shape = carry(from_level, questions.modes[i].shape);
+    questions.modes[i].shape = interpolate(from_level, questions.modes[i].shape);
     questions.answers.push_back({fmt::format("f{}", i + 1), Answer::Kind::mode});
   }
   questions.loads = loads.loads;
@@ -157,7 +157,7 @@ class Log {
     };
     bodies_.resize(levels.size());
     jobs(levels.size(), [&](std::uint32_t n) {
-      bodies_[n] = held_body(levels[n].model, carried(levels[n].of_base, options_.anchored));
+      bodies_[n] = held_body(levels[n].model, mapped_nodes(levels[n].of_base, options_.anchored));
     });
     loads_ = loads_of(levels.front().model, bodies_.front(), options_);
     MergeLog log;

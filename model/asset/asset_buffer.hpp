@@ -11,7 +11,7 @@
 
 namespace springlod::inline model {
 
-/// The one buffer of a .glb file in the making: arrays go in, numbers of buffer views come out.
+/// Collects arrays in the single buffer of a .glb file and numbers their buffer views.
 class AssetBuffer {
  public:
   void reserve(std::size_t bytes) { bytes_.reserve(bytes); }

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The numbers that stand alone, for writer and reader.
+/// The scalar members, for the writer and the reader.
 constexpr std::array<std::pair<const char*, double Certificate::*>, 10> kNumbers{
     {{"massError", &Certificate::mass_error},
      {"centerShift", &Certificate::center_shift},
@@ -28,8 +28,7 @@ constexpr std::array<std::pair<const char*, double Certificate::*>, 10> kNumbers
      {"baseCost", &Certificate::base_cost},
      {"tolerance", &Certificate::tolerance}}};
 
-/// One JSON object that is read with strict types: the JSON library alone would take true for 1 and
-/// 2.5 for 2.
+/// A JSON object read with strict types: the JSON library would convert true to 1 and 2.5 to 2.
 class FieldReader {
  public:
   FieldReader(const json& object, std::string owner) : object_(object), owner_(std::move(owner)) {
@@ -52,7 +51,7 @@ class FieldReader {
       throw InputError(fmt::format("{}: '{}' cannot be {}", owner_, key, number));
     return static_cast<std::uint32_t>(number);
   }
-  /// read(entry, its name) for each entry; none if there is no such list.
+  /// Calls read(entry, name) for each entry of a list; does nothing if the list is missing.
   template <class Read>
   void each(const char* key, const Read& read) const {
     if (!object_.contains(key)) return;
@@ -114,7 +113,7 @@ json certificate_json(const Certificate& certificate) {
                                {"heldOut", load.held_out},
                                {"compliance", load.compliance},
                                {"error", load.error}});
-  for (const std::string& miss : certificate.misses) object["misses"].push_back(miss);
+  for (const std::string& text : certificate.unmet) object["misses"].push_back(text);
   return object;
 }
 
@@ -133,7 +132,7 @@ Certificate read_certificate(const json& object, const std::string& owner) {
   from.each("misses", [&](const json& entry, const std::string& name) {
     if (!entry.is_string())
       throw InputError(fmt::format("{} must be text, not {}", name, entry.type_name()));
-    certificate.misses.push_back(entry.get<std::string>());
+    certificate.unmet.push_back(entry.get<std::string>());
   });
   for (const auto& [key, member] : kNumbers) certificate.*member = from.number(key);
   certificate.zero_modes = from.count("zeroModes");

@@ -8,11 +8,10 @@
 
 namespace springlod::inline model {
 
-/// What the asset's JSON says of a level's certificate (docs/asset-format.md); empty lists are left
-/// out.
+/// JSON of a level's certificate (docs/asset-format.md). Empty lists are omitted.
 nlohmann::json certificate_json(const Certificate& certificate);
-/// The reverse. Throws InputError naming what is missing or of a wrong type, in `owner`'s name
-/// ("the certificate of level 1").
+/// Parses that JSON. Throws InputError for a missing value or one of a wrong type; messages start
+/// with `owner` ("the certificate of level 1").
 Certificate read_certificate(const nlohmann::json& object, const std::string& owner);
 
 }  // namespace springlod::inline model

@@ -19,10 +19,10 @@ using SpringEnds = std::vector<std::optional<std::size_t>>;
 using Float3 = std::array<float, 3>;
 using Byte4 = std::array<std::uint8_t, 4>;
 
-/// Levels stand this many times their width apart.
+/// Distance between levels along x, in widths of the base.
 constexpr double kGap = 1.25;
 
-/// The sRGB transfer function: colours here are display values, glTF wants linear ones.
+/// The sRGB transfer function. Colours here are display values; glTF needs linear ones.
 double linear(float srgb) {
   return srgb <= 0.04045F ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
@@ -37,7 +37,7 @@ std::vector<Float3> single_precision(const std::vector<Vec3>& points) {
   return floats;
 }
 
-/// glTF wants unit length even where all triangles are degenerate: up there.
+/// glTF needs normals of unit length also where all triangles are degenerate; +z is used there.
 std::vector<Float3> normals_for_gltf(const SplitSurface& surface,
                                      const std::vector<Vec3>& positions) {
   std::vector<Float3> normals;
@@ -55,7 +55,7 @@ class Display {
     // A quarter turn about x, (x, y, z) -> (x, z, -y), as quaternion x, y, z, w.
     append("nodes", {{"name", "z up"}, {"rotation", {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}}});
     const Box3 box = bounds(asset.surface).merged(bounds(asset.chain.levels[0].model.rest));
-    // A model flat along x still needs room between its levels.
+    // A model without width in x also needs space between its levels.
     const double step = kGap * std::max(box.sizes().x(), 0.1 * box.sizes().norm());
     double shift = 0;
     if (!asset.surface.triangles.empty()) {
@@ -186,7 +186,7 @@ class Display {
     return primitives;
   }
 
-  /// The glTF material of a part: coloured as the springs' material of its name is.
+  /// The glTF material of a mesh part. It has the colour of the springs' material of the same name.
   std::size_t part_material(const MeshPart& part, const std::vector<Material>& materials,
                             std::size_t p) {
     const std::string& name = part.material.empty() ? part.name : part.material;

@@ -1,6 +1,6 @@
 #pragma once
 
-// What writer and reader of the asset file agree on; documented in docs/asset-format.md.
+// Constants and the checksum shared by the writer and the reader (docs/asset-format.md).
 
 #include <bit>
 #include <cstdint>
@@ -14,13 +14,13 @@
 namespace springlod::inline model::asset_format {
 
 static_assert(std::endian::native == std::endian::little,
-              "arrays are written as they lie in memory, and glTF is little-endian");
+              "arrays are copied from memory, and glTF is little-endian");
 
 inline constexpr const char* kExtension = "SPRINGLOD_lod_chain";
 inline constexpr int kVersion = 1;
 
-/// xxh3-64 over the exact arrays, each preceded by its length in bytes, in the order of writing,
-/// and over the extension's JSON (keys sorted, no white space, without the checksum itself).
+/// xxh3-64 over the double-precision arrays in the order of writing, each preceded by its length in
+/// bytes, and over the extension's JSON (keys sorted, no white space, without the checksum itself).
 class Checksum {
  public:
   Checksum() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }

@@ -13,15 +13,15 @@
 #include "model/asset/asset_format.hpp"
 #include "model/asset/glb.hpp"
 
-// The extension is read with a JSON parser and range checks alone: a general glTF reader would
-// look at everything that a damaged file says.
+// The extension is read with a JSON parser and explicit range checks. A general glTF reader would
+// follow every reference of a damaged file.
 
 namespace springlod::inline model {
 namespace {
 
 using nlohmann::json;
 
-/// Builds the asset from the extension and checks it against its checksum.
+/// Builds the asset from the extension and verifies the checksum.
 class ExactReader {
  public:
   ExactReader(const json& gltf, std::string_view binary)
@@ -135,7 +135,7 @@ LodAsset load_asset(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (!is_glb(file))
     throw IoError(
-        fmt::format("{} is no .glb file (binary glTF); springlod convert makes one from "
+        fmt::format("{} is not a .glb file (binary glTF); springlod convert makes one from "
                     "a mesh",
                     name));
   try {
@@ -144,14 +144,14 @@ LodAsset load_asset(const std::filesystem::path& path) {
     const json* extension = find_extension(gltf);
     if (extension == nullptr)
       throw IoError(
-          fmt::format("{} holds a scene but no level-of-detail chain ({}); springlod "
+          fmt::format("{} has no level-of-detail chain (extension {}); springlod "
                       "convert makes one from a mesh",
                       name, asset_format::kExtension));
     const auto version = extension->at("version").get<std::int64_t>();
     if (version > asset_format::kVersion)
       throw IoError(
-          fmt::format("{} was written in version {} of the format, of which this program "
-                      "knows up to {}; update springlod",
+          fmt::format("{} has format version {}; this program reads versions up to {}; update "
+                      "springlod",
                       name, version, asset_format::kVersion));
     LodAsset asset = ExactReader(gltf, chunks.binary).read(*extension);
     validate(asset);

@@ -21,17 +21,17 @@ namespace {
 
 using nlohmann::json;
 
-/// Puts the exact arrays into the buffer and describes them in the extension.
+/// Writes the double-precision arrays to the buffer and describes them in the extension.
 class ExactWriter {
  public:
   explicit ExactWriter(AssetBuffer& buffer) : buffer_(buffer) {}
 
-  /// Buffer view of each level's springs' ends; nothing for no springs.
+  /// For each level the buffer view of the ends of its springs; nothing for no springs.
   std::vector<std::optional<std::size_t>> spring_ends;
 
   json describe(const LodAsset& asset) {
     json extension{{"version", asset_format::kVersion}};
-    // Empty lists are left out, here and below.
+    // Empty lists are omitted, here and below.
     for (const auto& [key, value] : asset.provenance.entries)
       extension["provenance"].push_back({key, value});
     for (const Level& level : asset.chain.levels) extension["levels"].push_back(describe(level));
@@ -109,7 +109,7 @@ class ExactWriter {
   asset_format::Checksum checksum_;
 };
 
-/// About what the buffer will hold: 112 B a node and 32 B a spring, and so on, rounded up.
+/// Estimated size of the buffer: 112 B a node and 32 B a spring, rounded up.
 std::size_t expected_bytes(const LodAsset& asset) {
   std::size_t bytes = std::size_t{64} * 1024;
   for (const Level& level : asset.chain.levels)
@@ -133,7 +133,7 @@ void save_asset(const LodAsset& asset, const std::filesystem::path& path) {
   document["bufferViews"] = buffer.views();
   document["buffers"] = {{{"byteLength", buffer.bytes().size()}}};
 
-  // Lengths in a .glb are 32 bits; the JSON wants some of it.
+  // Lengths in a .glb file have 32 bits; some room is left for the JSON.
   constexpr std::size_t kLargestBuffer = 0xF0000000;
   if (buffer.bytes().size() > kLargestBuffer)
     throw IoError(

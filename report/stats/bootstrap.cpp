@@ -6,8 +6,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
 
-#include "base/chance.hpp"
 #include "base/error.hpp"
+#include "base/random.hpp"
 #include "report/stats.hpp"
 
 namespace springlod::report {
@@ -53,7 +53,7 @@ Numbers all_but(std::size_t count, std::size_t left_out, std::size_t blocks) {
   return numbers;
 }
 
-Numbers drawn(std::size_t from, std::size_t count, ChanceStream& chance) {
+Numbers drawn(std::size_t from, std::size_t count, RandomStream& chance) {
   Numbers numbers(count);
   for (std::uint32_t& number : numbers) number = chance.below(static_cast<std::uint32_t>(from));
   return numbers;
@@ -129,7 +129,7 @@ class Resampling {
 
   /// Every resample has its own random stream.
   std::vector<Draw> resample(std::uint32_t number) const {
-    ChanceStream chance(options_.seed, number);
+    RandomStream chance(options_.seed, number);
     std::vector<Draw> draws;
     for (const StartSample& sample : samples_) {
       Draw& draw = draws.emplace_back();

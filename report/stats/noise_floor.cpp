@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "base/chance.hpp"
 #include "base/error.hpp"
+#include "base/random.hpp"
 #include "report/stats.hpp"
 
 namespace springlod::report {
@@ -41,7 +41,7 @@ std::size_t smallest_of(const Sources& sources) {
 }
 
 /// Moves `count` random values to the front (Fisher-Yates).
-void shuffle_front(std::vector<double>& values, std::size_t count, ChanceStream& chance) {
+void shuffle_front(std::vector<double>& values, std::size_t count, RandomStream& chance) {
   for (std::size_t i = 0; i < count; ++i)
     std::swap(values[i], values[i + chance.below(static_cast<std::uint32_t>(values.size() - i))]);
 }
@@ -52,7 +52,7 @@ std::vector<double> slice(const std::vector<double>& values, std::size_t from, s
 }
 
 std::vector<double> drawn_with_replacement(const std::vector<double>& values, std::size_t count,
-                                           ChanceStream& chance) {
+                                           RandomStream& chance) {
   std::vector<double> drawn(count);
   for (double& value : drawn)
     value = values[chance.below(static_cast<std::uint32_t>(values.size()))];
@@ -112,7 +112,7 @@ class Drawing {
 
   /// Every draw has its own random stream.
   double draw(std::uint32_t number) const {
-    ChanceStream chance(options_.seed, number);
+    RandomStream chance(options_.seed, number);
     const auto measured = [&](const std::vector<double>& base, const std::vector<double>& other) {
       return distance_between(base, other, floor_.distance);
     };

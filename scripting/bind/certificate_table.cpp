@@ -34,7 +34,7 @@ void set_lists(lua_State* L, const Certificate& certificate) {
     set_field(L, "held_out", load.held_out);
     set_field(L, "error", load.error);
   });
-  set_field(L, "misses", certificate.misses);
+  set_field(L, "misses", certificate.unmet);
 }
 
 void set_means(lua_State* L, const Certificate& certificate) {

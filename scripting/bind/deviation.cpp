@@ -47,7 +47,7 @@ std::vector<sim::Frame> brought_back(const TrajectoryValue& run) {
   std::vector<sim::Frame> frames;
   frames.reserve(run.trajectory.frames.size());
   for (const sim::Frame& frame : run.trajectory.frames)
-    frames.push_back({frame.time, carry(binding, frame.x)});
+    frames.push_back({frame.time, interpolate(binding, frame.x)});
   return frames;
 }
 

@@ -47,7 +47,7 @@ int zero_modes_binding(Call& call) {
   TableReader reader = call.options(2);
   const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
   reader.finish();
-  const std::vector<elastic::PartModes> parts = elastic::zero_modes(model, anchored);
+  const std::vector<elastic::ComponentModes> parts = elastic::zero_modes(model, anchored);
   lua_State* L = call.lua();
   begin_list(L, parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -67,7 +67,7 @@ int group_map_method(Call& call) {
 int carried_method(Call& call) {
   const auto self = call.self<LodAsset>();
   const Level& level = self->chain.levels[level_number(call, *self)];
-  std::vector<std::uint32_t> nodes = carried(
+  std::vector<std::uint32_t> nodes = mapped_nodes(
       level.of_base,
       nodes_at(call.lua(), call.index(2), self->chain.levels[0].model, "chain:carried: nodes"));
   for (std::uint32_t& node : nodes) ++node;
@@ -131,7 +131,7 @@ void describe_chain(Api& api) {
                .returns = "list of integers, rising",
                .errors = "A node that the base does not have.",
                .example =
-                   "local held = chain:carried(1, function(node) return node.x < 0.001 end)\n"
+                   "local held = chain:mapped_nodes(1, function(node) return node.x < 0.001 end)\n"
                    "print(s.modes(chain[1], {anchored = held})[1].frequency)",
                .call = carried_method});
   type.elements(

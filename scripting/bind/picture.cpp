@@ -116,7 +116,7 @@ void Picture::set_model(std::shared_ptr<const ModelValue> model,
                         const std::vector<Vec3>* positions) {
   model_ = std::move(model);
   positions_ = positions != nullptr ? *positions : model_->model->rest;
-  if (model_->surface) surface_positions_ = carry(surface_binding(*model_), positions_);
+  if (model_->surface) surface_positions_ = interpolate(surface_binding(*model_), positions_);
 }
 
 void Picture::add_obstacles(const sim::Scenario& scenario) {

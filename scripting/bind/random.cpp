@@ -30,8 +30,8 @@ int random_binding(Call& call) {
   options.progress = call.progress();
 
   voxelize::RandomModel random = voxelize::build_random(grid->grid, options);
-  if (random.parts > 1)
-    call.session().console().say(fmt::format("{} parts that no spring joins", random.parts));
+  if (random.components > 1)
+    call.session().console().say(fmt::format("{} parts that no spring joins", random.components));
   auto value = std::make_shared<ModelValue>();
   value->made_by = fmt::format("random, {} nodes, {} ends, seed {}{}", random.model.node_count(),
                                options.ends, options.seed, options.rescale ? "" : ", not rescaled");

@@ -136,7 +136,7 @@ void say_hinges(Call& call, const voxelize::LatticeModel& lattice, voxelize::Hin
                                              lattice.filled_cells == 1 ? "" : "s"));
   if (policy == voxelize::HingePolicy::separate)
     call.session().console().say(
-        fmt::format("{}: the cells were taken apart, {} parts", what, lattice.parts));
+        fmt::format("{}: the cells were taken apart, {} parts", what, lattice.components));
 }
 
 int lattice_binding(Call& call) {

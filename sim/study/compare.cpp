@@ -187,7 +187,7 @@ class Comparing {
     std::vector<Frame> base_frames;
     base_frames.reserve(frames.size());
     for (const Frame& frame : frames)
-      base_frames.push_back({frame.time, carry(bindings_[level], frame.x)});
+      base_frames.push_back({frame.time, interpolate(bindings_[level], frame.x)});
     return base_frames;
   }
 

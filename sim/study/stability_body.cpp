@@ -68,7 +68,7 @@ std::vector<Frame> fine_run(const MassSpringModel& model, const Specimen& specim
 
 std::vector<std::uint32_t> loose_nodes(const MassSpringModel& model) {
   std::vector<std::uint32_t> loose;
-  for (const elastic::PartModes& part : elastic::zero_modes(model))
+  for (const elastic::ComponentModes& part : elastic::zero_modes(model))
     loose.insert(loose.end(), part.mechanism_nodes.begin(), part.mechanism_nodes.end());
   return loose;
 }

@@ -4,7 +4,7 @@
 
 using namespace springlod;
 
-TEST_CASE("Sets are known by their lowest element and numbered by it") {
+TEST_CASE("A set is represented and numbered by its lowest element") {
   DisjointSets sets(7);
   CHECK(sets.unite(5, 2));
   CHECK(sets.unite(6, 5));
@@ -18,7 +18,7 @@ TEST_CASE("Sets are known by their lowest element and numbered by it") {
   CHECK(numbers.of == std::vector<std::uint32_t>{0, 1, 2, 3, 1, 2, 2});
 }
 
-TEST_CASE("The order in which elements are joined does not matter") {
+TEST_CASE("The order of unions does not matter") {
   constexpr std::uint32_t kCount = 1000;
   DisjointSets rising(kCount);
   DisjointSets falling(kCount);

@@ -19,7 +19,7 @@ std::ptrdiff_t files_in(const std::filesystem::path& folder) {
   return std::distance(std::filesystem::directory_iterator(folder), {});
 }
 
-TEST_CASE("Text is written into folders that were not there and reads back") {
+TEST_CASE("write_text_file makes missing folders, and read_file returns the text") {
   const TemporaryFolder folder;
   const std::string text("line\n\0\r\n\xFF", 9);
   write_text_file(folder / "new/deep/file.txt", text);
@@ -29,7 +29,7 @@ TEST_CASE("Text is written into folders that were not there and reads back") {
   CHECK(files_in(folder / "new/deep") == 1);
 }
 
-TEST_CASE("The old file survives a writer that fails, and nothing else is left behind") {
+TEST_CASE("After a failed writer the old file is unchanged and no temporary file is left") {
   const TemporaryFolder folder;
   write_text_file(folder / "file.txt", "old");
   CHECK_THROWS_WITH(write_aside(folder / "file.txt",
@@ -42,7 +42,9 @@ TEST_CASE("The old file survives a writer that fails, and nothing else is left b
   CHECK(files_in(folder.path()) == 1);
 }
 
-TEST_CASE("The file aside keeps the ending and the old file stays until the new one is whole") {
+TEST_CASE(
+    "The temporary file has the extension of the old one, which stays until the new one is "
+    "complete") {
   const TemporaryFolder folder;
   write_text_file(folder / "a.glb", "old");
   write_aside(folder / "a.glb", [&](const std::filesystem::path& aside) {
@@ -54,14 +56,14 @@ TEST_CASE("The file aside keeps the ending and the old file stays until the new 
   CHECK(read_file(folder / "a.glb") == "new");
 }
 
-TEST_CASE("What cannot be read or written is named with the reason") {
+TEST_CASE("An unreadable or unwritable path is reported with the reason") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(read_file(folder / "missing"), Contains("missing") && Contains("No such file"));
   CHECK_THROWS_WITH(read_file(folder.path()), Contains("is a folder"));
   write_text_file(folder / "file", "text");
   CHECK_THROWS_AS(write_text_file(folder / "file/below.txt", "x"), IoError);
   CHECK_THROWS_AS(write_text_file(folder.path(), "x"), IoError);
-  // A writer that wrote nothing leaves nothing to rename.
+  // If the writer writes nothing, there is no file to rename.
   CHECK_THROWS_WITH(write_aside(folder / "none.txt", [](const auto&) {}), Contains("none.txt"));
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-TEST_CASE("Quantities are read with their unit, with or without a space") {
+TEST_CASE("Quantities are parsed with their unit, with or without a space") {
   CHECK(parse_quantity("5 mm", Dimension::length, "cell") == 0.005);
   CHECK(parse_quantity(" 5mm ", Dimension::length, "cell") == 0.005);
   CHECK(parse_quantity("5", Dimension::length, "cell") == 5);
@@ -27,7 +27,7 @@ TEST_CASE("Quantities are read with their unit, with or without a space") {
   CHECK(parse_quantity("2e-3", Dimension::length, "cell") == 0.002);
 }
 
-TEST_CASE("A wrong unit is refused with the list of those that are known") {
+TEST_CASE("An unknown unit is rejected with the list of known ones") {
   CHECK_THROWS_WITH(parse_quantity("5 parsec", Dimension::length, "cell"),
                     Contains("cell") && Contains("parsec") && Contains("mm") && Contains("ft"));
   CHECK_THROWS_WITH(parse_quantity("5 mm", Dimension::pressure, "young"),
@@ -37,12 +37,12 @@ TEST_CASE("A wrong unit is refused with the list of those that are known") {
   CHECK_THROWS_WITH(length_unit("furlong"), Contains("furlong") && Contains("km"));
 }
 
-TEST_CASE("Text that is no number is refused") {
+TEST_CASE("Text that is not a number is rejected") {
   for (const char* text : {"", "mm", "five mm", "nan", "inf m", "1e999", "1e308 km", "--5"})
     CHECK_THROWS_AS(parse_quantity(text, Dimension::length, "cell"), InputError);
 }
 
-TEST_CASE("Quantities are written with the prefix that suits them") {
+TEST_CASE("Quantities are formatted with a suitable SI prefix") {
   CHECK(format_quantity(0.002, Dimension::length) == "2 mm");
   CHECK(format_quantity(1e7, Dimension::pressure) == "10 MPa");
   CHECK(format_quantity(0, Dimension::pressure) == "0 Pa");
@@ -55,7 +55,7 @@ TEST_CASE("Quantities are written with the prefix that suits them") {
   CHECK(format_quantity(1.5e-3, Dimension::time) == "1.5 ms");
 }
 
-TEST_CASE("What is written reads back") {
+TEST_CASE("Formatted quantities are parsed to the same value") {
   for (const Dimension d : {Dimension::length, Dimension::time, Dimension::mass,
                             Dimension::pressure, Dimension::density, Dimension::velocity})
     for (const double value : {1e-7, 0.5, 12.0, 4.2e5})

@@ -196,7 +196,7 @@ TEST_CASE("info prints the certificates of levels") {
   springlod::LodAsset asset = springlod::test::sample_asset();
   asset.chain.levels[1].certificate = springlod::test::sample_certificate();
   springlod::Certificate good = springlod::test::sample_certificate();
-  good.misses.clear();
+  good.unmet.clear();
   good.loads.clear();
   asset.chain.levels[2].certificate = good;
   springlod::save_asset(asset, path);

@@ -1,4 +1,4 @@
-// Bodies with nodes held where they are: modes, static loads, what the anchors leave free.
+// Anchored bodies: modes, static loads, and the motions that the anchors leave free.
 
 #include "model/anchors.hpp"
 
@@ -32,7 +32,7 @@ StaticLoad no_load(const MassSpringModel& model) {
   return {"test", std::vector<Vec3>(model.node_count(), Vec3::Zero())};
 }
 
-TEST_CASE("Anchored rows of masses swing at the frequencies of the textbook") {
+TEST_CASE("Anchored rows of masses have the analytical frequencies") {
   const std::uint32_t n = GENERATE(7U, 150U);
   const double k = 40;
   const MassSpringModel row = test::chain_of_nodes(n, k);  // masses of 1
@@ -41,7 +41,7 @@ TEST_CASE("Anchored rows of masses swing at the frequencies of the textbook") {
   };
   SECTION("held at one end") {
     const Modes found = lowest_modes(elastic_body(row, {.anchored = {0}}), {.count = 4});
-    CHECK(found.zero_modes_skipped == 2 * (n - 1));  // all ways across
+    CHECK(found.zero_modes_skipped == 2 * (n - 1));  // all lateral motions
     REQUIRE(found.modes.size() == 4);
     for (std::size_t j = 0; j < 4; ++j) {
       const double waves = (2.0 * static_cast<double>(j) + 1) / (2.0 * (n - 1) + 1);
@@ -55,9 +55,9 @@ TEST_CASE("Anchored rows of masses swing at the frequencies of the textbook") {
       CHECK(found.modes[j].angular_frequency ==
             Approx(omega((static_cast<double>(j) + 1) / (n - 1))).epsilon(1e-7));
   }
-  SECTION("held in the middle, each half swings by itself") {
+  SECTION("held in the middle, the halves vibrate independently") {
     const Modes found = lowest_modes(elastic_body(row, {.anchored = {n / 3}}), {.count = 2});
-    const std::uint32_t shorter = n / 3, longer = n - 1 - shorter;  // masses that move
+    const std::uint32_t shorter = n / 3, longer = n - 1 - shorter;  // free masses
     const auto side = [&](std::uint32_t moving, double wave) {
       return omega(wave / (2.0 * moving + 1));
     };
@@ -67,7 +67,7 @@ TEST_CASE("Anchored rows of masses swing at the frequencies of the textbook") {
   }
 }
 
-TEST_CASE("A held body swings and gives way as a dense solver says") {
+TEST_CASE("Modes and compliances of a held body are those of a dense solver") {
   const MassSpringModel model = test::random_model(3, GENERATE(4, 6));
   const Nodes anchored = nodes_below(model, 0.9);
   const ElasticBody body = elastic_body(model, {.anchored = anchored});
@@ -102,8 +102,9 @@ TEST_CASE("A held body swings and gives way as a dense solver says") {
   for (const std::uint32_t node : anchored) CHECK(solution.displacement[node] == Vec3::Zero());
 }
 
-TEST_CASE("A bar held at one end hangs as its material says") {
-  // The held end cannot contract, which stiffens it; far from it the strain is the material's.
+TEST_CASE("A bar hanging from one end has the elongation of its material") {
+  // The held end cannot contract, which stiffens it. Far from it the strain is that of the
+  // material.
   const double young = 3e6, a = 0.01;
   const int cells = 2, along = 24;
   const MassSpringModel bar = test::corners_box(cells, cells, along, a, young, 1000);
@@ -140,7 +141,7 @@ double tip_deflection(int cells, double thick, double length, double young) {
   return sum;
 }
 
-TEST_CASE("A cantilever bends as Timoshenko says, the more so the finer it is") {
+TEST_CASE("The deflection of a cantilever converges to Timoshenko's with finer cells") {
   const double young = 2e6, thick = 0.1, length = 1, nu = 0.25;
   const double shear = young / (2 * (1 + nu)), area = thick * thick;
   const double expected = std::pow(length, 3) / (3 * young * std::pow(thick, 4) / 12) +
@@ -150,12 +151,12 @@ TEST_CASE("A cantilever bends as Timoshenko says, the more so the finer it is") 
   INFO("errors " << e2 << ' ' << e4);
   CHECK(e2 < 0);  // too stiff
   CHECK(std::abs(e4) < 0.12);
-  // Second order, seen through the end's resistance to contracting and terms of fourth order.
+  // Second order, disturbed by the clamped end and by terms of fourth order.
   CHECK(e2 / e4 > 2.5);
   CHECK(e2 / e4 < 4.5);
 }
 
-TEST_CASE("Anchors are seen to leave what they leave") {
+TEST_CASE("Motions that anchors leave free are counted") {
   const MassSpringModel box = test::box_lattice(6, 4, 5);
   struct Case {
     Nodes anchored;
@@ -164,20 +165,20 @@ TEST_CASE("Anchors are seen to leave what they leave") {
   // Node 1 is the neighbour of node 0 along x, node 6 along y.
   for (const auto& [anchored, free] : {Case{{0}, 3}, Case{{0, 1}, 1}, Case{{0, 5, 3}, 1},
                                        Case{{0, 1, 6}, 0}, Case{{6, 0, 1, 0, 1}, 0}}) {
-    const PartModes part = zero_modes(box, anchored).at(0);
-    CHECK(part.zero_modes == free);
-    CHECK(part.expected == 0);
-    CHECK(part.mechanism_nodes.empty() == (free == 0));
+    const ComponentModes component = zero_modes(box, anchored).at(0);
+    CHECK(component.zero_modes == free);
+    CHECK(component.expected == 0);
+    CHECK(component.mechanism_nodes.empty() == (free == 0));
     CHECK(elastic_body(box, {.anchored = anchored}).zero_mode_count() == free);
   }
   CHECK(zero_modes(box, {0, 1, 6, 1}).at(0).anchored == 3);
 }
 
-TEST_CASE("A body that is all anchored has nothing to tell") {
+TEST_CASE("A body with all nodes anchored has no modes and no displacements") {
   const MassSpringModel box = test::box_lattice(2, 2, 2);
   const MassSpringModel two = test::side_by_side(box, box, {9, 0, 0});
   const ElasticBody body = elastic_body(two, {.anchored = {0, 1, 2, 3, 4, 5, 6, 7}});
-  CHECK(body.parts.size() == 1);
+  CHECK(body.components.size() == 1);
   CHECK(lowest_modes(body, {.count = 100}).modes.size() == 18);
   CHECK(lowest_modes(body).zero_modes_skipped == 6);
   const ElasticBody none = elastic_body(box, {.anchored = {0, 1, 2, 3, 4, 5, 6, 7}});
@@ -187,13 +188,13 @@ TEST_CASE("A body that is all anchored has nothing to tell") {
   CHECK(solve_static(none, {load}).at(0).compliance == 0);
 }
 
-TEST_CASE("A load that the anchors do not hold is refused, one that they hold is not") {
+TEST_CASE("A load on a motion that the anchors leave free is rejected, other loads are not") {
   const MassSpringModel box = test::box_lattice(4, 4, 4);
-  const ElasticBody hinged = elastic_body(box, {.anchored = {0, 3}});  // turns about x
+  const ElasticBody hinged = elastic_body(box, {.anchored = {0, 3}});  // free to rotate about x
   StaticLoad load = no_load(box);
   load.force[63] = {0, 1, 0};
   CHECK_THROWS_WITH(solve_static(hinged, {load}), Catch::Matchers::Contains("anchor more nodes"));
-  load.force[63] = {1, 0, 0};  // does not turn it about x
+  load.force[63] = {1, 0, 0};  // no torque about x
   CHECK(solve_static(hinged, {load}).at(0).compliance > 0);
 
   const MassSpringModel row = test::chain_of_nodes(20, 10);
@@ -205,7 +206,7 @@ TEST_CASE("A load that the anchors do not hold is refused, one that they hold is
   pull.force.back() = {2, 1e-3, 0};
   CHECK_THROWS_AS(solve_static(held, {pull}), InputError);
 
-  // A part that nothing holds beside one that is held.
+  // A free component beside a held one.
   const MassSpringModel two = test::side_by_side(box, box, {9, 0, 0});
   const ElasticBody half = elastic_body(two, {.anchored = {0, 1, 4}});
   StaticLoad push = no_load(two);
@@ -215,14 +216,14 @@ TEST_CASE("A load that the anchors do not hold is refused, one that they hold is
   CHECK_THROWS_AS(solve_static(half, {push}), InputError);
 }
 
-TEST_CASE("Anchors go with the groups from level to level") {
+TEST_CASE("mapped_nodes maps anchors to the groups of a level") {
   const Groups groups{{2, 0, 0, 1, 2}, 3};
-  CHECK(carried(groups, {}).empty());
-  CHECK(carried(groups, {4, 1, 2}) == Nodes{0, 2});
-  CHECK_THROWS_AS(carried(groups, {5}), InputError);
+  CHECK(mapped_nodes(groups, {}).empty());
+  CHECK(mapped_nodes(groups, {4, 1, 2}) == Nodes{0, 2});
+  CHECK_THROWS_AS(mapped_nodes(groups, {5}), InputError);
 }
 
-TEST_CASE("An anchored node that is none is refused by name") {
+TEST_CASE("An anchored node that does not exist is rejected with its number") {
   const MassSpringModel box = test::box_lattice(2, 2, 2);
   CHECK_THROWS_WITH(elastic_body(box, {.anchored = {8}}), Catch::Matchers::Contains("no node 9"));
   CHECK_THROWS_AS(zero_modes(box, {8}), InputError);

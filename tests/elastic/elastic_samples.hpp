@@ -15,8 +15,8 @@
 
 namespace springlod::test {
 
-/// A box of nx x ny x nz cells of edge a as `corners` springs (each cell gives its corners an
-/// eighth of its mass, its edges k/4, its face diagonals k/2): exactly E and nu = 1/4.
+/// A box of nx x ny x nz cells of edge a in the `corners` style (each cell contributes an eighth of
+/// its mass to its corners, k/4 to its edges, k/2 to its face diagonals): exactly E and nu = 1/4.
 inline MassSpringModel corners_box(int nx, int ny, int nz, double a, double young, double density) {
   const auto node = [&](int x, int y, int z) {
     return static_cast<std::uint32_t>((z * (ny + 1) + y) * (nx + 1) + x);
@@ -52,7 +52,7 @@ inline MassSpringModel corners_box(int nx, int ny, int nz, double a, double youn
   return m;
 }
 
-/// Both models, apart from each other.
+/// Both models as one disconnected model.
 inline MassSpringModel side_by_side(const MassSpringModel& first, const MassSpringModel& second,
                                     const Vec3& shift) {
   MassSpringModel both = first;
@@ -75,7 +75,7 @@ inline MassSpringModel side_by_side(const MassSpringModel& first, const MassSpri
   return both;
 }
 
-/// M^-1/2 K M^-1/2, solved densely.
+/// Eigenvalues of M^-1/2 K M^-1/2 by a dense solver.
 inline Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense_spectrum(const MassSpringModel& m) {
   Eigen::VectorXd weight(3 * static_cast<Eigen::Index>(m.node_count()));
   for (Eigen::Index i = 0; i < weight.size(); ++i)

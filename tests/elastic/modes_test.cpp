@@ -13,7 +13,7 @@
 namespace springlod::elastic {
 namespace {
 
-/// Stiffnesses over four powers of ten.
+/// Random stiffnesses over four powers of ten.
 MassSpringModel uneven_model(std::uint64_t seed, int n) {
   MassSpringModel m = test::random_model(seed, n);
   std::mt19937_64 random(seed + 100);
@@ -32,7 +32,7 @@ void check_against_dense(const MassSpringModel& m, const Modes& found, double to
 }
 
 TEST_CASE("The lowest modes of uneven models are those of a dense solver") {
-  // Below and above the size at which iteration takes over.
+  // Below and above the size from which the iteration is used.
   const int n = GENERATE(4, 5, 7);
   const std::uint64_t seed = GENERATE(1U, 2U);
   const MassSpringModel m = uneven_model(seed, n);
@@ -43,7 +43,7 @@ TEST_CASE("The lowest modes of uneven models are those of a dense solver") {
   for (const Mode& mode : found.modes) CHECK(mode.residual <= 1e-4);
 }
 
-TEST_CASE("Asked for more accuracy, the iteration gives it") {
+TEST_CASE("The iteration reaches a higher requested accuracy") {
   const MassSpringModel m = uneven_model(3, 6);
   const Modes found = lowest_modes(m, {.count = 40, .accuracy = 1e-8});
   check_against_dense(m, found, 1e-10);
@@ -69,7 +69,7 @@ TEST_CASE("Shapes are mass-normalised, orthogonal and solve K x = omega^2 M x") 
   }
 }
 
-TEST_CASE("A chain swings along itself as a row of masses does; the rest are mechanisms") {
+TEST_CASE("A chain has longitudinal modes of a row of masses; its lateral motions are mechanisms") {
   const std::uint32_t n = GENERATE(6U, 150U);
   const double k = 40;
   const Modes found = lowest_modes(test::chain_of_nodes(n, k), {.count = 5});
@@ -80,7 +80,7 @@ TEST_CASE("A chain swings along itself as a row of masses does; the rest are mec
           Approx(2 * std::sqrt(k) * std::sin(j * std::numbers::pi / (2 * n))).epsilon(1e-7));
 }
 
-TEST_CASE("Zero modes are counted over parts and mechanisms") {
+TEST_CASE("Zero modes of all components and mechanisms are counted") {
   const MassSpringModel box = test::box_lattice(5, 4, 6);
   SECTION("of two bodies") {
     CHECK(lowest_modes(test::side_by_side(box, box, {9, 0, 0})).zero_modes_skipped == 12);
@@ -90,7 +90,7 @@ TEST_CASE("Zero modes are counted over parts and mechanisms") {
     CHECK(lowest_modes(test::side_by_side(box, dot, {9, 0, 0})).zero_modes_skipped == 9);
     CHECK(lowest_modes(dot).modes.empty());
   }
-  SECTION("of a body from which a node dangles on a spring") {
+  SECTION("of a body with a node on a single spring") {
     MassSpringModel m = test::side_by_side(box, test::make_model({{0, 0, 0}}, {}), {5, 1, 2});
     m.a.push_back(119);
     m.b.push_back(120);
@@ -103,7 +103,7 @@ TEST_CASE("Zero modes are counted over parts and mechanisms") {
   }
 }
 
-TEST_CASE("Twelve equal bodies swing each of their modes twelve times") {
+TEST_CASE("Twelve equal bodies have each mode twelve times") {
   const MassSpringModel box = test::box_lattice(4, 5, 6);
   MassSpringModel row = box;
   for (int i = 1; i < 12; ++i) row = test::side_by_side(row, box, {9.0 * i, 0, 0});
@@ -116,13 +116,13 @@ TEST_CASE("Twelve equal bodies swing each of their modes twelve times") {
           Approx(one.modes[i / 12].angular_frequency).epsilon(1e-7));
 }
 
-TEST_CASE("A cube finds each of its threefold modes three times") {
+TEST_CASE("Each threefold mode of a cube is found three times") {
   const MassSpringModel cube = test::box_lattice(7, 7, 7);
   check_against_dense(cube, lowest_modes(cube, {.count = 30}), 1e-7);
 }
 
-/// First bending frequency [Hz] of a free bar of square section by ASTM E1876, eqs. 1 and 2: Euler
-/// and Bernoulli's with Timoshenko's correction by Pickett (1945).
+/// First bending frequency [Hz] of a free bar of square section by ASTM E1876, eqs. 1 and 2:
+/// Euler-Bernoulli with Pickett's correction (1945) for shear and rotary inertia.
 double first_bend(double thick, double length, double young, double nu, double density) {
   const double t = thick / length;
   const double correction = 1 + 6.585 * (1 + 0.0752 * nu + 0.8109 * nu * nu) * t * t -
@@ -133,7 +133,7 @@ double first_bend(double thick, double length, double young, double nu, double d
   return std::sqrt(young * thick * std::pow(thick / length, 3) / (0.9465 * mass * correction));
 }
 
-TEST_CASE("A free bar bends at Timoshenko's frequency as its cells get smaller") {
+TEST_CASE("The bending frequency of a free bar converges to Timoshenko's with finer cells") {
   const double young = 2e6, density = 1000, thick = 0.1, length = 0.8;
   const double expected = first_bend(thick, length, young, 0.25, density);
   std::vector<double> found;
@@ -142,15 +142,16 @@ TEST_CASE("A free bar bends at Timoshenko's frequency as its cells get smaller")
         test::corners_box(cells, cells, 8 * cells, thick / cells, young, density);
     const Modes modes = lowest_modes(bar, {.count = 2});
     CHECK(modes.zero_modes_skipped == 6);
-    // It bends both ways alike.
+    // Both bending directions have one frequency.
     CHECK(modes.modes[0].frequency() == Approx(modes.modes[1].frequency()).epsilon(1e-6));
     found.push_back(modes.modes[0].frequency());
   }
   INFO("expected " << expected << " found " << found[0] << ' ' << found[1] << ' ' << found[2]);
-  // Errors go with the square of the cell, so each halving takes away three quarters; with two
-  // cells across, terms of fourth order still show.
+  // Errors are of second order in the cell, so each halving removes three quarters. With two cells
+  // in cross-section, terms of fourth order are still visible.
   CHECK((found[1] - found[0]) / (found[2] - found[1]) == Approx(4).epsilon(0.2));
-  // The limit by Richardson; the formula is good to some 0.1 % at a thickness of an eighth.
+  // The limit by Richardson extrapolation. At a thickness of an eighth of the length the formula
+  // has an error of some 0.1 %.
   CHECK(found[2] + (found[2] - found[1]) / 3 == Approx(expected).epsilon(1e-3));
   CHECK(found[2] == Approx(expected).epsilon(0.01));
 }
@@ -169,7 +170,7 @@ TEST_CASE("The same seed gives the same bits, another seed the same modes") {
   }
 }
 
-TEST_CASE("A model with fewer modes than wanted gives those it has") {
+TEST_CASE("A model with fewer modes than requested returns all of its modes") {
   CHECK(lowest_modes(test::chain_of_nodes(4), {.count = 50}).modes.size() == 3);
   const MassSpringModel m = uneven_model(6, 5);
   const Modes all = lowest_modes(m, {.count = 1000});
@@ -177,7 +178,7 @@ TEST_CASE("A model with fewer modes than wanted gives those it has") {
   check_against_dense(m, all, 1e-7);
 }
 
-TEST_CASE("Springs too uneven for doubles give frequencies that are numbers") {
+TEST_CASE("Extremely uneven springs give finite frequencies") {
   MassSpringModel m = test::box_lattice(6, 5, 5);
   std::mt19937_64 random(8);
   for (double& k : m.stiffness) k = std::pow(10.0, 14 * test::uniform(random));
@@ -187,16 +188,16 @@ TEST_CASE("Springs too uneven for doubles give frequencies that are numbers") {
   }
 }
 
-TEST_CASE("Options that make no sense are refused") {
+TEST_CASE("Invalid options are rejected") {
   const MassSpringModel m = test::box_lattice(2, 2, 2);
   CHECK_THROWS_AS(lowest_modes(m, {.count = 0}), InputError);
   CHECK_THROWS_AS(lowest_modes(m, {.accuracy = 0}), InputError);
   CHECK_THROWS_AS(lowest_modes(m, {.accuracy = NAN}), InputError);
 }
 
-TEST_CASE("Models that are not finite are refused at once, by the node or spring that is not") {
+TEST_CASE("A model that is not finite is rejected with the number of the node or spring") {
   const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
-  for (const int n : {4, 12}) {  // solved densely, and by iterating
+  for (const int n : {4, 12}) {  // by the dense solver, and by the iteration
     const MassSpringModel sound = test::box_lattice(n, n, n);
     for (const double wrong : {nan, infinite}) {
       MassSpringModel m = sound;
@@ -210,7 +211,7 @@ TEST_CASE("Models that are not finite are refused at once, by the node or spring
       CHECK_THROWS_WITH(lowest_modes(m), Catch::Contains("node 3 "));
     }
     ElasticBody body = elastic_body(sound);
-    body.parts.front().stiffness.coeffRef(0, 0) = nan;
+    body.components.front().stiffness.coeffRef(0, 0) = nan;
     CHECK_THROWS_WITH(lowest_modes(body), Catch::Contains("is not finite"));
     MassSpringModel light = sound;
     light.mass[0] = 0;
@@ -221,7 +222,7 @@ TEST_CASE("Models that are not finite are refused at once, by the node or spring
   }
 }
 
-TEST_CASE("Work on modes can be interrupted") {
+TEST_CASE("lowest_modes can be interrupted") {
   struct Interrupt : Progress {
     void advance(std::uint64_t) override { throw InterruptedError(); }
   } interrupt;

@@ -27,7 +27,7 @@ double dense_frequency(const MassSpringModel& m) {
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues().maxCoeff());
 }
 
-TEST_CASE("Two masses on a spring have the frequency of their reduced mass") {
+TEST_CASE("Two masses on a spring have the frequency of the reduced mass") {
   MassSpringModel m = chain_of_nodes(2, 30);
   m.mass = {2, 3};
   const double exact = std::sqrt(30 * (1.0 / 2 + 1.0 / 3));
@@ -35,7 +35,7 @@ TEST_CASE("Two masses on a spring have the frequency of their reduced mass") {
   CHECK(frequency_bound(m) == Approx(std::sqrt(30.0)).epsilon(1e-12));
 }
 
-TEST_CASE("A long chain has the frequency of theory, from above by less than 1 part in 1e4") {
+TEST_CASE("The largest frequency of a long chain is at most 1e-4 above the analytical one") {
   const std::uint32_t n = GENERATE(20U, 60U, 400U);
   const double exact = 2 * std::sqrt(50.0) * std::sin(M_PI * (n - 1) / (2.0 * n));
   const double found = largest_frequency(chain_of_nodes(n, 50));
@@ -57,7 +57,7 @@ TEST_CASE("Lanczos agrees with a dense eigenvalue solver on an uneven lattice") 
   CHECK(largest_frequency(m, options) == found);
 }
 
-TEST_CASE("The bound without iterating is nearly reached inside a lattice") {
+TEST_CASE("frequency_bound is nearly attained in a lattice") {
   // Infinite lattice: omega^2 = 12 k/m (6 k in each direction at a node, twice).
   const MassSpringModel m = box_lattice(10, 10, 10);
   CHECK(frequency_bound(m) == Approx(std::sqrt(12.0)).epsilon(1e-12));
@@ -85,7 +85,7 @@ TEST_CASE("Ground stiffness raises the frequency of the nodes that touch") {
   CHECK_THROWS_AS(largest_frequency(big, options), InputError);
 }
 
-TEST_CASE("Parts that are not joined each have their say") {
+TEST_CASE("The largest frequency is that of the stiffest connected component") {
   std::vector<Vec3> points;
   std::vector<test::Pair> pairs;
   for (std::uint32_t i = 0; i < 60; ++i) {
@@ -98,7 +98,7 @@ TEST_CASE("Parts that are not joined each have their say") {
   CHECK(largest_frequency(m) == Approx(4).epsilon(1e-4));
 }
 
-TEST_CASE("The stable step follows the formula for damped springs") {
+TEST_CASE("The stable time step follows the formula for damped springs") {
   CHECK(stable_step(10, 0) == Approx(0.2).epsilon(1e-14));
   CHECK(stable_step(10, 0.3) == Approx(-0.3 + std::sqrt(0.09 + 0.04)).epsilon(1e-14));
   CHECK(stable_step(1e-3, 1e6) == Approx(2).epsilon(1e-6));

@@ -31,7 +31,7 @@ double energy(const MassSpringModel& m, const std::vector<Vec3>& u, double h) {
   return sum;
 }
 
-TEST_CASE("The stiffness matrix is the second derivative of the energy of the springs") {
+TEST_CASE("The stiffness matrix is the second derivative of the elastic energy") {
   MassSpringModel m = box_lattice(3, 3, 2, 0.5, 7);
   for (std::uint32_t s = 0; s < m.spring_count(); ++s) m.stiffness[s] = 3 + std::sin(s);
   const auto u = some_displacements(m.node_count());
@@ -43,7 +43,7 @@ TEST_CASE("The stiffness matrix is the second derivative of the energy of the sp
   CHECK(twice_energy == Approx((energy(m, u, h) + energy(m, u, -h)) / (h * h)).epsilon(1e-5));
 }
 
-TEST_CASE("The assembled matrix acts like the springs one by one and is symmetric") {
+TEST_CASE("The assembled matrix is symmetric and agrees with apply_stiffness") {
   MassSpringModel m = box_lattice(3, 4, 2);
   for (std::uint32_t s = 0; s < m.spring_count(); ++s) m.stiffness[s] = 3 + std::cos(s);
   const auto u = some_displacements(m.node_count());
@@ -59,7 +59,7 @@ TEST_CASE("The assembled matrix acts like the springs one by one and is symmetri
   CHECK_THROWS_AS(apply_stiffness(m, {}, f), InputError);
 }
 
-TEST_CASE("Rigid motions meet no force") {
+TEST_CASE("Rigid motions cause no force") {
   const MassSpringModel m = box_lattice(3, 3, 3);
   std::vector<Vec3> u, f;
   for (const Vec3& x : m.rest) u.emplace_back(Vec3(1, 2, 3) + Vec3(0.3, -0.2, 0.5).cross(x));
@@ -67,7 +67,7 @@ TEST_CASE("Rigid motions meet no force") {
   for (const Vec3& force : f) CHECK(force.norm() < 1e-13);
 }
 
-TEST_CASE("A row of springs pulled along itself is springs in series") {
+TEST_CASE("A stretched row of springs has the stiffness of springs in series") {
   const MassSpringModel m = test::chain_of_nodes(6, 10);  // 5 springs of 10 N/m, 1 m each
   const StretchResult r = stretch_test(m, {.axis = 0, .cross_section = 2});
   CHECK(r.reaction == Approx(10).epsilon(1e-9));  // 2 N/m over 5 m
@@ -76,7 +76,7 @@ TEST_CASE("A row of springs pulled along itself is springs in series") {
   CHECK(std::isnan(r.poisson));
 }
 
-TEST_CASE("Parts of unequal stiffness in series share the strain as theory says") {
+TEST_CASE("Segments in series have strains inverse to their stiffness") {
   MassSpringModel m = test::chain_of_nodes(9, 10);
   for (std::uint32_t s = 4; s < 8; ++s) m.stiffness[s] = 1000;
   const double compliance = 4.0 / 10 + 4.0 / 1000;
@@ -84,7 +84,7 @@ TEST_CASE("Parts of unequal stiffness in series share the strain as theory says"
         Approx(8 / compliance).epsilon(1e-9));
 }
 
-TEST_CASE("A loose node or a mechanism does not disturb the stretch test") {
+TEST_CASE("A loose node or a mechanism does not change the stretch test") {
   MassSpringModel m = box_lattice(4, 4, 8);
   const StretchResult sound = stretch_test(m, {.cross_section = 9});
   m.rest.emplace_back(9, 9, 3);
@@ -97,7 +97,7 @@ TEST_CASE("A loose node or a mechanism does not disturb the stretch test") {
   CHECK(loose.young == Approx(sound.young).epsilon(1e-7));
 }
 
-TEST_CASE("A model that cannot be stretched is refused") {
+TEST_CASE("A model that cannot be stretched is rejected") {
   CHECK_THROWS_AS(stretch_test(box_lattice(3, 3, 1)), InputError);
   CHECK_THROWS_AS(stretch_test(test::make_model({{0, 0, 0}, {0, 0, 1}}, {})), InputError);
   CHECK_THROWS_AS(stretch_test(box_lattice(3, 3, 3), {.axis = 3}), InputError);

@@ -20,7 +20,7 @@ MassSpringModel tetrahedron() {
                     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}});
 }
 
-/// The model with one more node at `place`, joined to `to`.
+/// The model with an additional node at `place`, connected to `to`.
 MassSpringModel with_node(const MassSpringModel& m, const Vec3& place,
                           const std::vector<std::uint32_t>& to) {
   std::vector<Vec3> points = m.rest;
@@ -47,7 +47,7 @@ TEST_CASE("A tetrahedron of springs has six zero modes") {
   CHECK(parts[0].mechanism_nodes.empty());
 }
 
-TEST_CASE("A single node has three zero modes, two on a spring five") {
+TEST_CASE("A single node has three zero modes, two nodes on a spring have five") {
   const auto parts = zero_modes(make_model({{0, 0, 0}, {5, 5, 5}, {6, 5, 5}}, {{1, 2}}));
   REQUIRE(parts.size() == 2);
   CHECK(parts[0].node_count == 1);
@@ -59,7 +59,7 @@ TEST_CASE("A single node has three zero modes, two on a spring five") {
   CHECK(parts[1].mechanism_nodes.empty());
 }
 
-TEST_CASE("A straight chain resists along itself alone") {
+TEST_CASE("A straight chain resists only longitudinal motions") {
   const std::uint32_t n = GENERATE(3U, 10U, 500U);
   const auto parts = zero_modes(test::chain_of_nodes(n));
   REQUIRE(parts.size() == 1);
@@ -68,8 +68,8 @@ TEST_CASE("A straight chain resists along itself alone") {
   CHECK(parts[0].mechanism_nodes.size() == n);
 }
 
-TEST_CASE("A straight truss that springs hold on all sides of the line is sound") {
-  // Every node of a line joined to each other: still only along the line, to first order.
+TEST_CASE("A straight line of fully connected nodes resists only longitudinal motions") {
+  // All pairs of nodes of a line are connected: in linear theory that adds no lateral stiffness.
   std::vector<test::Pair> pairs;
   for (std::uint32_t a = 0; a < 4; ++a)
     for (std::uint32_t b = a + 1; b < 4; ++b) pairs.emplace_back(a, b);
@@ -78,7 +78,7 @@ TEST_CASE("A straight truss that springs hold on all sides of the line is sound"
   CHECK(parts[0].zero_modes == 9);
 }
 
-TEST_CASE("A square frame shears and folds") {
+TEST_CASE("A square frame has mechanisms: it shears and folds") {
   const auto parts = zero_modes(
       make_model({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1}, {0, 3}, {1, 2}, {2, 3}}));
   CHECK(parts[0].expected == 6);
@@ -86,7 +86,7 @@ TEST_CASE("A square frame shears and folds") {
   CHECK(parts[0].mechanism_nodes.size() == 4);
 }
 
-TEST_CASE("A dangling node is named, and nothing else") {
+TEST_CASE("A loose node is listed, and no other node") {
   const MassSpringModel sound = box_lattice(3, 3, 3);
   SECTION("on one spring") {
     const auto parts = zero_modes(with_node(sound, {3, 1, 1}, {14}));
@@ -98,14 +98,14 @@ TEST_CASE("A dangling node is named, and nothing else") {
     CHECK(parts[0].zero_modes == 7);
     CHECK(parts[0].mechanism_nodes == std::vector<std::uint32_t>{27});
   }
-  SECTION("on springs in all directions it does not dangle") {
+  SECTION("on springs in all directions it is not loose") {
     const auto parts = zero_modes(with_node(sound, {3, 1, 1}, {5, 11, 14, 17}));
     CHECK(parts[0].zero_modes == 6);
     CHECK(parts[0].mechanism_nodes.empty());
   }
 }
 
-TEST_CASE("The node that swings farthest comes first") {
+TEST_CASE("The node with the largest motion comes first") {
   MassSpringModel m = with_node(box_lattice(3, 3, 3), {3, 1, 1}, {14});
   m = with_node(m, {4, 1, 1}, {27});
   const auto parts = zero_modes(m);
@@ -113,17 +113,17 @@ TEST_CASE("The node that swings farthest comes first") {
   CHECK(parts[0].mechanism_nodes.size() == 2);
 }
 
-TEST_CASE("Stiffness does not matter to what moves freely") {
+TEST_CASE("Mechanisms do not depend on the stiffness of the springs") {
   MassSpringModel m = with_node(box_lattice(4, 3, 3), {4, 1, 1}, {15, 19});
   for (std::uint32_t s = 0; s < m.spring_count(); ++s) m.stiffness[s] = s % 2 == 0 ? 1e-6 : 1e9;
   const auto parts = zero_modes(m);
   CHECK(parts[0].zero_modes == 7);
 }
 
-TEST_CASE("Counts agree with a dense eigenvalue solver on lattices with springs missing") {
+TEST_CASE("Counts agree with a dense eigenvalue solver on lattices with missing springs") {
   const MassSpringModel whole = box_lattice(4, 3, 3);
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-    // Between a tenth and two thirds of the springs cut out.
+    // Between a tenth and two thirds of the springs are removed.
     std::vector<test::Pair> pairs;
     std::uint32_t draw = seed * 2654435761U;
     for (std::uint32_t s = 0; s < whole.spring_count(); ++s) {
@@ -132,7 +132,7 @@ TEST_CASE("Counts agree with a dense eigenvalue solver on lattices with springs 
     }
     const MassSpringModel m = make_model(whole.rest, pairs);
     std::uint32_t count = 0;
-    for (const PartModes& part : zero_modes(m)) {
+    for (const ComponentModes& part : zero_modes(m)) {
       count += part.zero_modes;
       CHECK((part.zero_modes > part.expected) == !part.mechanism_nodes.empty());
     }

@@ -46,7 +46,8 @@ TEST_CASE("Guarded chains of beams and rods have no floppy nodes and stay connec
         const LodChain chain =
             simplify(base, {.levels = 3, .grouping = {.seed = seed}, .guards = guards});
         for (std::size_t n = 1; n < chain.levels.size(); ++n) {
-          const std::vector<elastic::PartModes> parts = elastic::zero_modes(chain.levels[n].model);
+          const std::vector<elastic::ComponentModes> parts =
+              elastic::zero_modes(chain.levels[n].model);
           REQUIRE(parts.size() == 1);
           if (parts[0].zero_modes > parts[0].expected)
             ++(guards ? guarded_mechanisms : raw_mechanisms);
@@ -111,7 +112,7 @@ TEST_CASE("Interpolation from a level to the base is exact for affine motions") 
     for (std::uint32_t n = 0; n < 3; ++n) {
       std::vector<Vec3> moved;
       for (const Vec3& x : chain.levels[n].model.rest) moved.push_back(f * x + shift);
-      const std::vector<Vec3> carried = carry(base_from_level(chain, n), moved);
+      const std::vector<Vec3> carried = interpolate(base_from_level(chain, n), moved);
       double worst = 0;
       for (std::uint32_t i = 0; i < base.node_count(); ++i)
         worst = std::max(worst, (carried[i] - (f * base.rest[i] + shift)).norm());

@@ -42,7 +42,7 @@ void check_chain(const LodChain& chain) {
     const MassProperties p = mass_properties(level.model);
     CHECK(p.mass == Approx(whole.mass).epsilon(1e-12));
     CHECK(p.volume == Approx(whole.volume).epsilon(1e-12));
-    for (const elastic::PartModes& part : elastic::zero_modes(level.model))
+    for (const elastic::ComponentModes& part : elastic::zero_modes(level.model))
       CHECK(part.zero_modes == part.expected);
   }
 }
@@ -66,7 +66,7 @@ TEST_CASE("The paper's figure 1: a cube refilled with lattices of 125, 64 and 27
     CHECK(elastic::stretch_test(chain.levels[2].model).young == Approx(1e6).epsilon(1e-6));
 }
 
-TEST_CASE("A ball of two materials is refilled with about the requested number of nodes") {
+TEST_CASE("A refilled ball of two materials has about the requested number of nodes") {
   const MaterialGrid grid = ball_grid(6);
   const MassSpringModel base = build_lattice(grid).model;
   const LodChain lattices = refill(base, refill_levels(grid, {.nodes = {400, 160, 60}}));
@@ -95,7 +95,7 @@ TEST_CASE("Base nodes are mapped to the nearest node of a refilled level") {
   }
 }
 
-TEST_CASE("A refill that is no coarser than the level before is an error") {
+TEST_CASE("A refill that is not coarser than the level before is rejected") {
   const MaterialGrid grid = box_grid(4, 4, 4, 0.01);
   const MassSpringModel base = build_lattice(grid).model;
   CHECK_THROWS_AS(refill(base, refill_levels(grid, {})), InputError);

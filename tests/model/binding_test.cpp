@@ -15,7 +15,7 @@ namespace {
 using test::box_lattice;
 using test::make_model;
 
-/// Points in the box, the same with every standard library.
+/// Random points in the box, the same with every standard library.
 std::vector<Vec3> points_in(const Box3& box, std::size_t count) {
   std::mt19937_64 random(7);
   std::vector<Vec3> points(count);
@@ -38,7 +38,7 @@ double largest_distance(const std::vector<Vec3>& p, const std::vector<Vec3>& q) 
   return largest;
 }
 
-/// Nodes of a lattice moved off their places by up to a third of the spacing.
+/// A lattice whose nodes are displaced by up to a third of the spacing.
 MassSpringModel uneven_lattice() {
   MassSpringModel m = box_lattice(5, 4, 6);
   const auto shifts = points_in(Box3(Vec3::Constant(-0.33), Vec3::Constant(0.33)), m.rest.size());
@@ -46,12 +46,12 @@ MassSpringModel uneven_lattice() {
   return m;
 }
 
-TEST_CASE("Points bound to nodes follow every affine motion exactly") {
+TEST_CASE("Bound points follow every affine motion of the nodes exactly") {
   const MassSpringModel m = GENERATE(box_lattice(5, 4, 6), uneven_lattice());
   const auto points = points_in(Box3(Vec3(-0.5, -0.5, -0.5), Vec3(4.5, 3.5, 5.5)), 2000);
   const Binding b = bind_points(points, m);
   REQUIRE(b.point_count() == points.size());
-  CHECK(largest_distance(carry(b, m.rest), points) < 1e-12);
+  CHECK(largest_distance(interpolate(b, m.rest), points) < 1e-12);
 
   Mat3 map;
   map << 1.2, 0.1, -0.3, 0.4, 0.8, 0.2, -0.1, 0.5, 1.1;
@@ -60,11 +60,11 @@ TEST_CASE("Points bound to nodes follow every affine motion exactly") {
     std::vector<Vec3> moved, expected;
     for (const Vec3& x : m.rest) moved.push_back(matrix * x + Vec3(1, -2, 3));
     for (const Vec3& p : points) expected.push_back(matrix * p + Vec3(1, -2, 3));
-    CHECK(largest_distance(carry(b, moved), expected) < 1e-11);
+    CHECK(largest_distance(interpolate(b, moved), expected) < 1e-11);
   }
 }
 
-TEST_CASE("Weights of a bound point add up to 1 and name at most the nodes asked for") {
+TEST_CASE("The weights of a bound point add up to 1, over at most the requested number of nodes") {
   const MassSpringModel m = uneven_lattice();
   BindOptions options;
   options.nodes_per_point = GENERATE(4U, 8U, 12U);
@@ -78,7 +78,7 @@ TEST_CASE("Weights of a bound point add up to 1 and name at most the nodes asked
   }
 }
 
-TEST_CASE("A point on a node hangs on that node alone, and one beside it nearly so") {
+TEST_CASE("A point at a node depends on that node alone, a point close to it almost so") {
   const MassSpringModel m = box_lattice(3, 3, 3, 0.1);
   const Binding on = bind_points({m.rest[13]}, m);
   CHECK(on.node == std::vector<std::uint32_t>{13});
@@ -88,7 +88,7 @@ TEST_CASE("A point on a node hangs on that node alone, and one beside it nearly 
   CHECK(beside.weight[0] == Approx(1).margin(0.01));
 }
 
-TEST_CASE("A point up to a spacing outside a lattice is reproduced with tame weights") {
+TEST_CASE("A point up to one spacing outside a lattice is reproduced with bounded weights") {
   const MassSpringModel m = box_lattice(4, 4, 4, 0.01);
   const double spacing = 0.01;
   const auto inside = points_in(Box3(Vec3::Zero(), Vec3::Constant(3 * spacing)), 3000);
@@ -96,18 +96,18 @@ TEST_CASE("A point up to a spacing outside a lattice is reproduced with tame wei
 
   const auto around = points_in(Box3(Vec3::Constant(-spacing), Vec3::Constant(4 * spacing)), 20000);
   const Binding b = bind_points(around, m);
-  CHECK(largest_distance(carry(b, m.rest), around) < 1e-12 * spacing * 10);
+  CHECK(largest_distance(interpolate(b, m.rest), around) < 1e-12 * spacing * 10);
   CHECK(largest_weight(b) < 4);
 }
 
-TEST_CASE("A point far outside keeps finite, bounded weights") {
+TEST_CASE("A point far outside has finite, bounded weights") {
   const MassSpringModel m = uneven_lattice();
   const Binding b = bind_points({Vec3(1e6, 0, 0), Vec3(-40, 30, 20), Vec3(2, 2, 1e3)}, m);
   CHECK(largest_weight(b) < 30);
-  for (const Vec3& p : carry(b, m.rest)) CHECK(p.norm() < 100);
+  for (const Vec3& p : interpolate(b, m.rest)) CHECK(p.norm() < 100);
 }
 
-TEST_CASE("A point near a limb that is not joined binds to the nearest piece only") {
+TEST_CASE("A point between disconnected limbs is bound to the nearest one only") {
   // Two bars side by side, 0.6 spacings apart and without a spring between them.
   const MassSpringModel one = box_lattice(2, 2, 6);
   MassSpringModel two = one;
@@ -123,37 +123,37 @@ TEST_CASE("A point near a limb that is not joined binds to the nearest piece onl
   for (std::uint32_t e = b.start[1]; e < b.start[2]; ++e) CHECK(b.node[e] >= n);
 }
 
-TEST_CASE("Nodes in a plane, a line or alone carry what they span and stay finite") {
+TEST_CASE("Coplanar, collinear and single nodes interpolate what they span, with finite weights") {
   SECTION("plane") {
     const MassSpringModel m = box_lattice(4, 4, 1);
     const Binding b = bind_points({Vec3(1.3, 2.2, 0.4)}, m);
-    CHECK((carry(b, m.rest)[0] - Vec3(1.3, 2.2, 0)).norm() < 1e-12);
+    CHECK((interpolate(b, m.rest)[0] - Vec3(1.3, 2.2, 0)).norm() < 1e-12);
     CHECK(largest_weight(b) < 2);
   }
   SECTION("line") {
     const MassSpringModel m = test::chain_of_nodes(5);
     const Binding b = bind_points({Vec3(2.3, 0.2, -0.1)}, m);
-    CHECK((carry(b, m.rest)[0] - Vec3(2.3, 0, 0)).norm() < 1e-12);
+    CHECK((interpolate(b, m.rest)[0] - Vec3(2.3, 0, 0)).norm() < 1e-12);
     CHECK(largest_weight(b) < 2);
   }
-  SECTION("alone") {
+  SECTION("single node") {
     const MassSpringModel m = make_model({{1, 2, 3}, {9, 9, 9}}, {});
     const Binding b = bind_points({Vec3(1, 1, 1)}, m);
     CHECK(b.node == std::vector<std::uint32_t>{0});
     CHECK(b.weight == std::vector<double>{1});
   }
-  SECTION("a plane whose nodes have neighbours off it") {
-    // A wide flat crowd around the point and a single layer far below.
+  SECTION("a plane whose nodes have neighbours outside it") {
+    // Many nodes in a plane around the point, and a single layer far below.
     MassSpringModel m = box_lattice(5, 5, 2);
     for (Vec3& x : m.rest) x.z() *= 3;
     const Vec3 point(2.1, 1.9, 0.3);
     const Binding b = bind_points({point}, m);
-    CHECK((carry(b, m.rest)[0] - point).norm() < 1e-12);
+    CHECK((interpolate(b, m.rest)[0] - point).norm() < 1e-12);
     CHECK(b.node.size() == 8);
   }
 }
 
-TEST_CASE("Candidates given by hand are taken, the nearest first, none twice") {
+TEST_CASE("append_bound_point uses the given candidates, the nearest first, each once") {
   const MassSpringModel m = box_lattice(3, 3, 3);
   Binding b;
   const Vec3 point(0.4, 0.3, 0.2);
@@ -162,11 +162,11 @@ TEST_CASE("Candidates given by hand are taken, the nearest first, none twice") {
   REQUIRE(b.point_count() == 2);
   CHECK(b.node[0] == 0);
   CHECK(b.start[1] == 5);
-  CHECK((carry(b, m.rest)[0] - point).norm() < 1e-13);
+  CHECK((interpolate(b, m.rest)[0] - point).norm() < 1e-13);
   CHECK_THROWS_AS(append_bound_point(b, point, m, {}), InputError);
 }
 
-TEST_CASE("Composed bindings act like one after the other") {
+TEST_CASE("A composed binding equals its two bindings in sequence") {
   const MassSpringModel coarse = box_lattice(3, 3, 3, 2);
   const MassSpringModel fine = uneven_lattice();
   const auto points = points_in(Box3(Vec3::Zero(), Vec3(4, 3, 5)), 200);
@@ -175,14 +175,15 @@ TEST_CASE("Composed bindings act like one after the other") {
   const Binding both = compose(outer, inner);
   std::vector<Vec3> moved = coarse.rest;
   for (Vec3& x : moved) x += Vec3(std::sin(x.y()), x.x() * x.z(), std::cos(x.x()));
-  CHECK(largest_distance(carry(both, moved), carry(outer, carry(inner, moved))) < 1e-12);
+  CHECK(largest_distance(interpolate(both, moved), interpolate(outer, interpolate(inner, moved))) <
+        1e-12);
   for (std::uint32_t p = 0; p < both.point_count(); ++p)
     for (std::uint32_t e = both.start[p] + 1; e < both.start[p + 1]; ++e)
       REQUIRE(both.node[e - 1] < both.node[e]);
   CHECK_THROWS_AS(compose(outer, bind_points({Vec3::Zero()}, coarse)), InputError);
 }
 
-TEST_CASE("Binding refuses what it cannot bind to") {
+TEST_CASE("Binding rejects a model without nodes and too few nodes per point") {
   CHECK_THROWS_AS(bind_points({Vec3::Zero()}, MassSpringModel{}), InputError);
   BindOptions options;
   options.nodes_per_point = 3;

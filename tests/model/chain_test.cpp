@@ -10,7 +10,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-TEST_CASE("Maps of merges made level by level compose") {
+TEST_CASE("The maps of successive merges compose") {
   const Groups finer{{0, 0, 1, 2, 2, 3}, 4};
   const Groups coarser{{1, 0, 0, 1}, 2};
   const Groups both = compose(finer, coarser);
@@ -27,7 +27,7 @@ TEST_CASE("Group numbers must be below the count, and every group has a node") {
   CHECK_THROWS_WITH(validate(Groups{{0, 2}, 3}), Contains("group 2 is empty"));
 }
 
-TEST_CASE("Provenance keeps its order and one value a key") {
+TEST_CASE("Provenance keeps its order and one value for each key") {
   Provenance p;
   p.set("seed", "1");
   p.set("cell", "2 mm");
@@ -36,7 +36,7 @@ TEST_CASE("Provenance keeps its order and one value a key") {
         std::vector<std::pair<std::string, std::string>>{{"seed", "3"}, {"cell", "2 mm"}});
 }
 
-TEST_CASE("A broken asset is refused, the level named") {
+TEST_CASE("An invalid asset is rejected with the number of the level") {
   LodAsset asset = test::sample_asset();
   CHECK_NOTHROW(validate(asset));
   SECTION("a model") {
@@ -51,11 +51,11 @@ TEST_CASE("A broken asset is refused, the level named") {
     asset.chain.levels.clear();
     CHECK_THROWS_WITH(validate(asset), Contains("no levels"));
   }
-  SECTION("a vertex that hangs on nothing") {
+  SECTION("a vertex that is not bound") {
     asset.surface_of_base = bind_points({}, asset.chain.levels[0].model);
     CHECK_THROWS_WITH(validate(asset), Contains("8 vertices"));
   }
-  SECTION("a vertex that hangs on a node that is not there") {
+  SECTION("a vertex bound to a missing node") {
     asset.surface_of_base.node[5] = 80;
     CHECK_THROWS_WITH(validate(asset), Contains("entry 6") && Contains("node 81"));
   }

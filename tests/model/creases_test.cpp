@@ -11,7 +11,7 @@
 using namespace springlod;
 using namespace springlod::test;
 
-TEST_CASE("a box has a drawn vertex a side at each corner, with the normal of the side") {
+TEST_CASE("A box has one drawn vertex for each side at each corner, with the normal of the side") {
   const TriangleMesh box = test::box_mesh({1, 2, 3});
   const SplitSurface surface = split_at_creases(box);
   CHECK(surface.source.size() == 24);
@@ -28,15 +28,15 @@ TEST_CASE("a box has a drawn vertex a side at each corner, with the normal of th
   }
 }
 
-TEST_CASE("below the crease angle vertices stay whole and normals are means") {
+TEST_CASE("Below the crease angle vertices are not split and normals are averaged") {
   TriangleMesh box = test::box_mesh({1, 1, 1});
-  box.parts = {{"all", "", 0, 12}};  // parts are never shaded together
+  box.parts = {{"all", "", 0, 12}};  // vertices between parts are always split
   const SplitSurface surface = split_at_creases(box, 100);
   CHECK(surface.source.size() == 8);
   for (const auto& n : vertex_normals(surface, box.positions)) CHECK(n.cwiseAbs().minCoeff() > 0.3);
 }
 
-TEST_CASE("triangles without area have zero normals, and lose no vertex") {
+TEST_CASE("Triangles without area have zero normals and keep all vertices") {
   TriangleMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {9, 9, 9}};
   mesh.triangles = {{0, 1, 2}, {1, 1, 1}};
@@ -47,11 +47,12 @@ TEST_CASE("triangles without area have zero normals, and lose no vertex") {
     for (const std::uint32_t v : t) CHECK(v < surface.source.size());
 }
 
-TEST_CASE("a cylinder is split at its rims only, and its normals are those of a cylinder") {
+TEST_CASE("A cylinder is split at its rims only and has the normals of a cylinder") {
   TriangleMesh mesh;
   append_cylinder(mesh, "rod", -1, 1, 0.5, 32, 4);
   const SplitSurface surface = split_at_creases(mesh);
-  CHECK(surface.source.size() == mesh.positions.size() + 2 * 32);  // both rims twice
+  CHECK(surface.source.size() ==
+        mesh.positions.size() + 2 * 32);  // the vertices of both rims are doubled
   CHECK(surface.closed);
   const auto normals = vertex_normals(surface, mesh.positions);
   int flat = 0;
@@ -69,7 +70,7 @@ TEST_CASE("a cylinder is split at its rims only, and its normals are those of a 
   CHECK(flat == 2 * 33);
 }
 
-TEST_CASE("a mesh with a hole or a part turned inside out is drawn from both sides") {
+TEST_CASE("A mesh with a hole or an inverted part is drawn from both sides") {
   TriangleMesh open = sphere_mesh(1, 12, 6);
   open.triangles.pop_back();
   open.parts[0].triangle_count -= 1;
@@ -80,7 +81,7 @@ TEST_CASE("a mesh with a hole or a part turned inside out is drawn from both sid
   CHECK(split_at_creases(sphere_mesh(1, 12, 6)).closed);
 }
 
-TEST_CASE("normals turn with the body") {
+TEST_CASE("Normals rotate with the body") {
   const TriangleMesh mesh = sphere_mesh(1, 32, 16);
   const SplitSurface surface = split_at_creases(mesh);
   CHECK(surface.source.size() == mesh.positions.size());  // no crease anywhere

@@ -19,12 +19,12 @@ using test::make_model;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TEST_CASE("A sound model validates") {
+TEST_CASE("A valid model passes validate") {
   CHECK_NOTHROW(validate(box_lattice(3, 4, 5)));
   CHECK_NOTHROW(validate(make_model({{0, 0, 0}}, {})));
 }
 
-TEST_CASE("A broken node or spring is named") {
+TEST_CASE("An invalid node or spring is reported with its number") {
   struct Case {
     const char* named;
     const char* rule;
@@ -52,7 +52,7 @@ TEST_CASE("A broken node or spring is named") {
   CHECK_THROWS_WITH(validate(m), Contains(c.named) && Contains(c.rule));
 }
 
-TEST_CASE("Arrays of unequal length, no nodes and no materials are refused") {
+TEST_CASE("Arrays of unequal length, no nodes and no materials are rejected") {
   MassSpringModel m = box_lattice(2, 2, 2);
   SECTION("nodes") {
     m.volume.pop_back();
@@ -66,7 +66,7 @@ TEST_CASE("Arrays of unequal length, no nodes and no materials are refused") {
   SECTION("no materials") {
     m.materials.clear();
   }
-  SECTION("a bad material") {
+  SECTION("an invalid material") {
     m.materials[0].density = 0;
   }
   CHECK_THROWS_AS(validate(m), InputError);
@@ -75,13 +75,13 @@ TEST_CASE("Arrays of unequal length, no nodes and no materials are refused") {
 TEST_CASE("Connected parts are numbered by their lowest node") {
   const MassSpringModel m = make_model(
       {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}}, {{0, 4}, {1, 3}, {3, 5}});
-  const Components parts = connected_components(m);
-  CHECK(parts.count == 3);
-  CHECK(parts.of_node == std::vector<std::uint32_t>{0, 1, 2, 1, 0, 1});
+  const Components components = connected_components(m);
+  CHECK(components.count == 3);
+  CHECK(components.of_node == std::vector<std::uint32_t>{0, 1, 2, 1, 0, 1});
   CHECK(connected_components(box_lattice(3, 3, 3)).count == 1);
 }
 
-TEST_CASE("Mass, centre and inertia are those of the points") {
+TEST_CASE("mass_properties are those of the point masses") {
   MassSpringModel m = make_model({{0, 0, 0}, {4, 0, 0}}, {});
   m.mass = {1, 3};
   m.volume = {0.5, 0.25};
@@ -99,7 +99,7 @@ TEST_CASE("Mass, centre and inertia are those of the points") {
 }
 
 TEST_CASE("Eq. 2 of the paper gives E = 2.5 k / a inside a lattice") {
-  // One inner node, its 18 springs counted half, as its neighbours own the other half.
+  // One inner node; half of its 18 springs belongs to its neighbours.
   const double a = 0.2;
   const double k = 300;
   MassSpringModel m = box_lattice(3, 3, 3, a, k / 2);
@@ -120,7 +120,7 @@ TEST_CASE("Eq. 2 of the paper gives E = 2.5 k / a inside a lattice") {
   CHECK(estimated_young(star) == Approx(2.5 * k / a).epsilon(1e-12));
 }
 
-TEST_CASE("The state at rest is the rest positions without motion") {
+TEST_CASE("The rest state has the rest positions and zero velocity") {
   const MassSpringModel m = box_lattice(2, 2, 2);
   const State state = rest_state(m);
   CHECK(state.x == m.rest);

@@ -13,7 +13,7 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-TEST_CASE("A box has its volume, area and bounds wherever it stands") {
+TEST_CASE("Volume, area and bounds of a box do not depend on its position") {
   TriangleMesh box = test::box_mesh({1, 2, 3});
   box.parts = {{"box", "", 0, 12}};
   const Vec3 place = GENERATE(Vec3(0, 0, 0), Vec3(-1000, 500, 2000));
@@ -28,7 +28,7 @@ TEST_CASE("A box has its volume, area and bounds wherever it stands") {
   CHECK(bounds(TriangleMesh{}).isEmpty());
 }
 
-TEST_CASE("A broken mesh is refused with the place") {
+TEST_CASE("An invalid mesh is rejected with the number of the vertex, triangle or part") {
   TriangleMesh box = test::box_mesh({1, 2, 3});
   CHECK_NOTHROW(validate(box));
   SECTION("vertex") {
@@ -49,7 +49,7 @@ TEST_CASE("A broken mesh is refused with the place") {
   }
 }
 
-TEST_CASE("A material out of range is refused by name and field") {
+TEST_CASE("A material out of range is rejected with its name and the field") {
   Material m{.name = "rubber"};
   CHECK_NOTHROW(validate(m));
   SECTION("young") {

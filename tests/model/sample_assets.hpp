@@ -18,7 +18,7 @@ inline TriangleMesh box_mesh(const Vec3& size) {
   return mesh;
 }
 
-/// Three levels with numbers that need all their digits, a surface and its binding.
+/// Three levels whose values need all digits, a surface and its binding.
 inline LodAsset sample_asset() {
   LodAsset asset;
   for (const int n : {4, 3, 2}) {
@@ -53,7 +53,7 @@ inline LodAsset sample_asset() {
   return asset;
 }
 
-/// Every field filled, with numbers that need all their digits.
+/// A certificate with all fields set, whose values need all digits.
 inline Certificate sample_certificate() {
   Certificate c;
   c.moduli = {{"steel", 2e11 / 3, 2.1e11 / 3, 0.7 / 3, 0.25}, {"rubber", 1e5 / 7, 1e5, 0.1, 0.2}};
@@ -71,7 +71,7 @@ inline Certificate sample_certificate() {
   c.zero_modes = 7;
   c.expected_zero_modes = 6;
   c.tolerance = 0.05;
-  c.misses = {"7 zero modes instead of 6", "f1..10 off by 4.9 %, 3 % were asked for: \xC3\xBC"};
+  c.unmet = {"7 zero modes instead of 6", "f1..10: error 4.9 %, tolerance 3 %: \xC3\xBC"};
   return c;
 }
 

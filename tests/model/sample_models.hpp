@@ -33,7 +33,7 @@ inline MassSpringModel make_model(const std::vector<Vec3>& points, const std::ve
   return m;
 }
 
-/// n unit masses along x, one apart, joined one to the next.
+/// n unit masses along x, 1 m apart, each connected to the next.
 inline MassSpringModel chain_of_nodes(std::uint32_t n, double k = 1) {
   std::vector<Vec3> points;
   std::vector<Pair> pairs;
@@ -44,14 +44,15 @@ inline MassSpringModel chain_of_nodes(std::uint32_t n, double k = 1) {
   return make_model(points, pairs, k);
 }
 
-/// nx x ny x nz nodes, `a` apart, each joined to its 6 nearest and 12 second nearest neighbours.
+/// nx x ny x nz nodes at distance `a`, each connected to its 6 nearest and 12 second nearest
+/// neighbours.
 inline MassSpringModel box_lattice(int nx, int ny, int nz, double a = 1, double k = 1) {
   std::vector<Vec3> points;
   std::vector<Pair> pairs;
   const auto index = [&](int x, int y, int z) {
     return static_cast<std::uint32_t>((z * ny + y) * nx + x);
   };
-  // The half of the 18 neighbours that have higher numbers, in rising order.
+  // The 9 of the 18 neighbours with higher numbers, in rising order.
   constexpr std::array<std::array<int, 3>, 9> kForward{{{1, 0, 0},
                                                         {-1, 1, 0},
                                                         {0, 1, 0},

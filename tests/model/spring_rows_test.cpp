@@ -9,7 +9,7 @@
 
 using namespace springlod;
 
-TEST_CASE("Spring rows list each spring at both ends, by rising neighbour") {
+TEST_CASE("Spring rows list the springs of a node as the adjacency does") {
   const MassSpringModel lone = test::table_model({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}},
                                                  {1, 1, 1, 1}, {{0, 3, 1}, {1, 3, 1}});
   for (const MassSpringModel& model : {test::random_model(4), lone}) {

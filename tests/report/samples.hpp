@@ -7,32 +7,32 @@
 
 #include <boost/math/distributions/normal.hpp>
 
-#include "base/chance.hpp"
+#include "base/random.hpp"
 
 namespace springlod::test {
 
 using Values = std::vector<double>;
 
-inline double normal_draw(ChanceStream& chance) {
+inline double normal_draw(RandomStream& chance) {
   // The middle of one of 2^53 cells of (0, 1), which excludes both ends.
   return quantile(boost::math::normal(), chance.unit() + 0x1p-54);
 }
 
-inline Values normal_sample(ChanceStream& chance, int size, double mean = 0, double deviation = 1) {
+inline Values normal_sample(RandomStream& chance, int size, double mean = 0, double deviation = 1) {
   Values values(static_cast<std::size_t>(size));
   for (double& value : values) value = mean + deviation * normal_draw(chance);
   return values;
 }
 
 /// Exponential values of mean 1.
-inline Values exponential_sample(ChanceStream& chance, int size) {
+inline Values exponential_sample(RandomStream& chance, int size) {
   Values values(static_cast<std::size_t>(size));
   for (double& value : values) value = -std::log1p(-chance.unit());
   return values;
 }
 
 /// Standard normal values with `correlation` to given standard normal values.
-inline Values partner_of(const Values& base, double correlation, ChanceStream& chance) {
+inline Values partner_of(const Values& base, double correlation, RandomStream& chance) {
   Values values;
   for (const double value : base)
     values.push_back(correlation * value +
@@ -50,7 +50,7 @@ template <class Says>
 double frequency(int repetitions, std::uint64_t seed, Says says) {
   int count = 0;
   for (int i = 0; i < repetitions; ++i) {
-    ChanceStream chance(seed, static_cast<std::uint64_t>(i));
+    RandomStream chance(seed, static_cast<std::uint64_t>(i));
     count += says(chance) ? 1 : 0;
   }
   return static_cast<double>(count) / repetitions;

@@ -12,14 +12,14 @@ namespace springlod::voxelize {
 using namespace springlod::test;
 using Catch::Matchers::Contains;
 
-TEST_CASE("a grid whose rules hold is valid, with depths or without") {
+TEST_CASE("A consistent grid is valid, with or without depths") {
   MaterialGrid grid = box_grid(3, 2, 2);
   CHECK_NOTHROW(validate(grid));
   grid.depth.clear();
   CHECK_NOTHROW(validate(grid));
 }
 
-TEST_CASE("unsorted and doubled cells are refused by name") {
+TEST_CASE("Unsorted and repeated cells are rejected with their index") {
   MaterialGrid grid = box_grid(2, 2, 1);
   std::swap(grid.cells[1], grid.cells[2]);
   CHECK_THROWS_WITH(validate(grid), Contains("(1, 0, 0) comes after (0, 1, 0)"));
@@ -27,7 +27,7 @@ TEST_CASE("unsorted and doubled cells are refused by name") {
   CHECK_THROWS_WITH(validate(grid), Contains("(0, 1, 0) occurs twice"));
 }
 
-TEST_CASE("a grid with wrong sizes, numbers or edges is refused") {
+TEST_CASE("A grid with inconsistent sizes, numbers or cell edges is rejected") {
   const MaterialGrid good = box_grid(2, 2, 1);
   const auto refused = [&](auto&& spoil) {
     MaterialGrid grid = good;

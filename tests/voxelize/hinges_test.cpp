@@ -19,16 +19,16 @@ LatticeModel build(const MaterialGrid& grid, HingePolicy policy) {
 
 }  // namespace
 
-TEST_CASE("two cells that touch along an edge are a hinge in the middle of that edge") {
+TEST_CASE("Two cells that touch along an edge form a hinge in the middle of that edge") {
   const auto lattice = build(grid_of({{0, 0, 0}, {1, 1, 0}}), HingePolicy::report);
   REQUIRE(lattice.hinges.size() == 1);
   CHECK(lattice.hinges[0].along_edge);
   CHECK(lattice.hinges[0].position == Vec3(1, 1, 0.5));
   CHECK(lattice.model.node_count() == 14);
-  CHECK(lattice.parts == 1);
+  CHECK(lattice.components == 1);
 }
 
-TEST_CASE("two cells that touch along an edge in any of the 12 directions are one hinge") {
+TEST_CASE("Two cells that touch along an edge in any of the 12 directions form one hinge") {
   for (int axis = 0; axis < 3; ++axis)
     for (const int u : {-1, 1})
       for (const int v : {-1, 1}) {
@@ -41,7 +41,7 @@ TEST_CASE("two cells that touch along an edge in any of the 12 directions are on
       }
 }
 
-TEST_CASE("two cells that touch at a corner are a hinge at that corner") {
+TEST_CASE("Two cells that touch at a corner form a hinge at that corner") {
   for (const int x : {-1, 1})
     for (const int y : {-1, 1}) {
       const auto lattice = build(grid_of({{0, 0, 0}, {x, y, 1}}), HingePolicy::report);
@@ -51,31 +51,32 @@ TEST_CASE("two cells that touch at a corner are a hinge at that corner") {
     }
 }
 
-TEST_CASE("cells joined by faces around the place where they touch are no hinge") {
+TEST_CASE(
+    "A contact along an edge or at a corner is no hinge if faces around it connect the cells") {
   CHECK(build(box_grid(3, 3, 3), HingePolicy::report).hinges.empty());
   CHECK(build(grid_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}), HingePolicy::report).hinges.empty());
   CHECK(build(grid_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}), HingePolicy::report)
             .hinges.empty());
 }
 
-TEST_CASE("an edge contact that is joined around one end only is still a hinge at the other") {
-  // The two lower cells touch along an edge; the slab on top of them joins them.
+TEST_CASE("An edge whose cells are connected around one end only is still a hinge") {
+  // The two lower cells touch along an edge; the slab on top of them connects them.
   const auto grid = grid_of({{0, 0, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}});
   const auto lattice = build(grid, HingePolicy::report);
   REQUIRE(lattice.hinges.size() == 1);
   CHECK(lattice.hinges[0].position == Vec3(1, 1, 0.5));
   const auto apart = build(grid, HingePolicy::separate);
   CHECK(apart.model.node_count() == lattice.model.node_count() + 1);
-  CHECK(apart.parts == 1);
+  CHECK(apart.components == 1);
 }
 
-TEST_CASE("filling a hinge gives the contact a face") {
+TEST_CASE("Filling a hinge connects its cells by faces") {
   MaterialGrid edge = grid_of({{0, 0, 0}, {1, 1, 0}});
   edge.material = {1, 1};
   const auto filled_edge = build(edge, HingePolicy::fill);
   CHECK(filled_edge.filled_cells == 1);
-  CHECK(filled_edge.hinges.size() == 1);  // found, and mended
-  CHECK(filled_edge.parts == 1);
+  CHECK(filled_edge.hinges.size() == 1);  // reported, although it is filled
+  CHECK(filled_edge.components == 1);
   CHECK(mass_properties(filled_edge.model).mass == Approx(3 * 2500));
 
   MaterialGrid corner = grid_of({{0, 0, 0}, {1, 1, 1}});
@@ -86,18 +87,18 @@ TEST_CASE("filling a hinge gives the contact a face") {
   CHECK(find_hinges(corner, corner_nodes(corner.cells)).empty());
 }
 
-TEST_CASE("separating a hinge doubles the shared nodes and takes the cells apart") {
+TEST_CASE("Separating a hinge duplicates the shared nodes and disconnects the cells") {
   const auto edge = build(grid_of({{0, 0, 0}, {1, 1, 0}}), HingePolicy::separate);
   CHECK(edge.model.node_count() == 16);
   CHECK(edge.model.spring_count() == 48);
-  CHECK(edge.parts == 2);
+  CHECK(edge.components == 2);
   const auto corner = build(grid_of({{0, 0, 0}, {1, 1, 1}}), HingePolicy::separate);
   CHECK(corner.model.node_count() == 16);
-  CHECK(corner.parts == 2);
+  CHECK(corner.components == 2);
   CHECK(mass_properties(corner.model).mass == Approx(2000).epsilon(1e-14));
 }
 
-TEST_CASE("both policies leave no hinge in a random heap of cells") {
+TEST_CASE("Both policies leave no hinge in a random set of cells") {
   std::mt19937_64 random(7);
   std::vector<CellIndex> cells;
   for (int z = 0; z < 12; ++z)

@@ -92,7 +92,7 @@ const double kBoxVolume = 6 + 1.0 / 6;
 
 }  // namespace
 
-TEST_CASE("an OBJ file keeps the names and materials of its parts") {
+TEST_CASE("The parts of an OBJ file keep their names and materials") {
   const TemporaryFolder folder;
   const ImportedMesh imported = import_mesh(write_box(folder));
   const auto& parts = imported.mesh.parts;
@@ -113,7 +113,7 @@ TEST_CASE("an OBJ file keeps the names and materials of its parts") {
   CHECK(imported.report.content_hash == content_hash(kBoxObj));
 }
 
-TEST_CASE("the same box comes out of every format, in metres and z up") {
+TEST_CASE("Every format gives the same box, in metres and z up") {
   const TemporaryFolder folder;
   const Vec3 z_up(6, 2, 3);
   const Vec3 y_up(6, 0, 2);  // y became z, z became -y
@@ -154,7 +154,7 @@ TEST_CASE("the same box comes out of every format, in metres and z up") {
   }
 }
 
-TEST_CASE("an OFF file is read, and an unnamed part gets a number") {
+TEST_CASE("An OFF file is imported, and an unnamed part gets a number") {
   const TemporaryFolder folder;
   const auto path = write(folder, "tip.off",
                           "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
@@ -167,7 +167,7 @@ TEST_CASE("an OFF file is read, and an unnamed part gets a number") {
   CHECK(total_volume(imported.mesh) == Approx(1.0 / 6));
 }
 
-TEST_CASE("the caller's unit and up axis win and are not called assumed") {
+TEST_CASE("The caller's unit and up axis override the file's and are not reported as assumed") {
   const TemporaryFolder folder;
   const ImportedMesh imported = import_mesh(write_box(folder), {.unit = 0.01, .up = UpAxis::y});
   CHECK(imported.report.unit == 0.01);
@@ -182,7 +182,7 @@ TEST_CASE("the caller's unit and up axis win and are not called assumed") {
   CHECK_THROWS_AS(import_mesh(write_box(folder), {.unit = 0, .up = {}}), InputError);
 }
 
-TEST_CASE("FBX says its unit and up axis") {
+TEST_CASE("Unit and up axis of an FBX file are used") {
   const TemporaryFolder folder;
   std::string text = read_file(export_box(folder, "fbxa", "box.fbx"));
   replace(text, R"("UpAxis", "int", "Integer", "", 1)", R"("UpAxis", "int", "Integer", "", 2)");
@@ -197,7 +197,7 @@ TEST_CASE("FBX says its unit and up axis") {
   CHECK(bounds(forced.mesh).max().isApprox(Vec3(6, 0, 2), 1e-6));
 }
 
-TEST_CASE("Collada says its unit and up axis") {
+TEST_CASE("Unit and up axis of a Collada file are used") {
   const TemporaryFolder folder;
   std::string text = read_file(export_box(folder, "collada", "box.dae"));
   replace(text, R"(meter="1")", R"(meter="0.001")");
@@ -210,19 +210,19 @@ TEST_CASE("Collada says its unit and up axis") {
   CHECK(bounds(forced.mesh).max().isApprox(Vec3(6, 2, 3), 1e-6));
 }
 
-TEST_CASE("node transforms are applied, a mirror turns the winding back") {
+TEST_CASE("Node transforms are applied, and reflections reverse the winding") {
   const TemporaryFolder folder;
   std::string text = read_file(export_box(folder, "gltf2", "box.gltf"));
   const std::size_t at = text.find("\"name\"", text.find("\"nodes\""));
   REQUIRE(at != text.npos);
-  // The first node is the root: twice as large, mirrored in x, moved by 10 along glTF's y.
+  // The first node is the root: scaled by two, reflected in x, moved by 10 along glTF's y.
   text.insert(at, R"("scale": [-2, 2, 2], "translation": [0, 10, 0], )");
   const ImportedMesh imported = import_mesh(write(folder, "mirrored.gltf", text));
   CHECK(total_volume(imported.mesh) == Approx(8 * kBoxVolume));
   CHECK(bounds(imported.mesh).min().isApprox(Vec3(-12, -6, 10), 1e-6));
 }
 
-TEST_CASE("faces with doubled vertices are dropped, doubled positions welded") {
+TEST_CASE("Faces with repeated vertices are dropped, and equal positions are merged") {
   const TemporaryFolder folder;
   const auto path = write(folder, "tip.obj",
                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv -0 0 0\nv 1 0 0\n"
@@ -234,7 +234,7 @@ TEST_CASE("faces with doubled vertices are dropped, doubled positions welded") {
   CHECK(total_volume(imported.mesh) == Approx(1.0 / 6));
 }
 
-TEST_CASE("what is no mesh is refused with the formats that are read") {
+TEST_CASE("A file that is not a mesh is rejected with the list of formats") {
   const TemporaryFolder folder;
   const auto refused = [](const fs::path& path, const std::string& with) {
     INFO(path);
@@ -252,7 +252,7 @@ TEST_CASE("what is no mesh is refused with the formats that are read") {
   refused(write(folder, "picture.obj", "\x89PNG\r\n\x1a\n1234"), "cannot read");
 }
 
-TEST_CASE("vertices that are not finite and meshes without faces are refused") {
+TEST_CASE("Vertices that are not finite and meshes without faces are rejected") {
   const TemporaryFolder folder;
   const std::string faces = "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   for (const char* bad : {"v 0 0 nan\n", "v 0 inf 0\n"}) {
@@ -263,11 +263,11 @@ TEST_CASE("vertices that are not finite and meshes without faces are refused") {
   CHECK_THROWS_AS(import_mesh(write(folder, "line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")), InputError);
 }
 
-TEST_CASE("the report says in words what was assumed") {
+TEST_CASE("describe() states the assumptions") {
   const TemporaryFolder folder;
   const std::string assumed = describe(import_mesh(write_box(folder)).report);
   CHECK_THAT(assumed,
-             Contains("assumed 1 unit = 1 m (OBJ does not say; the option unit changes it)"));
+             Contains("assumed 1 unit = 1 m (OBJ does not state it; the option unit changes it)"));
   CHECK_THAT(assumed, Contains("assumed z is up"));
   const std::string given =
       describe(import_mesh(write_box(folder), {.unit = 0.001, .up = UpAxis::y}).report);

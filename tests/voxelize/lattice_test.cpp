@@ -35,7 +35,7 @@ std::pair<double, double> spring_between(const MassSpringModel& m, const Vec3& p
 
 }  // namespace
 
-TEST_CASE("a cube of 6^3 nodes has 2880 ends and 152 border nodes in both styles") {
+TEST_CASE("A cube of 6^3 nodes has 2880 ends and 152 border nodes in both styles") {
   const auto corners = build(box_grid(5, 5, 5), LatticeStyle::corners).model;
   const auto centers = build(box_grid(6, 6, 6), LatticeStyle::centers).model;
   for (const MassSpringModel& model : {corners, centers}) {
@@ -45,7 +45,7 @@ TEST_CASE("a cube of 6^3 nodes has 2880 ends and 152 border nodes in both styles
   }
 }
 
-TEST_CASE("a cube of 5^3 nodes has 1560 ends and 98 border nodes in both styles") {
+TEST_CASE("A cube of 5^3 nodes has 1560 ends and 98 border nodes in both styles") {
   const auto corners = build(box_grid(4, 4, 4), LatticeStyle::corners).model;
   const auto centers = build(box_grid(5, 5, 5), LatticeStyle::centers).model;
   for (const MassSpringModel& model : {corners, centers}) {
@@ -55,7 +55,7 @@ TEST_CASE("a cube of 5^3 nodes has 1560 ends and 98 border nodes in both styles"
   }
 }
 
-TEST_CASE("the ball of the 281 lattice points nearest to its centre has 3856 ends") {
+TEST_CASE("A ball of the 281 lattice points nearest to its centre has 3856 ends") {
   const Vec3 center(0.04, 0.02, 0.01);
   std::vector<std::pair<double, CellIndex>> points;
   for (int z = -6; z <= 6; ++z)
@@ -70,14 +70,14 @@ TEST_CASE("the ball of the 281 lattice points nearest to its centre has 3856 end
   CHECK(model.end_count() == 3856);
 }
 
-TEST_CASE("the 4 x 4 x 23 rods have 368 nodes and 4748 ends") {
+TEST_CASE("A rod of 4 x 4 x 23 nodes has 368 nodes and 4748 ends") {
   const auto lattice = build(box_grid(4, 4, 23, 0.1), LatticeStyle::centers);
   CHECK(lattice.model.node_count() == 368);
   CHECK(lattice.model.end_count() == 4748);
-  CHECK(lattice.parts == 1);
+  CHECK(lattice.components == 1);
 }
 
-TEST_CASE("mass and volume of the lattice are those of the cells") {
+TEST_CASE("Mass and volume of the lattice are those of the cells") {
   MaterialGrid grid = box_grid(7, 5, 3, 0.013);
   for (std::size_t n = 0; n < grid.cells.size(); n += 3) grid.material[n] = 1;
   double mass = 0;
@@ -91,7 +91,7 @@ TEST_CASE("mass and volume of the lattice are those of the cells") {
   }
 }
 
-TEST_CASE("contact areas add up to the surface of a box of corners and to its faces of centers") {
+TEST_CASE("The contact areas of a box add up to its surface") {
   // 3 x 4 x 5 cells of 0.5: 2 (12 + 15 + 20) faces of 0.25.
   for (const LatticeStyle style : {LatticeStyle::corners, LatticeStyle::centers}) {
     const auto model = build(box_grid(3, 4, 5, 0.5), style).model;
@@ -99,7 +99,7 @@ TEST_CASE("contact areas add up to the surface of a box of corners and to its fa
   }
 }
 
-TEST_CASE("a single cell of corners has the shares of its edges and face diagonals") {
+TEST_CASE("A single corners cell has springs of k/4 at its edges and k/2 at its face diagonals") {
   const auto model = build(box_grid(1, 1, 1, 0.1), LatticeStyle::corners).model;
   const double k = 1e6 * 0.1 / 2.5;
   CHECK(model.node_count() == 8);
@@ -115,7 +115,7 @@ TEST_CASE("a single cell of corners has the shares of its edges and face diagona
   CHECK(model.contact_area[0] == Approx(3 * 0.01 / 4));
 }
 
-TEST_CASE("springs inside a lattice of one material all have the same stiffness k = E a / 2.5") {
+TEST_CASE("All springs inside a lattice of one material have k = E a / 2.5") {
   const double k = 1e6 * 0.1 / 2.5;
   const auto centers = build(box_grid(3, 3, 3, 0.1), LatticeStyle::centers).model;
   for (std::uint32_t s = 0; s < centers.spring_count(); ++s) {
@@ -128,13 +128,13 @@ TEST_CASE("springs inside a lattice of one material all have the same stiffness 
       REQUIRE(corners.stiffness[s] == Approx(k).epsilon(1e-14));
 }
 
-TEST_CASE("the whole lattice of corners shows its Young's modulus by eq. 2") {
-  // Exact for uniform strain, with no border error.
+TEST_CASE("Eq. 2 gives Young's modulus of a corners lattice") {
+  // Exact for uniform strain, including the surface.
   CHECK(estimated_young(build(box_grid(3, 4, 5, 0.01), LatticeStyle::corners).model) ==
         Approx(1e6).epsilon(1e-12));
 }
 
-TEST_CASE("across materials a spring of centers is two half springs in series") {
+TEST_CASE("A centers spring between two materials is two half springs in series") {
   MaterialGrid grid = box_grid(2, 1, 1, 0.1);
   grid.material[1] = 1;
   const auto model = build(grid, LatticeStyle::centers).model;
@@ -142,11 +142,11 @@ TEST_CASE("across materials a spring of centers is two half springs in series") 
   const double k2 = 4e6 * 0.1 / 2.5;
   REQUIRE(model.spring_count() == 1);
   CHECK(model.stiffness[0] == Approx(2 * k1 * k2 / (k1 + k2)));
-  // The softer half takes 4/5 of the stretch, so its damping time counts four times.
+  // The softer half has 4/5 of the elongation, so its damping time counts four times.
   CHECK(model.damping[0] == Approx(model.stiffness[0] * (0.8 * 0.002 + 0.2 * 0.0005)));
 }
 
-TEST_CASE("side by side, the cells of corners give each spring its share of each material") {
+TEST_CASE("A corners spring between two materials has a contribution of each") {
   MaterialGrid grid = box_grid(2, 1, 1, 0.1);
   grid.material[1] = 1;
   const auto lattice = build(grid, LatticeStyle::corners);
@@ -160,7 +160,7 @@ TEST_CASE("side by side, the cells of corners give each spring its share of each
   CHECK(lattice.model.material[2] == 1);
 }
 
-TEST_CASE("nodes are numbered by z, then y, then x, and sit where the grid says") {
+TEST_CASE("Nodes are numbered by z, then y, then x, and have the positions of the grid") {
   MaterialGrid grid = box_grid(2, 3, 2, 0.5);
   grid.origin = Vec3(10, -4, 3);
   const auto corners = build(grid, LatticeStyle::corners).model;
@@ -175,25 +175,25 @@ TEST_CASE("nodes are numbered by z, then y, then x, and sit where the grid says"
               std::tuple(m.rest[i].z(), m.rest[i].y(), m.rest[i].x()));
 }
 
-TEST_CASE("cells far apart make a lattice of several parts") {
+TEST_CASE("Cells far apart make a lattice of several connected components") {
   const auto grid = grid_of({{0, 0, 0}, {1'000'000'000, -1'000'000'000, 7}});
   for (const LatticeStyle style : {LatticeStyle::corners, LatticeStyle::centers}) {
     const auto lattice = build(grid, style);
-    CHECK(lattice.parts == 2);
+    CHECK(lattice.components == 2);
     CHECK(lattice.hinges.empty());
   }
 }
 
-TEST_CASE("an empty grid makes no lattice") {
+TEST_CASE("An empty grid is rejected") {
   CHECK_THROWS_AS(build_lattice(grid_of({})), InputError);
 }
 
-TEST_CASE("a lattice of 100 thousand nodes has the counts of its cube") {
+TEST_CASE("A lattice of 100 thousand nodes has the counts of a cube") {
   const auto lattice = build(box_grid(46, 46, 46, 0.01), LatticeStyle::corners);
   const std::uint32_t n = 47;
   CHECK(lattice.model.node_count() == n * n * n);
   CHECK(lattice.model.spring_count() == 3 * (n - 1) * n * n + 6 * (n - 1) * (n - 1) * n);
-  CHECK(lattice.parts == 1);
+  CHECK(lattice.components == 1);
 }
 
 }  // namespace springlod::voxelize

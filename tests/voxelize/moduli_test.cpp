@@ -1,5 +1,4 @@
-// What bars of the lattices show in a solved stretch test (docs/method.md, eqs. 1, 4, 5), and their
-// mechanisms.
+// Moduli of lattice bars in a stretch test, and their mechanisms (docs/method.md, eqs. 1, 4 and 5).
 
 #include <vector>
 
@@ -31,17 +30,17 @@ MassSpringModel lattice(const MaterialGrid& grid, LatticeStyle style = LatticeSt
   return build_lattice(grid, {.style = style}).model;
 }
 
-TEST_CASE("A stretched corners bar of one material shows its E and nu = 1/4") {
+TEST_CASE("A stretched corners bar of one material has its E and nu = 1/4") {
   const int axis = GENERATE(0, 1, 2);
   const elastic::StretchResult r = elastic::stretch_test(lattice(bar(3, 4, 6)), {.axis = axis});
   CHECK(r.young == Approx(kYoung).epsilon(1e-3));
   CHECK(r.poisson == Approx(0.25).margin(1e-3));
-  // Exact, says the spec: better than asked for.
+  // Exact (docs/method.md, eq. 4).
   CHECK(r.young == Approx(kYoung).epsilon(1e-7));
   CHECK(r.poisson == Approx(0.25).margin(1e-7));
 }
 
-TEST_CASE("A stretched corners body of any cross-section shows its E") {
+TEST_CASE("A stretched corners body of any cross-section has its E") {
   std::vector<CellIndex> cells;
   for (const CellIndex& at : bar(4, 4, 8).cells)
     if (at[0] < 2 || at[1] < 2) cells.push_back(at);
@@ -51,7 +50,7 @@ TEST_CASE("A stretched corners body of any cross-section shows its E") {
   CHECK(r.poisson == Approx(0.25).margin(1e-6));
 }
 
-TEST_CASE("Two materials side by side along the load share it by area") {
+TEST_CASE("Two materials in parallel share the load by area") {
   MaterialGrid grid = bar(4, 4, 10, 1e6, 3e6);
   for (std::size_t c = 0; c < grid.cells.size(); ++c) grid.material[c] = grid.cells[c][0] < 1;
   const elastic::StretchResult r = elastic::stretch_test(lattice(grid));
@@ -59,13 +58,14 @@ TEST_CASE("Two materials side by side along the load share it by area") {
   CHECK(r.poisson == Approx(0.25).margin(1e-3));
 }
 
-TEST_CASE("Two materials in series at 10:1 lie within 2 % of one-dimensional theory") {
+TEST_CASE(
+    "Two materials in series with a ratio of 10:1 agree with one-dimensional theory within 2 %") {
   MaterialGrid grid = bar(4, 4, 20, 1e6, 1e7);
   for (std::size_t c = 0; c < grid.cells.size(); ++c) grid.material[c] = grid.cells[c][2] >= 10;
   const double theory = 2 / (1 / 1e6 + 1 / 1e7);
   const double young = elastic::stretch_test(lattice(grid)).young;
   CHECK(young == Approx(theory).epsilon(0.02));
-  // The joint hinders the contraction: 0.75 % above theory in an independent computation.
+  // The interface restrains the contraction: 0.75 % above theory in an independent computation.
   CHECK(young / theory == Approx(1.0075).margin(5e-4));
 }
 
@@ -77,16 +77,16 @@ TEST_CASE("A centers bar has the known border error") {
   const double by_nodes =
       elastic::stretch_test(m, {.cross_section = between * between}).young / kYoung;
   CHECK(by_cells == Approx(0.83).margin(0.005));
-  // 0.8297 x 16/9; the specification gives the first digits, 1.47.
+  // 0.8297 x 16/9
   CHECK(by_nodes == Approx(1.475).margin(0.001));
 }
 
-TEST_CASE("Eq. 2 of the paper gives E on a corners lattice, border and all") {
+TEST_CASE("Eq. 2 gives E of a corners lattice including its border") {
   const auto size = GENERATE(1, 3, 6);
   CHECK(estimated_young(lattice(bar(size, 2, 3))) == Approx(kYoung).epsilon(1e-12));
 }
 
-TEST_CASE("A sound lattice has its six rigid motions and no more") {
+TEST_CASE("A solid lattice has six zero modes, its rigid motions") {
   const auto style = GENERATE(LatticeStyle::corners, LatticeStyle::centers);
   const auto parts = elastic::zero_modes(lattice(bar(3, 4, 5), style));
   REQUIRE(parts.size() == 1);
@@ -100,7 +100,7 @@ TEST_CASE("Two cells that share an edge have a hinge: seven zero modes") {
   REQUIRE(parts.size() == 1);
   CHECK(parts[0].node_count == 14);
   CHECK(parts[0].zero_modes == 7);
-  CHECK(parts[0].mechanism_nodes.size() == 6);  // one cell turns, the other and the edge stay
+  CHECK(parts[0].mechanism_nodes.size() == 6);  // one cell rotates, the other and the edge rest
 }
 
 TEST_CASE("Two cells that share a corner have nine zero modes") {
@@ -110,7 +110,7 @@ TEST_CASE("Two cells that share a corner have nine zero modes") {
   CHECK(parts[0].mechanism_nodes.size() == 7);
 }
 
-TEST_CASE("A body of two halves on a hinge names the smaller half") {
+TEST_CASE("Two halves on a hinge: the mechanism nodes are those of the smaller half") {
   std::vector<CellIndex> cells = bar(4, 4, 4).cells;
   cells.push_back({4, 4, 3});
   cells.push_back({5, 4, 3});

@@ -30,7 +30,7 @@ std::uint32_t least_ends(const MassSpringModel& m) {
   return *std::min_element(ends.begin(), ends.end());
 }
 
-/// Cells within `radius` cells of the middle of a cell.
+/// The cells within `radius` cells of the centre of a cell.
 MaterialGrid ball_grid(int radius, double cell) {
   std::vector<CellIndex> cells;
   for (int z = -radius; z <= radius; ++z)
@@ -40,7 +40,7 @@ MaterialGrid ball_grid(int radius, double cell) {
   return grid_of(cells, cell);
 }
 
-/// A block of 9 x 8 x 8 cells with a slot one cell wide, open but for two layers at the bottom.
+/// A block of 9 x 8 x 8 cells with a slot one cell wide that ends two layers above the bottom.
 bool in_slot(int x, int z) {
   return x == 4 && z >= 2;
 }
@@ -53,7 +53,9 @@ MaterialGrid slotted_grid() {
   return grid_of(cells, 0.01);
 }
 
-TEST_CASE("A random model has the nodes, ends, mass, volume and surface it should") {
+TEST_CASE(
+    "A random model has the requested nodes and ends, and the mass, volume and surface of the "
+    "grid") {
   const std::uint32_t nodes = GENERATE(50U, 161U, 1000U);
   MaterialGrid grid = box_grid(7, 8, 9, 0.01);
   double mass = 0;
@@ -71,7 +73,7 @@ TEST_CASE("A random model has the nodes, ends, mass, volume and surface it shoul
   CHECK(random.mean_ends == 18);
   CHECK(random.least_ends == least_ends(m));
   CHECK(least_ends(m) >= 14);
-  CHECK(random.parts == 1);
+  CHECK(random.components == 1);
   CHECK(border_count(m) > 0);
   for (std::uint32_t i = 0; i < nodes; ++i) {
     const bool on_face = (m.rest[i].array() < 1e-12).any() ||
@@ -81,7 +83,7 @@ TEST_CASE("A random model has the nodes, ends, mass, volume and surface it shoul
   }
 }
 
-TEST_CASE("Any number of nodes makes a solid random model, fewer or more than there are cells") {
+TEST_CASE("A random model is solid with fewer or more nodes than cells") {
   const auto [nodes, radius] =
       GENERATE(std::pair(50U, 6), std::pair(333U, 3), std::pair(2000U, 7), std::pair(5000U, 6));
   const RandomModel random = build_random(ball_grid(radius, 0.01), {.nodes = nodes});
@@ -92,14 +94,14 @@ TEST_CASE("Any number of nodes makes a solid random model, fewer or more than th
   CHECK(parts[0].zero_modes == 6);
 }
 
-TEST_CASE("The rescale makes a random model show its E, over ten seeds and along any axis") {
+TEST_CASE("A rescaled random model has its E, for ten seeds and along any axis") {
   const std::uint64_t seed = GENERATE(range(1, 11));
   const MaterialGrid grid = box_grid(10, 10, 10, 0.01);
   const RandomModel random = build_random(grid, {.nodes = 1000, .seed = seed});
   CHECK(random.model.node_count() == 1000);
   CHECK(random.mean_ends == 18);
   CHECK(random.rescaled * random.eq2_young == Approx(1));
-  CHECK(random.eq2_young < 0.95);  // eq. 2 alone would not do
+  CHECK(random.eq2_young < 0.95);  // eq. 2 alone is not enough
   CHECK(random.poisson == Approx(0.25).margin(0.02));
   const elastic::StretchResult r =
       elastic::stretch_test(random.model, {.axis = static_cast<int>(seed % 3)});
@@ -107,12 +109,12 @@ TEST_CASE("The rescale makes a random model show its E, over ten seeds and along
   CHECK(r.poisson == Approx(0.25).margin(0.025));
 }
 
-TEST_CASE("A thin bar of a random model is no stiffer along than across") {
+TEST_CASE("A thin bar of a random model is isotropic") {
   const RandomModel random = build_random(box_grid(6, 6, 24, 0.01), {.nodes = 1000, .seed = 3});
   CHECK(elastic::stretch_test(random.model, {.axis = 2}).young == Approx(1e6).epsilon(0.02));
 }
 
-TEST_CASE("Without the rescale a random model is what eq. 2 says, and too soft") {
+TEST_CASE("Without rescaling a random model satisfies eq. 2 and is too soft") {
   const MaterialGrid grid = box_grid(6, 6, 12, 0.01);
   const RandomModel raw = build_random(grid, {.nodes = 500, .rescale = false});
   CHECK(raw.rescaled == 1);
@@ -121,7 +123,7 @@ TEST_CASE("Without the rescale a random model is what eq. 2 says, and too soft")
   CHECK(raw.young < 0.96);
 }
 
-TEST_CASE("A ball of a random model is measured by the tractions of uniform stress") {
+TEST_CASE("A random ball is measured by surface tractions") {
   const RandomModel random = build_random(ball_grid(7, 0.01), {.nodes = 800});
   CHECK(random.eq2_young == Approx(0.92).margin(0.04));
   CHECK(random.poisson == Approx(0.26).margin(0.03));
@@ -136,24 +138,24 @@ TEST_CASE("No spring of a random model reaches across a slot") {
     const bool apart = (p.x() <= 0.04 + 1e-9) != (q.x() <= 0.04 + 1e-9) &&
                        std::min(p.x(), q.x()) <= 0.04 + 1e-9 &&
                        std::max(p.x(), q.x()) >= 0.05 - 1e-9;
-    // Within a cell and a half of the bottom of the slot a spring may lead around its edge.
+    // Within one and a half cells of the bottom of the slot a spring may lead around its edge.
     if (apart) REQUIRE(std::min(p.z(), q.z()) < 0.035);
   }
-  CHECK(random.parts == 1);
+  CHECK(random.components == 1);
   CHECK(elastic::zero_modes(m)[0].zero_modes == 6);
 }
 
-TEST_CASE("Two bodies apart make a random model of two parts") {
+TEST_CASE("Two separate bodies make a random model of two connected components") {
   MaterialGrid grid = box_grid(4, 4, 4, 0.01);
   std::vector<CellIndex> cells = grid.cells;
   for (const CellIndex& c : grid.cells) cells.push_back({c[0] + 5, c[1], c[2]});
   const RandomModel random = build_random(grid_of(cells, 0.01), {.nodes = 200});
-  CHECK(random.parts == 2);
-  for (const elastic::PartModes& part : elastic::zero_modes(random.model))
+  CHECK(random.components == 2);
+  for (const elastic::ComponentModes& part : elastic::zero_modes(random.model))
     CHECK(part.zero_modes == 6);
 }
 
-TEST_CASE("Springs between two materials are two halves in series") {
+TEST_CASE("A random spring between two materials is two half springs in series") {
   MaterialGrid grid = box_grid(4, 4, 8, 0.01);
   for (std::size_t n = 0; n < grid.cells.size(); ++n) grid.material[n] = grid.cells[n][2] >= 4;
   const MassSpringModel mixed = build_random(grid, {.nodes = 200}).model;
@@ -169,7 +171,7 @@ TEST_CASE("Springs between two materials are two halves in series") {
   }
 }
 
-TEST_CASE("The same seed makes the same random model, bit for bit, another seed another") {
+TEST_CASE("The same seed gives the same bits of a random model, another seed another model") {
   const MaterialGrid grid = ball_grid(5, 0.01);
   const MassSpringModel first = build_random(grid, {.nodes = 200, .seed = 7}).model;
   const MassSpringModel again = build_random(grid, {.nodes = 200, .seed = 7}).model;
@@ -180,12 +182,12 @@ TEST_CASE("The same seed makes the same random model, bit for bit, another seed 
   CHECK(first.rest != other.rest);
 }
 
-TEST_CASE("The spacing of a random model tells how many nodes there are") {
+TEST_CASE("The spacing determines the number of nodes of a random model") {
   CHECK(build_random(box_grid(4, 4, 8, 0.01)).model.node_count() == 128);
   CHECK(build_random(box_grid(4, 4, 8, 0.01), {.spacing = 0.008}).model.node_count() == 250);
 }
 
-TEST_CASE("A random model that cannot be is an error that says why") {
+TEST_CASE("Impossible options of a random model are rejected with the reason") {
   const MaterialGrid grid = box_grid(3, 3, 3, 0.01);
   CHECK_THROWS_WITH(build_random(grid, {.nodes = 14}), Catch::Contains("at least 15"));
   CHECK_THROWS_WITH(build_random(grid, {.ends = 6}), Catch::Contains("give 14 or more"));
@@ -193,9 +195,9 @@ TEST_CASE("A random model that cannot be is an error that says why") {
   CHECK_THROWS_AS(build_random(grid_of({}), {.nodes = 50}), InputError);
 }
 
-TEST_CASE("A periodic random network is below eq. 2 as the specification says, with nu near 1/4") {
-  // Eq. 2 is an upper bound: 6 to 25 % below at 14 ends, 6 to 13 % at 24, by how the nodes are
-  // placed.
+TEST_CASE("A periodic random network is softer than eq. 2, with nu near 1/4") {
+  // Eq. 2 is an upper bound (docs/method.md): 6 to 25 % below it at 14 ends, 6 to 13 % at 24,
+  // depending on the placement of the nodes.
   const auto below = [](const PeriodicRandomOptions& options) {
     const elastic::PeriodicModuli m = elastic::periodic_stretch(build_periodic_random(options));
     CHECK(m.eq2_young == Approx(1).epsilon(1e-12));
@@ -208,7 +210,7 @@ TEST_CASE("A periodic random network is below eq. 2 as the specification says, w
   }
   const auto rough14 = below({.nodes = 400, .ends = 14, .least_ends = 4, .relaxations = 0});
   CHECK(rough14.first == Approx(0.24).margin(0.03));
-  CHECK(rough14.second > 0.265);  // what relaxing the nodes is good for
+  CHECK(rough14.second > 0.265);  // relaxation lowers nu
   CHECK(below({.nodes = 400, .ends = 14}).first == Approx(0.09).margin(0.02));
   CHECK(below({.nodes = 400, .ends = 24, .relaxations = 0}).first == Approx(0.09).margin(0.02));
   CHECK_THROWS_AS(build_periodic_random({.nodes = 20}), InputError);

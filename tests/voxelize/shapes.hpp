@@ -39,7 +39,7 @@ inline void add_box(TriangleMesh& mesh, std::string name, const Vec3& low, const
   add_part(mesh, std::move(name), box_corners(low, high), box_triangles(), std::move(material));
 }
 
-/// Latitudes and longitudes; closed, outward.
+/// A sphere of latitudes and longitudes; closed, outward.
 inline void add_sphere(TriangleMesh& mesh, std::string name, const Vec3& center, double radius,
                        std::uint32_t rings = 48, std::string material = "") {
   const std::uint32_t sectors = 2 * rings;

@@ -28,7 +28,7 @@ void check_same(const MaterialGrid& l, const MaterialGrid& r) {
 
 }  // namespace
 
-TEST_CASE("a voxelized mesh comes back from a .vdb file as it was") {
+TEST_CASE("A voxelized mesh is restored from a .vdb file") {
   const TemporaryFolder folder;
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0.1, 0.2, 0.3}, 1);
@@ -44,7 +44,7 @@ TEST_CASE("a voxelized mesh comes back from a .vdb file as it was") {
   check_same(grid, load_vdb(folder / "again.vdb"));
 }
 
-TEST_CASE("a grid from a table comes back too, with negative cells and without depths") {
+TEST_CASE("A grid without level set, with negative cell indices, is restored") {
   const TemporaryFolder folder;
   MaterialGrid grid = grid_of({{-70, 3, 900}, {0, 0, 0}, {-1, -1, -1}, {-1, 0, 0}}, 0.013);
   grid.origin = Vec3(0.1, -0.7, 1.0 / 3);
@@ -54,7 +54,7 @@ TEST_CASE("a grid from a table comes back too, with negative cells and without d
   check_same(grid, load_vdb(folder / "table.vdb"));
 }
 
-TEST_CASE("what is no .vdb file of ours is refused") {
+TEST_CASE("A file that springlod did not write is rejected") {
   const TemporaryFolder folder;
   const auto refused = [](const fs::path& path, const std::string& with) {
     CHECK_THROWS_AS(load_vdb(path), IoError);
@@ -68,7 +68,7 @@ TEST_CASE("what is no .vdb file of ours is refused") {
   refused(folder / "empty.vdb", "is not a .vdb file");
 }
 
-TEST_CASE("a .vdb file that ends too early is refused") {
+TEST_CASE("A truncated .vdb file is rejected") {
   const TemporaryFolder folder;
   save_vdb(box_grid(20, 20, 20), folder / "whole.vdb");
   const std::string bytes = read_file(folder / "whole.vdb");
@@ -78,7 +78,7 @@ TEST_CASE("a .vdb file that ends too early is refused") {
   }
 }
 
-TEST_CASE("a grid that breaks its rules is not saved") {
+TEST_CASE("An invalid grid is not saved") {
   const TemporaryFolder folder;
   MaterialGrid grid = box_grid(2, 2, 2);
   grid.material[0] = 9;

@@ -27,7 +27,7 @@ Vec3 center(const MaterialGrid& grid, std::size_t n) {
   return grid.origin + grid.cell * Vec3(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5);
 }
 
-// Cells of the material called `name`.
+// The number of cells with the material `name`.
 std::size_t count_of(const MaterialGrid& grid, const std::string& name) {
   std::size_t count = 0;
   for (const std::uint16_t m : grid.material) count += grid.materials[m].name == name ? 1 : 0;
@@ -46,7 +46,7 @@ double ball_volume(double radius) {
 
 }  // namespace
 
-TEST_CASE("a box of whole cells gives exactly those cells, however its size is rounded") {
+TEST_CASE("A box of whole cells gives exactly these cells, whatever the rounding of its size") {
   for (const double off : {0.0, 1e-9, -1e-9})
     for (const double at : {0.0, 0.1234567, -1e4}) {
       TriangleMesh mesh;
@@ -63,7 +63,7 @@ TEST_CASE("a box of whole cells gives exactly those cells, however its size is r
     }
 }
 
-TEST_CASE("the cell is the longest side over 32 unless it is given") {
+TEST_CASE("The default cell is the longest side / 32") {
   TriangleMesh mesh;
   add_box(mesh, "beam", {0, 0, 0}, {0.08, 0.08, 0.32});
   const VoxelizedMesh result = voxelize(mesh, {});
@@ -73,7 +73,7 @@ TEST_CASE("the cell is the longest side over 32 unless it is given") {
   CHECK_FALSE(voxelize(mesh, with_cell(0.02)).report.cell_chosen);
 }
 
-TEST_CASE("a sphere has its volume in cells, symmetric about its middle") {
+TEST_CASE("The cells of a sphere have its volume and are symmetric about its centre") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {5, -3, 2}, 1, 96);
   for (const double cell : {0.05, 2.0 / 31}) {
@@ -87,7 +87,7 @@ TEST_CASE("a sphere has its volume in cells, symmetric about its middle") {
   }
 }
 
-TEST_CASE("the depth of a sphere's cells is radius less distance from the middle") {
+TEST_CASE("The depth of a sphere's cells is the radius minus the distance from the centre") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1, 128);
   const double cell = 0.05;
@@ -100,11 +100,11 @@ TEST_CASE("the depth of a sphere's cells is radius less distance from the middle
     worst = std::max(worst, error);
     mean += error / static_cast<double>(grid.cells.size());
   }
-  CHECK(worst < 0.2 * cell);  // what depth.hpp promises
+  CHECK(worst < 0.2 * cell);  // documented in depth.hpp
   CHECK(mean < 0.02 * cell);
 }
 
-TEST_CASE("the depth of a box's cells is exact") {
+TEST_CASE("The depth of a box's cells is exact") {
   TriangleMesh mesh;
   add_box(mesh, "box", {0, 0, 0}, {9, 12, 21});
   const MaterialGrid grid = with_depth(mesh, with_cell(1));
@@ -115,9 +115,9 @@ TEST_CASE("the depth of a box's cells is exact") {
   }
 }
 
-TEST_CASE("where parts touch there is no gap and no surface to be deep under") {
+TEST_CASE("Between touching parts there is no gap and no surface") {
   TriangleMesh mesh;
-  add_box(mesh, "left", {0, 0, 0}, {10.5, 9, 9});  // the joint runs through cell centres
+  add_box(mesh, "left", {0, 0, 0}, {10.5, 9, 9});  // the interface passes through cell centres
   add_box(mesh, "right", {10.5, 0, 0}, {21, 9, 9});
   const MaterialGrid grid = with_depth(mesh, with_cell(1));
   REQUIRE(grid.cells.size() == 21 * 9 * 9);
@@ -128,7 +128,8 @@ TEST_CASE("where parts touch there is no gap and no surface to be deep under") {
   }
 }
 
-TEST_CASE("cells in two parts go to the part named first, else to the first of the file") {
+TEST_CASE(
+    "Cells within two parts belong to the first in `priority`, else to the first in the file") {
   TriangleMesh mesh;
   add_box(mesh, "one", {0, 0, 0}, {6, 4, 4});
   add_box(mesh, "two", {4, 0, 0}, {10, 4, 4});
@@ -146,7 +147,7 @@ TEST_CASE("cells in two parts go to the part named first, else to the first of t
   CHECK_THROWS_WITH(voxelize(mesh, options), Contains("\"three\"") && Contains("\"one\", \"two\""));
 }
 
-TEST_CASE("a part's material goes by its name, then the file's material, then the fallback") {
+TEST_CASE("A part's material is found by its name, then the file's material, then the fallback") {
   TriangleMesh mesh;
   add_box(mesh, "a", {0, 0, 0}, {2, 2, 2}, "steel");
   add_box(mesh, "b", {2, 0, 0}, {4, 2, 2}, "steel");
@@ -166,7 +167,7 @@ TEST_CASE("a part's material goes by its name, then the file's material, then th
   CHECK_THAT(result.report.warnings[0], Contains("\"glass\" is not used"));
 }
 
-TEST_CASE("two different materials of one name are refused, equal ones are one") {
+TEST_CASE("Different materials of one name are rejected, equal ones are merged") {
   TriangleMesh mesh;
   add_box(mesh, "a", {0, 0, 0}, {2, 2, 2});
   add_box(mesh, "b", {2, 0, 0}, {4, 2, 2});
@@ -177,7 +178,7 @@ TEST_CASE("two different materials of one name are refused, equal ones are one")
   CHECK_THROWS_AS(voxelize(mesh, options), InputError);
 }
 
-TEST_CASE("an object of two materials gives each cell that of the nearest triangle") {
+TEST_CASE("In an object of two materials each cell has that of the nearest triangle") {
   TriangleMesh mesh;
   const auto corners = box_corners({0, 0, 0}, {8, 8, 8});
   const auto all = box_triangles();
@@ -197,7 +198,7 @@ TEST_CASE("an object of two materials gives each cell that of the nearest triang
   }
 }
 
-TEST_CASE("core and shell are told apart by depth") {
+TEST_CASE("Core and shell are distinguished by depth") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1, 96);
   VoxelizeOptions options = with_cell(0.05);
@@ -209,7 +210,7 @@ TEST_CASE("core and shell are told apart by depth") {
   CHECK(count_of(grid, "core") + count_of(grid, "shell") == grid.cells.size());
 }
 
-TEST_CASE("a paint function sees centre, depth and material in order, and names materials") {
+TEST_CASE("A paint function receives centre, depth and material of each cell and returns a name") {
   TriangleMesh mesh;
   add_box(mesh, "box", {0, 0, 0}, {4, 4, 4});
   VoxelizeOptions options = with_cell(1);
@@ -233,18 +234,19 @@ TEST_CASE("a paint function sees centre, depth and material in order, and names 
   CHECK_THROWS_WITH(voxelize(mesh, options), Contains("\"gold\"") && Contains("\"top\""));
 }
 
-TEST_CASE("an open part is refused with its name and the place of the hole") {
+TEST_CASE("An open part is rejected with its name and the position of the hole") {
   TriangleMesh mesh;
   auto triangles = box_triangles();
   triangles.erase(triangles.begin() + 2, triangles.begin() + 4);
   add_box(mesh, "good", {0, 0, 0}, {1, 1, 1});
   add_part(mesh, "pot", box_corners({2, 0, 0}, {3, 1, 1}), triangles);
   CHECK_THROWS_AS(voxelize(mesh, {}), InputError);
-  CHECK_THROWS_WITH(voxelize(mesh, {}),
-                    Contains("\"pot\" is not closed: 4 boundary edges") && Contains(", 1) m"));
+  CHECK_THROWS_WITH(
+      voxelize(mesh, {}),
+      Contains("\"pot\" is not closed: it has 4 boundary edges") && Contains(", 1) m"));
 }
 
-TEST_CASE("an inside-out sphere is turned and said to be") {
+TEST_CASE("An inverted sphere is reversed with a warning") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1);
   const std::size_t cells = voxelize(mesh, {}).grid.cells.size();
@@ -255,7 +257,7 @@ TEST_CASE("an inside-out sphere is turned and said to be") {
   CHECK_THAT(turned.report.warnings[0], Contains("\"ball\" was inside out"));
 }
 
-TEST_CASE("a cavity stays hollow, and depth counts from its wall too") {
+TEST_CASE("A cavity stays empty, and its wall counts for the depth") {
   TriangleMesh mesh;
   add_box(mesh, "block", {0, 0, 0}, {10, 10, 10});
   add_box(mesh, "block", {3, 3, 3}, {7, 7, 7});
@@ -268,7 +270,7 @@ TEST_CASE("a cavity stays hollow, and depth counts from its wall too") {
   CHECK(*std::max_element(depth.begin(), depth.end()) < 3);
 }
 
-TEST_CASE("a part thinner than a cell is lost with a warning, and a bad volume is said") {
+TEST_CASE("A part thinner than a cell and a large volume error give warnings") {
   TriangleMesh mesh;
   add_box(mesh, "block", {0, 0, 0}, {10, 10, 10});
   add_box(mesh, "sheet", {2, 2, 10}, {8, 8, 10.1});
@@ -282,7 +284,7 @@ TEST_CASE("a part thinner than a cell is lost with a warning, and a bad volume i
   CHECK_THAT(thick.report.warnings[0], Contains("\"plate\"") && Contains("-29 %"));
 }
 
-TEST_CASE("cells too large, too small or no length are refused with what would do") {
+TEST_CASE("Cells too large, too small or not positive are rejected with a valid value") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1);
   CHECK_THROWS_AS(voxelize(mesh, with_cell(0)), InputError);
@@ -297,7 +299,7 @@ TEST_CASE("cells too large, too small or no length are refused with what would d
   CHECK_THROWS_WITH(voxelize(frame, with_cell(10)), Contains("use a smaller cell, say 2.5 m"));
 }
 
-TEST_CASE("vertices that are not finite, far away or all in a plane are refused") {
+TEST_CASE("Vertices that are not finite, far away or coplanar are rejected") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1);
   TriangleMesh bad = mesh;
@@ -315,7 +317,7 @@ TEST_CASE("vertices that are not finite, far away or all in a plane are refused"
   CHECK_THROWS_AS(voxelize(TriangleMesh{}, {}), InputError);
 }
 
-TEST_CASE("depth is measured where a core or a paint function needs it, and else on demand") {
+TEST_CASE("Depth is measured if a core or a paint function needs it, otherwise on request") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1, 24);
   add_box(mesh, "box", {0.5, -0.5, -0.5}, {2, 0.5, 0.5});
@@ -341,11 +343,11 @@ TEST_CASE("depth is measured where a core or a paint function needs it, and else
   CHECK(seen == depth);
 }
 
-TEST_CASE("one thread and two give the same grid") {
+TEST_CASE("One thread and two give the same grid") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1, 64);
   add_sphere(mesh, "other", {0.7, 0.2, 0.1}, 1, 64);
-  for (int i = 0; i < 12; ++i)  // more than are made at once
+  for (int i = 0; i < 12; ++i)  // more than are processed at once
     add_box(mesh, "box " + std::to_string(i), {-1 + 0.2 * i, -1.5, -1}, {-0.7 + 0.2 * i, 0, 1.5});
   const auto run = [&](std::uint32_t threads) {
     VoxelizeOptions options = with_cell(0.03);
@@ -367,7 +369,7 @@ TEST_CASE("one thread and two give the same grid") {
   }
 }
 
-TEST_CASE("an interrupt ends the filling of many parts") {
+TEST_CASE("An interrupt ends the filling of many parts") {
   struct Impatient : Progress {
     int seen = 0;
     void advance(std::uint64_t) override {

@@ -38,9 +38,9 @@ MassSpringModel bar() {
 
 const MassSpringModel kBar = bar();
 
-TEST_CASE("Local loads act on border nodes alone, at most 1 N a patch") {
+TEST_CASE("Local loads act on border nodes only, with at most 1 N on a patch") {
   for (const StaticLoad& load : patch_pairs(kBar, {.radius = 1.5})) {
-    CHECK(amount(load) <= Approx(2));  // near patches share nodes, which cancel out
+    CHECK(amount(load) <= Approx(2));  // close patches share nodes, where forces cancel
     CHECK(amount(load) > 0.5);
   }
   for (const StaticLoad& load : pinches(kBar, {.radius = 1.5})) {
@@ -54,7 +54,8 @@ TEST_CASE("Local loads act on border nodes alone, at most 1 N a patch") {
   }
 }
 
-TEST_CASE("Two patches balance each other; along their line also in moment, but for their width") {
+TEST_CASE(
+    "Forces of two patches cancel; along their line also the moments, up to the patch width") {
   for (const auto& loads : {patch_pairs(kBar, {.count = 10}), pinches(kBar, {.count = 10})}) {
     REQUIRE(loads.size() == 10);
     for (const StaticLoad& load : loads) CHECK(total(load).norm() < 1e-12);
@@ -63,16 +64,16 @@ TEST_CASE("Two patches balance each other; along their line also in moment, but 
     CHECK(moment(kBar, load).norm() < 0.1);  // the radius of a patch is 0.2 m
 }
 
-TEST_CASE("A pinch squeezes, along the surface's normal") {
+TEST_CASE("A pinch compresses along the surface normal") {
   for (const StaticLoad& load : pinches(kBar, {.count = 20, .radius = 1.5})) {
-    double work = 0;  // along the way in from the middle
+    double work = 0;  // along the inward direction from the centre
     for (std::uint32_t i = 0; i < kBar.node_count(); ++i)
       work += load.force[i].dot(bounds(kBar.rest).center() - kBar.rest[i]);
     CHECK(work > 0.1);
   }
 }
 
-TEST_CASE("Local loads are the same for the same seed, and others for another") {
+TEST_CASE("Local loads depend on the seed only") {
   const auto first = pushes(kBar, {.count = 3, .seed = 5});
   const auto again = pushes(kBar, {.count = 3, .seed = 5});
   const auto other = pushes(kBar, {.count = 3, .seed = 6});
@@ -81,7 +82,7 @@ TEST_CASE("Local loads are the same for the same seed, and others for another") 
   CHECK(first[2].name == "push 3");
 }
 
-TEST_CASE("Local loads want a surface; a body too small for two patches has no pairs") {
+TEST_CASE("Local loads need a surface; a body too small for two patches has no pairs") {
   MassSpringModel inner = kBar;
   inner.border.assign(inner.node_count(), 0);
   CHECK_THROWS_AS(pushes(inner, {}), InputError);

@@ -11,8 +11,8 @@
 namespace springlod::elastic {
 namespace {
 
-/// Forces of a uniform stress on the surface of a box of cells of edge a: each outer face of a cell
-/// gives its corners a quarter of stress times area.
+/// Forces of a uniform stress on the surface of a box of cells of edge a: each corner of an outer
+/// face has a quarter of stress times area.
 StaticLoad surface_load(const MassSpringModel& m, double a, const Mat3& stress) {
   const Box3 box = bounds(m.rest);
   StaticLoad load{"surface", {}};
@@ -33,7 +33,7 @@ StaticLoad surface_load(const MassSpringModel& m, double a, const Mat3& stress) 
   return load;
 }
 
-TEST_CASE("Patch test: uniform stress on a corners bar strains it as the material says") {
+TEST_CASE("Patch test: uniform stress on a corners bar gives the strain of its material") {
   const double young = 3e6, nu = 0.25, a = 0.01;
   const MassSpringModel bar = test::corners_box(4, 3, 12, a, young, 1000);
   const double volume = 4 * 3 * 12 * a * a * a;
@@ -47,19 +47,20 @@ TEST_CASE("Patch test: uniform stress on a corners bar strains it as the materia
     const StaticSolution solution = solve_static(body, {load}).at(0);
     const Mat3 strain = ((1 + nu) * stress - nu * stress.trace() * Mat3::Identity()) / young;
     CHECK(solution.compliance == Approx(volume * stress.cwiseProduct(strain).sum()).epsilon(1e-10));
-    // The displacement is the strain and a rigid motion.
-    const ElasticPart& part = body.parts.at(0);
+    // The displacement is the uniform strain plus a rigid motion.
+    const ElasticComponent& component = body.components.at(0);
     std::vector<Vec3> strained;
     for (const Vec3& p : bar.rest) strained.emplace_back(strain * p);
-    Eigen::MatrixXd expected = part.gather(strained).cwiseProduct(part.root_mass);
-    part.remove_zero_modes(expected);
-    const Eigen::VectorXd found = test::flatten(solution.displacement).cwiseProduct(part.root_mass);
+    Eigen::MatrixXd expected = component.gather(strained).cwiseProduct(component.root_mass);
+    component.remove_zero_modes(expected);
+    const Eigen::VectorXd found =
+        test::flatten(solution.displacement).cwiseProduct(component.root_mass);
     CHECK((found - expected).norm() < 1e-10 * expected.norm());
     CHECK(solution.residual < 1e-9);
   }
 }
 
-/// Work of unit moments that bend a bar of one cell across and `cells` along.
+/// Work of unit moments that bend a bar of one cell in cross-section and `cells` in length.
 StaticSolution bend_by_moments(int cells) {
   const double a = 0.01;
   const MassSpringModel bar = test::corners_box(1, 1, cells, a, 1e7, 1000);
@@ -72,14 +73,17 @@ StaticSolution bend_by_moments(int cells) {
   return solve_static(elastic_body(bar), {load}).at(0);
 }
 
-TEST_CASE("A bar a thousand times as long as thick bends as its pieces do") {
-  // Its bends are about as soft as the shift of the factors, which alone would make it too stiff.
+TEST_CASE("The compliance of a bar a thousand times as long as thick is the sum over its cells") {
+  // Its lowest bending eigenvalues are about as small as the shift of the factors, which alone
+  // would make it too stiff.
   const StaticSolution bar = bend_by_moments(1000);
   CHECK(bar.residual < 1e-12);
-  // Under a constant moment each cell adds the same; the ends are the same for all lengths.
+  // Under a constant moment the contribution of each cell is the same, and that of the ends does
+  // not depend on the length.
   const double end = bend_by_moments(20).compliance;
   const double cell = (bend_by_moments(40).compliance - end) / 20;
-  // The matrix itself is known to 1e-16 of stiffnesses that are some 1e12 times those of bending.
+  // The matrix has a relative rounding of 1e-16, and its stiffnesses are some 1e12 times those of
+  // bending.
   CHECK(bar.compliance == Approx(end + 980 * cell).epsilon(1e-3));
 }
 
@@ -114,7 +118,7 @@ TEST_CASE("Displacements are those of the pseudo-inverse of a dense solver") {
   }
 }
 
-TEST_CASE("What only pushes and turns a body does not strain it") {
+TEST_CASE("A load that only translates and rotates a free body does not strain it") {
   const MassSpringModel m = test::random_model(4, 5);
   StaticLoad load{"push", {}};
   const Vec3 center = mass_properties(m).center;
@@ -126,7 +130,7 @@ TEST_CASE("What only pushes and turns a body does not strain it") {
   CHECK(std::abs(solution.compliance) < 1e-12);
 }
 
-TEST_CASE("The compliance is twice the elastic energy, and modes add up to it") {
+TEST_CASE("The compliance is twice the elastic energy and the sum over the modes") {
   const MassSpringModel m = test::random_model(5, 4);
   const ElasticBody body = elastic_body(m);
   const std::vector<StaticLoad> loads = smooth_loads(m);
@@ -145,8 +149,8 @@ TEST_CASE("The compliance is twice the elastic energy, and modes add up to it") 
   }
 }
 
-TEST_CASE("A row of springs gives way as springs in series do") {
-  const MassSpringModel m = test::chain_of_nodes(120, 10);  // mechanisms: all ways across
+TEST_CASE("A row of springs has the compliance of springs in series") {
+  const MassSpringModel m = test::chain_of_nodes(120, 10);  // mechanisms: all lateral motions
   StaticLoad load{"pull", std::vector<Vec3>(120, Vec3::Zero())};
   load.force.front() = {-2, 0, 0};
   load.force.back() = {2, 0, 0};
@@ -171,7 +175,7 @@ TEST_CASE("Nine smooth loads, 1 N each, bend and twist the longest axis") {
     }
     CHECK(amount == Approx(1));
     CHECK(sum.norm() < 1e-12);
-    // A shear turns a body that is not as long as wide; the others balance by themselves.
+    // A shear rotates a body whose length and width differ; the other loads are in equilibrium.
     if (load.name.rfind("shear", 0) != 0) CHECK(moment.norm() < 1e-12);
   }
   CHECK(names == std::vector<std::string>{"stretch x", "stretch y", "stretch z", "shear yz",
@@ -191,7 +195,7 @@ TEST_CASE("Scaling all stiffness scales all compliances") {
     CHECK(soft[l].compliance == Approx(4 * stiff[l].compliance).epsilon(1e-10));
 }
 
-TEST_CASE("A load that finds nothing to pull at stays zero") {
+TEST_CASE("A load without a lever arm is zero") {
   const MassSpringModel row = test::chain_of_nodes(5);
   const std::vector<StaticLoad> loads = smooth_loads(row);
   REQUIRE(loads.size() == 9);
@@ -201,7 +205,7 @@ TEST_CASE("A load that finds nothing to pull at stays zero") {
   CHECK(solutions[1].residual == 0);
 }
 
-TEST_CASE("Loads of the wrong size or without a value are refused") {
+TEST_CASE("Loads of the wrong size or with values that are not finite are rejected") {
   const ElasticBody body = elastic_body(test::box_lattice(3, 3, 3));
   CHECK_THROWS_AS(solve_static(body, {{"short", {}}}), InputError);
   StaticLoad load{"odd", std::vector<Vec3>(27, Vec3::Zero())};

@@ -6,7 +6,7 @@
 namespace springlod::elastic {
 namespace {
 
-TEST_CASE("Eq. 2 of a rod of three nodes, by hand") {
+TEST_CASE("Eq. 2 for a rod of three nodes agrees with a calculation by hand") {
   // k L^2 = 100 and 60 * 4; volumes 1, 3 and 2 litres.
   MassSpringModel m =
       test::table_model({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, {1, 3, 2}, {{0, 1, 100}, {1, 2, 60}});
@@ -29,7 +29,7 @@ TEST_CASE("Eq. 2 of a rod of three nodes, by hand") {
   CHECK(e.materials[2].young == 0);
 }
 
-TEST_CASE("What eq. 2 says of the materials adds up to what it says of the whole") {
+TEST_CASE("The estimates of the materials add up to that of the whole model") {
   const MassSpringModel m = test::random_model(4);
   const ModelEstimate e = estimate(m);
   double work = 0;

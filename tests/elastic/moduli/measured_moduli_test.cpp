@@ -12,14 +12,14 @@ std::vector<MaterialModuli> under_smooth_loads(const MassSpringModel& model) {
   return measured_moduli(model, solve_static(elastic_body(model), smooth_loads(model)));
 }
 
-/// All nodes moved by one gradient, which need not balance.
+/// A solution with one displacement gradient for all nodes, not in equilibrium in general.
 StaticSolution affine(const MassSpringModel& model, const Mat3& gradient) {
   StaticSolution solution;
   for (const Vec3& p : model.rest) solution.displacement.emplace_back(gradient * p);
   return solution;
 }
 
-/// A block of which the half from z = `height` on is of another stuff, `factor` times as stiff.
+/// A block of two materials: the half above z = `height` is `factor` times as stiff.
 MassSpringModel two_halves(double height, double factor) {
   MassSpringModel m = test::corners_box(4, 4, 12, 0.1, 1e6, 1000);
   m.materials.push_back(Material{.name = "other"});
@@ -34,19 +34,19 @@ MassSpringModel two_halves(double height, double factor) {
   return m;
 }
 
-TEST_CASE("Blocks on the corners lattice show their E and nu under smooth loads") {
+TEST_CASE("Smooth loads measure E and nu of corners blocks") {
   const auto [x, y, z] = GENERATE(table<int, int, int>({{10, 10, 10}, {4, 4, 12}, {2, 3, 2}}));
   const MassSpringModel block = test::corners_box(x, y, z, 0.1, 1e6, 1000);
   const std::vector<MaterialModuli> found = under_smooth_loads(block);
   REQUIRE(found.size() == 1);
   CHECK(found[0].material == 0);
-  // These loads strain the body unevenly; the average sees little of it.
+  // The strain of these loads is uneven; its average is hardly affected.
   CHECK(found[0].young == Approx(1e6).epsilon(1e-3));
   CHECK(found[0].poisson == Approx(0.25).margin(1e-3));
   CHECK(found[0].volume == Approx(x * y * z * 1e-3));
 }
 
-TEST_CASE("Moduli follow the stiffness of the springs and the volume of the nodes") {
+TEST_CASE("Moduli scale with the stiffness of the springs and the volume of the nodes") {
   MassSpringModel block = test::corners_box(3, 4, 5, 0.1, 1e6, 1000);
   for (double& k : block.stiffness) k *= 3;
   for (double& v : block.volume) v *= 2;
@@ -56,9 +56,9 @@ TEST_CASE("Moduli follow the stiffness of the springs and the volume of the node
   CHECK(found[0].poisson == Approx(0.25).margin(5e-3));
 }
 
-TEST_CASE("A soft load counts as much as a stiff one, and turning not at all") {
-  // Springs along the edges a tenth as stiff: no longer isotropic, so loads differ in what they
-  // say.
+TEST_CASE("All loads have the same weight, and rotations do not count") {
+  // Springs along the edges are a tenth as stiff: the material is anisotropic, so loads measure
+  // different moduli.
   MassSpringModel block = test::corners_box(3, 3, 3, 0.1, 1e6, 1000);
   for (std::uint32_t s = 0; s < block.spring_count(); ++s)
     if (block.rest_length[s] < 0.12) block.stiffness[s] /= 10;
@@ -76,21 +76,21 @@ TEST_CASE("A soft load counts as much as a stiff one, and turning not at all") {
   CHECK(scaled[0].poisson == Approx(plain[0].poisson).epsilon(1e-6));
 }
 
-TEST_CASE("Each of two materials shows its own moduli") {
+TEST_CASE("The moduli of two materials are measured separately") {
   const std::vector<MaterialModuli> found = under_smooth_loads(two_halves(0.6, 10));
   REQUIRE(found.size() == 2);
   CHECK(found[0].material == 0);
   CHECK(found[1].material == 1);
   CHECK(found[0].young == Approx(1e6).epsilon(0.01));
-  // The nodes of the interface, a fourteenth of this half's volume, count as its own but have soft
-  // cells on one side.
+  // The nodes of the interface count for this half (a fourteenth of its volume) but have soft cells
+  // on one side.
   CHECK(found[1].young == Approx(1e7).epsilon(0.08));
   for (const MaterialModuli& each : found) CHECK(each.poisson == Approx(0.25).margin(0.01));
   CHECK(found[0].volume + found[1].volume == Approx(4 * 4 * 12 * 1e-3));
 }
 
-TEST_CASE("Pieces of one material that move apart are not strained by that") {
-  // Two stiff ends, the middle third a thousand times as soft and so strained far more.
+TEST_CASE("Relative motion of two regions of one material is not strain") {
+  // Two stiff ends; the middle third is a thousand times as soft and so strained far more.
   MassSpringModel bar = test::corners_box(4, 4, 18, 0.1, 1e6, 1000);
   bar.materials.push_back(Material{.name = "soft"});
   for (std::uint32_t i = 0; i < bar.node_count(); ++i)
@@ -105,7 +105,7 @@ TEST_CASE("Pieces of one material that move apart are not strained by that") {
   CHECK(found[0].poisson == Approx(0.25).margin(0.01));
 }
 
-TEST_CASE("Bends and twists, whose averages cancel, do not spoil what the others tell") {
+TEST_CASE("Bends and twists, whose averages cancel, do not change the moduli") {
   const MassSpringModel model = test::random_model(4, 8);
   std::vector<StaticSolution> solutions = solve_static(elastic_body(model), smooth_loads(model));
   const std::vector<MaterialModuli> all = measured_moduli(model, solutions);
@@ -118,7 +118,7 @@ TEST_CASE("Bends and twists, whose averages cancel, do not spoil what the others
   for (std::size_t m = 0; m < all.size(); ++m) CHECK(all[m].young == first[m].young);
 }
 
-TEST_CASE("Materials that nothing is told of are left out") {
+TEST_CASE("Materials whose moduli are undetermined are omitted") {
   MassSpringModel block = test::corners_box(3, 3, 3, 0.1, 1e6, 1000);
   block.materials.push_back(Material{.name = "skin"});
   block.materials.push_back(Material{.name = "nowhere"});
@@ -132,7 +132,7 @@ TEST_CASE("Materials that nothing is told of are left out") {
     REQUIRE(found.size() == 1);
     CHECK(found[0].material == 0);
   }
-  SECTION("a plane of nodes and a smaller lump of them") {
+  SECTION("a plane of nodes and a smaller solid cluster") {
     for (std::uint32_t i = 0; i < block.node_count(); ++i) {
       const bool lump = block.rest[i].minCoeff() > 0.15;
       block.material[i] = lump || block.rest[i].z() < 0.05 ? 1 : 0;
@@ -145,22 +145,22 @@ TEST_CASE("Materials that nothing is told of are left out") {
     for (std::uint32_t i = 0; i < 3; ++i) block.material[i] = 1;
     REQUIRE(under_smooth_loads(block).size() == 1);
   }
-  SECTION("pure shear, which tells nothing of lambda") {
+  SECTION("pure shear, which does not determine lambda") {
     CHECK(measured_moduli(block, {affine(block, shear)}).empty());
     const Mat3 tilt = Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix();
     CHECK(measured_moduli(block, {affine(block, tilt * shear * tilt.transpose())}).empty());
     CHECK(measured_moduli(block, {affine(block, shear), affine(block, stretch)}).size() == 1);
   }
-  SECTION("equal stretch, which tells nothing of mu") {
+  SECTION("isotropic strain, which does not determine mu") {
     CHECK(measured_moduli(block, {affine(block, Mat3::Identity())}).empty());
   }
-  SECTION("nothing moves, or nothing is solved") {
+  SECTION("zero displacements, or no solutions") {
     CHECK(measured_moduli(block, {affine(block, Mat3::Zero())}).empty());
     CHECK(measured_moduli(block, {}).empty());
   }
 }
 
-TEST_CASE("Displacements of another model are refused") {
+TEST_CASE("Displacements of another model are rejected") {
   const MassSpringModel block = test::corners_box(3, 3, 3, 0.1, 1e6, 1000);
   const MassSpringModel other = test::corners_box(2, 2, 2, 0.1, 1e6, 1000);
   CHECK_THROWS_AS(measured_moduli(block, {affine(other, Mat3::Identity())}), InputError);

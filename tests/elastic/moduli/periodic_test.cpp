@@ -31,14 +31,14 @@ PeriodicNetwork lattice(int n) {
   return network;
 }
 
-TEST_CASE("The periodic lattice shows E = 2.5 k / a and nu = 1/4") {
+TEST_CASE("The periodic lattice has E = 2.5 k / a and nu = 1/4") {
   const PeriodicModuli m = periodic_stretch(lattice(3));
   CHECK(m.young == Approx(2.5).epsilon(1e-9));
   CHECK(m.poisson == Approx(0.25).margin(1e-9));
   CHECK(m.eq2_young == Approx(2.5).epsilon(1e-9));
 }
 
-TEST_CASE("Springs that differ make a periodic network softer than eq. 2") {
+TEST_CASE("A periodic network of unequal springs is softer than eq. 2") {
   PeriodicNetwork network = lattice(4);
   for (std::size_t s = 0; s < network.stiffness.size(); ++s)
     network.stiffness[s] = s % 5 == 0 ? 0.2 : 1.2;
@@ -47,7 +47,7 @@ TEST_CASE("Springs that differ make a periodic network softer than eq. 2") {
   CHECK(m.young > 0.7 * m.eq2_young);
 }
 
-TEST_CASE("A periodic network whose arrays do not fit is refused") {
+TEST_CASE("A periodic network with arrays of inconsistent sizes is rejected") {
   PeriodicNetwork network = lattice(3);
   network.stiffness.pop_back();
   CHECK_THROWS_AS(periodic_stretch(network), InputError);

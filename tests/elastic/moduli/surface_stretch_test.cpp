@@ -26,14 +26,14 @@ std::vector<Vec3> corner_areas(const MassSpringModel& model) {
   return areas;
 }
 
-TEST_CASE("A cell of the lattice under uniform stress shows its E and nu exactly") {
+TEST_CASE("A cell of the lattice under uniform stress has exactly its E and nu") {
   const MassSpringModel cell = unit_cell();
   const SurfaceStretchResult r = surface_stretch(cell, corner_areas(cell));
   CHECK(r.young == Approx(10).epsilon(1e-6));
   CHECK(r.poisson == Approx(0.25).margin(1e-6));
 }
 
-TEST_CASE("Areas that are too few or enclose nothing are refused") {
+TEST_CASE("Too few areas, and areas that enclose nothing, are rejected") {
   const MassSpringModel cell = unit_cell();
   CHECK_THROWS_AS(surface_stretch(cell, {}), InputError);
   CHECK_THROWS_AS(surface_stretch(cell, std::vector<Vec3>(8, Vec3::Zero())), InputError);

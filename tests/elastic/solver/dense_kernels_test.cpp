@@ -13,7 +13,7 @@ using namespace springlod::elastic;
 
 namespace {
 
-/// Rounding of sums of some hundred numbers near 1.
+/// Rounding error of sums of some hundred numbers near 1.
 constexpr double kRounding = 1e-10;
 
 Eigen::MatrixXd positive_definite(Eigen::Index n) {
@@ -23,7 +23,7 @@ Eigen::MatrixXd positive_definite(Eigen::Index n) {
 
 }  // namespace
 
-TEST_CASE("The lower half becomes its factor, the upper half stays") {
+TEST_CASE("The lower triangle becomes the factor, the upper triangle is unchanged") {
   for (const Eigen::Index n : {0, 1, 48, 49, 150}) {
     const Eigen::MatrixXd a = positive_definite(n);
     Eigen::MatrixXd l = a;
@@ -35,7 +35,7 @@ TEST_CASE("The lower half becomes its factor, the upper half stays") {
   }
 }
 
-TEST_CASE("A pivot that is not positive is told, wherever it is") {
+TEST_CASE("A pivot that is not positive is reported wherever it occurs") {
   for (const Eigen::Index bad : {0, 60, 119}) {
     Eigen::MatrixXd a = positive_definite(120);
     a(bad, bad) = -1;
@@ -43,7 +43,7 @@ TEST_CASE("A pivot that is not positive is told, wherever it is") {
   }
 }
 
-TEST_CASE("Products and solutions are those of plain matrices, of blocks and of nothing") {
+TEST_CASE("Products and solutions agree with Eigen's for matrices, blocks and empty matrices") {
   const Eigen::MatrixXd l = positive_definite(60).llt().matrixL();
   for (const Eigen::Index rows : {0, 1, 7}) {
     const Eigen::MatrixXd b = random_block(rows, 60, 2);
@@ -69,7 +69,7 @@ TEST_CASE("Products and solutions are those of plain matrices, of blocks and of 
   CHECK((c + square.triangularView<Eigen::Lower>().toDenseMatrix()).norm() <= kRounding);
 }
 
-TEST_CASE("Products of several threads are those of one", "[threaded]") {
+TEST_CASE("Products of several threads equal those of one thread", "[threaded]") {
   constexpr int kThreads = 4, kRounds = 2000;
   std::vector<int> wrong(kThreads, 0);
   std::vector<std::thread> threads;

@@ -17,7 +17,7 @@ Eigen::SparseMatrix<double> shifted_stiffness(const MassSpringModel& m, double s
   return k;
 }
 
-TEST_CASE("Solving with the factors is solving with the matrix") {
+TEST_CASE("solve() solves the system of the matrix") {
   const std::uint64_t seed = GENERATE(1U, 2U);
   const int n = GENERATE(2, 4, 7);
   const MassSpringModel m = test::random_model(seed, n);
@@ -27,11 +27,11 @@ TEST_CASE("Solving with the factors is solving with the matrix") {
   const Eigen::MatrixXd b = random_block(matrix.rows(), 5, seed);
   const Eigen::MatrixXd expected = Eigen::MatrixXd(matrix).llt().solve(b);
   CHECK((factor.solve(b) - expected).norm() < 1e-12 * expected.norm());
-  // One at a time as well.
+  // One column at a time.
   CHECK((factor.solve(b.col(2)) - expected.col(2)).norm() < 1e-12 * expected.norm());
 }
 
-TEST_CASE("Bodies that hang together by nothing are solved side by side") {
+TEST_CASE("Disconnected bodies are solved in one system") {
   const MassSpringModel m =
       test::side_by_side(test::box_lattice(5, 5, 5), test::box_lattice(4, 5, 6), {0.5, 0.5, 0.5});
   const auto matrix = shifted_stiffness(m, 1);
@@ -41,7 +41,7 @@ TEST_CASE("Bodies that hang together by nothing are solved side by side") {
   CHECK((matrix * factor.solve(b) - b).norm() < 1e-12 * b.norm());
 }
 
-TEST_CASE("A matrix that is not positive definite is told") {
+TEST_CASE("A matrix that is not positive definite is reported") {
   const MassSpringModel m = test::random_model(3, 5);
   CHECK_FALSE(SparseCholesky(shifted_stiffness(m, -1), m.rest).positive());
 }

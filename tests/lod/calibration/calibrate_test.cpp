@@ -200,7 +200,7 @@ TEST_CASE("Calibrated levels match frequencies and compliances of the base at a 
     double mac = 0;
     for (std::size_t i = 0; i < 10; ++i) mac += after.frequencies[i].mac / 10;
     CHECK(mac > 0.6);  // a sphere has fivefold eigenvalues, whose mode shapes may mix
-    CHECK(before.misses.size() > after.misses.size());
+    CHECK(before.unmet.size() > after.unmet.size());
   }
 }
 

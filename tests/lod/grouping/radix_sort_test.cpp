@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "base/chance.hpp"
+#include "base/random.hpp"
 
 using namespace springlod;
 using namespace springlod::lod;
@@ -13,7 +13,7 @@ using namespace springlod::lod;
 TEST_CASE("The radix sort agrees with a stable sort") {
   for (const unsigned bits : {1U, 7U, 12U, 33U, 64U}) {
     std::vector<KeyedNode> nodes;
-    for (std::uint32_t i = 0; i < 5000; ++i) nodes.push_back({mix(i) >> (64U - bits), i});
+    for (std::uint32_t i = 0; i < 5000; ++i) nodes.push_back({split_mix(i) >> (64U - bits), i});
     std::vector<KeyedNode> expected = nodes;
     std::stable_sort(expected.begin(), expected.end(),
                      [](const KeyedNode& x, const KeyedNode& y) { return x.key < y.key; });

@@ -21,7 +21,7 @@ using test::sample_certificate;
 using test::TemporaryFolder;
 using test::with_json;
 
-/// Level 1 of three has one.
+/// An asset of three levels; level 1 has a certificate.
 LodAsset certified_asset() {
   LodAsset asset = sample_asset();
   asset.chain.levels[1].certificate = sample_certificate();
@@ -62,10 +62,10 @@ void check_same(const Certificate& a, const Certificate& b) {
   CHECK(a.zero_modes == b.zero_modes);
   CHECK(a.expected_zero_modes == b.expected_zero_modes);
   CHECK(a.tolerance == b.tolerance);
-  CHECK(a.misses == b.misses);
+  CHECK(a.unmet == b.unmet);
 }
 
-TEST_CASE("A level's certificate reads back exactly, and levels without one stay without") {
+TEST_CASE("Certificates are restored exactly, and other levels have none") {
   const TemporaryFolder folder;
   save_asset(certified_asset(), folder / "asset.glb");
   const LodAsset read = load_asset(folder / "asset.glb");
@@ -77,7 +77,7 @@ TEST_CASE("A level's certificate reads back exactly, and levels without one stay
   CHECK(read_file(folder / "asset.glb") == read_file(folder / "again.glb"));
 }
 
-TEST_CASE("A certificate of empty lists reads back") {
+TEST_CASE("A certificate with empty lists is restored") {
   const TemporaryFolder folder;
   LodAsset asset = sample_asset();
   Certificate bare;
@@ -89,13 +89,13 @@ TEST_CASE("A certificate of empty lists reads back") {
   check_same(*read.chain.levels[2].certificate, bare);
 }
 
-TEST_CASE("An asset without certificates does not speak of them") {
+TEST_CASE("An asset without certificates has no certificate entry in its JSON") {
   const TemporaryFolder folder;
   save_asset(sample_asset(), folder / "asset.glb");
   CHECK(read_file(folder / "asset.glb").find("certificate") == std::string::npos);
 }
 
-TEST_CASE("A certificate with numbers that are none is not saved") {
+TEST_CASE("A certificate with values that are not finite is not saved") {
   const TemporaryFolder folder;
   LodAsset asset = certified_asset();
   Certificate& certificate = *asset.chain.levels[1].certificate;
@@ -104,15 +104,15 @@ TEST_CASE("A certificate with numbers that are none is not saved") {
                       Contains("level 1") && Contains(what));
     CHECK_FALSE(std::filesystem::exists(folder / "asset.glb"));
   };
-  SECTION("an infinite step") {
+  SECTION("an infinite time step") {
     certificate.stable_step = std::numeric_limits<double>::infinity();
-    refused("a stable step is inf");
+    refused("a stable time step is inf");
   }
   SECTION("a modulus") {
     certificate.moduli[1].poisson = NAN;
     refused("material rubber");
   }
-  SECTION("a frequency that errors would be relative to") {
+  SECTION("a base frequency of zero") {
     certificate.frequencies[1].base = 0;
     refused("frequency 2");
   }
@@ -122,7 +122,7 @@ TEST_CASE("A certificate with numbers that are none is not saved") {
   }
 }
 
-TEST_CASE("A malformed certificate is refused by name") {
+TEST_CASE("A malformed certificate is rejected with the name of the field") {
   const TemporaryFolder folder;
   save_asset(certified_asset(), folder / "asset.glb");
   const std::string bytes = read_file(folder / "asset.glb");
@@ -151,11 +151,11 @@ TEST_CASE("A malformed certificate is refused by name") {
   refused("\"misses\":[", "\"misses\":[1,", of + ", misses 1 must be text, not number");
   refused("\"certificate\":{", "\"certificate\":[],\"c\":{", of + " must be an object, not array");
   refused("\"certificate\":{", "\"certificate\":null,\"c\":{", of + " must be an object, not null");
-  // What no rule is broken by is found out by the checksum.
+  // Changes that break no rule are detected by the checksum.
   refused("\"heldOut\":true", "\"heldOut\":false", "checksum");
 }
 
-TEST_CASE("Means of a certificate's errors") {
+TEST_CASE("Mean errors of a certificate") {
   const Certificate certificate = sample_certificate();
   CHECK(mean_frequency_error(certificate, 0, 10) ==
         Approx((std::abs(10.0 / 3 / 3.3 - 1) + std::abs(0.1 / 0.3 / 0.35 - 1)) / 2));

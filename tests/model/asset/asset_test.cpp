@@ -65,19 +65,19 @@ void check_same(const LodAsset& a, const LodAsset& b) {
   CHECK(a.provenance.entries == b.provenance.entries);
 }
 
-/// Overwrites in place: thousands of renames would each wait for the disk.
+/// Overwrites the file in place: thousands of renames would each wait for the disk.
 void overwrite(const std::filesystem::path& path, std::string_view bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-TEST_CASE("An asset reads back with the same bits") {
+TEST_CASE("A saved asset is restored with the same bits") {
   const TemporaryFolder folder;
   const LodAsset asset = sample_asset();
   save_asset(asset, folder / "asset.glb");
   check_same(load_asset(folder / "asset.glb"), asset);
 }
 
-TEST_CASE("An asset without surface, springs or provenance reads back with the same bits") {
+TEST_CASE("An asset without surface, springs or provenance is restored with the same bits") {
   const TemporaryFolder folder;
   LodAsset asset;
   asset.chain.levels.resize(1);
@@ -87,7 +87,7 @@ TEST_CASE("An asset without surface, springs or provenance reads back with the s
   SECTION("a binding of no points") {
     asset.surface_of_base.start = {0};
   }
-  SECTION("a surface of vertices alone") {
+  SECTION("a surface of vertices only") {
     asset.surface.positions = {{0, 0, 0}};
     asset.surface_of_base = bind_points(asset.surface.positions, asset.chain.levels[0].model);
   }
@@ -108,7 +108,7 @@ TEST_CASE("The same asset gives the same bytes") {
   CHECK(bytes == read_file(folder / "c.glb"));
 }
 
-TEST_CASE("Names that are not UTF-8 are saved with their odd bytes replaced") {
+TEST_CASE("Names that are not UTF-8 are saved with invalid bytes replaced") {
   const TemporaryFolder folder;
   LodAsset asset = sample_asset();
   asset.surface.parts[0].name = "gr\xFCn";
@@ -116,7 +116,7 @@ TEST_CASE("Names that are not UTF-8 are saved with their odd bytes replaced") {
   CHECK(load_asset(folder / "asset.glb").surface.parts[0].name == "gr\xEF\xBF\xBDn");
 }
 
-TEST_CASE("A broken asset is not saved") {
+TEST_CASE("An invalid asset is not saved") {
   const TemporaryFolder folder;
   LodAsset asset = sample_asset();
   asset.chain.levels[1].model.mass[3] = -1;
@@ -125,7 +125,7 @@ TEST_CASE("A broken asset is not saved") {
   CHECK_FALSE(std::filesystem::exists(folder / "asset.glb"));
 }
 
-TEST_CASE("What is no asset is refused with the reason") {
+TEST_CASE("A file that is not an asset is rejected with the reason") {
   const TemporaryFolder folder;
   const auto path = folder / "asset.glb";
   CHECK_THROWS_WITH(load_asset(folder / "missing.glb"),
@@ -133,7 +133,7 @@ TEST_CASE("What is no asset is refused with the reason") {
   CHECK_THROWS_AS(load_asset(folder.path()), IoError);
   for (const char* text : {"", "glTF", "solid thing\nendsolid, and some more text\n"}) {
     overwrite(path, text);
-    CHECK_THROWS_WITH(load_asset(path), Contains("no .glb file"));
+    CHECK_THROWS_WITH(load_asset(path), Contains("not a .glb file"));
   }
   save_asset(sample_asset(), path);
   const std::string bytes = read_file(path);
@@ -146,7 +146,7 @@ TEST_CASE("What is no asset is refused with the reason") {
   CHECK_THROWS_AS(load_asset(path), IoError);
 }
 
-TEST_CASE("A buffer view that points outside the file is found out") {
+TEST_CASE("A buffer view outside the file is detected") {
   const TemporaryFolder folder;
   const auto path = folder / "asset.glb";
   save_asset(sample_asset(), path);
@@ -158,7 +158,7 @@ TEST_CASE("A buffer view that points outside the file is found out") {
   }
 }
 
-TEST_CASE("A file cut short anywhere is refused") {
+TEST_CASE("A file truncated anywhere is rejected") {
   const TemporaryFolder folder;
   save_asset(sample_asset(), folder / "asset.glb");
   const std::string bytes = read_file(folder / "asset.glb");
@@ -168,7 +168,7 @@ TEST_CASE("A file cut short anywhere is refused") {
   }
 }
 
-TEST_CASE("A flipped bit is refused, or changes nothing that is read", "[long]") {
+TEST_CASE("A flipped bit is rejected or changes no value that is read", "[long]") {
   const TemporaryFolder folder;
   const LodAsset asset = sample_asset();
   save_asset(asset, folder / "asset.glb");
@@ -176,8 +176,8 @@ TEST_CASE("A flipped bit is refused, or changes nothing that is read", "[long]")
   const Layout layout(bytes);
   std::size_t tried = 0;
   std::size_t refused = 0;
-  // Every byte of the headers and of the JSON, every 13th of the arrays. What passes may lie in
-  // padding, in what only viewers look at, or in a digit too many to change a number.
+  // Every byte of the headers and of the JSON, every 13th of the arrays. An accepted change may be
+  // in padding, in data for viewers only, or in a digit beyond the precision of a number.
   for (std::size_t byte = 0; byte < bytes.size(); byte += byte < layout.binary_begin ? 1 : 13) {
     std::string flipped = bytes;
     flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << (tried++ * 5 % 8)));
@@ -192,7 +192,7 @@ TEST_CASE("A flipped bit is refused, or changes nothing that is read", "[long]")
   CHECK(refused > tried / 2);
 }
 
-TEST_CASE("A flipped bit in an exact array or in the description of it is refused", "[long]") {
+TEST_CASE("A flipped bit in a double-precision array or in its description is rejected", "[long]") {
   const TemporaryFolder folder;
   save_asset(sample_asset(), folder / "asset.glb");
   const std::string bytes = read_file(folder / "asset.glb");

@@ -20,7 +20,7 @@ struct Layout {
   }
 };
 
-/// The file with the JSON text changed and the lengths set right again.
+/// The file with changed JSON text and corrected lengths.
 inline std::string with_json(const std::string& file, const std::string& from,
                              const std::string& to) {
   const Layout layout(file);

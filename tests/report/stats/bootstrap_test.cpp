@@ -27,7 +27,7 @@ double width(const Interval& interval) {
 }
 
 /// A level that differs from the base by random effects of the seed and of every run.
-StartSample by_seeds(int starts, int seeds, ChanceStream& chance) {
+StartSample by_seeds(int starts, int seeds, RandomStream& chance) {
   const Values of_seed = normal_sample(chance, seeds);
   StartSample sample{{}, static_cast<std::uint32_t>(seeds)};
   for (int i = 0; i < starts; ++i)
@@ -40,7 +40,7 @@ StartSample by_seeds(int starts, int seeds, ChanceStream& chance) {
 TEST_CASE("bootstrap intervals have about their nominal coverage") {
   constexpr int kRepetitions = 500;
   const auto coverage = [&](const auto& sample, double truth, const OneSampleStatistic& statistic) {
-    return frequency(kRepetitions, 11, [&](ChanceStream& chance) {
+    return frequency(kRepetitions, 11, [&](RandomStream& chance) {
       const Bootstrap result =
           bootstrap({sample(chance)}, statistic, {.resamples = 400, .seed = chance.bits()});
       return holds(interval(result, 0.9), truth);
@@ -49,8 +49,8 @@ TEST_CASE("bootstrap intervals have about their nominal coverage") {
   // Bootstrap intervals of n values are short by a fraction of 1 / (2 n), more for skewed
   // distributions, hence a tolerance of 2 % in addition to the random error.
   const double room = stray(0.9, kRepetitions) + 0.02;
-  const auto normal = [](ChanceStream& chance) { return normal_sample(chance, 40); };
-  const auto exponential = [](ChanceStream& chance) { return exponential_sample(chance, 60); };
+  const auto normal = [](RandomStream& chance) { return normal_sample(chance, 40); };
+  const auto exponential = [](RandomStream& chance) { return exponential_sample(chance, 60); };
   CHECK(coverage(normal, 0, mean) == Approx(0.9).margin(room));
   CHECK(coverage(exponential, 1, mean) == Approx(0.9).margin(room));
   CHECK(coverage(exponential, std::log(2.0), [](const Values& v) { return quantile(v, 0.5); }) ==
@@ -59,7 +59,7 @@ TEST_CASE("bootstrap intervals have about their nominal coverage") {
 
 TEST_CASE("the interval of a distance well above the noise contains it") {
   constexpr int kRepetitions = 300;
-  const double coverage = frequency(kRepetitions, 12, [](ChanceStream& chance) {
+  const double coverage = frequency(kRepetitions, 12, [](RandomStream& chance) {
     const Values base = normal_sample(chance, 24);
     const Values other = normal_sample(chance, 24, 1);
     const Bootstrap result =
@@ -69,9 +69,9 @@ TEST_CASE("the interval of a distance well above the noise contains it") {
   CHECK(coverage == Approx(0.95).margin(stray(0.95, kRepetitions)));
 }
 
-TEST_CASE("BCa intervals follow skewness, percentile intervals do not") {
+TEST_CASE("BCa follows the skew that percentiles miss") {
   // The mean of a skewed sample is skewed: its interval extends farther upwards.
-  ChanceStream chance(3);
+  RandomStream chance(3);
   const Bootstrap result = bootstrap({exponential_sample(chance, 30)}, mean);
   CHECK(result.acceleration > 0.01);  // about 2 / (6 sqrt 30) for an exponential sample
   CHECK(interval(result).high > interval(result, 0.95, IntervalMethod::percentile).high);
@@ -81,15 +81,15 @@ TEST_CASE("BCa intervals follow skewness, percentile intervals do not") {
           Approx(0.5 + 0.5 * confidence).margin(0.003));
 }
 
-TEST_CASE("the jackknife of a large sample leaves out blocks and gives the same acceleration") {
-  ChanceStream chance(9);
+TEST_CASE("a large sample is left out in blocks, to the same acceleration") {
+  RandomStream chance(9);
   const Bootstrap result = bootstrap({exponential_sample(chance, 20000)}, mean, {.resamples = 100});
   // Skewness 2 over 6 sqrt(n); random error of 500 blocks about sqrt(6 / 500) / (6 sqrt(500)).
   CHECK(result.acceleration == Approx(2 / (6 * std::sqrt(20000))).margin(4 * 0.0008));
 }
 
-TEST_CASE("correlated pairs give a shorter interval than the same values unpaired") {
-  ChanceStream chance(4);
+TEST_CASE("pairs that go together give a shorter interval than the same values apart") {
+  RandomStream chance(4);
   const Values base = normal_sample(chance, 24);
   const Values other = partner_of(base, 0.95, chance);
   const Interval paired = interval(bootstrap({base}, {other}, difference, {.paired = true}));
@@ -101,7 +101,7 @@ TEST_CASE("correlated pairs give a shorter interval than the same values unpaire
 TEST_CASE("seeds that differ count as seeds, not as additional runs") {
   constexpr int kRepetitions = 300;
   const auto coverage = [&](SeedDesign design, bool as_table) {
-    return frequency(kRepetitions, 5, [&](ChanceStream& chance) {
+    return frequency(kRepetitions, 5, [&](RandomStream& chance) {
       const Values base = normal_sample(chance, 24);
       StartSample other = by_seeds(24, 8, chance);
       if (!as_table) other.seeds = 1;
@@ -118,7 +118,7 @@ TEST_CASE("seeds that differ count as seeds, not as additional runs") {
 
 TEST_CASE("nested seeds are drawn with their start") {
   constexpr int kRepetitions = 300;
-  const double coverage = frequency(kRepetitions, 6, [](ChanceStream& chance) {
+  const double coverage = frequency(kRepetitions, 6, [](RandomStream& chance) {
     StartSample sample{{}, 4};
     for (int i = 0; i < 24; ++i) {
       const double start = normal_draw(chance);
@@ -159,8 +159,8 @@ TEST_CASE("samples that cannot be resampled are refused") {
   CHECK_THROWS_WITH(bootstrap(five, {{1, 2, 3, 4, nan}}, difference), Contains("value 5"));
 }
 
-TEST_CASE("a comparison of samples uses the same resamples for all measures") {
-  ChanceStream chance(8);
+TEST_CASE("a comparison of samples measures all on the same resamples") {
+  RandomStream chance(8);
   const Values base = normal_sample(chance, 24, 5, 2);
   const SampleComparison same = compare_samples({base}, {base}, {.resampling = {.paired = true}});
   CHECK(same.difference.value == 0);

@@ -19,7 +19,7 @@ constexpr double kCorrelation = 0.95;  // of pairs
 
 /// Rate of "equivalent" for normal samples whose means are `apart` spreads apart.
 double said(double apart, const EquivalenceOptions& options, int repetitions) {
-  return frequency(repetitions, 21, [&](ChanceStream& chance) {
+  return frequency(repetitions, 21, [&](RandomStream& chance) {
     const Values base = normal_sample(chance, kStarts);
     const Values other =
         options.paired ? partner_of(base, kCorrelation, chance) : normal_sample(chance, kStarts);
@@ -65,8 +65,8 @@ TEST_CASE("equal means are declared equivalent, with far fewer starts if paired"
   CHECK(said(0, {.margin = 0.5, .paired = true}, kRepetitions) > 0.99);
 }
 
-TEST_CASE("treating an estimated margin as exact would make the test too liberal") {
-  const double too_often = frequency(2000, 22, [](ChanceStream& chance) {
+TEST_CASE("a margin taken as exact although it was estimated would be called the same too often") {
+  const double too_often = frequency(2000, 22, [](RandomStream& chance) {
     const Values base = normal_sample(chance, kStarts);
     const Values other = shifted(partner_of(base, kCorrelation, chance), 1);
     const EquivalenceOptions exact{.margin = 1, .spread = standard_deviation(base), .paired = true};
@@ -79,7 +79,7 @@ TEST_CASE("seeds that differ make the test more conservative") {
   constexpr int kRepetitions = 2000;
   constexpr int kSeeds = 5;
   const auto rate = [&](double apart, SeedDesign design) {
-    return frequency(kRepetitions, 23, [&](ChanceStream& chance) {
+    return frequency(kRepetitions, 23, [&](RandomStream& chance) {
       const Values base = normal_sample(chance, kStarts);
       const Values of_seed = normal_sample(chance, kSeeds, 0, 0.4);
       StartSample other{{}, kSeeds};
@@ -95,7 +95,7 @@ TEST_CASE("seeds that differ make the test more conservative") {
 }
 
 TEST_CASE("the bootstrap form agrees with the test by Student's distribution") {
-  ChanceStream chance(24);
+  RandomStream chance(24);
   const Values base = normal_sample(chance, 100);
   const Values other = shifted(partner_of(base, kCorrelation, chance), 0.4);
   for (const double margin : {0.3, 0.4, 0.5}) {

@@ -17,7 +17,7 @@ constexpr int kStarts = 24;
 
 /// Fraction of samples, shifted by `apart` from the base's distribution, inside the floor.
 double inside(const NoiseFloor& floor, double apart, int repetitions) {
-  return frequency(repetitions, 31, [&](ChanceStream& chance) {
+  return frequency(repetitions, 31, [&](RandomStream& chance) {
     const Values base = exponential_sample(chance, kStarts);
     const Values other = shifted(exponential_sample(chance, kStarts), apart);
     return inside_noise_floor(floor, base, other).inside;
@@ -25,7 +25,7 @@ double inside(const NoiseFloor& floor, double apart, int repetitions) {
 }
 
 std::vector<Values> many_sources(int count, int size) {
-  ChanceStream chance(32);
+  RandomStream chance(32);
   std::vector<Values> sources;
   for (int i = 0; i < count; ++i) sources.push_back(exponential_sample(chance, size));
   return sources;
@@ -54,7 +54,7 @@ TEST_CASE("a floor from few base values has less than its nominal coverage, by a
   // A new base sample each time, as in practice, so that its randomness counts too.
   const auto rate = [](int size) {
     constexpr int kRepetitions = 300;
-    return frequency(kRepetitions, 33, [&](ChanceStream& chance) {
+    return frequency(kRepetitions, 33, [&](RandomStream& chance) {
       const NoiseFloor floor =
           noise_floor({exponential_sample(chance, size)},
                       {.base_size = kStarts, .resamples = 200, .seed = chance.bits()});

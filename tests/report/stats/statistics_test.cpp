@@ -68,7 +68,7 @@ TEST_CASE("distances of small samples match hand calculations") {
 }
 
 TEST_CASE("a shifted sample is as far as it was shifted") {
-  ChanceStream chance(1);
+  RandomStream chance(1);
   const Values sample = exponential_sample(chance, 100);
   for (const double shift : {-3.0, 0.01, 40.0})
     CHECK(wasserstein_distance(sample, shifted(sample, shift)) ==
@@ -101,7 +101,7 @@ TEST_CASE("distances of large samples are those of their distributions") {
     CHECK(wasserstein_distance(base, other) == Approx(c.wasserstein).epsilon(1e-3));
     CHECK(energy_distance(base, other) == Approx(c.energy).epsilon(1e-3));
   }
-  ChanceStream chance(2);
+  RandomStream chance(2);
   const Values base = normal_sample(chance, kSize);
   const Values other = normal_sample(chance, kSize, 1);
   // Random error 4 sqrt(2 / n) = 0.04; E|N(1, 2)| by hand.

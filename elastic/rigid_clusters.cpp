@@ -1,4 +1,4 @@
-#include "elastic/rigid_pieces.hpp"
+#include "elastic/rigid_clusters.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,9 +12,9 @@
 namespace springlod::elastic {
 namespace {
 
-/// Three unit vectors whose determinant is smaller count as lying in a plane; so do directions
-/// whose tensor has a smaller determinant than the square of it. Any value above rounding would do:
-/// what is in doubt is left out, and solved for.
+/// Three unit vectors are coplanar if their determinant is smaller than this; directions are, if
+/// the determinant of sum u u^T is smaller than its square. Any value above rounding would do:
+/// doubtful nodes are left out of the cluster and solved for.
 constexpr double kFlat = 1e-3;
 
 class Growth {
@@ -22,25 +22,25 @@ class Growth {
   explicit Growth(const MassSpringModel& model)
       : model_(model),
         springs_(model),
-        pieces_{std::vector<std::uint32_t>(model.node_count(), kNoPiece), 0},
+        clusters_{std::vector<std::uint32_t>(model.node_count(), kNoCluster), 0},
         touching_(model.node_count()) {}
 
-  RigidPieces run() {
+  RigidClusters run() {
     for (std::uint32_t i = 0; i < model_.node_count(); ++i) {
       if (!is_free(i)) continue;
       if (const auto seed = tetrahedron_at(i)) grow(*seed);
     }
-    return pieces_;
+    return clusters_;
   }
 
  private:
-  /// Springs of a node to the piece that grows just now.
+  /// Directions of the springs of a node to the growing cluster.
   struct Touching {
-    std::uint32_t piece = kNoPiece;
+    std::uint32_t cluster = kNoCluster;
     Mat3 directions = Mat3::Zero();  // sum of u u^T
   };
 
-  bool is_free(std::uint32_t i) const { return pieces_.of_node[i] == kNoPiece; }
+  bool is_free(std::uint32_t i) const { return clusters_.of_node[i] == kNoCluster; }
 
   bool solid(const std::array<std::uint32_t, 4>& t) const {
     Mat3 edges;
@@ -50,7 +50,7 @@ class Growth {
     return std::abs(edges.determinant()) > kFlat;
   }
 
-  /// Four free nodes, i the lowest, each joined to each by springs and not in one plane.
+  /// Four free nodes, i the lowest, each connected to each by springs and not coplanar.
   std::optional<std::array<std::uint32_t, 4>> tetrahedron_at(std::uint32_t i) const {
     std::vector<std::uint32_t> around;
     springs_.for_each(i, [&](std::uint32_t j, std::uint32_t) {
@@ -70,20 +70,20 @@ class Growth {
   }
 
   void grow(const std::array<std::uint32_t, 4>& seed) {
-    const std::uint32_t piece = pieces_.count++;
+    const std::uint32_t cluster = clusters_.count++;
     std::vector<std::uint32_t> fresh(seed.begin(), seed.end());
-    for (const std::uint32_t i : seed) pieces_.of_node[i] = piece;
+    for (const std::uint32_t i : seed) clusters_.of_node[i] = cluster;
     while (!fresh.empty()) {
       const std::uint32_t i = fresh.back();
       fresh.pop_back();
       springs_.for_each(i, [&](std::uint32_t j, std::uint32_t s) {
         if (!is_free(j)) return;
         Touching& touching = touching_[j];
-        if (touching.piece != piece) touching = {piece, Mat3::Zero()};
+        if (touching.cluster != cluster) touching = {cluster, Mat3::Zero()};
         const Vec3 u = spring_direction(model_, s);
         touching.directions += u * u.transpose();
         if (touching.directions.determinant() <= kFlat * kFlat) return;
-        pieces_.of_node[j] = piece;
+        clusters_.of_node[j] = cluster;
         fresh.push_back(j);
       });
     }
@@ -91,13 +91,13 @@ class Growth {
 
   const MassSpringModel& model_;
   SpringRows springs_;
-  RigidPieces pieces_;
+  RigidClusters clusters_;
   std::vector<Touching> touching_;
 };
 
 }  // namespace
 
-RigidPieces rigid_pieces(const MassSpringModel& model) {
+RigidClusters rigid_clusters(const MassSpringModel& model) {
   return Growth(model).run();
 }
 

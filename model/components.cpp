@@ -1,0 +1,36 @@
+#include "model/components.hpp"
+
+#include <cassert>
+
+namespace springlod::inline model {
+
+std::vector<ModelComponent> split_components(const MassSpringModel& model,
+                                             const Components& components) {
+  assert(components.of_node.size() == model.node_count());
+  std::vector<ModelComponent> all(components.count);
+  std::vector<std::uint32_t> place(model.node_count());
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    ModelComponent& component = all[components.of_node[i]];
+    place[i] = static_cast<std::uint32_t>(component.nodes.size());
+    component.nodes.push_back(i);
+    component.model.rest.push_back(model.rest[i]);
+    component.model.mass.push_back(model.mass[i]);
+    component.model.volume.push_back(model.volume[i]);
+    component.model.contact_area.push_back(model.contact_area[i]);
+    component.model.border.push_back(model.border[i]);
+    component.model.material.push_back(model.material[i]);
+  }
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    ModelComponent& component = all[components.of_node[model.a[s]]];
+    component.springs.push_back(s);
+    component.model.a.push_back(place[model.a[s]]);
+    component.model.b.push_back(place[model.b[s]]);
+    component.model.rest_length.push_back(model.rest_length[s]);
+    component.model.stiffness.push_back(model.stiffness[s]);
+    component.model.damping.push_back(model.damping[s]);
+  }
+  for (ModelComponent& component : all) component.model.materials = model.materials;
+  return all;
+}
+
+}  // namespace springlod::inline model

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/mass_spring.hpp"
+
+namespace springlod::inline model {
+
+/// A connected component of a model as a separate model.
+struct ModelComponent {
+  MassSpringModel model;
+  std::vector<std::uint32_t> nodes;    ///< number in the whole model of each node, rising
+  std::vector<std::uint32_t> springs;  ///< number in the whole model of each spring, rising
+};
+
+/// Splits a model into its connected components. `components` is connected_components(model).
+std::vector<ModelComponent> split_components(const MassSpringModel& model,
+                                             const Components& components);
+
+}  // namespace springlod::inline model
