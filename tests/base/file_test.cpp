@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "tests/model/sample_assets.hpp"
+#include "tests/support/assets.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace springlod {

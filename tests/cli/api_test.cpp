@@ -3,7 +3,7 @@
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/help.hpp"
 #include "scripting/engine/state.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
 using namespace springlod;

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "render/frames.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;

@@ -11,7 +11,7 @@
 
 #include "base/file.hpp"
 #include "model/asset/asset.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 using springlod::test::Ran;
 using springlod::test::slurp;

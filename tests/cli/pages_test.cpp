@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
 using namespace springlod::test;

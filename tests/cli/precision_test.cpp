@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/cli/csv_rows.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/support/program.hpp"
 
 using springlod::test::number;
 using springlod::test::Ran;

@@ -11,7 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "elastic/stiffness.hpp"
-#include "tests/model/sample_models.hpp"
+#include "tests/support/lattices.hpp"
 
 namespace springlod::test {
 

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "tests/model/sample_models.hpp"
+#include "tests/support/lattices.hpp"
 
 namespace springlod::elastic {
 namespace {

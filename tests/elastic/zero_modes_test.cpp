@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "elastic/stiffness.hpp"
-#include "tests/model/sample_models.hpp"
+#include "tests/support/lattices.hpp"
 
 namespace springlod::elastic {
 namespace {

@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "model/asset/asset.hpp"
-#include "tests/model/sample_assets.hpp"
+#include "tests/support/assets.hpp"
 
 int main(int argc, char** argv) try {
   if (argc != 2) {

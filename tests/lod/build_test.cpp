@@ -8,7 +8,7 @@
 #include "lod/merging/guard.hpp"
 #include "lod/merging/merge.hpp"
 #include "lod/transfer.hpp"
-#include "tests/lod/bodies.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;

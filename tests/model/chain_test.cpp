@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "tests/model/sample_assets.hpp"
+#include "tests/support/assets.hpp"
 
 namespace springlod {
 namespace {

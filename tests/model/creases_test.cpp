@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "tests/model/sample_assets.hpp"
+#include "tests/support/assets.hpp"
 #include "tests/support/meshes.hpp"
 
 using namespace springlod;

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "tests/model/sample_models.hpp"
+#include "tests/support/lattices.hpp"
 
 namespace springlod {
 namespace {

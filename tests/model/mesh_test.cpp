@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "model/material.hpp"
-#include "tests/model/sample_assets.hpp"
+#include "tests/support/assets.hpp"
 
 namespace springlod {
 namespace {

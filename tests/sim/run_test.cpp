@@ -6,16 +6,16 @@
 
 #include "base/error.hpp"
 #include "sim/scenario.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
 
 TEST_CASE("The energy ledger closes within 1 % for the ball rolling on the floor") {
-  const auto model = bodies::ball();
+  const auto model = test::ball();
   REQUIRE(model.node_count() == 281);
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::velocity_verlet);
-  const auto t = run(model, bodies::ball_scene(), {.integrator = integrator});
+  const auto t = run(model, test::ball_scene(), {.integrator = integrator});
   CHECK(closure_error(t.ledger) < 0.01);
   const auto& end = t.ledger.back();
   CHECK(end.lost_damping > 0);
@@ -26,9 +26,9 @@ TEST_CASE("The energy ledger closes within 1 % for the ball rolling on the floor
 }
 
 TEST_CASE("The energy ledger closes within 1 % for the rods thrown at the wall") {
-  const auto model = bodies::rods();
+  const auto model = test::rods();
   REQUIRE(model.end_count() == 4748);
-  Scenario scene = bodies::rods_scene();
+  Scenario scene = test::rods_scene();
   const auto t = run(model, scene);
   CHECK(closure_error(t.ledger) < 0.01);
   CHECK(t.ledger.back().lost_friction > 0);
@@ -40,7 +40,7 @@ TEST_CASE("The energy ledger closes within 1 % for the rods thrown at the wall")
 
 TEST_CASE("The ledger sees a mechanism that is left out") {
   // Were the losses remainders of each other, the sum would close without one of them too.
-  auto t = run(bodies::rods(), bodies::rods_scene());
+  auto t = run(test::rods(), test::rods_scene());
   auto without = t.ledger;
   for (auto& entry : without) entry.lost_damping = 0;
   CHECK(closure_error(without) > 0.1);
@@ -50,8 +50,8 @@ TEST_CASE("The ledger sees a mechanism that is left out") {
 }
 
 TEST_CASE("The ledger costs nothing in the result: the trajectory keeps its bits") {
-  const auto model = bodies::rods();
-  Scenario scene = bodies::rods_scene();
+  const auto model = test::rods();
+  Scenario scene = test::rods_scene();
   scene.duration = 0.5;
   const auto with = run(model, scene);
   const auto without = run(model, scene, {.ledger = false});
@@ -61,8 +61,8 @@ TEST_CASE("The ledger costs nothing in the result: the trajectory keeps its bits
 }
 
 TEST_CASE("The step is safety times the predicted one and fits the duration") {
-  const auto model = bodies::rods();
-  Scenario scene = bodies::rods_scene();
+  const auto model = test::rods();
+  Scenario scene = test::rods_scene();
   scene.duration = 0.1;
   const auto t = run(model, scene);
   CHECK(t.step <= 0.8 * t.predicted_step);
@@ -73,7 +73,7 @@ TEST_CASE("The step is safety times the predicted one and fits the duration") {
 }
 
 TEST_CASE("Frames lie at the frame times, first and last state included") {
-  const auto model = bodies::rods();
+  const auto model = test::rods();
   Scenario scene;
   scene.start.velocity = {1, 0, 0};
   scene.gravity = Vec3::Zero();
@@ -97,11 +97,11 @@ TEST_CASE("Frames lie at the frame times, first and last state included") {
 }
 
 TEST_CASE("A stop rule ends the run once the body has been slow for long enough") {
-  auto model = bodies::block(6, 6, 2, 0.1, bodies::material("m", 1e6, 1000, 0.002),
+  auto model = test::block(6, 6, 2, 0.1, test::material("m", 1e6, 1000, 0.002),
                              voxelize::LatticeStyle::corners);
   Scenario scene;
   scene.gravity = {0, 0, -10};
-  scene.obstacles = {bodies::floor(1e7, 0.5)};
+  scene.obstacles = {test::floor(1e7, 0.5)};
   scene.start.placed = true;
   scene.start.position = {0, 0, 0.1};
   scene.start.velocity = {1, 0, 0};  // slides for 0.2 s; below 0.1 m/s from 0.18 s on
@@ -118,7 +118,7 @@ TEST_CASE("A stop rule ends the run once the body has been slow for long enough"
 }
 
 TEST_CASE("The distance is measured from the named obstacle or along the ground") {
-  Scenario scene = bodies::rods_scene();
+  Scenario scene = test::rods_scene();
   CHECK(measured_distance(scene, {0, 0, 2}, {-1.5, 3, 0.2}) == Approx(3.5));
   scene.measure_from = "floor";
   CHECK(measured_distance(scene, {0, 0, 2}, {-1.5, 3, 0.2}) == Approx(0.2));
@@ -127,7 +127,7 @@ TEST_CASE("The distance is measured from the named obstacle or along the ground"
 }
 
 TEST_CASE("Wrong run options are refused by name") {
-  const auto model = bodies::ball();
+  const auto model = test::ball();
   CHECK_THROWS_WITH(run(model, {}, {.step = -1.0}), Catch::Contains("step"));
   CHECK_THROWS_WITH(run(model, {}, {.safety = 1.5}), Catch::Contains("safety"));
   CHECK_THROWS_WITH(run(model, {}, {.frame_rate = -1}), Catch::Contains("frame_rate"));

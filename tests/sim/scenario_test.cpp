@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -23,8 +23,8 @@ std::string refusal(const Scenario& scenario) {
 
 Scenario with_box(const SolidBox& box) {
   Scenario scenario;
-  scenario.obstacles.push_back(bodies::floor(1e6, 0.5));
-  scenario.obstacles.push_back(bodies::floor(1e6, 0.5));
+  scenario.obstacles.push_back(test::floor(1e6, 0.5));
+  scenario.obstacles.push_back(test::floor(1e6, 0.5));
   scenario.obstacles[1].shape = box;
   return scenario;
 }
@@ -32,7 +32,7 @@ Scenario with_box(const SolidBox& box) {
 }  // namespace
 
 TEST_CASE("A scenario is refused with the name of its field") {
-  CHECK(refusal(bodies::rods_scene()).empty());
+  CHECK(refusal(test::rods_scene()).empty());
   Scenario s;
   s.duration = 0;
   CHECK_THAT(refusal(s), Catch::Contains("duration"));
@@ -48,21 +48,21 @@ TEST_CASE("A scenario is refused with the name of its field") {
   s = {};
   s.stop = StopRule{0, 1};
   CHECK_THAT(refusal(s), Catch::Contains("stop.speed"));
-  s = bodies::rods_scene();
+  s = test::rods_scene();
   s.obstacles[1].friction = -0.1;
   CHECK_THAT(refusal(s), Catch::Contains("obstacles[1].friction"));
-  s = bodies::rods_scene();
+  s = test::rods_scene();
   s.obstacles[0].shape = Plane{Vec3(0, 0, 2), 0};
   CHECK_THAT(refusal(s), Catch::Contains("obstacles[0].normal"));
   s = with_box({.half_size = Vec3(1, 0, 1)});
   CHECK_THAT(refusal(s), Catch::Contains("obstacles[1].half_size"));
-  s = bodies::rods_scene();
+  s = test::rods_scene();
   s.measure_from = "ceiling";
   CHECK_THAT(refusal(s), Catch::Contains("measure_from") && Catch::Contains("ceiling"));
 }
 
 TEST_CASE("A throw turns the body about its centre of mass and sets it moving") {
-  const auto model = bodies::rods();
+  const auto model = test::rods();
   Throw start;
   start.rotation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   start.placed = true;

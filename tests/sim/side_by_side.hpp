@@ -10,11 +10,11 @@
 #include "sim/fast/fast_leapfrog.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/integrators/stepper.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 #include "voxelize/lattice.hpp"
 
 /// Steppers side by side, through everything that a body can meet.
-namespace springlod::bodies {
+namespace springlod::test {
 
 /// A block of cells of two materials with a bite taken out of it.
 inline MassSpringModel two_material_block(int side) {
@@ -89,4 +89,4 @@ inline void check_same_bits(const Outcome& p, const Outcome& q) {
   CHECK(p.first_contact == q.first_contact);
 }
 
-}  // namespace springlod::bodies
+}  // namespace springlod::test

@@ -15,7 +15,7 @@
 #include "lod/calibration/second_moments.hpp"
 #include "lod/calibration/tolerance.hpp"
 #include "lod/quality/certify.hpp"
-#include "tests/lod/bodies.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;

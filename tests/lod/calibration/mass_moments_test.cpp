@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/lod/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 using namespace springlod;
 using namespace springlod::lod;

@@ -11,14 +11,15 @@
 #include "lod/calibration/elastic_fit.hpp"
 #include "lod/quality/certify.hpp"
 #include "lod/quality/compared_loads.hpp"
-#include "tests/lod/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 using namespace springlod;
 using namespace springlod::lod;
 using springlod::test::block;
-using springlod::test::kCell;
 
 namespace {
+
+constexpr double kCell = 0.1;  // [m], of block()
 
 std::vector<std::uint32_t> below(const MassSpringModel& model, double z) {
   std::vector<std::uint32_t> nodes;

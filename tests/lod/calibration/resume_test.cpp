@@ -16,8 +16,8 @@
 #include "lod/build.hpp"
 #include "lod/calibration/calibrate.hpp"
 #include "lod/calibration/calibration_store.hpp"
-#include "tests/lod/bodies.hpp"
-#include "tests/model/sample_assets.hpp"
+#include "tests/support/bodies.hpp"
+#include "tests/support/assets.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;

@@ -11,7 +11,7 @@
 #include "lod/grouping/exact_count.hpp"
 #include "lod/grouping/metis_groups.hpp"
 #include "lod/merging/relink.hpp"
-#include "tests/lod/bodies.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;

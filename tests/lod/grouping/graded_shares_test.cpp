@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "lod/grouping/compact_groups.hpp"
-#include "tests/lod/bodies.hpp"
+#include "tests/support/bodies.hpp"
 
 using namespace springlod;
 using namespace springlod::lod;

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "lod/build.hpp"
 #include "lod/merging/merge.hpp"
-#include "tests/lod/bodies.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;

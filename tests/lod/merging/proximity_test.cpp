@@ -5,7 +5,7 @@
 #include "lod/build.hpp"
 #include "lod/grouping/grouping.hpp"
 #include "lod/merging/merge.hpp"
-#include "tests/lod/bodies.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;

@@ -14,7 +14,7 @@
 #include "lod/grouping/grouping.hpp"
 #include "lod/quality/certify.hpp"
 #include "lod/quality/compliance_change.hpp"
-#include "tests/lod/bodies.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;

@@ -9,7 +9,7 @@
 #include "base/file.hpp"
 #include "model/asset/asset.hpp"
 #include "tests/model/asset/glb_text.hpp"
-#include "tests/model/sample_assets.hpp"
+#include "tests/support/assets.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace springlod {

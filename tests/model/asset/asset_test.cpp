@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "tests/model/asset/glb_text.hpp"
-#include "tests/model/sample_assets.hpp"
+#include "tests/support/assets.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace springlod {

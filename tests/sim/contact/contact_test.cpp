@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "sim/run.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -37,7 +37,7 @@ Obstacle box_obstacle(const SolidBox& box) {
 
 TEST_CASE("A node is pushed out by kappa times area times depth, damping never pulls") {
   const auto model = one_node(0.02);
-  std::vector<Obstacle> obstacles{bodies::floor(1e5, 0.3)};
+  std::vector<Obstacle> obstacles{test::floor(1e5, 0.3)};
   obstacles[0].damping = 0.01;
   const std::vector<Vec3> x{Vec3(0, 0, -0.005)};
   const ContactPoints points(model);
@@ -153,10 +153,10 @@ TEST_CASE("A stick spring is kept while its point touches the same obstacle, and
 
 TEST_CASE("Contact stiffness adds up only where obstacles push in the same direction") {
   const ContactPoints points(one_node(0.5));
-  Obstacle floor = bodies::floor(1e6, 0);
-  Obstacle wall = bodies::floor(3e6, 0);
+  Obstacle floor = test::floor(1e6, 0);
+  Obstacle wall = test::floor(3e6, 0);
   wall.shape = Plane{Vec3::UnitX(), 0};
-  Obstacle ceiling = bodies::floor(1e6, 0);
+  Obstacle ceiling = test::floor(1e6, 0);
   ceiling.shape = Plane{-Vec3::UnitZ(), -5};
   CHECK(contact_stiffness(points, {floor})[0] == Approx(0.5e6));
   CHECK(contact_stiffness(points, {floor, wall})[0] == Approx(1.5e6));
@@ -223,7 +223,7 @@ TEST_CASE("A ball bounces off a thin turned plate and keeps its energy account")
   scene.obstacles[0].stiffness = 1e6;
   scene.start.velocity = {4, 0, 0};
   scene.duration = 1;
-  const auto model = bodies::ball();
+  const auto model = test::ball();
   const auto t = run(model, scene);
   CHECK(t.first_contact.has_value());
   Vec3 v = Vec3::Zero();

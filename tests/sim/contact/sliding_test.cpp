@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "sim/run.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -17,7 +17,7 @@ Scenario slide(const MassSpringModel& model) {
     if (model.contact_area[i] > 0) lowest = std::min(lowest, model.rest[i].z());
   Scenario scene;
   scene.gravity = {0, 0, -10};
-  scene.obstacles = {bodies::floor(2e7, 0.3)};
+  scene.obstacles = {test::floor(2e7, 0.3)};
   scene.obstacles[0].damping = 0.001;
   scene.start.placed = true;
   scene.start.position = {0, 0, mass_properties(model).center.z() - lowest};
@@ -33,7 +33,7 @@ TEST_CASE("A sliding block stops after 1.5 m on every level of a chain") {
   // the stop is small.
   const auto style = GENERATE(voxelize::LatticeStyle::corners, voxelize::LatticeStyle::centers);
   const auto base =
-      bodies::block(12, 8, 4, 0.1, bodies::material("block", 1e7, 1000, 0.001), style);
+      test::block(12, 8, 4, 0.1, test::material("block", 1e7, 1000, 0.001), style);
   const auto border = GENERATE(lod::BorderRule::none, lod::BorderRule::weak);
   lod::SimplifyOptions options;
   options.grouping.border = border;

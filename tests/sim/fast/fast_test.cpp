@@ -19,7 +19,7 @@
 
 using namespace springlod;
 using namespace springlod::sim;
-using namespace springlod::bodies;
+using namespace springlod::test;
 
 namespace {
 

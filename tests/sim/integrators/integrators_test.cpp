@@ -9,7 +9,7 @@
 #include "sim/integrators/runge_kutta.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;
@@ -29,7 +29,7 @@ MassSpringModel stretched_pair(double beta) {
 }
 
 double stretch_after(const RunOptions& options, double beta, double duration) {
-  const Trajectory t = run(stretched_pair(beta), bodies::weightless(duration), options);
+  const Trajectory t = run(stretched_pair(beta), test::weightless(duration), options);
   return (t.final.x[1] - t.final.x[0]).norm() - 1;
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("Every scheme follows a damped vibration at its order") {
 }
 
 TEST_CASE("Every scheme keeps momentum and, thrown free, the parabola within its order", "[long]") {
-  const MassSpringModel model = bodies::rods();
+  const MassSpringModel model = test::rods();
   Scenario scene;
   scene.duration = 0.2;
   scene.start.velocity = {3, 1, 4};
@@ -103,11 +103,11 @@ TEST_CASE("Every scheme keeps momentum and, thrown free, the parabola within its
 }
 
 TEST_CASE("Backward Euler gives the same by conjugate gradients and by factorization") {
-  const MassSpringModel model = bodies::rods();
+  const MassSpringModel model = test::rods();
   Scenario scene;
   scene.duration = 0.05;
   scene.start.spin = {4, 2, 1};
-  scene.obstacles = {bodies::floor(1e6, 0.5)};
+  scene.obstacles = {test::floor(1e6, 0.5)};
   RunOptions options = with(Integrator::backward_euler_direct, 0.002);
   options.solver.tolerance = 1e-10;
   const Trajectory direct = run(model, scene, options);
@@ -119,7 +119,7 @@ TEST_CASE("Backward Euler gives the same by conjugate gradients and by factoriza
 TEST_CASE("Swept to convergence, XPBD and projective dynamics are backward Euler") {
   MassSpringModel model = test::random_model(3, 3);
   for (double& k : model.stiffness) k *= 1e4;  // k dt^2 / m of some 25: work for the iterations
-  Scenario scene = bodies::weightless(0.05);
+  Scenario scene = test::weightless(0.05);
   scene.start.spin = {3, 1, 2};
   RunOptions options = with(Integrator::backward_euler_direct, 0.005);
   options.solver.tolerance = 1e-12;
@@ -140,8 +140,8 @@ TEST_CASE("Swept to convergence, XPBD and projective dynamics are backward Euler
 }
 
 TEST_CASE("Implicit schemes stay bounded at any step, and lose energy") {
-  const MassSpringModel model = bodies::rods();
-  Scenario scene = bodies::weightless(1);
+  const MassSpringModel model = test::rods();
+  Scenario scene = test::weightless(1);
   scene.start.spin = {4, 2, 1};
   const double explicit_limit = predicted_step(model, scene);
   for (const Integrator integrator :
@@ -169,7 +169,7 @@ TEST_CASE("Runge-Kutta is stable below its predicted step and diverges above it"
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
     model.damping[s] = beta * model.stiffness[s];
   model.rest[0].x() += 1e-4;  // something to vibrate
-  Scenario scene = bodies::weightless(1);
+  Scenario scene = test::weightless(1);
   const double limit = predicted_step(model, scene, Integrator::runge_kutta_4);
   scene.duration = 10000 * limit;
   CHECK_NOTHROW(run(model, scene, with(Integrator::runge_kutta_4, 0.97 * limit)));
@@ -177,8 +177,8 @@ TEST_CASE("Runge-Kutta is stable below its predicted step and diverges above it"
 }
 
 TEST_CASE("Runge-Kutta closes the ledger of the rods thrown at the wall", "[long]") {
-  const auto model = bodies::rods();
-  const Scenario scene = bodies::rods_scene();
+  const auto model = test::rods();
+  const Scenario scene = test::rods_scene();
   RunOptions options;
   options.integrator = Integrator::runge_kutta_4;
   options.safety = 0.25;
@@ -186,11 +186,11 @@ TEST_CASE("Runge-Kutta closes the ledger of the rods thrown at the wall", "[long
 }
 
 TEST_CASE("A sliding block stops after 1.5 m under every scheme") {
-  const auto model = bodies::block(6, 4, 2, 0.2, bodies::material("block", 1e7, 1000, 0.001),
+  const auto model = test::block(6, 4, 2, 0.2, test::material("block", 1e7, 1000, 0.001),
                                    voxelize::LatticeStyle::corners);
   Scenario scene;
   scene.gravity = {0, 0, -10};
-  scene.obstacles = {bodies::floor(2e7, 0.3)};
+  scene.obstacles = {test::floor(2e7, 0.3)};
   scene.obstacles[0].damping = 0.001;
   scene.start.placed = true;
   double lowest = model.rest[0].z();
@@ -211,7 +211,7 @@ TEST_CASE("A sliding block stops after 1.5 m under every scheme") {
 }
 
 TEST_CASE("The same run gives the same bits under every scheme") {
-  const MassSpringModel model = bodies::rods();
+  const MassSpringModel model = test::rods();
   Scenario scene;
   scene.duration = 0.02;
   scene.start.spin = {4, 2, 1};

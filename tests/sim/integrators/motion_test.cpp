@@ -7,7 +7,7 @@
 #include "elastic/stable_step.hpp"
 #include "sim/integrators/kernel.hpp"
 #include "sim/run.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -62,7 +62,7 @@ Vec3 angular_momentum(const MassSpringModel& m, const State& s) {
 }  // namespace
 
 TEST_CASE("In free flight the centre of mass lies on the parabola to rounding") {
-  const auto model = bodies::rods();
+  const auto model = test::rods();
   Scenario scene;
   scene.start.velocity = {3, 1, 4};
   scene.start.spin = {1, 5, 2};
@@ -85,8 +85,8 @@ TEST_CASE("In free flight the centre of mass lies on the parabola to rounding") 
 }
 
 TEST_CASE("Momentum and angular momentum are kept to rounding without gravity and contact") {
-  const auto model = bodies::rods();
-  Scenario scene = bodies::weightless(1);
+  const auto model = test::rods();
+  Scenario scene = test::weightless(1);
   scene.start.velocity = {3, 1, 4};
   scene.start.spin = {10, 50, 20};  // hard enough to bend the joint far
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::velocity_verlet);
@@ -105,7 +105,7 @@ TEST_CASE("Two nodes on a spring vibrate at the frequency of theory") {
   const double period = 2 * std::numbers::pi / kOmega;
   const double step = period / 200;
   const auto model = stretched(pair_of_nodes(0), 0.01);
-  const auto t = run(model, bodies::weightless(20 * period),
+  const auto t = run(model, test::weightless(20 * period),
                      {.integrator = integrator, .step = step, .frame_rate = 1 / step});
   // Leapfrog vibrates a little fast: omega' = (2/dt) asin(omega dt / 2), exactly.
   const double omega = 2 / step * std::asin(kOmega * step / 2);
@@ -128,7 +128,7 @@ TEST_CASE("A damped vibration decays at the rate of theory") {
   const double damped_omega = std::sqrt(kOmega * kOmega - decay * decay);
   const auto model = stretched(pair_of_nodes(damping_time), 0.01);
   const auto deviation = [&](Integrator integrator, double step) {
-    const auto t = run(model, bodies::weightless(5 * period),
+    const auto t = run(model, test::weightless(5 * period),
                        {.integrator = integrator, .step = step, .frame_rate = 20 / period});
     double worst = 0;
     for (const Frame& frame : t.frames) {
@@ -163,7 +163,7 @@ TEST_CASE("A spring that shrinks to a point stays finite") {
 }
 
 TEST_CASE("Forces are the gradient of the elastic energy") {
-  MassSpringModel model = bodies::block(2, 2, 2, 0.1, bodies::material("m", 1e6, 1000, 0),
+  MassSpringModel model = test::block(2, 2, 2, 0.1, test::material("m", 1e6, 1000, 0),
                                         voxelize::LatticeStyle::corners);
   std::vector<Vec3> x = model.rest;
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
@@ -192,7 +192,7 @@ TEST_CASE("The ledger of a coarsely stepped bounce closes to rounding, with and 
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::velocity_verlet);
   const auto model = pair_of_nodes(0.001, 0.01);
   Scenario scene;
-  scene.obstacles = {bodies::floor(1e6, friction)};
+  scene.obstacles = {test::floor(1e6, friction)};
   scene.obstacles[0].damping = damping;
   scene.start.placed = true;
   scene.start.position = {0, 0, 0.5};
@@ -210,8 +210,8 @@ TEST_CASE("The ledger of a coarsely stepped bounce closes to rounding, with and 
 TEST_CASE("Without damping a bounce on the floor gives the speed back") {
   // Both nodes hit at once, so the spring stays out of it: 1/2 m v^2 against 1/2 kappa A d^2.
   auto model = pair_of_nodes(0, 0.01);
-  Scenario scene = bodies::weightless(0.2);
-  scene.obstacles = {bodies::floor(1e6, 0)};
+  Scenario scene = test::weightless(0.2);
+  scene.obstacles = {test::floor(1e6, 0)};
   scene.start.placed = true;
   scene.start.position = {0, 0, 0.1};
   scene.start.velocity = {0, 0, -2};

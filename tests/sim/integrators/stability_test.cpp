@@ -6,7 +6,7 @@
 #include "base/script_number.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -19,7 +19,7 @@ constexpr double kManySteps = 1e5;
 
 /// Level 0 or 1 of a small block of two materials.
 MassSpringModel small_body(bool merged, double damping) {
-  auto model = bodies::block(4, 3, 3, 0.1, bodies::material("m", 1e6, 1000, damping),
+  auto model = test::block(4, 3, 3, 0.1, test::material("m", 1e6, 1000, damping),
                              voxelize::LatticeStyle::centers);
   if (!merged) return model;
   lod::SimplifyOptions options;
@@ -69,7 +69,7 @@ TEST_CASE("1e5 steps at 0.90 of the predicted step stay stable, at 1.10 divergen
 TEST_CASE("The contact's stiffness counts in the predicted step") {
   const auto model = small_body(false, 0.0);
   Scenario scene;
-  scene.obstacles = {bodies::floor(1e9, 0.3)};
+  scene.obstacles = {test::floor(1e9, 0.3)};
   scene.start.placed = true;
   scene.start.position = {0, 0, 0.2};
   scene.start.velocity = {0, 0, -1e-3};
@@ -84,7 +84,7 @@ TEST_CASE("The contact's stiffness counts in the predicted step") {
 }
 
 TEST_CASE("A step far beyond the limit is caught before or as numbers stop being finite") {
-  const auto model = bodies::ball();
+  const auto model = test::ball();
   const double factor = GENERATE(3.0, 30.0, 3e4, 1e12);
   const auto scene = stir(1e15);
   const double step = factor * predicted_step(model, scene);

@@ -10,7 +10,7 @@
 #include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
 #include "sim/study/stiffness_ratio.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 #include "tests/support/models.hpp"
 
 using namespace springlod;
@@ -19,13 +19,13 @@ using namespace springlod::sim;
 namespace {
 
 MassSpringModel cube(double damping = 0) {
-  return bodies::block(3, 3, 3, 0.1, bodies::material("m", 1e5, 1000, damping),
+  return test::block(3, 3, 3, 0.1, test::material("m", 1e5, 1000, damping),
                        voxelize::LatticeStyle::corners);
 }
 
 /// A block thrown along x at a wall of the given thickness.
 Scenario wall_scene(double thickness, double speed, double stiffness) {
-  Scenario scene = bodies::weightless(0.1);
+  Scenario scene = test::weightless(0.1);
   Obstacle wall;
   wall.name = "thin wall";
   wall.shape = SolidBox{{0.6, 0.15, 0.15}, {thickness / 2, 1, 1}, Mat3::Identity()};
@@ -123,7 +123,7 @@ TEST_CASE("A path over the edge, a corner cut and a rest on top of a box are no 
 TEST_CASE("A step beyond the limit of damping is reported as caused by damping") {
   const MassSpringModel model = cube(0.1);
   const Scenario scene = [] {
-    Scenario stir = bodies::weightless(1);
+    Scenario stir = test::weightless(1);
     stir.start.spin = {1, 2, 3};
     return stir;
   }();
@@ -149,7 +149,7 @@ TEST_CASE("A step beyond the limit of damping is reported as caused by damping")
 
 TEST_CASE("A spring of no length is refused by its number, not run") {
   MassSpringModel model = cube();
-  const Scenario scene = bodies::weightless(0.1);
+  const Scenario scene = test::weightless(0.1);
   SECTION("two nodes in one place") {
     model.rest[model.b[5]] = model.rest[model.a[5]];
     CHECK_THROWS_WITH(run(model, scene),
@@ -164,7 +164,7 @@ TEST_CASE("A spring of no length is refused by its number, not run") {
 
 TEST_CASE("Nodes that go past each other in a run are reported, under every scheme") {
   const MassSpringModel model = cube();
-  Scenario scene = bodies::weightless(0.05);
+  Scenario scene = test::weightless(0.05);
   State start = rest_state(model);
   // Two neighbours shot at each other, through each other and far beyond.
   start.v[0] = {25, 0, 0};
@@ -184,12 +184,12 @@ TEST_CASE("Nodes that go past each other in a run are reported, under every sche
 }
 
 TEST_CASE("Conjugate gradients that run out of iterations are reported, not taken for a solution") {
-  const MassSpringModel model = bodies::rods();
+  const MassSpringModel model = test::rods();
   const LodChain chain =
       with_stiffness_ratio({.levels = {Level{model, identity_groups(model.node_count()), "base"}}},
                            stiff_part(model), 1e5);
   const MassSpringModel& uneven = chain.levels[0].model;
-  Scenario scene = bodies::weightless(0.05);
+  Scenario scene = test::weightless(0.05);
   scene.start.spin = {4, 2, 1};
   RunOptions options{.integrator = Integrator::backward_euler_cg, .step = 5e-3, .frame_rate = 0};
   options.solver.linear_iterations = 5;

@@ -9,7 +9,7 @@
 #include "elastic/stable_step.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -17,7 +17,7 @@ using namespace springlod::sim;
 namespace {
 
 MassSpringModel soft_block() {
-  return bodies::block(5, 5, 5, 0.1, bodies::material("m", 1e5, 1000, 0),
+  return test::block(5, 5, 5, 0.1, test::material("m", 1e5, 1000, 0),
                        voxelize::LatticeStyle::corners);
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("A node's frequency bound grows as springs are stretched or flattened"
 
 TEST_CASE("The step is halved where springs are strained hard, and doubled again") {
   const MassSpringModel model = soft_block();
-  Scenario scene = bodies::weightless(1);
+  Scenario scene = test::weightless(1);
   const StepLimit limit = step_limit(model, scene);
   const double step = 0.8 * limit.step;
   StepController watch(model, limit, step);
@@ -87,7 +87,7 @@ TEST_CASE("The step is halved where springs are strained hard, and doubled again
 
 TEST_CASE("A body let go stretched to twice its size only holds with the step adapted") {
   const MassSpringModel model = soft_block();
-  Scenario scene = bodies::weightless(2);
+  Scenario scene = test::weightless(2);
   const State start{scaled(model, {2, 2, 2}), std::vector<Vec3>(model.node_count(), Vec3::Zero()),
                     0};
   // As it snaps back it turns inside out: only the step is checked here.
@@ -100,10 +100,10 @@ TEST_CASE("A body let go stretched to twice its size only holds with the step ad
 }
 
 TEST_CASE("A body at rest sleeps at no cost; one that falls, floats or has sleep = 0 does not") {
-  const MassSpringModel model = bodies::block(3, 3, 3, 0.1, bodies::material("m", 1e6, 1000, 0.01),
+  const MassSpringModel model = test::block(3, 3, 3, 0.1, test::material("m", 1e6, 1000, 0.01),
                                               voxelize::LatticeStyle::corners);
   Scenario scene;
-  scene.obstacles = {bodies::floor(1e6, 0.5)};
+  scene.obstacles = {test::floor(1e6, 0.5)};
   scene.obstacles[0].damping = 0.01;
   std::get<Plane>(scene.obstacles[0].shape).offset = bounds(model.rest).min().z();
   scene.duration = 4;
@@ -129,6 +129,6 @@ TEST_CASE("A body at rest sleeps at no cost; one that falls, floats or has sleep
 
   scene.obstacles.clear();
   CHECK_FALSE(run(model, scene).asleep_since.has_value());
-  CHECK_FALSE(run(model, bodies::weightless(1)).asleep_since.has_value());
+  CHECK_FALSE(run(model, test::weightless(1)).asleep_since.has_value());
   CHECK_THROWS_AS(run(model, scene, RunOptions{.sleep = -1}), InputError);
 }

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "sim/study/deviation.hpp"
 #include "sim/study/ensemble.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -16,7 +16,7 @@ using namespace springlod::sim;
 namespace {
 
 Scenario small_scene() {
-  return bodies::small_scene(0.6);
+  return test::small_scene(0.6);
 }
 
 void check_same_bits(const StartResult& p, const StartResult& q) {
@@ -53,9 +53,9 @@ TEST_CASE("One and two threads give the same bits", "[threaded]") {
   options.starts = 3;
   options.variant = "hb";
   options.threads = 1;
-  const auto one = compare(bodies::small_chain(), small_scene(), options);
+  const auto one = compare(test::small_chain(), small_scene(), options);
   options.threads = 2;
-  const auto two = compare(bodies::small_chain(), small_scene(), options);
+  const auto two = compare(test::small_chain(), small_scene(), options);
   REQUIRE(one.levels.size() == 3);
   for (std::size_t l = 0; l < 3; ++l) {
     REQUIRE(one.levels[l].starts.size() == 3);
@@ -76,7 +76,7 @@ TEST_CASE("Every level starts from the same jittered throw") {
   options.jitter = 0.1;
   Scenario scene = small_scene();
   scene.obstacles.clear();  // in free flight the distance depends on the throw alone
-  const auto result = compare(bodies::small_chain(), scene, options);
+  const auto result = compare(test::small_chain(), scene, options);
   for (std::size_t s = 0; s < 4; ++s)
     for (std::size_t l = 1; l < 3; ++l)
       CHECK(result.levels[l].starts[s].distance ==
@@ -120,7 +120,7 @@ TEST_CASE("Jitter scales speed and height within its range and depends on seed a
 TEST_CASE("Errors are 0 for the base, grow with the level and ignore rigid motion in the shape") {
   CompareOptions options;
   options.threads = 2;
-  const auto result = compare(bodies::small_chain(), small_scene(), options);
+  const auto result = compare(test::small_chain(), small_scene(), options);
   CHECK(result.levels[0].starts[0].surface_error == 0);
   CHECK(result.levels[0].starts[0].shape_error == 0);
   for (std::size_t l = 1; l < 3; ++l) {
@@ -132,7 +132,7 @@ TEST_CASE("Errors are 0 for the base, grow with the level and ignore rigid motio
     CHECK(r.spring_updates < result.levels[0].starts[0].spring_updates);
     CHECK(r.ledger_error < 0.01);
     CHECK(result.levels[l].base_frames.front().x.size() ==
-          bodies::small_chain().levels[0].model.rest.size());
+          test::small_chain().levels[0].model.rest.size());
   }
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("Before contact a level that flies like the base has no error") {
   scene.obstacles.clear();
   scene.start.spin = Vec3::Zero();
   CompareOptions options;
-  const auto result = compare(bodies::small_chain(), scene, options);
+  const auto result = compare(test::small_chain(), scene, options);
   CHECK(result.levels[1].starts[0].surface_error < 1e-5);  // chords between steps: g dt^2 / 8
   CHECK(result.levels[1].starts[0].shape_error < 1e-9);
 }
@@ -166,7 +166,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The best rigid fit finds a rotation and distinguishes a mirror image from it") {
-  const auto model = bodies::rods();
+  const auto model = test::rods();
   const Mat3 turn = Eigen::AngleAxisd(2.5, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
   std::vector<Vec3> moved;
   std::vector<Vec3> bumped;
@@ -187,7 +187,7 @@ TEST_CASE("The error of the first run that failed reaches the caller with level 
   options.run.step = 1.0;
   options.threads = GENERATE(1U, 2U);
   try {
-    compare(bodies::small_chain(), small_scene(), options);
+    compare(test::small_chain(), small_scene(), options);
     FAIL("an unstable step went through");
   } catch (const UnstableError& e) {
     CHECK_THAT(e.what(), Catch::StartsWith("base, start 1"));
@@ -200,7 +200,7 @@ TEST_CASE("An interrupt stops all runs") {
   options.threads = GENERATE(1U, 2U);
   CountingProgress progress(500);
   options.progress = &progress;
-  CHECK_THROWS_AS(compare(bodies::small_chain(), small_scene(), options), InterruptedError);
+  CHECK_THROWS_AS(compare(test::small_chain(), small_scene(), options), InterruptedError);
   CHECK(progress.done() < 2000);
 }
 
@@ -213,25 +213,25 @@ TEST_CASE("Progress ends at its total, stop rules or not") {
   CountingProgress progress(~std::uint64_t{0});
   CompareOptions options;
   options.progress = &progress;
-  const auto result = compare(bodies::small_chain(), scene, options);
+  const auto result = compare(test::small_chain(), scene, options);
   CHECK(result.levels[0].starts[0].simulated < 0.2);
   CHECK(progress.done() == progress.total());
 }
 
 TEST_CASE("Wrong compare options are refused by name") {
   CHECK_THROWS_WITH(compare({}, small_scene(), {}), Catch::Contains("no levels"));
-  CHECK_THROWS_WITH(compare(bodies::small_chain(), small_scene(), {.starts = 0}),
+  CHECK_THROWS_WITH(compare(test::small_chain(), small_scene(), {.starts = 0}),
                     Catch::Contains("starts"));
-  CHECK_THROWS_WITH(compare(bodies::small_chain(), small_scene(), {.jitter = 1}),
+  CHECK_THROWS_WITH(compare(test::small_chain(), small_scene(), {.jitter = 1}),
                     Catch::Contains("jitter"));
 }
 
 TEST_CASE("The energy difference is none between equal models and some between levels") {
   LodChain same;
-  same.levels = {bodies::small_chain().levels[0], bodies::small_chain().levels[0]};
+  same.levels = {test::small_chain().levels[0], test::small_chain().levels[0]};
   const Comparison equal = compare(same, small_scene());
   CHECK(equal.levels[1].starts[0].energy_difference == 0);
-  const Comparison coarser = compare(bodies::small_chain(), small_scene());
+  const Comparison coarser = compare(test::small_chain(), small_scene());
   CHECK(coarser.levels[0].starts[0].energy_difference == 0);
   CHECK(coarser.levels[1].starts[0].energy_difference > 1e-3);
   CHECK(coarser.levels[1].starts[0].energy_difference < 1);

@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/study/compare.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -15,7 +15,7 @@ using namespace springlod::sim;
 namespace {
 
 Scenario scene() {
-  return bodies::small_scene(0.5);
+  return test::small_scene(0.5);
 }
 
 }  // namespace
@@ -23,11 +23,11 @@ Scenario scene() {
 TEST_CASE("An ensemble runs the starts that compare runs") {
   CompareOptions compared;
   compared.starts = 4;
-  const Comparison comparison = compare(bodies::small_chain(), scene(), compared);
+  const Comparison comparison = compare(test::small_chain(), scene(), compared);
   EnsembleOptions options;
   options.starts = 4;
-  for (std::size_t level = 0; level < bodies::small_chain().levels.size(); ++level) {
-    const auto runs = run_ensemble(bodies::small_chain().levels[level].model, scene(), options);
+  for (std::size_t level = 0; level < test::small_chain().levels.size(); ++level) {
+    const auto runs = run_ensemble(test::small_chain().levels[level].model, scene(), options);
     REQUIRE(runs.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) {
       const StartResult& start = comparison.levels[level].starts[i];
@@ -40,7 +40,7 @@ TEST_CASE("An ensemble runs the starts that compare runs") {
 }
 
 TEST_CASE("An ensemble is the same in parts and for any number of threads", "[threaded]") {
-  const MassSpringModel& model = bodies::small_chain().levels[1].model;
+  const MassSpringModel& model = test::small_chain().levels[1].model;
   EnsembleOptions options;
   options.starts = 6;
   options.threads = 1;
@@ -59,16 +59,16 @@ TEST_CASE("An ensemble is the same in parts and for any number of threads", "[th
 TEST_CASE("An ensemble refuses what it cannot run, and names the start that diverged") {
   EnsembleOptions options;
   options.starts = 0;
-  CHECK_THROWS_AS(run_ensemble(bodies::small_chain().levels[0].model, scene(), options),
+  CHECK_THROWS_AS(run_ensemble(test::small_chain().levels[0].model, scene(), options),
                   InputError);
   options.starts = 2;
   options.jitter = 1;
-  CHECK_THROWS_AS(run_ensemble(bodies::small_chain().levels[0].model, scene(), options),
+  CHECK_THROWS_AS(run_ensemble(test::small_chain().levels[0].model, scene(), options),
                   InputError);
   options.jitter = 0.02;
-  options.run.step = 3 * predicted_step(bodies::small_chain().levels[0].model, scene());
+  options.run.step = 3 * predicted_step(test::small_chain().levels[0].model, scene());
   try {
-    run_ensemble(bodies::small_chain().levels[0].model, scene(), options);
+    run_ensemble(test::small_chain().levels[0].model, scene(), options);
     FAIL("stable at three times the predicted step");
   } catch (const UnstableError& e) {
     CHECK_THAT(e.what(), Catch::Matchers::StartsWith("start 1: "));
@@ -78,17 +78,17 @@ TEST_CASE("An ensemble refuses what it cannot run, and names the start that dive
 TEST_CASE("Ensemble runs report when springs turned over, or that none did") {
   Scenario violent = scene();
   violent.start.velocity = {0, 0, -120};  // far above the speed of sound of the block, 32 m/s
-  violent.obstacles = {bodies::floor(1e8, 0.5)};
+  violent.obstacles = {test::floor(1e8, 0.5)};
   violent.duration = 0.02;
   CompareOptions compared;
   compared.starts = 2;
-  const Comparison comparison = compare(bodies::small_chain(), violent, compared);
-  const auto runs = run_ensemble(bodies::small_chain().levels[0].model, violent, {.starts = 2});
+  const Comparison comparison = compare(test::small_chain(), violent, compared);
+  const auto runs = run_ensemble(test::small_chain().levels[0].model, violent, {.starts = 2});
   for (std::size_t i = 0; i < 2; ++i) {
     REQUIRE(runs[i].first_crossing.has_value());
     CHECK(*runs[i].first_crossing > 0.001);
     CHECK(runs[i].first_crossing == comparison.levels[0].starts[i].first_crossing);
   }
-  CHECK_FALSE(run_ensemble(bodies::small_chain().levels[0].model, scene(), {.starts = 1})[0]
+  CHECK_FALSE(run_ensemble(test::small_chain().levels[0].model, scene(), {.starts = 1})[0]
                   .first_crossing);
 }

@@ -12,7 +12,7 @@
 #include "sim/run/motion.hpp"
 #include "sim/study/probe.hpp"
 #include "sim/study/stiffness_ratio.hpp"
-#include "tests/sim/bodies.hpp"
+#include "tests/sim/scenes.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -31,14 +31,14 @@ MassSpringModel two_halves(voxelize::LatticeStyle style) {
     for (int y = 0; y < 2; ++y)
       for (int x = 0; x < 2; ++x)
         cells.push_back({{x, y, z}, static_cast<std::uint16_t>(z < 3 ? 0 : 1)});
-  const auto grid = bodies::grid_of(
+  const auto grid = test::grid_of(
       cells, 0.1,
-      {bodies::material("rod", 1e8, 1000, 0.0005), bodies::material("rubber", 1e5, 1000, 0.0005)});
+      {test::material("rod", 1e8, 1000, 0.0005), test::material("rubber", 1e5, 1000, 0.0005)});
   return voxelize::build_lattice(grid, {.style = style}).model;
 }
 
 MassSpringModel one_material() {
-  return bodies::block(2, 2, 4, 0.1, bodies::material("m", 1e5, 1000, 0.0005),
+  return test::block(2, 2, 4, 0.1, test::material("m", 1e5, 1000, 0.0005),
                        voxelize::LatticeStyle::corners);
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("A body of one material becomes stiff beyond its centre of mass") {
 }
 
 TEST_CASE("A level of a rescaled chain is the rescaled base merged by the same groups") {
-  const MassSpringModel base = bodies::rods();
+  const MassSpringModel base = test::rods();
   const LodChain chain = chain_of(base, 2);
   const LodChain rescaled = with_stiffness_ratio(chain, stiff_part(base), 1e4);
   for (const std::size_t level : {1U, 2U}) {
@@ -101,7 +101,7 @@ TEST_CASE("A level of a rescaled chain is the rescaled base merged by the same g
 }
 
 TEST_CASE("The probed motion has no momentum and turns as slowly as it is meant to") {
-  const MassSpringModel model = bodies::rods();
+  const MassSpringModel model = test::rods();
   const ProbeMotion motion = probe_motion(model, 10, 0.5);
   CHECK(motion.along == Vec3::UnitZ());
   const State state = probe_state(model, motion);
@@ -178,7 +178,7 @@ TEST_CASE(
 }
 
 TEST_CASE("An over-merged level with a mechanism is named and not run") {
-  const MassSpringModel base = bodies::rods();
+  const MassSpringModel base = test::rods();
   LodChain chain;
   // Raw merges, without guards, of the rods have mechanisms at level 3 for some seeds.
   for (std::uint64_t seed = 1; seed < 30; ++seed) {
@@ -202,7 +202,7 @@ TEST_CASE("An over-merged level with a mechanism is named and not run") {
 
 TEST_CASE("A bar one cell thick is a mechanism on centers and sound on corners") {
   const auto bar = [](voxelize::LatticeStyle style) {
-    return bodies::block(1, 1, 6, 0.1, bodies::material("m", 1e5, 1000, 0), style);
+    return test::block(1, 1, 6, 0.1, test::material("m", 1e5, 1000, 0), style);
   };
   StabilityOptions options;
   options.ratios = {1};
@@ -215,13 +215,13 @@ TEST_CASE("A bar one cell thick is a mechanism on centers and sound on corners")
   CHECK(sound.points[0].verdict == Verdict::stable);
   CHECK(sound.bodies[0].mechanism_nodes.empty());
   // A plate of one layer of centers bends freely.
-  const auto plate = bodies::block(5, 4, 1, 0.1, bodies::material("m", 1e5, 1000, 0),
+  const auto plate = test::block(5, 4, 1, 0.1, test::material("m", 1e5, 1000, 0),
                                    voxelize::LatticeStyle::centers);
   CHECK(stability_map(chain_of(plate), options).points[0].verdict == Verdict::mechanism);
 }
 
 TEST_CASE("A level used off the ratio that it was made for is named, with its frequency error") {
-  const LodChain chain = chain_of(bodies::rods(), 1);
+  const LodChain chain = chain_of(test::rods(), 1);
   StabilityOptions options;
   options.levels = {1};
   options.ratios = {1, 50, 1000};  // made for 50
@@ -241,7 +241,7 @@ TEST_CASE("A level used off the ratio that it was made for is named, with its fr
 }
 
 TEST_CASE("A map shows damping as what bounds the step") {
-  LodChain chain = chain_of(bodies::block(2, 2, 4, 0.1, bodies::material("m", 1e5, 1000, 0.05),
+  LodChain chain = chain_of(test::block(2, 2, 4, 0.1, test::material("m", 1e5, 1000, 0.05),
                                           voxelize::LatticeStyle::corners));
   StabilityOptions options;
   options.ratios = {1};

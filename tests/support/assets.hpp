@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "model/chain.hpp"
-#include "tests/model/sample_models.hpp"
+#include "tests/support/lattices.hpp"
 
 namespace springlod::test {
 
