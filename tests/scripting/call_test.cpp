@@ -119,7 +119,7 @@ TEST_CASE("Keys that are not listed, and entries without one, are refused") {
   const std::vector<Parameter> listed{{.name = "size"}, {.name = "speed"}};
   CHECK_THROWS_WITH(Options(listed, "{sped = 1}"),
                     "unknown option 'sped'; did you mean 'speed'? test takes: size, speed");
-  CHECK_THROWS_WITH(Options(listed, "{3}"), Contains("options have names, but there is 1 without"));
+  CHECK_THROWS_WITH(Options(listed, "{3}"), Contains("options need names, but 1 has none"));
   CHECK_THROWS_WITH(Options(listed, "3"), Contains("expected a table of options such as {size ="));
   CHECK_NOTHROW(Options(listed, "nil"));
 }
