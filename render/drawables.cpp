@@ -48,7 +48,7 @@ bool is_cut_away(const DrawnBody& body, std::uint32_t node) {
   return cut && cut->normal.dot(body.model->rest[node]) < cut->offset;
 }
 
-Colour split_mix(const Colour& a, const Colour& b, float t) {
+Colour mix(const Colour& a, const Colour& b, float t) {
   return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
 }
 
@@ -133,7 +133,7 @@ std::vector<NodeInstance> node_instances(const DrawnBody& body, const Vec3& orig
     if (body.style.node_size == NodeSize::mass) factor = std::cbrt(model.mass[i] / mean_mass);
     if (body.style.bold_inner_nodes) {
       const bool inner = model.border[i] == 0;
-      colour = inner ? kBoldColour : split_mix(kPlainColour, colour, 0.15F);
+      colour = inner ? kBoldColour : mix(kPlainColour, colour, 0.15F);
       factor *= inner ? kBoldFactor : kPlainFactor;
     }
     nodes.push_back({relative(x[i], origin), colour, static_cast<float>(radius * factor)});

@@ -88,7 +88,7 @@ vec3 studio(vec3 srgb, vec3 n, vec3 p, float key) {
   vec3 v = towards_eye(p);
   vec3 l = key_light.xyz;
   float sky = 0.5 + 0.5 * dot(n, world_up.xyz);
-  vec3 ambient = split_mix(vec3(0.33, 0.32, 0.31), vec3(0.50, 0.52, 0.55), sky);
+  vec3 ambient = mix(vec3(0.33, 0.32, 0.31), vec3(0.50, 0.52, 0.55), sky);
   float wrapped = max((dot(n, l) + 0.15) / 1.15, 0.0);
   vec3 direct = vec3(0.80, 0.78, 0.75) * wrapped * key;
   vec3 fill = vec3(0.12) * max(dot(n, v), 0.0);
@@ -114,7 +114,7 @@ out float side;
 void main() {
   float t = float(gl_VertexID >> 1);
   side = float(gl_VertexID & 1) * 2.0 - 1.0;
-  vec3 p = split_mix(end_a, end_b, t);
+  vec3 p = mix(end_a, end_b, t);
   vec3 view = towards_eye(p);
   vec3 axis = end_b - end_a;
   across = normalize(cross(axis, view));
@@ -123,7 +123,7 @@ void main() {
   // At least about one pixel wide: thinner lines alias.
   float least = eye.w * 0.55 * pixel.x * distance(eye.xyz, p);
   position = p + across * side * max(radius, least);
-  colour = split_mix(colour_a, colour_b, t);
+  colour = mix(colour_a, colour_b, t);
   gl_Position = view_projection * vec4(position, 1.0);
 }
 )";
@@ -204,7 +204,7 @@ out vec4 result;
 void main() {
   vec3 low = vec3(0.972, 0.975, 0.980);
   vec3 high = vec3(0.835, 0.868, 0.905);
-  result = vec4(split_mix(low, high, smoothstep(0.25, 1.1, height)), 1.0);
+  result = vec4(mix(low, high, smoothstep(0.25, 1.1, height)), 1.0);
 }
 )"};
 }
@@ -222,7 +222,7 @@ void main() {
   float key = opacity < 1.0 ? 1.0 : light_on_body(position, n);
   // Transparent surfaces are more opaque at grazing angles.
   float edge = pow(1.0 - abs(dot(n, towards_eye(position))), 3.0);
-  float alpha = opacity < 1.0 ? split_mix(opacity, min(1.0, opacity + 0.45), edge) : 1.0;
+  float alpha = opacity < 1.0 ? mix(opacity, min(1.0, opacity + 0.45), edge) : 1.0;
   result = vec4(to_display(studio(colour, n, position, key)), alpha);
 }
 )"};
@@ -311,7 +311,7 @@ void main() {
   float minor = lines(grid_spacing, grid_spacing * 0.010);
   float major = lines(grid_spacing * 5.0, grid_spacing * 0.024);
   vec3 colour = plane_colour * (1.0 - 0.13 * max(minor * 0.75, major));
-  colour *= split_mix(vec3(0.60, 0.62, 0.66), vec3(1.0), key);
+  colour *= mix(vec3(0.60, 0.62, 0.66), vec3(1.0), key);
   result = vec4(colour, fade * plane_alpha);
 }
 )"};

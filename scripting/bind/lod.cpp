@@ -133,7 +133,7 @@ void describe_chain(Api& api) {
                .returns = "list of integers, rising",
                .errors = "A node that the base does not have.",
                .example =
-                   "local held = chain:mapped_nodes(1, function(node) return node.x < 0.001 end)\n"
+                   "local held = chain:carried(1, function(node) return node.x < 0.001 end)\n"
                    "print(s.modes(chain[1], {anchored = held})[1].frequency)",
                .call = carried_method});
   type.elements(

@@ -123,9 +123,7 @@ std::string markdown(const TypeEntry& type) {
 
 std::string type_and_default(const Parameter& parameter) {
   std::string text = parameter.type;
-  if (!parameter.choices.empty()) {
-    text += " " + quoted(parameter.choices);
-  }
+  if (!parameter.choices.empty()) text += fmt::format(" {}", quoted(parameter.choices));
   const std::string_view unit = si_unit(parameter.dimension);
   if (parameter.dimension != Dimension::number) text += fmt::format(" in {}", unit);
   if (!parameter.fallback.empty()) text += fmt::format("; default {}", parameter.fallback);

@@ -85,7 +85,7 @@ ContactFinder::ContactFinder(const ContactPoints& points, const std::vector<Obst
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
     if (!std::holds_alternative<SolidBox>(obstacles[o].shape)) continue;
     sides_[o].resize(points.count());
-    for (std::uint32_t p = 0; p < points.count(); ++p) take_sides(o, p, points.mapped_nodes(p, x));
+    for (std::uint32_t p = 0; p < points.count(); ++p) take_sides(o, p, points.interpolate(p, x));
   }
 }
 
@@ -102,7 +102,7 @@ void ContactFinder::find(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
   for (std::size_t o = 0; o < obstacles_->size(); ++o)
     for (std::uint32_t p = 0; p < points_->count(); ++p)
       if (const auto contact =
-              find_one(o, p, points_->mapped_nodes(p, x), points_->mapped_nodes(p, v)))
+              find_one(o, p, points_->interpolate(p, x), points_->interpolate(p, v)))
         contacts.push_back(*contact);
 }
 
@@ -164,7 +164,7 @@ double apply_friction(const ContactPoints& points, double step, std::vector<Cont
   double taken = 0;
   for (Contact& c : contacts) {
     const double mass = points.mass(c.point);
-    const Vec3 before = points.mapped_nodes(c.point, v);
+    const Vec3 before = points.interpolate(c.point, v);
     apply_friction(c, mass, step, before);
     points.kick(c.point, c.slip_change, v);
     taken -= mass * c.slip_change.dot(before + 0.5 * c.slip_change);

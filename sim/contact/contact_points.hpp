@@ -56,7 +56,7 @@ class ContactPoints {
   std::string name(std::size_t point) const;
 
   /// Of positions or velocities of the nodes.
-  Vec3 mapped_nodes(std::size_t point, const std::vector<Vec3>& nodes) const {
+  Vec3 interpolate(std::size_t point, const std::vector<Vec3>& nodes) const {
     Vec3 sum = Vec3::Zero();
     for (const Share& share : shares(point)) sum += share.weight * nodes[share.node];
     return sum;

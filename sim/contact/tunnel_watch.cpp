@@ -32,18 +32,18 @@ TunnelCheck::TunnelCheck(const ContactPoints& points, const std::vector<Obstacle
     if (box == nullptr) continue;
     Wall& wall = walls_.emplace_back(Wall{obstacle.name, *box, {}});
     for (std::uint32_t p = 0; p < points.count(); ++p)
-      wall.entry.push_back(nearest_face(box->half_size, box->local(points.mapped_nodes(p, x))));
+      wall.entry.push_back(nearest_face(box->half_size, box->local(points.interpolate(p, x))));
   }
   if (walls_.empty()) return;
-  for (std::uint32_t p = 0; p < points.count(); ++p) at_.push_back(points.mapped_nodes(p, x));
+  for (std::uint32_t p = 0; p < points.count(); ++p) at_.push_back(points.interpolate(p, x));
 }
 
 void TunnelCheck::check(const std::vector<Vec3>& x, double time, double step) {
   for (std::size_t w = 0; w < walls_.size(); ++w)
     for (std::size_t p = 0; p < at_.size(); ++p)
-      if (goes_through(w, p, at_[p], points_->mapped_nodes(p, x)))
-        throw_tunnelled(w, p, at_[p], points_->mapped_nodes(p, x), time, step);
-  for (std::size_t p = 0; p < at_.size(); ++p) at_[p] = points_->mapped_nodes(p, x);
+      if (goes_through(w, p, at_[p], points_->interpolate(p, x)))
+        throw_tunnelled(w, p, at_[p], points_->interpolate(p, x), time, step);
+  for (std::size_t p = 0; p < at_.size(); ++p) at_[p] = points_->interpolate(p, x);
 }
 
 bool TunnelCheck::goes_through(std::size_t wall, std::size_t point, const Vec3& from,

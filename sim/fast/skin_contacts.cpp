@@ -97,11 +97,11 @@ void SkinContacts::find_contacts(const Step& step, std::size_t obstacle) {
 }
 
 FastContacts::Motion SkinContacts::motion(std::uint32_t point) const {
-  return {points().mapped_nodes(point, x_), points().mapped_nodes(point, v_)};
+  return {points().interpolate(point, x_), points().interpolate(point, v_)};
 }
 
 Vec3 SkinContacts::velocity_before_kick(std::size_t contact) const {
-  return points().mapped_nodes(contacts_[contact].point, v_);
+  return points().interpolate(contacts_[contact].point, v_);
 }
 
 Vec3 SkinContacts::kicked_velocity(const Contact& contact, const Step& step) const {

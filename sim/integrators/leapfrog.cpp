@@ -61,7 +61,7 @@ void Leapfrog::book_half_step(const std::vector<Vec3>& v, double to_neighbour) {
   for (std::size_t i = 0; i < x_.size(); ++i) damping -= damping_force_[i].dot(v[i]);
   losses_.lost_damping += 0.5 * step_ * damping;
   for (const Contact& c : contacts_)
-    book_contact(c, points_.mass(c.point), step_, points_.mapped_nodes(c.point, v), to_neighbour,
+    book_contact(c, points_.mass(c.point), step_, points_.interpolate(c.point, v), to_neighbour,
                  losses_);
 }
 

@@ -25,7 +25,7 @@ void WholeStep::prepare() {
   next_losses_.lost_damping = lost_damping_;
   for (const Contact& c : next_contacts_)
     next_losses_.lost_contact -=
-        step_ * c.damping_force * c.normal.dot(points_.mapped_nodes(c.point, v_next_));
+        step_ * c.damping_force * c.normal.dot(points_.interpolate(c.point, v_next_));
 }
 
 void WholeStep::finish_implicit(const ImplicitSprings& springs) {

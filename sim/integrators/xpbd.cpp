@@ -38,7 +38,7 @@ void Xpbd::sweep_contacts() {
     // Depth less the part at which damping alone would hold, along the normal of the first find.
     const double stiffness = c.implicit_stiffness(step_);
     const double depth = c.normal_force / stiffness -
-                         c.normal.dot(points_.mapped_nodes(c.point, x_next_) - found_at_[i]);
+                         c.normal.dot(points_.interpolate(c.point, x_next_) - found_at_[i]);
     const double compliance = 1 / (stiffness * step_ * step_);
     const double inverse_mass = 1 / points_.mass(c.point);
     const double wanted =
@@ -58,7 +58,7 @@ void Xpbd::solve() {
   }
   finder_.find(x_next_, v_next_, candidates_);
   found_at_.clear();
-  for (const Contact& c : candidates_) found_at_.push_back(points_.mapped_nodes(c.point, x_next_));
+  for (const Contact& c : candidates_) found_at_.push_back(points_.interpolate(c.point, x_next_));
   contact_multiplier_.assign(candidates_.size(), 0.0);
   for (std::uint32_t sweep = 0; sweep < sweeps_; ++sweep) {
     sweep_springs();

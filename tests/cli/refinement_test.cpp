@@ -120,7 +120,7 @@ TEST_CASE("a script anchors nodes by number or by a function, and applies forces
     local part = s.zero_modes(bar, {anchored = held})[1]
     print(part.zero_modes, part.expected, part.anchored == #numbers)
     local chain = s.simplify(bar, {levels = 1})
-    local map, coarse = chain:group_map(1), chain:mapped_nodes(1, held)
+    local map, coarse = chain:group_map(1), chain:carried(1, held)
     local there = {}
     for _, node in ipairs(coarse) do there[node] = true end
     for _, node in ipairs(numbers) do assert(there[map[node]]) end

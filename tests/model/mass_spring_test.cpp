@@ -38,13 +38,13 @@ TEST_CASE("An invalid node or spring is reported with its number") {
       {"node 6", "contact area", [](auto& m) { m.contact_area[5] = -1e-9; }},
       {"node 7", "material", [](auto& m) { m.material[6] = 1; }},
       {"spring 5", "rest length", [](auto& m) { m.rest_length[4] = 0; }},
-      {"spring 5", "same place", [](auto& m) { m.rest[m.b[4]] = m.rest[m.a[4]]; }},
+      {"spring 5", "nodes coincide", [](auto& m) { m.rest[m.b[4]] = m.rest[m.a[4]]; }},
       {"spring 10", "stiffness", [](auto& m) { m.stiffness[9] = -2; }},
       {"spring 10", "stiffness",
        [](auto& m) { m.stiffness[9] = std::numeric_limits<double>::infinity(); }},
       {"spring 2", "damping", [](auto& m) { m.damping[1] = kNan; }},
-      {"spring 9", "not there", [](auto& m) { m.b[8] = 99; }},
-      {"spring 1", "two different", [](auto& m) { m.b[0] = m.a[0]; }},
+      {"spring 9", "does not exist", [](auto& m) { m.b[8] = 99; }},
+      {"spring 1", "must differ", [](auto& m) { m.b[0] = m.a[0]; }},
       {"spring 7", "sorted", [](auto& m) { m.a[6] = m.a[5], m.b[6] = m.b[5]; }},
   }));
   MassSpringModel m = box_lattice(3, 3, 3);

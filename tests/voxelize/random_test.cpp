@@ -190,7 +190,7 @@ TEST_CASE("The spacing determines the number of nodes of a random model") {
 TEST_CASE("Impossible options of a random model are rejected with the reason") {
   const MaterialGrid grid = box_grid(3, 3, 3, 0.01);
   CHECK_THROWS_WITH(build_random(grid, {.nodes = 14}), Catch::Contains("at least 15"));
-  CHECK_THROWS_WITH(build_random(grid, {.ends = 6}), Catch::Contains("give 14 or more"));
+  CHECK_THROWS_WITH(build_random(grid, {.ends = 6}), Catch::Contains("must be 14 or more"));
   CHECK_THROWS_AS(build_random(grid, {.spacing = -1}), InputError);
   CHECK_THROWS_AS(build_random(grid_of({}), {.nodes = 50}), InputError);
 }

@@ -60,7 +60,7 @@ TEST_CASE("A file that springlod did not write is rejected") {
     CHECK_THROWS_AS(load_vdb(path), IoError);
     CHECK_THROWS_WITH(load_vdb(path), Contains(with));
   };
-  refused(folder / "nowhere.vdb", "no such file");
+  refused(folder / "nowhere.vdb", "the file is missing");
   refused(folder.path(), "is a folder");
   write_text_file(folder / "text.vdb", "hello, this is not a grid");
   refused(folder / "text.vdb", "is not a .vdb file");

@@ -33,42 +33,42 @@ void check_order(const Dissection& found, std::uint32_t nodes) {
   for (std::uint32_t i = 0; i < nodes; ++i) REQUIRE(sorted[i] == i);
 }
 
-/// Pieces follow each other without gaps, none empty, each child before its parent.
-void check_pieces(const Dissection& found) {
+/// Supernodes follow one another without gaps; none is empty, and children precede parents.
+void check_supernodes(const Dissection& found) {
   std::uint32_t place = 0;
-  for (std::uint32_t p = 0; p < found.pieces.size(); ++p) {
-    const Dissection::Piece& piece = found.pieces[p];
-    CHECK(piece.begin == place);
-    CHECK(piece.end > piece.begin);
-    CHECK(piece.parent > p);  // kNoParent is larger than any
-    place = piece.end;
+  for (std::uint32_t p = 0; p < found.supernodes.size(); ++p) {
+    const Dissection::Supernode& supernode = found.supernodes[p];
+    CHECK(supernode.begin == place);
+    CHECK(supernode.end > supernode.begin);
+    CHECK(supernode.parent > p);  // kNoParent is larger than any
+    place = supernode.end;
   }
   CHECK(place == found.order.size());
 }
 
-/// Whether `above` is `piece` itself or one of its ancestors.
-bool is_above(const Dissection& found, std::uint32_t above, std::uint32_t piece) {
-  while (piece < above) piece = found.pieces[piece].parent;
-  return piece == above;
+/// Whether `above` is `supernode` itself or one of its ancestors.
+bool is_above(const Dissection& found, std::uint32_t above, std::uint32_t supernode) {
+  while (supernode < above) supernode = found.supernodes[supernode].parent;
+  return supernode == above;
 }
 
-/// Springs that join two pieces neither of which is above the other: separators that do not
+/// Springs that join two supernodes neither of which is above the other: separators that do not
 /// separate.
 int wrong_couplings(const Dissection& found, const MassSpringModel& model) {
-  std::vector<std::uint32_t> piece_of(model.node_count());
-  for (std::uint32_t p = 0; p < found.pieces.size(); ++p)
-    for (std::uint32_t k = found.pieces[p].begin; k < found.pieces[p].end; ++k)
-      piece_of[found.order[k]] = p;
+  std::vector<std::uint32_t> supernode_of(model.node_count());
+  for (std::uint32_t p = 0; p < found.supernodes.size(); ++p)
+    for (std::uint32_t k = found.supernodes[p].begin; k < found.supernodes[p].end; ++k)
+      supernode_of[found.order[k]] = p;
   int wrong = 0;
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    const auto [low, high] = std::minmax(piece_of[model.a[s]], piece_of[model.b[s]]);
+    const auto [low, high] = std::minmax(supernode_of[model.a[s]], supernode_of[model.b[s]]);
     wrong += is_above(found, high, low) ? 0 : 1;
   }
   return wrong;
 }
 
-std::uint32_t size_of(const Dissection::Piece& piece) {
-  return piece.end - piece.begin;
+std::uint32_t size_of(const Dissection::Supernode& supernode) {
+  return supernode.end - supernode.begin;
 }
 
 }  // namespace
@@ -78,16 +78,16 @@ TEST_CASE("A dissection orders every node once, children first, and its separato
       GENERATE(box_lattice(9, 7, 5), box_lattice(40, 2, 2), random_model(3, 6), random_model(1, 8));
   const Dissection found = dissected(model);
   check_order(found, model.node_count());
-  check_pieces(found);
-  CHECK(found.pieces.size() > 2);
+  check_supernodes(found);
+  CHECK(found.supernodes.size() > 2);
   CHECK(wrong_couplings(found, model) == 0);
-  CHECK(found.pieces.back().parent == Dissection::kNoParent);
+  CHECK(found.supernodes.back().parent == Dissection::kNoParent);
 }
 
 TEST_CASE("Of a lattice one layer of nodes is taken out, across its longest side") {
   const MassSpringModel model = box_lattice(21, 5, 5);
   const Dissection found = dissected(model);
-  const Dissection::Piece& top = found.pieces.back();
+  const Dissection::Supernode& top = found.supernodes.back();
   CHECK(size_of(top) == 5 * 5);
   const double x = model.rest[found.order[top.begin]].x();
   for (std::uint32_t k = top.begin; k < top.end; ++k) CHECK(model.rest[found.order[k]].x() == x);
@@ -99,21 +99,21 @@ TEST_CASE("The same nodes come in the same order every time") {
   const MassSpringModel model = random_model(7, 7);
   const Dissection one = dissected(model), two = dissected(model);
   CHECK(one.order == two.order);
-  REQUIRE(one.pieces.size() == two.pieces.size());
-  for (std::size_t p = 0; p < one.pieces.size(); ++p) {
-    CHECK(one.pieces[p].begin == two.pieces[p].begin);
-    CHECK(one.pieces[p].parent == two.pieces[p].parent);
+  REQUIRE(one.supernodes.size() == two.supernodes.size());
+  for (std::size_t p = 0; p < one.supernodes.size(); ++p) {
+    CHECK(one.supernodes[p].begin == two.supernodes[p].begin);
+    CHECK(one.supernodes[p].parent == two.supernodes[p].parent);
   }
 }
 
-TEST_CASE("Small bodies stay in one piece, no nodes make none") {
+TEST_CASE("A small body is one supernode; a body of no nodes has none") {
   const Dissection few = dissected(chain_of_nodes(10));
   check_order(few, 10);
-  REQUIRE(few.pieces.size() == 1);
-  CHECK(few.pieces[0].parent == Dissection::kNoParent);
+  REQUIRE(few.supernodes.size() == 1);
+  CHECK(few.supernodes[0].parent == Dissection::kNoParent);
   const Dissection none = dissect({}, {{0}, {}});
   CHECK(none.order.empty());
-  CHECK(none.pieces.empty());
+  CHECK(none.supernodes.empty());
 }
 
 TEST_CASE("Bodies side by side, loose nodes and nodes in one place are ordered too") {
@@ -121,17 +121,17 @@ TEST_CASE("Bodies side by side, loose nodes and nodes in one place are ordered t
   const MassSpringModel two = side_by_side(box, box, {20, 0, 0});
   const Dissection beside = dissected(two);
   check_order(beside, two.node_count());
-  check_pieces(beside);
+  check_supernodes(beside);
   CHECK(wrong_couplings(beside, two) == 0);
 
   const Dissection apart = dissect(box.rest, {std::vector<std::uint32_t>(505, 0), {}});
   check_order(apart, 504);
-  check_pieces(apart);
-  for (const Dissection::Piece& piece : apart.pieces)  // nothing has to be separated
-    CHECK(piece.parent == Dissection::kNoParent);
+  check_supernodes(apart);
+  for (const Dissection::Supernode& supernode : apart.supernodes)  // nothing has to be separated
+    CHECK(supernode.parent == Dissection::kNoParent);
 
   const std::vector<Vec3> heap(504, Vec3(1, 2, 3));
   const Dissection together = dissect(heap, node_graph(stiffness_matrix(box)));
   check_order(together, 504);
-  CHECK(together.pieces.size() == 1);
+  CHECK(together.supernodes.size() == 1);
 }

@@ -91,7 +91,7 @@ TEST_CASE("A level's skin carries every affine motion to the base's surface, are
   for (std::uint32_t p = 0; p < points.count(); ++p) {
     const std::uint32_t node = points.number(p);
     CHECK(points.area(p) == base.contact_area[node]);
-    most = std::max(most, (points.mapped_nodes(p, x) - (affine * base.rest[node] + shift)).norm());
+    most = std::max(most, (points.interpolate(p, x) - (affine * base.rest[node] + shift)).norm());
     area += points.area(p);
   }
   CHECK(most < 1e-9 * bounds(base.rest).sizes().norm());
@@ -138,7 +138,7 @@ TEST_CASE("A force on the skin is the same force and torque on the nodes") {
   for (std::uint32_t p = 0; p < body.points.count(); ++p) {
     body.points.add_force(p, forces[p], on_nodes);
     force += forces[p];
-    torque += body.points.mapped_nodes(p, body.x).cross(forces[p]);
+    torque += body.points.interpolate(p, body.x).cross(forces[p]);
   }
   for (std::size_t i = 0; i < on_nodes.size(); ++i) {
     force -= on_nodes[i];
@@ -183,7 +183,7 @@ TEST_CASE("Friction on a skin removes the energy it reports; stick springs store
   contacts[0].friction = 1e6;
   contacts[0].stick_stiffness = 0;  // and without one no slip turns round
   apply_friction(body.points, 1e-3, contacts, v);
-  const Vec3 left = body.points.mapped_nodes(contacts[0].point, v);
+  const Vec3 left = body.points.interpolate(contacts[0].point, v);
   CHECK((left - contacts[0].normal.dot(left) * contacts[0].normal).norm() < 1e-12);
 }
 

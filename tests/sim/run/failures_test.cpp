@@ -153,7 +153,7 @@ TEST_CASE("A spring of no length is refused by its number, not run") {
   SECTION("two nodes in one place") {
     model.rest[model.b[5]] = model.rest[model.a[5]];
     CHECK_THROWS_WITH(run(model, scene),
-                      Catch::Contains("spring 6") && Catch::Contains("same place"));
+                      Catch::Contains("spring 6") && Catch::Contains("nodes coincide"));
   }
   SECTION("a rest length of 0") {
     model.rest_length[7] = 0;
