@@ -73,14 +73,13 @@ struct GroupingOptions {
   PairCost pair_cost{};          ///< replaces the key by which neighbours are chosen
 };
 constexpr auto option_rows(const GroupingOptions*) {
-  return std::tuple(
-      option("grouping", &GroupingOptions::grouping, "which nodes merge"),
-      option("border", &GroupingOptions::border, "what may happen to border nodes"),
-      option("seed", &GroupingOptions::seed,
-             "of the random order; the same seed gives the same bits"),
-      option("grading", &GroupingOptions::grading,
-             "of compact: 0 .. 1, by how much stiff materials get larger groups than soft ones, "
-             "for a longer step"));
+  return std::tuple(option("grouping", &GroupingOptions::grouping, "which nodes merge"),
+                    option("border", &GroupingOptions::border, "what may happen to border nodes"),
+                    option("seed", &GroupingOptions::seed,
+                           "of the random order; the same seed gives the same bits"),
+                    option("grading", &GroupingOptions::grading,
+                           "for compact, 0 .. 1: how much larger groups in stiff materials are "
+                           "than in soft ones; larger values lengthen the stable step"));
 }
 
 /// Distribution of mass to merged nodes (the paper, section 4.2 and figure 2).
@@ -112,8 +111,9 @@ struct GuardOptions {
 constexpr auto option_rows(const GuardOptions*) {
   return std::tuple(
       option("coincident_fraction", &GuardOptions::coincident_fraction,
-             "joined nodes nearer than this part of the mean spring length are fused"),
-      option("least_springs", &GuardOptions::least_springs, "a node with fewer springs is floppy"),
+             "fusion distance of joined nodes, as a fraction of the mean spring length"),
+      option("least_springs", &GuardOptions::least_springs,
+             "number of springs below which a node is floppy"),
       option("least_rigidity", &GuardOptions::least_rigidity,
              "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T is below"));
 }
@@ -186,7 +186,7 @@ struct TargetOptions {
 };
 constexpr auto option_rows(const TargetOptions*) {
   return std::tuple(
-      option("targets", &TargetOptions::kinds, "what shall be as in the base"),
+      option("targets", &TargetOptions::kinds, "quantities fitted to the base"),
       option("modes", &TargetOptions::modes, "how many of the lowest frequencies"),
       option("patches", &TargetOptions::patches,
              "pairs of patches of the surface that are pulled apart, besides the nine smooth loads")
@@ -195,12 +195,9 @@ constexpr auto option_rows(const TargetOptions*) {
              "of each of them, where a smooth load has 1")
           .weight(),
       record_option("regions", &TargetOptions::regions, "Region",
-                    "parts of the surface that matter, with loads of their own", "none"),
-      option("mode_weight", &TargetOptions::mode_weight,
-             "how much modes count, over what they usually do")
-          .weight(),
-      option("load_weight", &TargetOptions::load_weight,
-             "how much static loads of every kind count, over what they usually do")
+                    "regions of the surface with load cases of their own", "none"),
+      option("mode_weight", &TargetOptions::mode_weight, "factor on the weight of modes").weight(),
+      option("load_weight", &TargetOptions::load_weight, "factor on the weight of all static loads")
           .weight(),
       option("seed", &TargetOptions::seed, "of the patches"),
       anchored_option(&TargetOptions::anchored));
@@ -225,10 +222,9 @@ struct FitOptions {
 };
 constexpr auto option_rows(const FitOptions*) {
   return std::tuple(
-      option(
-          "tolerance", &FitOptions::tolerance,
-          "mean error of the ten lowest frequencies that is good enough; other modes may miss by "
-          "four times as much, smooth loads and regions by eight, patches by twenty")
+      option("tolerance", &FitOptions::tolerance,
+             "tolerance of the mean error of the ten lowest frequencies; other modes have 4 times "
+             "the tolerance, smooth loads and regions 8 times, patches 20 times")
           .by_default("0.002 sqrt(N0 / N)"),
       option("iterations", &FitOptions::iterations,
              "steps at most; by itself fewer for levels of more than 500 nodes, down to 10")
@@ -252,7 +248,7 @@ struct CalibrateChoice : Choice<Calibrate> {
   const char* remark;
 };
 inline constexpr CalibrateChoice kCalibrate[] = {
-    {{Calibrate::none, "none", "levels stay as they were merged"}, ""},
+    {{Calibrate::none, "none", "levels are only merged"}, ""},
     {{Calibrate::moduli, "moduli", "levels get the moduli of eq. 2 of the paper"},
      ", moduli rescaled"},
     {{Calibrate::modes, "modes",
@@ -326,12 +322,12 @@ constexpr auto option_rows(const SimplifyOptions*) {
       option("straight", &SimplifyOptions::straight,
              "each level is merged straight from the base, whatever the one before merged")
           .by_default("false; true of groupings that always are"),
-      option("mass", &SimplifyOptions::mass, "where the mass of a group goes"),
+      option("mass", &SimplifyOptions::mass, "distribution of a group's mass"),
       option("guards", &SimplifyOptions::guards,
              "fuse nodes that would coincide or be floppy; false: the raw merge"),
       record_option("guard", &SimplifyOptions::guard, "Guard",
                     "when a node counts as coincident or floppy", "the limits of Guard"),
-      option("calibrate", &SimplifyOptions::calibrate, "what is done to levels after merging"),
+      option("calibrate", &SimplifyOptions::calibrate, "calibration of the levels after merging"),
       record_option("calibration", &SimplifyOptions::calibration, "Calibration",
                     "what calibrate = \"modes\" aims at", "that of Calibration"));
 }

@@ -43,7 +43,7 @@ constexpr auto option_rows(const AnimateOptions*) {
   using Options = AnimateOptions;
   return std::tuple(option("width", &Options::width, "pixels of one panel"),
                     option("height", &Options::height, "pixels of one panel"),
-                    option("frame_rate", &Options::frame_rate, "pictures a second of the film"),
+                    option("frame_rate", &Options::frame_rate, "frames per second of the video"),
                     option("slow", &Options::slow, "4: four times slower than life"),
                     option("frames", &Options::frames, "pictures at most").by_default("all"),
                     option("camera", &Options::camera, "whether the camera follows the body"),

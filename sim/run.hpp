@@ -47,12 +47,12 @@ struct RunOptions {
 };
 constexpr auto option_rows(const RunOptions*) {
   return std::tuple(
-      option("integrator", &RunOptions::integrator, "how a step is made"),
+      option("integrator", &RunOptions::integrator, "time integration scheme"),
       nested(&RunOptions::solver),
       option("step", &RunOptions::step, "time step")
           .in(Dimension::time)
           .by_default("safety times the predicted stable step; 1 ms for the implicit schemes"),
-      option("safety", &RunOptions::safety, "part of the predicted stable step that is taken"),
+      option("safety", &RunOptions::safety, "step as a fraction of the predicted stable step"),
       option("precision", &RunOptions::precision,
              "of the numbers symplectic_euler moves a body with"),
       option("layout", &RunOptions::layout, "of the springs for symplectic_euler"),
@@ -60,8 +60,8 @@ constexpr auto option_rows(const RunOptions*) {
              "a body that touches something sleeps, at no cost, once its mean speed stays below "
              "this part of that of a fall through its own size; 0: never"),
       option("frame_rate", &RunOptions::frame_rate,
-             "frames kept a simulated second; 0: first and last only"),
-      option("ledger", &RunOptions::ledger, "keep account of the energy"));
+             "frames stored per simulated second; 0: only the first and the last"),
+      option("ledger", &RunOptions::ledger, "record the energy ledger"));
 }
 
 inline constexpr const char* kThreadsHelp = "0: all cores; never changes a result";

@@ -97,7 +97,7 @@ void validate(const Scenario& scenario) {
   if (!known)
     throw InputError(fmt::format(
         "scenario: measure_from = \"{}\" must be the name of an obstacle, or empty to measure the "
-        "way along the ground",
+        "horizontal displacement",
         scenario.measure_from));
 }
 

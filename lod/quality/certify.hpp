@@ -30,11 +30,11 @@ constexpr auto option_rows(const CertifyOptions*) {
       option("seed", &CertifyOptions::seed, "of where they act"),
       nodes_option("within", &CertifyOptions::within,
                    "nodes of the base whose surface the held-out loads act on, such as a region "
-                   "that calibration was told of",
+                   "given to calibration",
                    "anywhere"),
       option("tolerance", &CertifyOptions::tolerance,
-             "mean error of the ten lowest frequencies that a level may have; a level that misses "
-             "it says so")
+             "mean error of the ten lowest frequencies that a level may have; levels outside "
+             "tolerance are reported")
           .by_default("0.002 sqrt(N0 / N)"),
       anchored_option(&CertifyOptions::anchored));
 }

@@ -1,4 +1,4 @@
-// Calibrating the levels of a chain, and certifying what came of it.
+// Calibration and certification of the levels of a chain.
 
 #include <string>
 #include <utility>
@@ -32,15 +32,15 @@ int certify_binding(Call& call) {
 void describe_regions(Api& api) {
   api.add(RecordEntry{
       .name = "Region",
-      .summary = "Where a calibrated level shall give way as the base does: a contact patch, the "
-                 "neighbourhood of an anchored end.",
+      .summary = "Nodes where calibration fits the local compliance to the base's, such as a "
+                 "contact patch or the neighbourhood of an anchored end.",
       .fields = parameters_of<lod::TargetRegion>(),
       .example = "regions = {{nodes = function(node) return node.z < 0.02 end, weight = 2}}"});
 }
 
 void describe_record(Api& api) {
   api.add(RecordEntry{.name = "Calibration",
-                      .summary = "What simplify with calibrate = \"modes\" aims at.",
+                      .summary = "Targets of simplify with calibrate = \"modes\".",
                       .fields = parameters_of<lod::CalibrateOptions>(),
                       .example = "calibration = {targets = \"modes\", tolerance = 0.01}"});
 }
@@ -50,7 +50,7 @@ void describe_certify(Api& api) {
       .name = "certify",
       .group = "Levels of detail",
       .summary = "Measures every level beside the base: moduli, frequencies, loads, masses, step "
-                 "and cost. s.info tells, and s.save keeps, what was found.",
+                 "and cost. s.info returns the certificates and s.save stores them.",
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels and their base"}},
       .options = parameters_of<lod::CertifyOptions>(),
       .returns = "LodChain with a certificate for each level",

@@ -73,8 +73,8 @@ void push_certificate(lua_State* L, const Certificate& certificate) {
 void describe_certificate(Api& api) {
   api.add(RecordEntry{
       .name = "Certificate",
-      .summary = "What a level was measured to be beside its base: s.info(chain).levels[i]"
-                 ".certificate. Errors are level over base minus 1.",
+      .summary = "Measurements of a level compared with its base: s.info(chain).levels[i]"
+                 ".certificate. Errors are level / base - 1.",
       .fields =
           {result_field("moduli", "list of tables",
                         "material, young and base_young [Pa], poisson and base_poisson"),
@@ -103,8 +103,9 @@ void describe_certificate(Api& api) {
            result_field("cost_ratio", "number", "cost / base_cost"),
            result_field("zero_modes", "integer", "motions that no spring resists"),
            result_field("expected_zero_modes", "integer", "how many there should be"),
-           result_field("tolerance", "number", "f1_10_error that was asked for"),
-           result_field("misses", "list of strings", "what of it was not reached; empty: nothing")},
+           result_field("tolerance", "number", "requested limit of f1_10_error"),
+           result_field("misses", "list of strings",
+                        "quantities outside tolerance; empty if none")},
       .example = "s.info(chain).levels[2].certificate.f1_10_error"});
 }
 

@@ -6,7 +6,7 @@
 
 namespace springlod::scripting {
 
-/// A certificate as the plain table that `info` shows. Means of nothing are left out.
+/// Pushes a certificate as the plain table that `info` returns. Means over no values are omitted.
 void push_certificate(lua_State* L, const Certificate& certificate);
 void describe_certificate(Api& api);
 

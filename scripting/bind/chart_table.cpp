@@ -126,7 +126,7 @@ report::ChartSeries cost_error_series(const ComparisonValue& comparison, TableRe
   const std::size_t error =
       column(kind == ErrorKind::surface ? "surface_error_percent" : "shape_error_percent");
   report::ChartSeries series;
-  // The title names the scenario; the legend tells which way of merging this is.
+  // The title names the scenario; the legend names the merging method.
   series.name = comparison.chain->chain.levels.back().made_by;
   for (const auto& row : table.rows)
     series.points.push_back({.x = 1 / std::get<double>(row[ratio]),
@@ -184,16 +184,19 @@ std::vector<Parameter> chart_parameters() {
       {.name = "x_label",
        .type = "string",
        .fallback = "told from a comparison, else none",
-       .help = "what lies to the right"},
+       .help = "label of the horizontal axis"},
       {.name = "y_label",
        .type = "string",
        .fallback = "told from a comparison, else none",
-       .help = "what lies upwards"},
+       .help = "label of the vertical axis"},
       {.name = "log_x",
        .type = "boolean",
        .fallback = "true for a comparison, else false",
-       .help = "logarithmic to the right"},
-      {.name = "log_y", .type = "boolean", .fallback = "false", .help = "logarithmic upwards"},
+       .help = "whether the horizontal axis is logarithmic"},
+      {.name = "log_y",
+       .type = "boolean",
+       .fallback = "false",
+       .help = "whether the vertical axis is logarithmic"},
       {.name = "y_from",
        .type = "number",
        .fallback = "0",

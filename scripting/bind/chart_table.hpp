@@ -9,19 +9,19 @@
 
 namespace springlod::scripting {
 
-/// One point a level: cost per simulated second, relative to the base, against error in percent of
-/// the base's bounding diagonal. `reader` says which error.
+/// One point for each level: cost per simulated second, relative to the base, against error in
+/// percent of the base's bounding diagonal. The option `error` of `reader` selects the error.
 report::ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader);
 report::ChartOptions cost_error_chart(const ComparisonValue& comparison);
 
-/// {{name = ..., points = {{x, y}, ...}}, ...} at `index`; {series = {...}} will do too.
+/// {{name = ..., points = {{x, y}, ...}}, ...} at `index`; {series = {...}} is accepted too.
 std::vector<report::ChartSeries> series_from_table(Call& call, int index);
 void read_chart_options(TableReader& reader, report::ChartOptions& options);
 std::vector<Parameter> chart_parameters();
 /// The records Series and Point.
 void describe_series(Api& api);
 
-/// A list of rows, each a table with the columns as keys; an empty string for nothing.
+/// A list of rows, each a table with the columns as keys; an empty string for a missing value.
 void push_rows(lua_State* L, const report::Table& table);
 
 /// Rows at `index` with the option `columns`.

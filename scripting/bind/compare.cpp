@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kGroup = "Simulation";
 
-/// Says what runs went on with although it should be known.
+/// Prints warnings about runs that completed.
 void warn(Console& console, const std::vector<sim::RunSummary>& runs) {
   std::size_t unconverged = 0;
   std::size_t crossed = 0;
@@ -39,12 +39,12 @@ void warn(Console& console, const std::vector<sim::RunSummary>& runs) {
   if (unconverged > 0)
     console.say(fmt::format(
         "compare: in {} of {} runs the solver stopped short of its tolerance in some steps; "
-        "give it more iterations, a greater tolerance or a smaller step",
+        "use more iterations, a greater tolerance or a smaller step",
         unconverged, runs.size()));
   if (crossed > 0)
     console.say(fmt::format(
         "compare: in {} of {} runs nodes went past each other, the first by t = {:.4g} s: "
-        "the body is inside out there; take a stiffer material, a softer blow or a "
+        "the body is inside out there; use a stiffer material, a slower impact or a "
         "finer model",
         crossed, runs.size(), first));
 }
@@ -149,14 +149,14 @@ void describe_comparison(Api& api) {
        .returns = "list of tables, list of their keys: " + report::comparison_columns_help(),
        .call = table_method});
   type.method({.name = "starts",
-               .summary = "What every level did in every start.",
+               .summary = "Results of every level in every start.",
                .returns = "list of tables, list of their keys: level, label, start, distance [m], "
                           "surface_error [m], shape_error [m], energy_difference, simulated [s], "
-                          "spring_updates, ledger_error, unconverged_steps, first_crossing (when "
-                          "springs first turned over [s], or nothing)",
+                          "spring_updates, ledger_error, unconverged_steps, first_crossing (time "
+                          "of the first crossing [s], or nothing)",
                .call = starts_method});
   type.method({.name = "timings",
-               .summary = "Measured times, which are never the same twice.",
+               .summary = "Measured wall times; not reproducible.",
                .returns = "list of tables, list of their keys: level, label, start, wall_seconds, "
                           "simulated [s], spring_updates, spring_updates_per_wall_second, "
                           "real_time_factor",
@@ -203,15 +203,14 @@ void describe_compare(Api& api) {
   api.add(FunctionEntry{
       .name = "ensemble",
       .group = kGroup,
-      .summary = "Runs one model from many starts and keeps what each came to.",
+      .summary = "Runs one model from many starts and returns the results of each.",
       .arguments = {{.name = "model", .type = "Model", .help = "a model or a level of a chain"},
                     scenario_parameter()},
       .options = ensemble_parameters(),
-      .returns =
-          "list of tables, one a start: start (its number), distance [m], simulated [s], "
-          "spring_updates, ledger_error, unconverged_steps, first_crossing (when springs first "
-          "turned over [s], or nil). Starts of one seed and number are the same for "
-          "every level: pairs",
+      .returns = "list of tables, one a start: start (its number), distance [m], simulated [s], "
+                 "spring_updates, ledger_error, unconverged_steps, first_crossing (time of the "
+                 "first crossing [s], or nil). Starts of one seed and number are the same for "
+                 "every level: pairs",
       .errors = "As for run.",
       .example = "local distances = {}\n"
                  "for i, run in ipairs(s.ensemble(chain[1], scene, {starts = 24})) do\n"

@@ -1,4 +1,4 @@
-// One start of many, and how far a run from it is from the base's.
+// Single starts, and the deviation of a level's run from the base's run.
 
 #include "sim/study/deviation.hpp"
 
@@ -60,8 +60,8 @@ int deviation_binding(Call& call) {
                                 : run->model->chain->chain.levels[0].model.node_count();
   if (nodes != reference.node_count())
     throw InputError(
-        fmt::format("deviation: the first run stands for {} nodes at level 0, the second has {}; "
-                    "give a run of a level and one of the base that it was made from",
+        fmt::format("deviation: the first run has {} nodes at level 0, the second has {}; pass a "
+                    "run of a level and a run of its base",
                     nodes, reference.node_count()));
   const std::vector<sim::Deviation> deviations =
       sim::deviation_over_time(brought_back(*run), base->trajectory.frames, reference.mass);
@@ -108,7 +108,7 @@ void describe_deviation(Api& api) {
   api.add(FunctionEntry{
       .name = "deviation",
       .group = kGroup,
-      .summary = "How far a run of a level is from one of its base, frame by frame.",
+      .summary = "Distance of a level's run from a run of its base, frame by frame.",
       .arguments = {{.name = "run",
                      .type = "Trajectory",
                      .help = "of a level of a chain, brought back to level 0; or of the base with "

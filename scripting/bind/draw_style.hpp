@@ -8,12 +8,13 @@
 namespace springlod::scripting {
 
 /// Reads the options of a DrawStyle (surface, nodes, springs, ...), listed by style_parameters().
-/// To show numbers on the nodes is to show the nodes: unless the script says otherwise, it draws
-/// them and leaves out the surface that would hide them.
+/// If node values are shown, nodes are drawn and the surface that would hide them is not, unless
+/// the script sets these options.
 void read_style(TableReader& reader, render::DrawStyle& style);
 std::vector<Parameter> style_parameters(const render::DrawStyle& usual);
 
-/// Numbers on the nodes, unless the script says otherwise: nodes are drawn, the surface is not.
+/// Sets values on the nodes. Nodes are drawn and the surface is not, unless the script sets these
+/// options.
 void show_node_values(TableReader& reader, render::DrawStyle& style);
 
 }  // namespace springlod::scripting

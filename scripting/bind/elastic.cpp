@@ -77,8 +77,8 @@ int modes_binding(Call& call) {
       elastic::elastic_body(model, {.anchored = anchored, .progress = call.progress()}), options);
   if (!anchored.empty() && found.zero_modes_skipped > 0)
     call.session().console().say(
-        fmt::format("modes: the anchors leave {} motions that nothing resists, which are left out; "
-                    "s.zero_modes with the same anchors tells which nodes move",
+        fmt::format("modes: the anchors leave {} zero modes, which are omitted; s.zero_modes with "
+                    "the same anchors lists the nodes that move",
                     found.zero_modes_skipped));
   lua_State* L = call.lua();
   begin_list(L, found.modes.size());
@@ -155,13 +155,13 @@ void describe_measurements(Api& api, const Parameter& model) {
   api.add(FunctionEntry{
       .name = "zero_modes",
       .group = kGroup,
-      .summary = "Counts the motions that no spring resists, for each connected part.",
+      .summary = "Counts the zero modes of each connected component.",
       .arguments = {model},
       .options = {anchored_parameter()},
       .returns =
           "list of tables: first_node, node_count, anchored (how many nodes are), zero_modes, "
           "expected (6; 5 for a line, 3 for one node, 0 for an anchored part), "
-          "mechanism_nodes (those that move in more than is expected)",
+          "mechanism_nodes (those that move in zero modes beyond the expected)",
       .errors = "A node that the model does not have.",
       .example = "for _, part in ipairs(s.zero_modes(chain[1])) do\n"
                  "  if part.zero_modes > part.expected then print(s.inspect(part)) end\nend",
@@ -178,15 +178,15 @@ void describe_modes(Api& api, const Parameter& model) {
   api.add(FunctionEntry{
       .name = "modes",
       .group = kGroup,
-      .summary = "The lowest frequencies at which the model swings, free or held at some nodes.",
+      .summary = "The lowest natural frequencies and modes of the model, free or anchored.",
       .arguments = {model},
       .options = modes_parameters(),
       .returns = "list of tables, lowest first: frequency [Hz], residual (bound of the relative "
                  "error of its square), shape (for each node {x, y, z}; sum of mass times square "
                  "= 1; zero where anchored)",
       .errors = "count 0, an accuracy outside 1e-12..0.1, hundreds of loose nodes in a large part, "
-                "an anchored node that the model does not have. Motions that anchors leave free "
-                "are told about and left out.",
+                "an anchored node that the model does not have. Zero modes that anchors leave are "
+                "reported and omitted.",
       .example = "for _, mode in ipairs(s.modes(base, {count = 5})) do print(mode.frequency) end\n"
                  "local clamped = s.modes(base, {anchored = function(node) return node.x < 0.001 "
                  "end})",
@@ -200,20 +200,19 @@ void describe_statics(Api& api, const Parameter& model) {
   api.add(FunctionEntry{
       .name = "static_loads",
       .group = kGroup,
-      .summary = "How the model gives way to nine smooth loads: three stretches, three shears, two "
-                 "bends and a twist of its longest axis, 1 N each.",
+      .summary = "Static displacements under nine smooth loads of 1 N: three stretches, three "
+                 "shears, two bends and a twist of the longest axis.",
       .arguments = {model},
       .options = {anchored_parameter()},
       .returns = "list of tables: name, force (for each node {x, y, z} [N]), " + solution,
-      .errors =
-          "Hundreds of loose nodes in a large part; anchors that leave free what a load moves.",
+      .errors = "Hundreds of loose nodes in a large part; anchors that do not resist a load.",
       .example = "for _, load in ipairs(s.static_loads(base)) do print(load.name, "
                  "load.compliance) end",
       .call = static_loads_binding});
   api.add(FunctionEntry{
       .name = "deflect",
       .group = kGroup,
-      .summary = "How the model gives way to forces on its nodes, free or held at some nodes.",
+      .summary = "Static displacements under forces on the nodes, of the free or anchored model.",
       .arguments = {model},
       .options = {{.name = "force",
                    .type = "table or function",
@@ -222,8 +221,8 @@ void describe_statics(Api& api, const Parameter& model) {
                        "of a Node that returns it (nothing: none)"},
                   anchored_parameter()},
       .returns = "table: " + solution,
-      .errors = "No force given; anchors that leave free what the forces move. With nothing "
-                "anchored, what would only push or turn the body is taken out of the forces.",
+      .errors = "No force given; anchors that leave free what the forces move. Without anchors, "
+                "inertia relief balances the net force and torque.",
       .example = "local bent = s.deflect(base, {\n"
                  "  anchored = function(node) return node.x < 0.001 end,\n"
                  "  force = {[base.node_count] = {0, 0, -1}}})\n"

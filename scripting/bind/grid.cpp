@@ -40,7 +40,7 @@ Box3 grid_box(const voxelize::MaterialGrid& grid) {
 
 using MaterialNumbers = std::map<std::string, std::uint16_t>;
 
-// What `fill` says of the cell with that centre: a material's number, or none for an empty cell.
+// Result of `fill` for the cell with that centre: a material's number, or none for an empty cell.
 std::optional<std::uint16_t> filling(lua_State* L, int fill, const Vec3& center,
                                      const MaterialNumbers& numbers) {
   lua_pushvalue(L, fill);

@@ -16,7 +16,7 @@ namespace {
 
 using NodeSets = std::vector<std::vector<std::uint32_t>>;
 
-// The node tables that the script's function is handed, made once a node and level: a Lua list at
+// The node tables passed to the script's function, made once for each node and level: a Lua list at
 // stack index `cache`.
 void push_cached_node(lua_State* L, int cache, const MassSpringModel& model, std::uint32_t node) {
   if (lua_rawgeti(L, cache, node + 1) != LUA_TNIL) return;

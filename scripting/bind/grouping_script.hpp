@@ -7,12 +7,11 @@
 
 namespace springlod::scripting {
 
-/// Reads how a script wants nodes grouped (the options grouping, node_priority and pair_cost of
-/// `simplify`) into `options`. Lua functions become callbacks that call back into `L`, so the
-/// options are good for the duration of the call only.
+/// Reads the options grouping, node_priority and pair_cost of `simplify` into `options`. Callbacks
+/// in `options` call Lua functions in `L`, so `options` is valid only during the call.
 void read_grouping(TableReader& reader, lod::SimplifyOptions& options);
 
-/// Says of the option `grouping` what it takes besides words.
+/// Describes the values of the option `grouping` that are not words.
 void extend_grouping_parameter(Parameter& grouping);
 /// The options node_priority and pair_cost.
 std::vector<Parameter> grouping_function_parameters();

@@ -115,14 +115,16 @@ void describe_chain(Api& api) {
                .arguments = {level},
                .returns = "Model",
                .call = level_method});
-  type.method({.name = "group_map",
-               .summary = "For every node of the base, the number of the node it went into.",
-               .arguments = {level},
-               .returns = "list of integers",
-               .call = group_map_method});
+  type.method(
+      {.name = "group_map",
+       .summary =
+           "For every node of the base, the number of the level's node whose group contains it.",
+       .arguments = {level},
+       .returns = "list of integers",
+       .call = group_map_method});
   type.method({.name = "carried",
-               .summary = "The nodes of a level that nodes of the base went into, such as anchored "
-                          "ones: those with at least one of them in their group.",
+               .summary = "The nodes of a level whose groups contain at least one of the given "
+                          "base nodes, such as anchored ones.",
                .arguments = {level,
                              {.name = "nodes",
                               .type = "list of integers or function",

@@ -84,11 +84,12 @@ int merge_log_binding(Call& call) {
 void describe_records(Api& api) {
   api.add(RecordEntry{
       .name = "MergeStep",
-      .summary = "What making one level changed: an entry of merge_log. Errors and changes are "
+      .summary = "Changes caused by the making of one level: an entry of merge_log. Errors and "
+                 "changes are "
                  "natural logarithms of level over base: 0.01 is 1 %.",
       .fields =
           {result_field("from", "integer", "the level that was merged; 0 if not the one before"),
-           result_field("level", "integer", "the level that came of it"),
+           result_field("level", "integer", "the resulting level"),
            result_field(
                "frequency_error", "number",
                "mean |error| of the level's lowest frequencies, each against what the base "
@@ -104,7 +105,7 @@ void describe_records(Api& api) {
       .example = "s.merge_log(chain)[1].merges[1].position"});
   api.add(RecordEntry{
       .name = "MergeEntry",
-      .summary = "What one merge cost: its part in the errors of a MergeStep.",
+      .summary = "Contribution of one merge to the errors of a MergeStep.",
       .fields = {result_field("node", "integer", "of the level, that came of it"),
                  result_field("pieces", "integer",
                               "nodes that became it; 1: it was not merged in this step"),
@@ -112,15 +113,14 @@ void describe_records(Api& api) {
                  result_field("position", "{x, y, z}", "[m]"),
                  result_field("material", "string", "that of most of its volume"),
                  result_field("border", "boolean", "whether it lies on the surface"),
-                 result_field(
-                     "frequencies", "number",
-                     "how much farther it brought the mean |error| of the frequencies; below 0: it "
-                     "mended what others did"),
+                 result_field("frequencies", "number",
+                              "contribution to the mean |error| of the frequencies; below 0: the "
+                              "merge compensates others"),
                  result_field("smooth_loads", "number", "likewise, of the smooth loads"),
                  result_field("local_loads", "number", "likewise, of pinches and pushes"),
-                 result_field(
-                     "change", "list of numbers",
-                     "its part in the change of each of the step's answers; they add up to it")},
+                 result_field("change", "list of numbers",
+                              "contribution to the change of each of the step's answers; the "
+                              "contributions of all merges sum to the change")},
       .example = "s.merge_log(chain)[1].merges[1].frequencies"});
 }
 
@@ -131,8 +131,8 @@ void describe_merge_log(Api& api) {
   api.add(FunctionEntry{
       .name = "merge_log",
       .group = "Levels of detail",
-      .summary = "Which merge cost which error, level by level: how each level answers to its own "
-                 "lowest modes and to static loads beside its base, as a sum over its nodes.",
+      .summary = "Attributes the errors of each level to its merges: changes of the lowest modes "
+                 "and of static loads relative to the base, as sums over the nodes.",
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels and their base"}},
       .options = parameters_of<lod::MergeLogOptions>(),
       .returns = "list of MergeStep, one a level but the base",

@@ -1,4 +1,4 @@
-// Mass-spring models: read, built from tables, estimated; chains saved, loaded and told about.
+// Mass-spring models: read, built from tables, estimated; chains saved, loaded and described.
 
 #include <cmath>
 #include <utility>
@@ -275,7 +275,8 @@ void describe_estimates(Api& api) {
   api.add(FunctionEntry{
       .name = "estimate",
       .group = kGroup,
-      .summary = "What eq. 2 of the paper says of a model, its materials and its nodes.",
+      .summary =
+          "Moduli and densities of a model, its materials and its nodes by eq. 2 of the paper.",
       .arguments = {model},
       .returns = "table: nodes, mass [kg], volume [m3], density [kg/m3], young, shear, bulk [Pa]; "
                  "materials, a list of the same with name; node_young and node_density, lists",
@@ -314,7 +315,7 @@ void describe_assets(Api& api) {
   api.add(FunctionEntry{
       .name = "info",
       .group = kFiles,
-      .summary = "What a chain holds, as plain tables.",
+      .summary = "The content of a chain as plain tables.",
       .arguments = {chain},
       .returns =
           "table: levels (a list of level, nodes, springs, ends, border_nodes, mass, "

@@ -30,7 +30,7 @@ std::uint32_t material_number(const MassSpringModel& model, const std::string& n
 }
 
 // A table that holds its first fields without names, {x, y, z, mass = ...}: moves them to `names`.
-// Leaves the new table on the stack.
+// Pushes the new table.
 void name_list_part(lua_State* L, int table, const std::vector<const char*>& names,
                     const std::string& owner) {
   if (!lua_istable(L, table))

@@ -9,8 +9,8 @@ namespace springlod::scripting {
 /// come in any order and direction. Throws InputError naming the entry.
 MassSpringModel model_from_tables(Call& call, TableReader& options);
 
-/// {x=, y=, z=, mass=, ...} of a node, {a=, b=, k=, ...} of a spring; `number` counts from 0, what
-/// the table says from 1.
+/// {x=, y=, z=, mass=, ...} of a node, {a=, b=, k=, ...} of a spring; `number` counts from 0,
+/// numbers in the table from 1.
 void push_node(lua_State* L, const MassSpringModel& model, std::uint32_t number);
 void push_spring(lua_State* L, const MassSpringModel& model, std::uint32_t number);
 

@@ -22,7 +22,7 @@ std::uint32_t node_number(lua_State* L, const MassSpringModel& model, const std:
   return static_cast<std::uint32_t>(number - 1);
 }
 
-// Leaves what the function at `index` says of a node on the stack.
+// Pushes the result of the function at `index` for a node.
 void ask(lua_State* L, int index, const MassSpringModel& model, std::uint32_t node) {
   lua_pushvalue(L, index);
   push_node(L, model, node);
@@ -38,7 +38,7 @@ std::vector<std::uint32_t> nodes_by_function(lua_State* L, int function,
     if (lua_toboolean(L, -1) != 0) nodes.push_back(i);
     lua_pop(L, 1);
   }
-  // Meant to choose some; a wrong unit or sign would otherwise go unseen.
+  // An empty choice is an error, because its usual cause is a wrong unit or sign.
   if (nodes.empty())
     throw InputError(
         fmt::format("{} is true for none of the {} nodes; print model:node(1) to see "

@@ -9,8 +9,8 @@
 
 namespace springlod::scripting {
 
-/// How scripts choose nodes: a list of node numbers (counted from 1), or a function of a Node that
-/// returns true for those it means. Reads what is at `index`; messages call it `what`.
+/// Reads a choice of nodes at `index`: a list of node numbers (counted from 1), or a function of a
+/// Node that returns true for the chosen nodes. `what` names the value in messages.
 std::vector<std::uint32_t> nodes_at(lua_State* L, int index, const MassSpringModel& model,
                                     const std::string& what);
 /// The option `name`; empty if it is not given.
@@ -21,7 +21,7 @@ std::vector<std::uint32_t> read_anchored(TableReader& reader, const MassSpringMo
 Parameter anchored_parameter();
 
 /// The option `force`: a table from node number to {x, y, z} [N] or a function of a Node that
-/// returns it; nothing means none. N forces, all zero if it is not given.
+/// returns the force, or nil for zero. Returns N forces; all are zero if the option is not given.
 std::vector<Vec3> read_forces(TableReader& reader, const MassSpringModel& model);
 
 }  // namespace springlod::scripting

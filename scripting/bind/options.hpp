@@ -16,8 +16,8 @@
 #include "scripting/engine/api.hpp"
 #include "scripting/engine/call.hpp"
 
-// Options structs as scripts see them: what help lists and what a table sets, both from the rows of
-// base/option.hpp.
+// Connects options structs with scripts: the rows of base/option.hpp define both the help and the
+// keys of the table.
 
 namespace springlod::scripting {
 
@@ -116,8 +116,8 @@ std::vector<Parameter> parameters_of(const S& usual = {}) {
   return parameters;
 }
 
-/// Sets what the script's table gives. `base`: the model whose nodes a struct with NodesOption rows
-/// speaks of. `except`: a row that the caller reads itself.
+/// Sets the members that the script's table gives. `base`: the model that NodesOption rows refer
+/// to. `except`: a row that the caller reads itself.
 template <HasOptions S>
 void read_options(const Call& call, TableReader& reader, S& into,
                   const MassSpringModel* base = nullptr, std::string_view except = {});
@@ -138,11 +138,11 @@ void read_row(const Call& /*call*/, TableReader& reader, const NodesOption<S>& r
     reader.refuse(row.name, "given: a list of node numbers or a function of a node");
 }
 
-/// Of a list of records at `index`; anything else is the script's error.
+/// Length of the list of records at `index`; throws InputError for other values.
 int list_length(TableReader& reader, const char* name, const char* record, int index);
-/// Returns where the element is.
+/// Pushes an element and returns its stack index.
 int push_element(lua_State* L, int list, int number);
-/// Takes what is at `index` and above off the stack.
+/// Pops the values at `index` and above.
 void pop_from(lua_State* L, int index);
 
 template <class S, class Member>
@@ -181,10 +181,11 @@ void read_options(const Call& call, TableReader& reader, S& into, const MassSpri
   });
 }
 
-/// The row of that name, to say more of it. Throws std::logic_error if there is none.
+/// The parameter of that name, for additions to its description. Throws std::logic_error if there
+/// is none.
 Parameter& find_parameter(std::vector<Parameter>& parameters, std::string_view name);
 
-/// `seed` and `threads` are by default those of the session: "s.seed".
+/// Sets the defaults of `seed` and `threads` to those of the session: "s.seed".
 void use_session_defaults(std::vector<Parameter>& parameters);
 
 }  // namespace springlod::scripting

@@ -31,7 +31,7 @@ const sim::Frame& frame_of(const sim::Trajectory& trajectory, std::uint32_t numb
 
 void require_instant(const sim::Trajectory& trajectory, double time) {
   const auto& frames = trajectory.frames;
-  // A run ends on a whole step, so a script may ask for a little more.
+  // A run ends on a whole step, so a small excess of the time is accepted.
   constexpr double kSlack = 1e-3;
   if (frames.empty() || time < frames.front().time || time > frames.back().time + kSlack)
     throw InputError(fmt::format(

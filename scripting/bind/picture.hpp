@@ -11,31 +11,31 @@
 
 namespace springlod::scripting {
 
-/// What one panel of a picture shows of its subject.
+/// Options of one panel of a picture.
 struct PanelOptions {
   /// In the corner; lines after the first are smaller.
   std::string title;
   std::uint32_t frame = 0;     ///< of a trajectory, counted from 1; 0: the last
   std::optional<double> time;  ///< of a trajectory [s]: this instant instead of a frame
-  /// Numbers that the nodes show, one a node; empty: none.
+  /// Values shown as colours of the nodes, one for each node; empty: none.
   std::vector<double> node_values;
   render::DrawStyle style;
 };
 
-/// One subject of a picture with all that a Panel points into.
+/// One subject of a picture; owns all data that a Panel points to.
 class Picture {
  public:
-  /// The Mesh, Model, LodChain (its base) or Trajectory at `index`. Throws InputError for others
-  /// and for options that do not fit it.
+  /// The Mesh, Model, LodChain (its base) or Trajectory at `index`. Throws InputError for other
+  /// types and for options that do not apply.
   static std::unique_ptr<Picture> of(lua_State* L, int index, PanelOptions options);
 
-  /// Part of a panel's height that its title and captions take; 0 without any.
+  /// Fraction of a panel's height used by its title and captions; 0 if there are none.
   double heading_share(int panel_height) const;
-  /// Part that its colour scales take.
+  /// Fraction used by its colour bars.
   double scales_share(int panel_height) const;
-  /// All that the camera has to see.
+  /// Bounding box that the camera must show.
   std::vector<Vec3> points() const;
-  /// Good as long as this lives.
+  /// Valid for the lifetime of this object.
   render::Panel panel(const render::Camera& camera) const;
 
  private:

@@ -9,8 +9,8 @@
 
 namespace springlod::scripting {
 
-/// The Material table at `index`; `owner` is what messages call it, `name` its name if the table
-/// gives none.
+/// The Material table at `index`; `owner` names the table in messages; `name` is the material's
+/// name if the table has none.
 Material read_material(Call& call, int index, const std::string& owner, const std::string& name);
 /// {rod = {young = ...}, ...} at `table`: materials by name, any name.
 std::map<std::string, Material> read_materials(Call& call, int table, const std::string& owner);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kGroup = "Pictures and reports";
 
-/// How a still picture is laid out and looked at.
+/// Layout and camera of a still picture.
 struct PictureOptions {
   std::uint32_t width = 640;  ///< of one panel [px]
   std::uint32_t height = 480;
@@ -50,7 +50,7 @@ std::vector<double> numbers_of(TableReader& reader, const char* name) {
   return numbers;
 }
 
-/// What the options of the picture and of a single panel have in common.
+/// Options common to the picture and a single panel.
 void read_panel_options(TableReader& reader, PanelOptions& options) {
   reader.read("frame", options.frame);
   reader.read("time", options.time);
@@ -155,7 +155,7 @@ std::vector<render::Camera> cameras_of(const std::vector<std::unique_ptr<Picture
     headings = std::max(headings, panel->heading_share(height));
     scales = std::max(scales, panel->scales_share(height));
   }
-  // Of a panel of a few pixels labels would leave nothing.
+  // Labels must not fill a very small panel.
   constexpr double kMostForLabels = 0.5;
   const double shrink = std::min(1., kMostForLabels / std::max(headings + scales, 1e-9));
   const render::Camera common = render::frame_points(
@@ -219,7 +219,8 @@ std::vector<Parameter> panel_parameters() {
       {.name = "node_values",
        .type = "list of numbers",
        .fallback = "none",
-       .help = "numbers, one a node, told by the colours of the nodes in place of node_colour"}};
+       .help =
+           "values, one for each node, shown by the colours of the nodes instead of node_colour"}};
   const std::vector<Parameter> style = style_parameters(render::DrawStyle{});
   parameters.insert(parameters.end(), style.begin(), style.end());
   return parameters;

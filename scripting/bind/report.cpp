@@ -122,7 +122,8 @@ void describe_film(Api& api) {
   api.add(FunctionEntry{
       .name = "video",
       .group = kGroup,
-      .summary = "Encodes frames as .mp4 or .gif through ffmpeg; without it says the command.",
+      .summary =
+          "Encodes frames as .mp4 or .gif with ffmpeg; prints the command if ffmpeg is missing.",
       .arguments = {{.name = "path", .type = "string", .help = "NAME.mp4 or NAME.gif to write"},
                     {.name = "folder", .type = "string", .help = "where animate put the frames"}},
       .options = {{.name = "frame_rate",

@@ -6,7 +6,7 @@ Parameter contact_parameter() {
   return {.name = "contact",
           .type = "one of",
           .fallback = "\"nodes\"",
-          .help = "where a level touches obstacles",
+          .help = "contact points of a level",
           .choices = words_of<sim::ContactAt>()};
 }
 

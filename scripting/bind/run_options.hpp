@@ -10,10 +10,10 @@
 
 namespace springlod::scripting {
 
-/// The option `contact` of what runs a level, which takes its chain to make sense of.
+/// Describes the option `contact` of functions that run a level of a chain.
 Parameter contact_parameter();
 sim::ContactAt read_contact(TableReader& reader);
-/// For RunOptions: where the model touches obstacles. A model of its own is its own base.
+/// For RunOptions: where the model touches obstacles. A model without a chain is its own base.
 std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::ContactAt contact);
 
 }  // namespace springlod::scripting

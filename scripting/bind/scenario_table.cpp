@@ -143,7 +143,7 @@ void describe_obstacles(Api& api) {
       .example = "box = {center = {2.5, 0, 1}, size = {1, 4, 2}}"});
   api.add(RecordEntry{
       .name = "Obstacle",
-      .summary = "A fixed thing that nodes bump into: a penalty force with Coulomb friction.",
+      .summary = "A fixed obstacle: penalty contact with Coulomb friction.",
       .fields = {{.name = "plane",
                   .type = "{nx, ny, nz, offset}",
                   .fallback = "none",
@@ -174,7 +174,7 @@ void describe_throw(Api& api) {
   const sim::StopRule stop;
   api.add(RecordEntry{
       .name = "Throw",
-      .summary = "How the body is placed and thrown: turned about its centre of mass, then moved.",
+      .summary = "Initial state of the body: rotated about its centre of mass, then translated.",
       .fields = {{.name = "position",
                   .type = "{x, y, z}",
                   .dimension = Dimension::length,
@@ -199,12 +199,12 @@ void describe_throw(Api& api) {
                                   .type = "quantity",
                                   .dimension = Dimension::velocity,
                                   .fallback = fmt::format("{}", stop.speed),
-                                  .help = "slower than this is at rest"},
+                                  .help = "speed below which the body counts as at rest"},
                                  {.name = "hold",
                                   .type = "quantity",
                                   .dimension = Dimension::time,
                                   .fallback = fmt::format("{}", stop.hold),
-                                  .help = "for so long"}},
+                                  .help = "minimum duration of rest"}},
                       .example = "stop = {speed = \"10 cm/s\", hold = 0.25}"});
 }
 
@@ -236,14 +236,14 @@ std::shared_ptr<const sim::Scenario> scenario_argument(Call& call, int number) {
 Parameter scenario_parameter() {
   return {.name = "scenario",
           .type = "Scenario",
-          .help = "what it goes through; a table for s.scenario will do"};
+          .help = "a Scenario, or a table of options for s.scenario"};
 }
 
 void describe_scenario(Api& api) {
   describe_obstacles(api);
   describe_throw(api);
   TypeBuilder<sim::Scenario> type(
-      "What a body goes through: gravity, obstacles, a throw, a duration.",
+      "Conditions of a run: gravity, obstacles, throw and duration.",
       [](const sim::Scenario& scenario) {
         return fmt::format("Scenario {}: {} s, {} obstacle{}", scenario.name, scenario.duration,
                            scenario.obstacles.size(), scenario.obstacles.size() == 1 ? "" : "s");
@@ -261,7 +261,7 @@ void describe_scenario(Api& api) {
   api.add(FunctionEntry{
       .name = "scenario",
       .group = kGroup,
-      .summary = "Describes what a body goes through: gravity, obstacles, throw, duration.",
+      .summary = "Makes a scenario from gravity, obstacles, throw and duration.",
       .options =
           {{.name = "name", .type = "string", .fallback = "\"scenario\"", .help = "for titles"},
            {.name = "gravity",
@@ -285,7 +285,7 @@ void describe_scenario(Api& api) {
            {.name = "stop", .type = "Stop", .fallback = "none", .help = "ends a run early"},
            {.name = "measure_from",
             .type = "string",
-            .fallback = "the horizontal way from the start",
+            .fallback = "the horizontal displacement from the start",
             .help = "name of the obstacle from whose surface the distance at the end is "
                     "measured"}},
       .returns = "Scenario",

@@ -7,9 +7,9 @@ namespace springlod::scripting {
 
 /// A scenario from the options of `s.scenario`. Throws InputError naming the key.
 sim::Scenario scenario_from_table(Call& call, TableReader& reader);
-/// Argument `number`: a Scenario, or a table that could be handed to s.scenario.
+/// Argument `number`: a Scenario, or a table of options for s.scenario.
 std::shared_ptr<const sim::Scenario> scenario_argument(Call& call, int number);
-/// How such an argument is listed.
+/// Description of such an argument.
 Parameter scenario_parameter();
 
 /// The records Obstacle, Box, Throw, Turn, Stop and the function scenario.

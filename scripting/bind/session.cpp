@@ -1,4 +1,4 @@
-// What scripts reach that belongs to no folder: help, talk, files, JSON.
+// General functions: help, messages, files, JSON.
 
 #include <algorithm>
 #include <cctype>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 constexpr const char* kGroup = "Session";
-// A table that holds itself would never end; nothing sensible is nested deeper.
+// Depth limit, which stops at tables that contain themselves.
 constexpr int kJsonDepth = 64;
 
 int help(Call& call) {
@@ -150,7 +150,7 @@ ordered_json to_json(lua_State* L, int index, int depth) {
       return table_to_json(L, index, depth);
     default:
       throw InputError(
-          fmt::format("json: cannot write {}; hand over plain tables", describe_type_at(L, index)));
+          fmt::format("json: cannot write {}; pass plain tables", describe_type_at(L, index)));
   }
 }
 
@@ -205,7 +205,7 @@ void describe_session(Api& api) {
   api.add(FunctionEntry{
       .name = "say",
       .group = kGroup,
-      .summary = "Writes a line of talk to stderr; silent under -q. Results go to print.",
+      .summary = "Writes a message line to stderr; silent with -q. Use print for results.",
       .arguments = {{.name = "text", .type = "string", .help = "the line"}},
       .returns = "nothing",
       .errors = "The argument is not text.",

@@ -23,17 +23,17 @@ namespace {
 
 constexpr const char* kGroup = "Simulation";
 
-/// What a run went on with although it should be known.
+/// Warnings about a run that completed.
 void warn(Console& console, const sim::Trajectory& run) {
   if (run.unconverged_steps > 0)
     console.say(
-        fmt::format("run: in {} of {} steps the solver stopped short of its tolerance; give it "
-                    "more iterations, a greater tolerance or a smaller step",
+        fmt::format("run: in {} of {} steps the solver stopped short of its tolerance; use more "
+                    "iterations, a greater tolerance or a smaller step",
                     run.unconverged_steps, run.steps));
   if (run.first_crossing)
     console.say(fmt::format(
         "run: nodes {} and {} went past each other by t = {:.4g} s: the body is inside out there; "
-        "take a stiffer material, a softer blow or a finer model",
+        "use a stiffer material, a slower impact or a finer model",
         script_number(run.first_crossing->a), script_number(run.first_crossing->b),
         run.first_crossing->time));
 }
@@ -131,7 +131,7 @@ void describe_trajectory(Api& api) {
   number("predicted_step", "predicted stable step, contacts included [s]",
          [](const sim::Trajectory& t) { return t.predicted_step; });
   number("simulated", "simulated time [s]", [](const sim::Trajectory& t) { return t.simulated; });
-  number("wall_seconds", "measured time; never the same twice [s]",
+  number("wall_seconds", "measured wall time; not reproducible [s]",
          [](const sim::Trajectory& t) { return t.wall_seconds; });
   number("planning_seconds",
          "the part of them that went into finding the step and laying out the springs [s]",
@@ -151,8 +151,7 @@ void describe_trajectory(Api& api) {
                    [](lua_State* L, const TrajectoryValue& value) {
                      push_optional(L, value.trajectory.first_contact);
                    });
-  type.table_field("asleep_since", "number",
-                   "time from which on the body lay still and was not moved [s], or nil",
+  type.table_field("asleep_since", "number", "time since which the body sleeps [s], or nil",
                    [](lua_State* L, const TrajectoryValue& value) {
                      push_optional(L, value.trajectory.asleep_since);
                    });
@@ -188,16 +187,16 @@ std::vector<Parameter> single_run_parameters() {
   std::vector<Parameter> parameters = parameters_of<sim::RunOptions>();
   parameters.push_back(contact_parameter());
   parameters.push_back(start_parameter());
-  parameters.push_back({.name = "threads",
-                        .type = "integer",
-                        .fallback = "s.threads",
-                        .help = "of symplectic_euler; 0: as many as the model is worth; never "
-                                "changes a result"});
-  parameters.push_back({.name = "quiet",
-                        .type = "boolean",
-                        .fallback = "false",
-                        .help = "do not say that a solver stopped short or that nodes went past "
-                                "each other; the Trajectory tells"});
+  parameters.push_back(
+      {.name = "threads",
+       .type = "integer",
+       .fallback = "s.threads",
+       .help = "threads of symplectic_euler; 0: chosen by model size; never changes a result"});
+  parameters.push_back(
+      {.name = "quiet",
+       .type = "boolean",
+       .fallback = "false",
+       .help = "suppress warnings about unconverged steps and crossings; the Trajectory has them"});
   return parameters;
 }
 
@@ -216,9 +215,9 @@ void describe_sim(Api& api) {
                     scenario_parameter()},
       .options = single_run_parameters(),
       .returns = "Trajectory",
-      .errors = "A run that leaves the numbers: error.kind is \"unstable\", error.node and "
-                "error.time say where and when. A node that goes through a box: \"tunnelled\", "
-                "error.obstacle says which. A start of another number of nodes.",
+      .errors = "A diverged run: error.kind is \"unstable\"; error.node and error.time are its "
+                "node and time. A node that passes through a box: \"tunnelled\"; error.obstacle "
+                "names the box. A start with another number of nodes.",
       .example = "local trajectory = s.run(chain[1], scene, {frame_rate = 30})\n"
                  "local more = s.run(chain[1], scene, {start = trajectory.final})",
       .call = run_binding});

@@ -1,4 +1,4 @@
-// Stability maps: which integrator holds out where, and how exact it is there.
+// Stability maps: where each integrator is stable, and its error there.
 
 #include <map>
 
@@ -45,7 +45,8 @@ void push_verdicts(lua_State* L, const sim::StabilityMap& map) {
 
 void describe_map(Api& api) {
   TypeBuilder<sim::StabilityMap> type(
-      "How each integrator did with each level, stiffness ratio and step. s.chart draws it.",
+      "Stability and error of each integrator by level, stiffness ratio and step. s.chart draws "
+      "the map.",
       [](const sim::StabilityMap& map) {
         std::size_t stable = 0;
         for (const sim::StabilityPoint& point : map.points) stable += point.stable ? 1 : 0;
@@ -57,7 +58,7 @@ void describe_map(Api& api) {
   type.table_field("verdicts", "table", "number of points of each verdict that occurs",
                    push_verdicts);
   type.method({.name = "table",
-               .summary = "What came of every point.",
+               .summary = "Results of every point.",
                .returns = "list of tables, list of their keys: " + report::stability_columns_help(),
                .call = [](Call& call) {
                  return give_table(call, report::stability_table(*call.self<sim::StabilityMap>()));
@@ -70,7 +71,7 @@ void describe_map(Api& api) {
          return give_table(call, report::stability_bodies_table(*call.self<sim::StabilityMap>()));
        }});
   type.method({.name = "timings",
-               .summary = "Measured times, which are never the same twice.",
+               .summary = "Measured wall times; not reproducible.",
                .returns = "list of tables, list of their keys: level, integrator, iterations, "
                           "ratio, step [s], wall_seconds, wall_seconds_per_second (of simulated "
                           "time)",
@@ -94,13 +95,14 @@ void describe_stability(Api& api) {
   api.add(FunctionEntry{
       .name = "stability",
       .group = "Simulation",
-      .summary = "Maps step and stiffness ratio for every level and integrator: what is stable, "
-                 "when it diverges, what it is off a fine run, what it costs.",
+      .summary = "Maps step and stiffness ratio for every level and integrator: verdict, time of "
+                 "divergence, error against a fine run, and cost.",
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels to probe"}},
       .options = parameters(),
       .returns = "StabilityMap",
-      .errors = "A level that is not there, a number that is not above 0, a base without springs. "
-                "Runs that diverge are no errors: they are what the map shows.",
+      .errors =
+          "A level that does not exist, a number that is not above 0, a base without springs. "
+          "Diverged runs are results of the map, not errors.",
       .example = "local map = s.stability(chain, {levels = {0}, ratios = {1, 1000}})\n"
                  "s.chart(\"out/map.svg\", map)",
       .call = stability_binding});

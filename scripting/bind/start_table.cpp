@@ -49,14 +49,16 @@ Parameter start_parameter() {
   return {.name = "start",
           .type = "State",
           .fallback = "the scenario's throw",
-          .help = "where every node starts and how fast; another run's final goes on from its end"};
+          .help =
+              "initial position and velocity of every node; the final state of a run continues "
+              "that run"};
 }
 
 void describe_start(Api& api) {
   api.add(RecordEntry{
       .name = "State",
-      .summary = "Where all nodes are and how fast they move: what trajectory.final is and run "
-                 "starts from.",
+      .summary = "Positions and velocities of all nodes: the type of trajectory.final and "
+                 "of the option start of run.",
       .fields = {{.name = "x",
                   .type = "list of {x, y, z}",
                   .dimension = Dimension::length,

@@ -8,7 +8,7 @@
 namespace springlod::scripting {
 
 /// The option `start`: positions and velocities of every node, as `trajectory.final` has them; its
-/// time is not read. None if it is not given. Throws InputError naming the entry.
+/// time is ignored. Empty if it is not given. Throws InputError naming the entry.
 std::optional<State> read_start(Call& call, TableReader& options, const MassSpringModel& model);
 Parameter start_parameter();
 

@@ -1,4 +1,4 @@
-// Samples of numbers: what they tell, how far apart they are, and whether that is noise.
+// Samples of numbers: statistics, distances between samples, and the noise floor.
 
 #include <string>
 #include <utility>
@@ -21,7 +21,7 @@ constexpr const char* kGroup = "Statistics";
 
 using Lists = std::vector<std::vector<double>>;
 
-/// The numbers of a list at `index`; `name` is what messages call it.
+/// The numbers of the list at `index`; `name` names it in messages.
 std::vector<double> numbers_at(lua_State* L, int index, const std::string& name) {
   std::vector<double> numbers;
   const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
@@ -55,7 +55,8 @@ Lists lists_at(Call& call, int argument, const std::string& name, bool& several)
   return lists;
 }
 
-/// A list of one number a start, or of one list a start with one number a seed.
+/// A list with one number for each start, or with one list for each start that has one number for
+/// each seed.
 report::StartSample sample_argument(Call& call, int argument, const std::string& name) {
   bool by_seeds = false;
   Lists lists = lists_at(call, argument, name, by_seeds);
@@ -256,8 +257,8 @@ void describe_samples(Api& api) {
   api.add(FunctionEntry{
       .name = "compare_samples",
       .group = kGroup,
-      .summary = "How far the values of one sample are from those of another, and whether their "
-                 "means are the same within a margin.",
+      .summary =
+          "Distances between two samples, and an equivalence test of their means with a margin.",
       .arguments = {sample_parameter("base", "one value a start"),
                     sample_parameter("other", "as base; may have another size unless paired")},
       .options = comparison_parameters(),
@@ -274,7 +275,7 @@ void describe_samples(Api& api) {
 
 void describe_noise_floor(Api& api) {
   TypeBuilder<report::NoiseFloor> type(
-      "How far samples of the base are from each other.", [](const report::NoiseFloor& floor) {
+      "Distances between samples of the base.", [](const report::NoiseFloor& floor) {
         return fmt::format(
             "NoiseFloor: {} distance {:.4g} ({:.4g} % of {} distances, {} against "
             "{} values{})",
@@ -299,7 +300,7 @@ void describe_noise_floor(Api& api) {
              [](const report::NoiseFloor& floor) { return floor.with_replacement; });
   type.method(
       {.name = "judge",
-       .summary = "Whether two samples are no farther apart than the base is from itself.",
+       .summary = "Tests whether the distance of two samples is within the noise floor.",
        .arguments = {{.name = "base", .type = "list of numbers", .help = "of the floor's size"},
                      {.name = "other",
                       .type = "list of numbers",
@@ -312,7 +313,8 @@ void describe_noise_floor(Api& api) {
   api.add(FunctionEntry{
       .name = "noise_floor",
       .group = kGroup,
-      .summary = "How far the base is from itself: what a level's distance is to be held against.",
+      .summary =
+          "Noise floor: distances of the base from itself, to compare a level's distance with.",
       .arguments = {{.name = "sources",
                      .type = "list of numbers",
                      .help = "a large sample of the base, or a list of samples: other starts, half "

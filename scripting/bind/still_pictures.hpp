@@ -7,8 +7,8 @@
 
 namespace springlod::scripting {
 
-/// Draws the still pictures of a session. Context and shaders are kept from one to the next where
-/// their panels have one size.
+/// Draws the still pictures of a session. Consecutive pictures with panels of the same size share
+/// context and shaders.
 class StillPictures {
  public:
   /// Throws as Renderer does.

@@ -6,10 +6,10 @@
 
 namespace springlod::scripting {
 
-/// Everything that scripts can do.
+/// The whole scripting API.
 std::unique_ptr<Api> make_api();
 
-// One a file of this folder: adds what scripts can do with its topic.
+// One function for each file of this folder: registers the functions and types of its topic.
 void describe_session(Api& api);
 void describe_files(Api& api);
 void describe_model(Api& api);

@@ -21,8 +21,7 @@ struct StabilityMap;
 
 namespace springlod::scripting {
 
-// What a script holds is a noun of springlod together with where it came from. All are shared and
-// never changed.
+// Values of scripts: objects of springlod with their provenance. Values are shared and immutable.
 
 struct MeshValue {
   TriangleMesh mesh;
@@ -34,7 +33,7 @@ inline constexpr const char* kValueName<MeshValue> = "Mesh";
 
 struct GridValue {
   voxelize::MaterialGrid grid;
-  std::shared_ptr<const MeshValue> mesh;  ///< shown in its place; null for a loaded grid
+  std::shared_ptr<const MeshValue> mesh;  ///< drawn instead of the grid; null for a loaded grid
   bool voxelized = false;                 ///< filled from `mesh`, so depths can be measured
   Provenance provenance;
 };
@@ -43,7 +42,7 @@ voxelize::MaterialGrid with_depth(const GridValue& value);
 template <>
 inline constexpr const char* kValueName<GridValue> = "Grid";
 
-/// A model of its own, or a level of a chain (then `chain` keeps it alive).
+/// A separate model, or a level of a chain (then `chain` owns it).
 struct ModelValue {
   std::shared_ptr<const MassSpringModel> model;
   std::shared_ptr<const TriangleMesh> surface;     ///< null if there is none

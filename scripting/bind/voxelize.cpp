@@ -129,7 +129,7 @@ void say_hinges(Call& call, const voxelize::LatticeModel& lattice, voxelize::Hin
       "({:.4g}, {:.4g}, {:.4g}) m",
       lattice.hinges.size(), lattice.hinges.size() == 1 ? "" : "s", at.x(), at.y(), at.z());
   if (policy == voxelize::HingePolicy::report)
-    call.session().console().say(what + "; hinges = \"fill\" or \"separate\" mends them");
+    call.session().console().say(what + "; hinges = \"fill\" or \"separate\" removes them");
   if (policy == voxelize::HingePolicy::fill)
     call.session().console().say(fmt::format("{}: mended by {} more cell{}", what,
                                              lattice.filled_cells,

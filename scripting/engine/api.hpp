@@ -26,19 +26,19 @@ using TypeTag = const char* const*;
 struct Words {
   struct Word {
     std::string name{};
-    std::string help{};  ///< empty if the word says it all
-    /// What else scripts may ask of it: {"implicit", true}.
+    std::string help{};  ///< empty if the name is self-explanatory
+    /// Further properties that scripts can read, such as {"implicit", true}.
     std::vector<std::pair<std::string, bool>> traits{};
   };
-  std::string name{};  ///< of the table: "border" for s.choices.border
+  std::string name{};  ///< of the table, such as "border" for s.choices.border
   std::vector<Word> all{};
 
   bool empty() const { return all.empty(); }
   std::vector<std::string> names() const;
 };
 
-/// A row that comes with more than a name and help names its traits for scripts in
-/// `choice_traits(row)`, found by argument-dependent lookup.
+/// Converts a table of choices. If `choice_traits(row)` exists (found by argument-dependent
+/// lookup), it returns the further properties of a row.
 template <class Row>
 Words words_of(const ChoiceTable<Row>& table) {
   Words words{table.name};
@@ -54,19 +54,19 @@ Words words_of() {
   return words_of(choices(E{}));
 }
 
-// `{}` throughout: descriptions are written with named fields and leave out what does not apply.
+// `{}` throughout: descriptions use designated initializers and omit fields that do not apply.
 
-/// One named thing that a function takes or a value has: an argument, an option, a field.
+/// An argument or option of a function, or a field of a value.
 struct Parameter {
   std::string name{};
   std::string type{};  ///< "Mesh", "integer", "quantity", "list of Obstacle", "Material", ...
-  Dimension dimension = Dimension::number;  ///< of a "quantity": how "5 mm" is read
+  Dimension dimension = Dimension::number;  ///< of a "quantity": sets the valid units
   std::string fallback{};                   ///< default as text; empty: required
   std::string help{};
-  Words choices{};  ///< words that are allowed, if only some are
+  Words choices{};  ///< the allowed words; empty: any value
 };
 
-/// A function of the module, or a method of a value. `call` is the binding that runs it.
+/// A function of the module, or a method of a value. `call` is its C++ implementation.
 struct FunctionEntry {
   std::string name{};   ///< "voxelize"; methods: "node"
   std::string group{};  ///< heading under which help() lists it
@@ -80,13 +80,13 @@ struct FunctionEntry {
   std::string owner{};  ///< type of a method; empty for functions of the module
 };
 
-/// A field that a value computes when it is read. `push` leaves one Lua value.
+/// A read-only field, computed when a script reads it. `push` pushes exactly one Lua value.
 struct FieldEntry {
   Parameter parameter{};
   std::function<void(lua_State*, const std::shared_ptr<const void>& value)> push{};
 };
 
-/// A type of value: what print shows, which fields and methods it has.
+/// A type of value: its fields, methods and text form.
 struct TypeEntry {
   std::string name{};
   TypeTag tag = nullptr;
@@ -114,9 +114,9 @@ struct ConstantEntry {
   std::function<void(lua_State*)> push{};
 };
 
-/// Everything a script can reach, described once. From it come the module table, help(), the
-/// prompt's completion, the check of option names and docs/api.md. Entries never move once added:
-/// Lua holds pointers to them.
+/// The registry of everything that scripts can use. The module table, help(), completion at the
+/// prompt, the check of option names and docs/api.md are generated from it. Entries have stable
+/// addresses, because Lua holds pointers to them.
 class Api {
  public:
   FunctionEntry& add(FunctionEntry entry);
@@ -131,10 +131,10 @@ class Api {
 
   const FunctionEntry* find_function(std::string_view name) const;
   const TypeEntry* find_type(std::string_view name) const;
-  /// Throws std::logic_error if there is none: a binding and its description have drifted apart.
+  /// Throws std::logic_error if no such record is registered (an inconsistent binding).
   const RecordEntry& record(std::string_view name) const;
 
-  /// Every table of words that something here takes, by name.
+  /// Every table of words that a registered parameter takes, by name.
   std::map<std::string, Words> choices() const;
 
  private:
@@ -144,8 +144,8 @@ class Api {
   std::deque<ConstantEntry> constants_;
 };
 
-/// The first thing that is missing from a description (no summary, a parameter without help, an
-/// unknown type of value ...), one line each; empty if all is described.
+/// Defects of the descriptions (no summary, a parameter without help, an unknown type ...), one
+/// line each; empty if the documentation is complete.
 std::vector<std::string> undocumented(const Api& api);
 
 }  // namespace springlod::scripting

@@ -18,14 +18,14 @@ namespace springlod::scripting {
 
 namespace {
 
-// All of a string, bytes of 0 included.
+// The whole string, including zero bytes.
 std::string text_at(lua_State* L, int index) {
   std::size_t size = 0;
   const char* text = lua_tolstring(L, index, &size);
   return {text, size};
 }
 
-// What a message shows of a wrong value: "\"two\"", "1.5", "a table".
+// Description of an invalid value for messages: "\"two\"", "1.5", "a table".
 std::string shown(lua_State* L, int index) {
   switch (lua_type(L, index)) {
     case LUA_TSTRING:
@@ -119,9 +119,8 @@ void TableReader::check_keys() {
   while (lua_next(lua_, index_) != 0) {
     lua_pop(lua_, 1);
     if (lua_type(lua_, -1) != LUA_TSTRING)
-      throw InputError(
-          fmt::format("{}: options have names, but there is {} without one; {} takes: {}", owner_,
-                      shown(lua_, -1), owner_, comma_list(names)));
+      throw InputError(fmt::format("{}: options need names, but {} has none; {} takes: {}", owner_,
+                                   shown(lua_, -1), owner_, comma_list(names)));
     const std::string key = lua_tostring(lua_, -1);
     if (std::find(names.begin(), names.end(), key) == names.end())
       throw InputError(
@@ -240,7 +239,7 @@ std::optional<long long> TableReader::whole_number(std::string_view name, double
       lua_type(lua_, -1) == LUA_TNUMBER ? lua_tointegerx(lua_, -1, &exact) : 0;
   const auto real = static_cast<double>(value);
   if (exact == 0 || real < least || real > most) {
-    // Beyond 2^53 a bound is no help to anybody.
+    // The message omits upper bounds beyond 2^53, which are of no practical meaning.
     const std::string rule = exact == 0    ? "a whole number"
                              : most > 9e15 ? fmt::format("a whole number, {} or more", least)
                                            : fmt::format("a whole number of {} to {}", least, most);
@@ -320,7 +319,7 @@ Call::Call(lua_State* L, const FunctionEntry& entry)
   if (count_ > most)
     throw InputError(fmt::format("{} takes {} argument{}, got {}; try help(\"{}\")", display_name(),
                                  most, most == 1 ? "" : "s", count_, entry.name));
-  lua_settop(L, index(most));  // what a binding pushes must not pass for an argument left out
+  lua_settop(L, index(most));  // fills omitted arguments with nil, before a binding pushes values
 }
 
 int Call::index(int number) const {

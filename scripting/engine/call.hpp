@@ -19,24 +19,25 @@ struct lua_State;
 
 namespace springlod::scripting {
 
-/// Reads a table of options against the list in the registry. A key that is not listed is the
-/// script's error; an option that is read but not listed, or listed but never read, is ours
-/// (std::logic_error): so the documentation cannot lie.
+/// Reads a table of options and checks it against the registry. An unknown key in the script throws
+/// InputError. An option that is read but not registered, or registered but never read, throws
+/// std::logic_error, so that the documentation always matches the code.
 class TableReader {
  public:
-  /// `index` 0 or nil there: an empty table. `owner` is what messages call it ("simplify").
+  /// `index`: stack index of the table; 0 or nil there means an empty table. `owner`: name for
+  /// messages ("simplify").
   TableReader(lua_State* L, int index, const std::vector<Parameter>& listed, std::string owner);
 
   bool has(std::string_view name);
-  // Each leaves `into` alone if the option is not given.
+  // Each overload leaves `into` unchanged if the option is not given.
   void read(std::string_view name, bool& into);
-  void read(std::string_view name, double& into);  ///< number or "5 mm" by the listed dimension
+  void read(std::string_view name, double& into);  ///< a number, or text with a unit
   void read(std::string_view name, float& into);
   void read(std::string_view name, std::string& into);
   void read(std::string_view name, Vec3& into);
   void read(std::string_view name, Colour& into);
   void read(std::string_view name, std::vector<std::string>& into);
-  void read(std::string_view name, std::vector<double>& into);  ///< each as a single one is read
+  void read(std::string_view name, std::vector<double>& into);  ///< each element as a quantity
   void read(std::string_view name, std::vector<std::uint32_t>& into);
   void read(std::string_view name, std::filesystem::path& into);
   template <class T>
@@ -52,12 +53,12 @@ class TableReader {
     read(name, value);
     into = value;
   }
-  /// One of the words of the enum.
+  /// Reads one word of the enum.
   template <HasChoices E>
   void read(std::string_view name, E& into) {
     choose(name, into, choices(into));
   }
-  /// A list of them.
+  /// Reads a list of words of the enum.
   template <HasChoices E>
   void read(std::string_view name, std::vector<E>& into) {
     if (!has(name)) return;
@@ -65,29 +66,30 @@ class TableReader {
     for (const std::string& word : chosen_words(name, words_of<E>().names()))
       into.push_back(*from_string<E>(word));
   }
-  /// One of the words of `table`, for values that are no enum.
+  /// Reads one word of `table`, for values of any type.
   template <class Value, class Row>
   void choose(std::string_view name, Value& into, const ChoiceTable<Row>& table) {
     const std::string word = chosen_word(name, words_of(table).names());
     for (const Row& row : table.rows)
       if (word == row.name) into = row.value;
   }
-  /// Leaves the value itself on the stack and returns its index; 0 and nothing if not given.
+  /// Pushes the raw value and returns its stack index; pushes nothing and returns 0 if it is not
+  /// given.
   int raw(std::string_view name);
 
-  /// Throws std::logic_error if a listed option has never been asked for.
+  /// Throws std::logic_error if a registered option was never read.
   void finish() const;
 
-  /// "simplify: levels must be ...", as an InputError.
+  /// Throws InputError: "simplify: levels must be ...".
   [[noreturn]] void refuse(std::string_view name, const std::string& rule);
   const std::string& owner() const { return owner_; }
   lua_State* lua() const { return lua_; }
 
  private:
   const Parameter& listed(std::string_view name);
-  bool get(std::string_view name);  // pushes the value if it is given
+  bool get(std::string_view name);  // pushes the value and returns true if it is given
   std::optional<long long> whole_number(std::string_view name, double least, double most);
-  /// Empty if it is not given.
+  /// Empty if the option is not given.
   std::string chosen_word(std::string_view name, const std::vector<std::string>& words);
   std::vector<std::string> chosen_words(std::string_view name,
                                         const std::vector<std::string>& words);
@@ -101,7 +103,7 @@ class TableReader {
   std::string owner_;
 };
 
-/// One call of a function of the API: its arguments, checked against its entry in the registry.
+/// The arguments of one call of an API function, checked against its registry entry.
 class Call {
  public:
   Call(lua_State* L, const FunctionEntry& entry);
@@ -134,14 +136,14 @@ class Call {
   std::string text(int number) const;
   std::filesystem::path path(int number) const { return text(number); }
   double number(int number) const;
-  /// A whole number of least..most.
+  /// An integer in [least, most]; throws InputError otherwise.
   long long integer(int number, long long least, long long most) const;
-  /// The table of options, which is argument `number` (may be left out).
+  /// The optional table of options at argument `number`.
   TableReader options(int number) const;
-  /// A table with the keys of a record of the registry.
+  /// A table at `index` with the keys of a registered record.
   TableReader record(int index, std::string_view record, std::string owner) const;
 
-  /// "bad argument 1 (mesh) of voxelize: expected a Mesh, got a string", as an InputError.
+  /// Throws InputError: "bad argument 1 (mesh) of voxelize: expected a Mesh, got a string".
   [[noreturn]] void refuse(int number, const std::string& expected) const;
 
   template <class... Values>
@@ -157,12 +159,12 @@ class Call {
   lua_State* lua_;
   const FunctionEntry& entry_;
   Session& session_;
-  int count_;  // of arguments given, the self of a method not counted
+  int count_;  // number of arguments given, without the self of a method
 };
 
 /// Pushes the Lua function of an entry. The entry must outlive the state.
 void push_function(lua_State* L, const FunctionEntry& entry);
-/// The entry of a function made by push_function; null for any other thing.
+/// The entry of a function made by push_function; null for any other value.
 const FunctionEntry* entry_of_function(lua_State* L, int index);
 
 /// A number, or text with a unit, at `index`. Throws InputError naming `what`.

@@ -1,4 +1,4 @@
-// What the prompt can complete a name to.
+// Name completion at the prompt.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ bool is_name_letter(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-// "print(s.vox" -> {"s", "vox"}: the path before the cursor, the last word of which is wanted.
+// "print(s.vox" -> {"s", "vox"}: the path before the cursor; its last word is to be completed.
 std::vector<std::string> path_before(std::string_view text) {
   std::size_t start = text.size();
   while (start > 0 &&
@@ -63,7 +63,7 @@ std::vector<std::string> completions(ScriptState& state, std::string_view before
   const int bottom = lua_gettop(L);
   const std::vector<std::string> path = path_before(before_cursor);
   std::vector<std::string> names;
-  // Raw reads only: completing must not run a script's metamethods.
+  // Raw reads only: completion must not run metamethods of the script.
   lua_pushglobaltable(L);
   bool found = true;
   for (std::size_t i = 0; found && i + 1 < path.size(); ++i) {

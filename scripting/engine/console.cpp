@@ -17,11 +17,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Work that is over sooner needs no bar.
+// Shorter tasks show no bar.
 constexpr auto kSilentFor = 500ms;
-// A bar is redrawn this often; enough for the eye.
+// Interval between two updates of the bar.
 constexpr auto kRedraw = 100ms;
-// In a log file: a line this often.
+// Interval between two progress lines in a log file.
 constexpr auto kLogLine = 10s;
 constexpr int kBarWidth = 24;
 
@@ -38,8 +38,8 @@ std::string rate_text(double rate) {
   return fmt::format("{:.1f} /s", rate);
 }
 
-// Talk that nobody can read must not stop the work: a failed write is left at that. A signal that
-// interrupts a write (a slow reader, Ctrl-C) does not count as a failure.
+// Ignores failed writes, because lost messages must not stop the computation. Retries a write that
+// a signal interrupted (EINTR).
 void put(std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = write(STDERR_FILENO, text.data(), text.size());
@@ -151,7 +151,7 @@ void Console::report(Running& running, Clock::time_point now, bool last) {
     put(line + "\n");
     return;
   }
-  // \033[K clears what an earlier, longer line left; \033[2m is dim, which NO_COLOR turns off.
+  // \033[K clears the rest of an earlier, longer line; \033[2m is dim, which NO_COLOR turns off.
   put(fmt::format("\r{}{}{}\033[K", colour_ ? "\033[2m" : "", line, colour_ ? "\033[0m" : ""));
   bar_shown_ = !last;
 }

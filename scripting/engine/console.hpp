@@ -14,16 +14,16 @@ namespace springlod::scripting {
 
 enum class Verbosity { quiet, normal, verbose };
 
-/// Talk on stderr (stdout carries results): remarks, and the progress of long work. On a terminal
-/// a bar with rate and time left, redrawn in place; elsewhere a line now and then. If verbose, each
-/// detail is a line of its own. Ctrl-C makes `advance` throw InterruptedError.
+/// Writes messages and the progress of long tasks to stderr (stdout carries results). On a
+/// terminal, progress is a bar with rate and remaining time, redrawn in place; otherwise, a line at
+/// intervals. If verbose, each detail is a line. `advance` throws InterruptedError after Ctrl-C.
 class Console : public Progress {
  public:
   explicit Console(Verbosity verbosity);
 
-  /// A remark; not shown if quiet.
+  /// Prints a message; not if quiet.
   void say(std::string_view text) override;
-  /// A remark for the curious; shown if verbose.
+  /// Prints a message only if verbose.
   void say_more(std::string_view text);
   bool verbose() const { return verbosity_ == Verbosity::verbose; }
 
@@ -51,13 +51,13 @@ class Console : public Progress {
   bool terminal_;
   bool colour_;
   std::mutex mutex_;
-  std::vector<Running> running_;           // work within work: the innermost is shown
+  std::vector<Running> running_;           // nested tasks: the innermost is shown
   std::atomic<std::uint64_t> pending_{0};  // counts not yet added to running_.back()
   std::atomic<Clock::rep> next_check_{0};
   bool bar_shown_ = false;
 };
 
-/// One line of progress: "voxelize  [=====>    ]  52 %  1300/s  0:03 left". Apart for the tests.
+/// One line of progress: "voxelize  [=====>    ]  52 %  1300/s  0:03 left".
 std::string progress_line(std::string_view task, std::uint64_t done, std::uint64_t total,
                           double seconds, bool bar);
 

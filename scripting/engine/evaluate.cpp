@@ -1,4 +1,4 @@
-// What the prompt does with a chunk of input.
+// Evaluation of a chunk of input at the prompt.
 
 #include <cstdio>
 #include <string_view>
@@ -16,14 +16,14 @@ namespace {
 
 constexpr const char* kChunkName = "=input";
 
-// As lua.c tells it: the parser stopped at the end of the input.
+// The same test as in lua.c: the parser stopped at the end of the input.
 bool is_incomplete(lua_State* L, int status) {
   constexpr std::string_view kMark = "<eof>";
   if (status != LUA_ERRSYNTAX) return false;
   return std::string_view(lua_tostring(L, -1)).ends_with(kMark);
 }
 
-// Prints all its arguments. A Lua function, since a __tostring of the user's may fail.
+// Prints all its arguments. Called in protected mode, because a user's __tostring can fail.
 int print_results(lua_State* L) {
   std::string line;
   for (int i = 1; i <= lua_gettop(L); ++i) {

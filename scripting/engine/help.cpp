@@ -22,7 +22,7 @@ std::string quoted(const Words& words) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
-// Words of `text` on lines of at most kLineWidth, each indented.
+// Wraps `text` to indented lines of at most kLineWidth.
 std::string wrapped(const std::string& text, std::size_t indent) {
   std::string result;
   std::string line(indent, ' ');
@@ -78,14 +78,14 @@ std::vector<std::string> groups_of(const Api& api) {
   return groups;
 }
 
-// A bar would end the cell of a Markdown table.
+// Escapes "|", which would end the cell of a Markdown table.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '|' ? "\\|" : std::string(1, c);
   return result;
 }
 
-/// What a cell says of a parameter: its help, and its words a line each.
+/// Table cell of a parameter: its help, then one line for each of its words.
 std::string meaning(const Parameter& parameter) {
   std::string text = escaped(parameter.help);
   for (const Words::Word& word : parameter.choices.all)
@@ -139,7 +139,7 @@ std::string signature(const FunctionEntry& entry) {
   if (!entry.options.empty()) {
     std::vector<std::string> names;
     for (const Parameter& option : entry.options) names.push_back(option.name);
-    // The full list follows below; a signature should fit a line.
+    // The full list follows below; a signature should fit on one line.
     constexpr std::size_t kShown = 4;
     if (names.size() > kShown) {
       names.resize(kShown);
@@ -167,7 +167,7 @@ std::string overview(const Api& api) {
   text += "\nConstants\n";
   for (const ConstantEntry& constant : api.constants())
     text += fmt::format("  {:<13} {}\n", constant.parameter.name, constant.parameter.help);
-  return text + "\nhelp(s.simplify), help(\"Mesh\"), help(value) tell more.";
+  return text + "\nhelp(s.simplify), help(\"Mesh\"), help(value) print details.";
 }
 
 std::string help_for(const FunctionEntry& entry) {
@@ -230,7 +230,7 @@ std::string help_for(const Api& api, const std::string& name) {
         return help_for(method);
   for (const auto& [table, words] : api.choices())
     if (name == table || name == "choices." + table) return help_for(words);
-  throw InputError(fmt::format("no help on '{}'{} (help() lists what there is)", name,
+  throw InputError(fmt::format("no help on '{}'{} (help() lists all names)", name,
                                did_you_mean(name, help_topics(api))));
 }
 
@@ -239,10 +239,10 @@ std::string help_at(lua_State* L, int index, const Api& api) {
   if (const FunctionEntry* entry = entry_of_function(L, index)) return help_for(*entry);
   for (const TypeEntry& type : api.types())
     if (boxed_at(L, index, type.tag)) return help_for(type);
-  throw InputError(fmt::format(
-      "there is no help on {}; ask for a function (help(s.simplify)), a value, or a name "
-      "(help(\"Mesh\"))",
-      describe_type_at(L, index)));
+  throw InputError(
+      fmt::format("there is no help on {}; pass a function (help(s.simplify)), a value, or a name "
+                  "(help(\"Mesh\"))",
+                  describe_type_at(L, index)));
 }
 
 std::string api_markdown(const Api& api) {

@@ -9,20 +9,21 @@ struct lua_State;
 
 namespace springlod::scripting {
 
-/// What help() prints: all functions by group, all types.
+/// Text of help(): all functions by group, types, records and constants.
 std::string overview(const Api& api);
-/// How one function is called: arguments, options with units and defaults, errors, an example.
+/// Documentation of one function: arguments, options with units and defaults, errors, example.
 std::string help_for(const FunctionEntry& entry);
 std::string help_for(const TypeEntry& type);
 std::string help_for(const RecordEntry& record);
 /// The words of one table of choices.
 std::string help_for(const Words& words);
-/// By name: "simplify", "Mesh", "Model:node", "Material". Throws InputError with near names.
+/// Documentation by name, such as "simplify", "Mesh", "Model:node", "Material". Throws InputError
+/// with similar names if there is none.
 std::string help_for(const Api& api, const std::string& name);
-/// For whatever lies at `index`: a function of the module, a value, a name.
+/// Documentation of the Lua value at `index`: a function of the module, a value or a name.
 std::string help_at(lua_State* L, int index, const Api& api);
 
-/// docs/api.md: everything above as Markdown.
+/// The content of docs/api.md: all documentation as Markdown.
 std::string api_markdown(const Api& api);
 
 /// "voxelize(mesh, {cell, materials, ...}) -> Grid"
@@ -30,7 +31,7 @@ std::string signature(const FunctionEntry& entry);
 /// "quantity in m, default 1"; also for records.
 std::string type_and_default(const Parameter& parameter);
 
-/// Names a word at the prompt may be completed to: "s.", "voxelize", "help" ...
+/// Names that completion at the prompt offers, such as "s.", "voxelize", "help".
 std::vector<std::string> help_topics(const Api& api);
 
 }  // namespace springlod::scripting

@@ -102,7 +102,7 @@ class Inspector {
     return entries;
   }
 
-  // The entry of key and value on top of the stack.
+  // The entry for the key and value on top of the stack.
   Entry keyed(int depth) {
     Entry entry;
     entry.by_number = lua_type(lua_, -2) == LUA_TNUMBER;
@@ -135,7 +135,7 @@ class Inspector {
 
   lua_State* lua_;
   InspectOptions options_;
-  std::vector<const void*> open_;  // tables being shown: a table may hold itself
+  std::vector<const void*> open_;  // tables being shown, to detect cycles
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ InterruptHandler::InterruptHandler() {
   struct sigaction action {};
   action.sa_handler = on_interrupt;
   sigemptyset(&action.sa_mask);
-  action.sa_flags = 0;  // no SA_RESTART: a prompt that waits for a key shall notice
+  action.sa_flags = 0;  // no SA_RESTART: a prompt that waits for a key must notice the signal
   sigaction(SIGINT, &action, nullptr);
 }
 

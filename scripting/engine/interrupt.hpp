@@ -2,10 +2,10 @@
 
 namespace springlod::scripting {
 
-/// Ctrl-C. A signal handler can only set a flag, so the flag is one for the process.
+/// Handles Ctrl-C. A signal handler can only set a flag; the flag is global to the process.
 ///
-/// While it lives, SIGINT sets the flag; a third SIGINT with the flag still set ends the program
-/// (some work, such as one long string.find, cannot be interrupted).
+/// During its lifetime, SIGINT sets the flag. A third SIGINT while the flag is set terminates the
+/// program, because some calls, such as a long string.find, cannot be interrupted.
 class InterruptHandler {
  public:
   InterruptHandler();

@@ -25,14 +25,14 @@ namespace springlod::scripting {
 namespace {
 
 constexpr int kHistoryLines = 2000;
-// A Ctrl-C that comes just before the wait for a key, or on another thread, does not end the wait:
-// it is noticed after this long [ms].
+// Timeout of a wait for a key [ms]: bounds the delay of a Ctrl-C that arrives just before the wait
+// or on another thread.
 constexpr int kInterruptWait = 100;
 
 enum class Input { line, interrupted, closed };
 
-// Reads lines with editing, history and completion through libedit's own interface: unlike its
-// readline imitation it keeps no state in globals.
+// Reads lines with editing, history and completion through libedit's native interface, which has no
+// global state, unlike its readline emulation.
 class LineEditor {
  public:
   explicit LineEditor(ScriptState& state) : state_(state) {
@@ -48,7 +48,7 @@ class LineEditor {
     el_set(edit_, EL_SIGNAL, 0);
     el_set(edit_, EL_GETCFN, &LineEditor::read_key);
     el_set(edit_, EL_HIST, history, history_);
-    // The narrow form of this one loses two copies of its strings.
+    // The narrow-character form, el_set, leaks two copies of its strings.
     el_wset(edit_, EL_ADDFN, L"complete-name", L"completes a name", &LineEditor::complete);
     el_set(edit_, EL_BIND, "^I", "complete-name", nullptr);
     el_set(edit_, EL_BIND, "^R", "em-inc-search-prev", nullptr);
@@ -66,7 +66,8 @@ class LineEditor {
     prompt_ = prompt;
     int count = 0;
     errno = 0;
-    // libedit prints the prompt before it takes the terminal over; a Ctrl-D between is lost.
+    // By default libedit prepares the terminal after it prints the prompt; a Ctrl-D in between
+    // would be lost.
     el_set(edit_, EL_PREP_TERM, 1);
     const char* text = el_gets(edit_, &count);
     if (interrupt_requested()) return Input::interrupted;
@@ -90,7 +91,7 @@ class LineEditor {
 
   static char* give_prompt(EditLine* edit) { return const_cast<char*>(self(edit).prompt_); }
 
-  // One character from the terminal; -1 when Ctrl-C came instead, which ends el_gets.
+  // One character from the terminal; -1 after Ctrl-C, which ends el_gets.
   static int read_key(EditLine* /*edit*/, wchar_t* key) {
     std::mbstate_t partial{};
     while (true) {
@@ -104,7 +105,7 @@ class LineEditor {
       if (count < 0) return -1;
       const std::size_t length = std::mbrtowc(key, &byte, 1, &partial);
       if (length == static_cast<std::size_t>(-2)) continue;  // more bytes of the character follow
-      if (length == static_cast<std::size_t>(-1)) {          // not of this encoding: drop it
+      if (length == static_cast<std::size_t>(-1)) {          // invalid in this encoding: skip it
         partial = {};
         continue;
       }
@@ -164,14 +165,14 @@ class LineEditor {
   const char* prompt_ = "";
 };
 
-// One prompt's worth of input: lines until they make a chunk.
+// Reads lines until they form a complete chunk, and evaluates the chunk.
 class Prompt {
  public:
   explicit Prompt(ScriptState& state) : state_(state) {
     if (isatty(STDIN_FILENO) != 0) editor_.emplace(state);
   }
 
-  // False when the user leaves.
+  // Returns false at the end of the input.
   bool turn() {
     std::string line;
     switch (read(chunk_.empty() ? "> " : ">> ", line)) {
@@ -215,12 +216,13 @@ class Prompt {
 
 void run_prompt(ScriptState& state) {
   lua_State* L = state.lua();
-  // What every session begins with; a script would write it out.
+  // Loads the module at the prompt; scripts load it explicitly.
   state.run_text("s = require \"springlod\"", "prompt", {});
   lua_settop(L, 0);
   if (isatty(STDIN_FILENO) != 0)
     fmt::print(
-        "springlod {}: Lua 5.4 with s = require \"springlod\"; help() helps, Ctrl-D leaves\n",
+        "springlod {}: Lua 5.4 with s = require \"springlod\"; help() lists all functions, Ctrl-D "
+        "exits\n",
         version());
   Prompt prompt(state);
   while (prompt.turn()) {

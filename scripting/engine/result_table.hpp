@@ -21,7 +21,7 @@ void push_tables(lua_State* L, const Entries& entries, const Fill& fill) {
   }
 }
 
-/// A field of a record that a function returns, described.
+/// Describes a field of a record that a function returns.
 inline Parameter result_field(const char* name, const char* type, const char* help) {
   return {.name = name, .type = type, .help = help};
 }

@@ -14,7 +14,7 @@ namespace springlod::scripting {
 
 namespace {
 
-// The Lua line that made the call; binding frames have none.
+// The Lua line of the call; frames of bindings have no line.
 std::string call_site(lua_State* L) {
   lua_Debug frame{};
   for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
@@ -28,28 +28,29 @@ std::string call_site(lua_State* L) {
 
 void describe_errors(Api& api) {
   TypeBuilder<ErrorValue> type(
-      "What pcall hands over when a function of springlod fails; tostring(error) gives the line of "
-      "the script and the message.",
+      "Error value of a failed springlod function, as pcall returns it; tostring(error) is the "
+      "line of the script and the message.",
       [](const ErrorValue& error) { return error.where + error.message; });
-  type.field("message", "string", "what is wrong, where, and what to do, without the script's line",
+  type.field("message", "string", "cause, place and remedy, without the line of the script",
              [](const ErrorValue& error) { return error.message; });
   type.field("where", "string", "line of the script, \"script.lua:12: \"",
              [](const ErrorValue& error) { return error.where; });
   type.field("kind", "string",
              "\"input\" (a value or option is wrong), \"io\" (a file), \"unstable\" (a simulation "
-             "diverged), \"tunnelled\" (a node went through an obstacle), \"interrupted\" "
+             "diverged), \"tunnelled\" (a node passed through an obstacle), \"interrupted\" "
              "(Ctrl-C), \"memory\" or \"internal\"",
              [](const ErrorValue& error) { return error.kind; });
   type.table_field("node", "integer",
-                   "first node that diverged or went through an obstacle; or nil",
+                   "first node that diverged or passed through an obstacle; nil for other errors",
                    [](lua_State* L, const ErrorValue& error) {
                      error.node ? push(L, *error.node) : lua_pushnil(L);
                    });
-  type.table_field("time", "number", "when it did [s]; or nil",
+  type.table_field("time", "number", "simulated time of that event [s]; nil for other errors",
                    [](lua_State* L, const ErrorValue& error) {
                      error.time ? push(L, *error.time) : lua_pushnil(L);
                    });
-  type.table_field("obstacle", "string", "name of the obstacle that a node went through; or nil",
+  type.table_field("obstacle", "string",
+                   "name of the obstacle that a node passed through; nil for other errors",
                    [](lua_State* L, const ErrorValue& error) {
                      error.obstacle ? push(L, *error.obstacle) : lua_pushnil(L);
                    });

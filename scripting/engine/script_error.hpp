@@ -8,8 +8,8 @@
 
 namespace springlod::scripting {
 
-/// What a failed call of the API leaves as the error value: prints as "script.lua:12: message",
-/// and a script that catches it can look at its parts.
+/// The Lua error value of a failed API call. It prints as "script.lua:12: message"; a script that
+/// catches the error can read its fields.
 struct ErrorValue {
   std::string message;
   std::string where;  ///< "script.lua:12: " or ""
@@ -17,7 +17,7 @@ struct ErrorValue {
   std::string kind;
   std::optional<long long> node;        ///< where a run failed, counted from 1
   std::optional<double> time;           ///< when a run failed [s]
-  std::optional<std::string> obstacle;  ///< that a node went through
+  std::optional<std::string> obstacle;  ///< obstacle that a node passed through
 };
 template <>
 inline constexpr const char* kValueName<ErrorValue> = "Error";
@@ -25,14 +25,14 @@ inline constexpr const char* kValueName<ErrorValue> = "Error";
 /// Describes the type Error.
 void describe_errors(Api& api);
 
-/// Turns the C++ exception that is being handled into an ErrorValue.
+/// Converts the current C++ exception into an ErrorValue.
 std::shared_ptr<const ErrorValue> current_error(lua_State* L);
 
 /// Raises `error` in Lua; does not return.
 [[noreturn]] void raise(lua_State* L, std::shared_ptr<const ErrorValue> error);
 
-/// Runs a binding: no C++ exception leaves it, all become Lua errors. Lua's own errors, which are
-/// C++ exceptions of another type, pass through untouched.
+/// Runs a binding and converts its C++ exceptions into Lua errors. Lua's own errors (C++ exceptions
+/// of another type) pass through unchanged.
 template <class Work>
 int protect(lua_State* L, Work&& work) {
   std::shared_ptr<const ErrorValue> error;
@@ -44,7 +44,7 @@ int protect(lua_State* L, Work&& work) {
   raise(L, std::move(error));
 }
 
-/// Raised by Ctrl-C between two Lua instructions.
+/// Raises the Lua error for Ctrl-C between two Lua instructions.
 [[noreturn]] void raise_interrupted(lua_State* L);
 
 }  // namespace springlod::scripting

@@ -17,14 +17,14 @@ namespace springlod::scripting {
 
 class Api;
 
-/// What the command line settles for a whole run.
+/// Settings of the command line.
 struct Settings {
   std::uint64_t seed = 1;
   std::uint32_t threads = 0;  ///< 0: all cores
   Verbosity verbosity = Verbosity::normal;
 };
 
-/// What bindings need besides their arguments.
+/// State shared by all bindings of one Lua state.
 class Session {
  public:
   Session(Settings settings, const Api& api);
@@ -35,7 +35,7 @@ class Session {
   const Api& api() const { return api_; }
   Console& console() { return console_; }
   Progress* progress() { return &console_; }
-  /// What bindings keep from one call to the next: one T, made when it is first asked for.
+  /// State that bindings keep between calls: one T, created on first use.
   template <class T>
   T& kept() {
     std::any& slot = kept_[typeid(T)];
@@ -50,7 +50,7 @@ class Session {
   std::map<std::type_index, std::any> kept_;
 };
 
-/// The session of a Lua state (every coroutine of it included).
+/// The session of a Lua state, shared with its coroutines.
 Session& session_of(lua_State* L);
 void set_session(lua_State* L, Session* session);
 

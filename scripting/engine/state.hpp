@@ -13,7 +13,7 @@ struct lua_State;
 
 namespace springlod::scripting {
 
-/// How a script ended.
+/// Result of running a script.
 struct Outcome {
   bool done = true;
   bool interrupted = false;
@@ -22,23 +22,23 @@ struct Outcome {
 };
 
 /// A Lua state with the standard libraries, `require "springlod"`, the global `help`, and a hook
-/// through which Ctrl-C stops a running script. Not to be shared between threads.
+/// that stops a running script after Ctrl-C. Not thread-safe.
 class ScriptState {
  public:
-  /// `api`: what `require "springlod"` gives.
+  /// `api`: content of the module `require "springlod"`.
   ScriptState(const Settings& settings, std::unique_ptr<Api> api);
   ~ScriptState();
   ScriptState(const ScriptState&) = delete;
   ScriptState& operator=(const ScriptState&) = delete;
 
-  /// Runs a file with `arguments` as its `...` and in the table `arg`. Modules beside the script
-  /// are found by `require`.
+  /// Runs a file with `arguments` as its `...` and in the table `arg`. `require` also searches the
+  /// folder of the script.
   Outcome run_file(const std::filesystem::path& path, const std::vector<std::string>& arguments);
   Outcome run_text(std::string_view code, const std::string& name,
                    const std::vector<std::string>& arguments);
 
-  /// Calls the function below its `argument_count` arguments on the stack, as pcall does, with a
-  /// traceback in the outcome. If done, its results are on the stack.
+  /// Calls the function below its `argument_count` arguments on the stack in protected mode. On
+  /// success, its results are on the stack; on failure, the outcome has a traceback.
   Outcome call(int argument_count, int result_count);
 
   lua_State* lua() const { return lua_; }

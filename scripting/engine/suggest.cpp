@@ -9,7 +9,7 @@ namespace springlod::scripting {
 
 namespace {
 
-// Optimal string alignment: Levenshtein's edits and the swap of two neighbours.
+// Optimal string alignment: Levenshtein distance with transposition of adjacent letters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
@@ -32,7 +32,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-  // A third of the letters may be wrong, and one always: "-o" is not near "--cell".
+  // Accepts one edit, or a third of the letters if that is more: "-o" is not near "--cell".
   std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;
   std::string found;
   for (const std::string& candidate : candidates) {

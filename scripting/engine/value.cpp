@@ -31,8 +31,8 @@ Boxed* find_boxed(lua_State* L, int index, TypeTag tag) {
   return boxed->tag == tag ? boxed : nullptr;
 }
 
-// The value a metamethod was called on. Its type is the upvalue; whoever calls the metamethod by
-// hand on something else gets an error, not a crash.
+// The value of a metamethod call. The upvalue is its type; a direct call of the metamethod with
+// another value raises an error.
 std::shared_ptr<const void> self_of(lua_State* L, const TypeEntry& type) {
   std::shared_ptr<const void> self = boxed_at(L, 1, type.tag);
   if (self == nullptr)
@@ -48,7 +48,7 @@ int collect(lua_State* L) {
   Boxed* boxed = find_boxed(L, 1, type_upvalue(L).tag);
   if (boxed == nullptr) return 0;
   boxed->~Boxed();
-  new (boxed) Boxed{nullptr, nullptr};  // so that a second call by hand finds nothing
+  new (boxed) Boxed{nullptr, nullptr};  // so that a second, direct call finds a null pointer
   return 0;
 }
 
@@ -130,7 +130,7 @@ void register_type(lua_State* L, const TypeEntry& type) {
   push(L, type.name);
   lua_setfield(L, -2, "__name");
   push(L, type.name);
-  lua_setfield(L, -2, "__metatable");  // getmetatable gives the name, setmetatable refuses
+  lua_setfield(L, -2, "__metatable");  // getmetatable returns the name, setmetatable fails
   set_method(L, "__gc", collect, type);
   set_method(L, "__eq", equal, type);
   lua_pushcfunction(L, concatenate);

@@ -16,25 +16,25 @@ struct lua_State;
 
 namespace springlod::scripting {
 
-/// The name scripts see of a type of value; specialised beside the type. The address of the
-/// variable is the identity of the type.
+/// Name of a type of value in scripts; specialized next to the type. The address of the variable
+/// identifies the type.
 template <class T>
 inline constexpr const char* kValueName = nullptr;
 
-/// Values are userdata holding a std::shared_ptr<const T>: immutable, shared, and checked by their
-/// tag, not by their metatable, so that a script cannot pass one type off as another even with the
-/// debug library.
+/// Values are userdata that hold a std::shared_ptr<const T>: immutable and shared. The type is
+/// checked by the tag, not by the metatable, so scripts cannot forge a type even with the debug
+/// library.
 void push_boxed(lua_State* L, std::shared_ptr<const void> value, TypeTag tag);
-/// Null if the thing at `index` is not such a value.
+/// Null if the Lua value at `index` has another type.
 std::shared_ptr<const void> boxed_at(lua_State* L, int index, TypeTag tag);
 
-/// Makes the metatable of each type of value in the registry.
+/// Creates the metatables of all registered types of value.
 void register_types(lua_State* L, const Api& api);
 
-/// "a Mesh", "a string", "nothing": for messages.
+/// "a Mesh", "a string", "nothing": description for messages.
 std::string describe_type_at(lua_State* L, int index);
 
-// push: leaves one Lua value for one C++ value.
+// push: pushes one C++ value as one Lua value.
 void push(lua_State* L, bool value);
 void push(lua_State* L, double value);
 void push(lua_State* L, const std::string& value);
@@ -77,7 +77,7 @@ void set_field(lua_State* L, const char* name, const T& value) {
   end_field(L, name);
 }
 
-/// Makes a TypeEntry whose fields are plain C++ functions of the value.
+/// Builds a TypeEntry whose fields are C++ functions of the value.
 template <class T>
 class TypeBuilder {
  public:
@@ -89,7 +89,7 @@ class TypeBuilder {
       return describe(*static_cast<const T*>(value));
     };
   }
-  /// `get` returns something that `push` takes.
+  /// `get` returns a value of a type that `push` supports.
   template <class Get>
   TypeBuilder& field(const std::string& name, const std::string& type, const std::string& help,
                      Get get) {
@@ -99,7 +99,7 @@ class TypeBuilder {
                              }});
     return *this;
   }
-  /// `fill` pushes exactly one value itself.
+  /// `fill` pushes exactly one Lua value.
   TypeBuilder& table_field(const std::string& name, const std::string& type,
                            const std::string& help,
                            std::function<void(lua_State*, const T&)> fill) {
@@ -110,7 +110,7 @@ class TypeBuilder {
          }});
     return *this;
   }
-  /// Likewise, for what has to keep the value alive.
+  /// Like `table_field`, for fields that share ownership of the value.
   TypeBuilder& shared_field(const std::string& name, const std::string& type,
                             const std::string& help,
                             std::function<void(lua_State*, std::shared_ptr<const T>)> fill) {

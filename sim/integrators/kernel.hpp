@@ -11,7 +11,7 @@ namespace springlod::sim {
 ///
 /// Adds to `force` [N], N entries, the force k (l - L) + c dl/dt of every spring along it; dl/dt is
 /// taken from the velocities `v`. With `with_damping` the part c dl/dt is also added to
-/// `damping_force`: the ledger needs it, and `force` gets the same bits either way.
+/// `damping_force`: the ledger needs it, and `force` has the same bits in both cases.
 template <bool with_damping>
 void add_spring_forces(const MassSpringModel& model, const std::vector<Vec3>& x,
                        const std::vector<Vec3>& v, std::vector<Vec3>& force,

@@ -13,7 +13,7 @@ namespace springlod::sim {
 /// trapezoid rule of the work. So K_n + U(x_n) is kept to rounding where forces are linear in x, at
 /// any step. Sorting that sum by forces instead of steps, a dissipative force F_d loses
 /// -dt F_d . (v- + v+) / 2 a step (at the first and last step only the inner half). Every mechanism
-/// is booked from its own force that way, none is the remainder of the others, so that the sum of
+/// is computed from its own force, none is the remainder of the others, so that the sum of
 /// all entries is a real check. What it then shows is the trapezoid error of turning springs, and
 /// nodes that change the face of a box.
 ///

@@ -36,14 +36,14 @@ std::string label_of(std::uint32_t level, const std::string& variant) {
   return variant.empty() ? fmt::format("LOD-{}", level) : fmt::format("LOD-{}-{}", variant, level);
 }
 
-/// What the levels of one start need of the base.
+/// Data of the base's run that the levels of one start need.
 struct BaseRun {
   std::vector<Frame> frames;
   std::vector<LedgerEntry> ledger;
   std::optional<double> first_contact;
 };
 
-/// Hands the base's run to the levels of the same start and drops it after the last of them.
+/// Shares the base's run with the levels of the same start and frees it after the last of them.
 struct StartSlot {
   std::promise<std::shared_ptr<BaseRun>> promise;
   std::shared_future<std::shared_ptr<BaseRun>> base = promise.get_future().share();

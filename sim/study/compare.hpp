@@ -34,14 +34,14 @@ constexpr auto option_rows(const CompareOptions*) {
       option("seed", &CompareOptions::seed, "of the jitter"),
       option("threads", &CompareOptions::threads, kThreadsHelp),
       option("error_window", &CompareOptions::error_window,
-             "errors are averaged up to so long after the base's first contact")
+             "time after the base's first contact up to which errors are averaged")
           .in(Dimension::time),
-      option("variant", &CompareOptions::variant, "goes into the labels: \"hb\" makes \"LOD-hb-1\"")
+      option("variant", &CompareOptions::variant, "infix of the labels: \"hb\" makes \"LOD-hb-1\"")
           .by_default("none"),
       nested(&CompareOptions::run));
 }
 
-/// What one level did in one start.
+/// Results of one level in one start.
 struct StartResult : RunSummary {
   /// Mass-weighted RMS distance of the level-0 nodes from the base's, averaged over the frames of
   /// the window [m].

@@ -15,7 +15,7 @@ double rms_distance(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
 double rms_distance_after_fit(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
                               const std::vector<double>& mass);
 
-/// How far a body is from another at one instant.
+/// Distance between two bodies at one instant.
 struct Deviation {
   double time = 0;     ///< [s]
   double surface = 0;  ///< rms_distance [m]

@@ -18,7 +18,7 @@ namespace springlod::sim {
 Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
                std::uint32_t index);
 
-/// What is kept of one run of many.
+/// Results of one run of an ensemble.
 struct RunSummary {
   double distance = 0;   ///< Scenario::measure_from at the end [m]
   double simulated = 0;  ///< [s]

@@ -23,7 +23,7 @@ class RunProgress : public Progress {
     done_ += count;
     report(kUnits * done_ / total_);
   }
-  /// What is left when a stop rule ended the run early.
+  /// The remaining share when a stop rule ended the run early.
   void finish() { report(kUnits); }
 
  private:

@@ -11,14 +11,14 @@
 
 namespace springlod::sim {
 
-/// What is said of one point of a stability map: the first of these that holds, from the bottom up.
+/// Verdict on one point of a stability map: the last of these that applies.
 enum class Verdict {
   stable,       ///< none of the others
   inaccurate,   ///< its error is above kInaccurate
   drifting,     ///< the scheme itself gained or lost more than kDrifting of the energy
   off_design,   ///< the level is not the body any more: the error of its frequencies is above
                 ///< kOffDesign
-  crossed,      ///< nodes went past each other: the body is inside out somewhere
+  crossed,      ///< springs crossed: the body is inside out somewhere
   unconverged,  ///< the solver of backward Euler gave up short of its tolerance
   runaway,      ///< the energy rose by kRunaway: the numbers are finite and mean nothing
   diverged,     ///< non-finite state or growing energy
@@ -31,7 +31,7 @@ inline constexpr Choice<Verdict> kVerdicts[] = {
     {Verdict::drifting, "drifting", "the scheme gained or lost over a tenth of the energy"},
     {Verdict::off_design, "off_design",
      "the level's frequencies are over a quarter off the base's"},
-    {Verdict::crossed, "crossed", "nodes went past each other"},
+    {Verdict::crossed, "crossed", "springs crossed"},
     {Verdict::unconverged, "unconverged", "the solver stopped short of its tolerance"},
     {Verdict::runaway, "runaway", "the energy more than doubled, in finite numbers"},
     {Verdict::diverged, "diverged", "non-finite state"},
@@ -40,7 +40,7 @@ constexpr ChoiceTable<Choice<Verdict>> choices(Verdict) {
   return {"verdict", kVerdicts};
 }
 
-/// Mean distance from the reference over its mean displacement [1]. A tenth shows to the eye.
+/// Mean distance from the reference over its mean displacement [1]. A tenth is visible.
 inline constexpr double kInaccurate = 0.1;
 /// Energy gained or lost by the scheme over the energy at the start [1].
 inline constexpr double kDrifting = 0.1;

@@ -46,7 +46,7 @@ StiffPart by_half(const MassSpringModel& base, double young) {
   return part;
 }
 
-/// By how much each spring of the base changes.
+/// Factor of change of each spring of the base.
 std::vector<double> base_factors(const MassSpringModel& base, const StiffPart& part, double ratio) {
   const auto wanted = [&](std::uint32_t node) { return part.of_node[node] != 0 ? ratio : 1; };
   std::vector<double> factor;

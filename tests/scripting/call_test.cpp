@@ -54,7 +54,7 @@ T read_as(const std::string& text, Dimension dimension = Dimension::number, T va
 
 }  // namespace
 
-TEST_CASE("Options are read by their type; what is not given stays") {
+TEST_CASE("Options are read by their type; omitted options keep their defaults") {
   CHECK(read_as<bool>("true"));
   CHECK(read_as<double>("2.5") == 2.5);
   CHECK(read_as<int>("-3") == -3);
@@ -83,7 +83,7 @@ TEST_CASE("Quantities are numbers in SI units or text with a unit of their dimen
   CHECK_THROWS_WITH(read_as<double>("1/0", Dimension::time), Contains("x must be finite"));
 }
 
-TEST_CASE("Wrong values are refused with what was expected and what came") {
+TEST_CASE("Errors for wrong values name the expected and the actual value") {
   CHECK_THROWS_WITH(read_as<bool>("1"), "test: x must be true or false, got 1");
   CHECK_THROWS_WITH(read_as<std::string>("{}"), "test: x must be text, got a table");
   CHECK_THROWS_WITH(read_as<int>("1.5"), "test: x must be a whole number, got 1.5");
@@ -101,7 +101,7 @@ TEST_CASE("Wrong values are refused with what was expected and what came") {
   CHECK_THROWS_WITH(read_as<Colour>("{0, 0, 2}"), Contains("of 0..1"));
 }
 
-TEST_CASE("Words are chosen from those that are listed") {
+TEST_CASE("Choices accept only the listed words") {
   const std::vector<Parameter> listed{{.name = "way", .choices = words_of<Way>()}};
   Way way = Way::slow;
   Options fast(listed, "{way = 'fast'}");
@@ -115,16 +115,17 @@ TEST_CASE("Words are chosen from those that are listed") {
                   std::logic_error);
 }
 
-TEST_CASE("Keys that are not listed, and entries without one, are refused") {
+TEST_CASE("Unknown keys and entries without a key are errors") {
   const std::vector<Parameter> listed{{.name = "size"}, {.name = "speed"}};
   CHECK_THROWS_WITH(Options(listed, "{sped = 1}"),
                     "unknown option 'sped'; did you mean 'speed'? test takes: size, speed");
-  CHECK_THROWS_WITH(Options(listed, "{3}"), Contains("options have names, but there is 1 without"));
+  CHECK_THROWS_WITH(Options(listed, "{3}"), Contains("options need names, but 1 has none"));
   CHECK_THROWS_WITH(Options(listed, "3"), Contains("expected a table of options such as {size ="));
   CHECK_NOTHROW(Options(listed, "nil"));
 }
 
-TEST_CASE("A binding that reads what is not listed, or not all that is, fails hard") {
+TEST_CASE(
+    "A binding that reads unregistered options, or omits registered ones, throws logic_error") {
   Options options({{.name = "size"}, {.name = "speed"}}, "{size = 1}");
   double value = 0;
   CHECK_THROWS_AS(options->read("colour", value), std::logic_error);
@@ -167,7 +168,7 @@ TEST_CASE("Arguments are checked by number and type, and errors name them") {
   CHECK_THAT(refused("grow(1, 'x', 3)"), Contains("grow takes 2 arguments, got 3"));
 }
 
-TEST_CASE("Errors of every cause reach a script with their kind") {
+TEST_CASE("Script errors have the kind of their cause") {
   ScriptState state({}, make_api());
   FunctionEntry entry{
       .name = "fail", .arguments = {{.name = "cause"}}, .call = [](Call& call) -> int {

@@ -34,7 +34,7 @@ TEST_CASE("A chunk runs with the globals of the chunks before it") {
   CHECK(found(state) == "21");
 }
 
-TEST_CASE("An expression is evaluated once, and its values are taken from the stack") {
+TEST_CASE("An expression is evaluated once, and its values are popped from the stack") {
   ScriptState state({}, make_api());
   const int height = lua_gettop(state.lua());
   const Reply reply =
@@ -46,7 +46,7 @@ TEST_CASE("An expression is evaluated once, and its values are taken from the st
   CHECK(lua_gettop(state.lua()) == height);
 }
 
-TEST_CASE("A chunk that is not whole asks for more lines, a wrong one does not") {
+TEST_CASE("An incomplete chunk requests more lines, an invalid one does not") {
   ScriptState state({}, make_api());
   for (const char* begun : {"for i = 1, 2 do", "f = function()", "t = {", "s = [[text"})
     CHECK(evaluate(state, begun).incomplete);
@@ -57,7 +57,7 @@ TEST_CASE("A chunk that is not whole asks for more lines, a wrong one does not")
   CHECK(found(state) == "2");
 }
 
-TEST_CASE("A chunk that fails says where, and the next one runs") {
+TEST_CASE("A failed chunk reports the line of the error, and the next one runs") {
   ScriptState state({}, make_api());
   const int height = lua_gettop(state.lua());
   const Reply reply = evaluate(state, "found = 1 error('broken')");
@@ -71,7 +71,7 @@ TEST_CASE("A chunk that fails says where, and the next one runs") {
   CHECK(found(state) == "2");
 }
 
-TEST_CASE("Ctrl-C stops a chunk, inside pcall too, and is forgotten afterwards") {
+TEST_CASE("Ctrl-C stops a chunk, also inside pcall, and is cleared afterwards") {
   const InterruptHandler handler;
   ScriptState state({}, make_api());
   // The signal comes while the loop runs: it is the chunk that sends it.
@@ -84,7 +84,7 @@ TEST_CASE("Ctrl-C stops a chunk, inside pcall too, and is forgotten afterwards")
   CHECK(found(state) == "2");
 }
 
-TEST_CASE("Scripts get arguments, and a failed one its line and a traceback") {
+TEST_CASE("Scripts receive arguments; a failed script reports its line and a traceback") {
   ScriptState state({}, make_api());
   CHECK(
       state.run_text("local a, b = ... found = a .. b .. arg[2] .. #arg", "test", {"1", "2"}).done);

@@ -52,7 +52,7 @@ Api sample_api() {
 
 }  // namespace
 
-TEST_CASE("A signature shows arguments, options and what comes back") {
+TEST_CASE("A signature shows arguments, options and the result") {
   CHECK_THAT(signature(sample()),
              Contains("soften(material, {young, way") && Contains("-> Material"));
   FunctionEntry method = sample();
@@ -69,7 +69,7 @@ TEST_CASE("A parameter is shown with its unit, its default or its choices") {
              Contains("slow") && Contains("fast") && Contains("default \"slow\""));
 }
 
-TEST_CASE("The help of a function has all parts of its description, on lines that fit") {
+TEST_CASE("The help of a function has all fields of its description, wrapped to the line width") {
   const std::string text = help_for(sample());
   for (const char* part : {"Makes a material softer.", "what is made softer", "modulus afterwards",
                            "A material of stone.", "soften(stone, {young = \"1 MPa\"})"})
@@ -81,7 +81,7 @@ TEST_CASE("The help of a function has all parts of its description, on lines tha
   for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 88);
 }
 
-TEST_CASE("Help by name finds functions and records, and refuses others with near names") {
+TEST_CASE("Help by name finds functions and records; errors suggest similar names") {
   const Api api = sample_api();
   CHECK(help_for(api, "soften") == help_for(api.functions().front()));
   CHECK(help_for(api, "Stone") == help_for(api.records().front()));
@@ -98,7 +98,7 @@ TEST_CASE("Overview and Markdown list everything") {
     CHECK_THAT(page, Contains(part));
 }
 
-TEST_CASE("Help on a Lua value is that of the function, of the type or of the name it is") {
+TEST_CASE("Help on a Lua value is the help of its function, type or name") {
   ScriptState state({}, make_api());
   lua_State* L = state.lua();
   const auto help_on = [&](const std::string& expression) {
@@ -113,7 +113,7 @@ TEST_CASE("Help on a Lua value is that of the function, of the type or of the na
         help_for(*state.api().find_type("Model")));
 }
 
-TEST_CASE("The check of descriptions notices what is missing") {
+TEST_CASE("The check of descriptions reports missing entries") {
   Api api;
   api.add(FunctionEntry{.name = "mute", .options = {{.name = "x", .type = "number"}}});
   const std::vector<std::string> missing = undocumented(api);

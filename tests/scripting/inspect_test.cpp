@@ -27,7 +27,7 @@ std::string shown(const std::string& expression, const InspectOptions& options =
 
 }  // namespace
 
-TEST_CASE("Plain values are shown as tostring has them; text is quoted in tables only") {
+TEST_CASE("Plain values are shown by tostring; text is quoted only in tables") {
   CHECK(shown("nil") == "nil");
   CHECK(shown("true") == "true");
   CHECK(shown("1.5") == "1.5");
@@ -44,14 +44,15 @@ TEST_CASE("Tables are shown with the list first, then keys in order, nested") {
         "{[2.5] = \"y\", [10] = \"x\", [\"2nd\"] = 2, [\"two words\"] = 1, [true] = \"z\"}");
 }
 
-TEST_CASE("A table that holds itself, or lies too deep, is cut off") {
+TEST_CASE("Recursive and deeply nested tables are truncated") {
   CHECK(shown("(function() local t = {} t.self = t return t end)()") == "{self = {...}}");
   CHECK(shown("{{{1}}}", {.depth = 2}) == "{{{...}}}");
   // The same table twice is no loop.
   CHECK(shown("(function() local t = {1} return {t, t} end)()") == "{{1}, {1}}");
 }
 
-TEST_CASE("Long tables are cut off and say by how much; wide ones stand on lines") {
+TEST_CASE(
+    "Long tables are truncated with the count of hidden entries; wide ones use several lines") {
   const InspectOptions few{.entries = 2};
   CHECK(shown("{1, 2, 3, 4, 5}", few) == "{1, 2, ... 3 more}");
   CHECK(shown("{a = 1, b = 2, c = 3}", few) == "{a = 1, b = 2, ... 1 more}");
@@ -59,7 +60,7 @@ TEST_CASE("Long tables are cut off and say by how much; wide ones stand on lines
         "{\n  alpha = {1, 2, 3},\n  beta = 2,\n}");
 }
 
-TEST_CASE("A __tostring of the user's is used, and may fail") {
+TEST_CASE("A user's __tostring is called, and may fail") {
   CHECK(shown("setmetatable({}, {__tostring = function() return 'mine' end})") == "mine");
   ScriptState state({}, make_api());
   const Outcome outcome = state.run_text(

@@ -25,21 +25,21 @@ bool has(const Names& names, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("A near name is one with few edits: insert, drop, change, swap") {
+TEST_CASE("A near name has a small edit distance: insert, delete, substitute, transpose") {
   for (const char* typo : {"levles", "level", "levelss", "lefels", "lev"})
     CHECK(nearest_name(typo, kNames) == "levels");
   CHECK(nearest_name("kep", kNames) == "keep");
   CHECK(nearest_name("border", kNames) == "border");
 }
 
-TEST_CASE("A name too far from all, or no name, has none near it") {
+TEST_CASE("A name far from all candidates, or an empty one, has no near name") {
   for (const char* name : {"", "x", "colour", "velsle"}) CHECK(nearest_name(name, kNames).empty());
   CHECK(nearest_name("levels", {}).empty());
   // The first of equals.
   CHECK(nearest_name("cat", {"bat", "hat"}) == "bat");
 }
 
-TEST_CASE("Hints ask for the near name and list all there are") {
+TEST_CASE("Hints suggest the near name and list all names") {
   CHECK(did_you_mean("keeep", kNames) == "; did you mean 'keep'?");
   CHECK(did_you_mean("colour", kNames).empty());
   CHECK(name_hint("keeep", {"keep", "seed"}, "simplify takes") ==
@@ -49,7 +49,7 @@ TEST_CASE("Hints ask for the near name and list all there are") {
   CHECK(comma_list({"one"}) == "one");
 }
 
-TEST_CASE("A word is completed from globals and keywords, a path from what it leads to") {
+TEST_CASE("A word is completed from globals and keywords, a path from the members of its value") {
   ScriptState state({}, make_api());
   REQUIRE(state
               .run_text("s = require 'springlod'\n"
@@ -68,7 +68,7 @@ TEST_CASE("A word is completed from globals and keywords, a path from what it le
   CHECK(has(completions(state, ""), "s"));
 }
 
-TEST_CASE("What leads nowhere is completed to nothing, and no metamethod runs") {
+TEST_CASE("An unknown path has no completions, and no metamethod runs") {
   ScriptState state({}, make_api());
   REQUIRE(state
               .run_text("trap = setmetatable({}, {__index = function() touched = true end})\n"
