@@ -4,8 +4,6 @@ local s = require "springlod"
 local command = require "lib.command"
 local certificates = require "lib.certificates"
 
-local mesh_endings = {".obj", ".stl", ".ply", ".glb", ".gltf", ".fbx", ".off", ".dae"}
-
 local parser = command.parser("convert", "Convert meshes to LOD assets. Each asset is one .glb "
   .. "with the base model, its coarser levels and the mesh. Several meshes, or a folder, form a "
   .. "batch, which continues after a failed file. An interrupted calibration resumes when the same "
@@ -107,10 +105,10 @@ local function find_meshes()
   for _, path in ipairs(args.mesh) do
     if s.is_folder(path) then
       batch = true
-      local found = s.files(path, {endings = mesh_endings})
+      local found = s.files(path, {endings = s.mesh_endings})
       if #found == 0 then
         command.fail("cannot convert %s: the folder holds no meshes (%s)", path,
-                     table.concat(mesh_endings, " "))
+                     table.concat(s.mesh_endings, " "))
       end
       table.move(found, 1, #found, #paths + 1, paths)
     else

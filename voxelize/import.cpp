@@ -44,10 +44,7 @@ constexpr std::array<Format, 8> kFormats{{{".obj", "OBJ"},
                                           {".dae", "Collada"}}};
 
 std::string known_formats() {
-  std::string list;
-  for (const Format& format : kFormats)
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", format.ending);
-  return list;
+  return fmt::format("{}", fmt::join(mesh_endings(), ", "));
 }
 
 std::string format_of(const fs::path& path) {
@@ -306,6 +303,12 @@ void require_unit(const std::optional<double>& unit) {
 }
 
 }  // namespace
+
+std::vector<std::string> mesh_endings() {
+  std::vector<std::string> endings;
+  for (const Format& format : kFormats) endings.emplace_back(format.ending);
+  return endings;
+}
 
 ImportedMesh import_mesh(const fs::path& path, const ImportOptions& options) {
   require_unit(options.unit);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/choice.hpp"
 #include "model/mesh.hpp"
@@ -36,6 +37,9 @@ struct ImportedMesh {
   TriangleMesh mesh;  ///< metres, z up, node transforms applied
   ImportReport report;
 };
+
+/// Endings of the mesh files that import_mesh reads: ".obj", ...
+std::vector<std::string> mesh_endings();
 
 /// Imports OBJ, STL, PLY, GLB/glTF, FBX, OFF and Collada files through assimp. Vertices of equal
 /// position are merged. Throws IoError (missing, unreadable, empty, or not a mesh format: the

@@ -8,9 +8,9 @@
 
 #include "lod/options.hpp"
 #include "lod/quality/certify.hpp"
-#include "scripting/bind/options.hpp"
+#include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {
@@ -54,8 +54,7 @@ void describe_certify(Api& api) {
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels and their base"}},
       .options = parameters_of<lod::CertifyOptions>(),
       .returns = "LodChain with a certificate for each level",
-      .errors = "Hundreds of loose nodes in a large part; anchors that leave free what a load "
-                "moves.",
+      .errors = "Hundreds of loose nodes in a large part; anchors that do not resist a load.",
       .example = "local chain = s.certify(s.simplify(base))\n"
                  "print(s.info(chain).levels[2].certificate.f1_10_error)",
       .call = certify_binding});

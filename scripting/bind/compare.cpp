@@ -10,12 +10,12 @@
 #include <lua.hpp>
 
 #include "report/tables.hpp"
-#include "scripting/bind/chart_table.hpp"
-#include "scripting/bind/options.hpp"
-#include "scripting/bind/run_options.hpp"
-#include "scripting/bind/scenario_table.hpp"
+#include "scripting/bind/tables/chart_table.hpp"
+#include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/run_options.hpp"
+#include "scripting/bind/tables/scenario_table.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/study/ensemble.hpp"
 

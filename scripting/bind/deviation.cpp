@@ -10,9 +10,9 @@
 
 #include "base/error.hpp"
 #include "lod/transfer.hpp"
-#include "scripting/bind/scenario_table.hpp"
+#include "scripting/bind/tables/scenario_table.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/study/compare.hpp"
 

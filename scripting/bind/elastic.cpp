@@ -11,10 +11,10 @@
 #include "elastic/modes.hpp"
 #include "elastic/stiffness.hpp"
 #include "elastic/zero_modes.hpp"
-#include "scripting/bind/node_choice.hpp"
-#include "scripting/bind/options.hpp"
+#include "scripting/bind/tables/node_choice.hpp"
+#include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {

@@ -16,9 +16,9 @@
 
 #include "base/error.hpp"
 #include "base/units.hpp"
-#include "scripting/bind/records.hpp"
+#include "scripting/bind/tables/records.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "voxelize/vdb_file.hpp"
 

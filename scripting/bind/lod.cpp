@@ -8,11 +8,11 @@
 
 #include "base/error.hpp"
 #include "lod/build.hpp"
-#include "scripting/bind/grouping_script.hpp"
-#include "scripting/bind/node_choice.hpp"
-#include "scripting/bind/options.hpp"
+#include "scripting/bind/tables/grouping_script.hpp"
+#include "scripting/bind/tables/node_choice.hpp"
+#include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "scripting/bind/options.hpp"
+#include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "scripting/engine/result_table.hpp"
 

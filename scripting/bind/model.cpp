@@ -11,11 +11,11 @@
 #include "elastic/moduli.hpp"
 #include "elastic/stable_step.hpp"
 #include "model/asset/asset.hpp"
-#include "scripting/bind/certificate_table.hpp"
-#include "scripting/bind/model_table.hpp"
-#include "scripting/bind/records.hpp"
+#include "scripting/bind/tables/certificate_table.hpp"
+#include "scripting/bind/tables/model_table.hpp"
+#include "scripting/bind/tables/records.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {

@@ -10,9 +10,9 @@
 
 #include "base/error.hpp"
 #include "lod/refill.hpp"
-#include "scripting/bind/options.hpp"
+#include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "voxelize/refill.hpp"
 

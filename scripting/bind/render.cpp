@@ -9,9 +9,9 @@
 #include "render/frames.hpp"
 #include "render/scene.hpp"
 #include "report/animate.hpp"
-#include "scripting/bind/draw_style.hpp"
-#include "scripting/bind/picture.hpp"
-#include "scripting/bind/still_pictures.hpp"
+#include "scripting/bind/tables/draw_style.hpp"
+#include "scripting/bind/tables/picture.hpp"
+#include "scripting/bind/tables/still_pictures.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
 

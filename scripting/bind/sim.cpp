@@ -8,12 +8,12 @@
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
-#include "scripting/bind/options.hpp"
-#include "scripting/bind/run_options.hpp"
-#include "scripting/bind/scenario_table.hpp"
-#include "scripting/bind/start_table.hpp"
+#include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/run_options.hpp"
+#include "scripting/bind/tables/scenario_table.hpp"
+#include "scripting/bind/tables/start_table.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/run.hpp"
 

@@ -6,10 +6,10 @@
 #include <lua.hpp>
 
 #include "report/tables.hpp"
-#include "scripting/bind/chart_table.hpp"
-#include "scripting/bind/options.hpp"
+#include "scripting/bind/tables/chart_table.hpp"
+#include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/study/stability_map.hpp"
 

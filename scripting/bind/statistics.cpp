@@ -9,8 +9,8 @@
 
 #include "base/error.hpp"
 #include "report/stats.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {

@@ -8,10 +8,10 @@
 
 #include "base/error.hpp"
 #include "base/units.hpp"
-#include "scripting/bind/options.hpp"
-#include "scripting/bind/records.hpp"
+#include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/records.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
-#include "scripting/bind/values.hpp"
 #include "scripting/engine/call.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/import.hpp"
@@ -218,6 +218,10 @@ void describe_voxelize_function(Api& api) {
                   .help = "cells deeper under the surface than this are core"},
                  {.name = "material", .type = "Material", .help = "of the core"}},
       .example = "core = {depth = \"12 mm\", material = {young = \"1 MPa\", density = 1000}}"});
+  api.add(ConstantEntry{{.name = "mesh_endings",
+                         .type = "list of strings",
+                         .help = "endings of the mesh files that s.import reads: \".obj\", ..."},
+                        [](lua_State* L) { push(L, voxelize::mesh_endings()); }});
   api.add(FunctionEntry{
       .name = "voxelize",
       .group = kGroup,

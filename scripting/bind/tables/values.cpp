@@ -1,4 +1,4 @@
-#include "scripting/bind/values.hpp"
+#include "scripting/bind/tables/values.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "scripting/bind/model_table.hpp"
+#include "scripting/bind/tables/model_table.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -8,7 +8,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
-#include "scripting/bind/records.hpp"
+#include "scripting/bind/tables/records.hpp"
 
 namespace springlod::scripting {
 

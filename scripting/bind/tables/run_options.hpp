@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "scripting/bind/values.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/engine/api.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/run.hpp"

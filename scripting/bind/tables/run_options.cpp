@@ -1,4 +1,4 @@
-#include "scripting/bind/run_options.hpp"
+#include "scripting/bind/tables/run_options.hpp"
 
 namespace springlod::scripting {
 

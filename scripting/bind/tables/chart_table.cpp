@@ -1,4 +1,4 @@
-#include "scripting/bind/chart_table.hpp"
+#include "scripting/bind/tables/chart_table.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "scripting/bind/grouping_script.hpp"
+#include "scripting/bind/tables/grouping_script.hpp"
 
 #include <utility>
 #include <vector>
@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "lod/grouping/grouping.hpp"
-#include "scripting/bind/model_table.hpp"
+#include "scripting/bind/tables/model_table.hpp"
 
 namespace springlod::scripting {
 

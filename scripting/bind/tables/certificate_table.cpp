@@ -1,4 +1,4 @@
-#include "scripting/bind/certificate_table.hpp"
+#include "scripting/bind/tables/certificate_table.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "scripting/bind/scenario_table.hpp"
+#include "scripting/bind/tables/scenario_table.hpp"
 
 #include <utility>
 
@@ -7,7 +7,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
-#include "scripting/bind/values.hpp"
+#include "scripting/bind/tables/values.hpp"
 
 namespace springlod::scripting {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/scene.hpp"
-#include "scripting/bind/values.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {

@@ -1,4 +1,4 @@
-#include "scripting/bind/picture.hpp"
+#include "scripting/bind/tables/picture.hpp"
 
 #include <sstream>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "scripting/bind/still_pictures.hpp"
+#include "scripting/bind/tables/still_pictures.hpp"
 
 #include <cstdint>
 #include <utility>

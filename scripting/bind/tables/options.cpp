@@ -1,4 +1,4 @@
-#include "scripting/bind/options.hpp"
+#include "scripting/bind/tables/options.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "scripting/bind/start_table.hpp"
+#include "scripting/bind/tables/start_table.hpp"
 
 #include <string>
 #include <vector>

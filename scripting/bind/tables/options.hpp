@@ -12,7 +12,7 @@
 #include "base/choice.hpp"
 #include "base/option.hpp"
 #include "model/mass_spring.hpp"
-#include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/tables/node_choice.hpp"
 #include "scripting/engine/api.hpp"
 #include "scripting/engine/call.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "report/chart.hpp"
 #include "report/csv.hpp"
-#include "scripting/bind/values.hpp"
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {

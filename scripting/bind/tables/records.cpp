@@ -1,4 +1,4 @@
-#include "scripting/bind/records.hpp"
+#include "scripting/bind/tables/records.hpp"
 
 #include <fmt/format.h>
 #include <lua.hpp>

@@ -1,11 +1,11 @@
-#include "scripting/bind/node_choice.hpp"
+#include "scripting/bind/tables/node_choice.hpp"
 
 #include <fmt/format.h>
 #include <lua.hpp>
 
 #include "base/error.hpp"
 #include "model/anchors.hpp"
-#include "scripting/bind/model_table.hpp"
+#include "scripting/bind/tables/model_table.hpp"
 
 namespace springlod::scripting {
 

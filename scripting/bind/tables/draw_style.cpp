@@ -1,4 +1,4 @@
-#include "scripting/bind/draw_style.hpp"
+#include "scripting/bind/tables/draw_style.hpp"
 
 #include <fmt/format.h>
 #include <lua.hpp>
