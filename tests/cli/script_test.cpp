@@ -242,7 +242,7 @@ TEST_CASE("messages name function, option and expected value") {
           "must be one of none, weak, strong, got \"week\"; did");
   message("s.simplify(m, {guard = {least = 3}})", "simplify: guard takes: coincident_fraction");
   message("s.simplify(m, 3)", "simplify: expected a table of options");
-  message("s.simplify(m, {3})", "options have names");
+  message("s.simplify(m, {3})", "options need names");
   message("s.simplify(m, {}, 1)", "simplify takes 2 arguments, got 3");
   message("s.scenario{duration = '3 kg'}", "duration");
   message("s.scenario{gravity = {0, 0}}", "gravity must be a list of three numbers");
