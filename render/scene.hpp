@@ -4,10 +4,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/choice.hpp"
+#include "base/option.hpp"
 #include "model/chain.hpp"
 #include "model/mesh.hpp"
 #include "model/vec.hpp"
@@ -104,6 +106,13 @@ struct ValueStyle {
   std::optional<std::pair<double, double>> range = {};
   ValueScaling scaling = ValueScaling::automatic;
 };
+/// Scripts write `range` as a list, which the binding reads.
+constexpr auto option_rows(const ValueStyle*) {
+  return std::tuple(option("value_label", &ValueStyle::label,
+                           "label of the colour bar; with node_values it includes their unit")
+                        .by_default("the name of node_colour"),
+                    option("value_scale", &ValueStyle::scaling, "scaling of the colour bar"));
+}
 
 struct DrawStyle {
   bool surface = true;  ///< shaded surface that follows the nodes
@@ -121,6 +130,30 @@ struct DrawStyle {
   /// inside. The surface is not cut.
   std::optional<DrawnPlane> cut;
 };
+/// Scripts write `cut` as a list, which the binding reads.
+constexpr auto option_rows(const DrawStyle*) {
+  return std::tuple(
+      option("surface", &DrawStyle::surface, "draw the shaded surface, if there is one"),
+      option("nodes", &DrawStyle::nodes, "draw nodes as balls"),
+      option("springs", &DrawStyle::springs, "draw springs"),
+      option("node_colour", &DrawStyle::node_colour,
+             "quantity shown by the colour of a node. All but material add a colour bar, draw the "
+             "nodes and hide the surface, unless nodes and surface are given"),
+      nested<DrawStyle>(&DrawStyle::values),
+      option("node_size", &DrawStyle::node_size, "size of the balls"),
+      option("node_radius", &DrawStyle::node_radius,
+             "radius of the balls; with node_size = \"mass\" that of a node of mean mass")
+          .in(Dimension::length)
+          .by_default("a fraction of the mean spring length"),
+      option("spring_colour", &DrawStyle::spring_colour,
+             "quantity shown by the colour of a spring"),
+      option("strain_range", &DrawStyle::strain_range,
+             "strain drawn in full red (stretched) or blue (compressed)"),
+      option("surface_opacity", &DrawStyle::surface_opacity,
+             "opacity of the surface; below 1 the springs inside are visible"),
+      option("bold_inner_nodes", &DrawStyle::bold_inner_nodes,
+             "draw nodes off the border in bold red"));
+}
 
 /// Colour in which a material is drawn: its own, or a palette colour if it has the default grey, so
 /// that materials can be distinguished.

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/choice.hpp"
+#include "base/option.hpp"
 
 namespace springlod::report {
 
@@ -21,6 +23,16 @@ struct ChartPoint {
   bool has_x_interval() const { return x_high > x_low; }
   bool has_y_interval() const { return y_high > y_low; }
 };
+constexpr auto option_rows(const ChartPoint*) {
+  return std::tuple(
+      option("label", &ChartPoint::label, "text beside the point"),
+      option("low", &ChartPoint::y_low, "lower end of an interval drawn about y")
+          .by_default("none"),
+      option("high", &ChartPoint::y_high, "upper end of that interval").by_default("none"),
+      option("x_low", &ChartPoint::x_low, "lower end of an interval drawn about x")
+          .by_default("none"),
+      option("x_high", &ChartPoint::x_high, "upper end of that interval").by_default("none"));
+}
 
 /// Filled symbols in the default order of series; then a larger ring that marks other points, and
 /// no symbol.
@@ -59,6 +71,15 @@ struct ChartSeries {
   std::optional<ChartColour> colour = {};  ///< default: a different one for each series
   std::optional<ChartSymbol> symbol = {};  ///< default: a different one for each series
 };
+constexpr auto option_rows(const ChartSeries*) {
+  return std::tuple(option("name", &ChartSeries::name, "name in the legend"),
+                    option("joined", &ChartSeries::joined, "whether a line joins the points"),
+                    option("dashed", &ChartSeries::dashed, "whether that line is dashed"),
+                    option("colour", &ChartSeries::colour, "colour of points and line")
+                        .by_default("a different one for each series"),
+                    option("symbol", &ChartSeries::symbol, "symbol of the points")
+                        .by_default("a different one for each series"));
+}
 
 struct ChartOptions {
   std::string title;
@@ -70,6 +91,21 @@ struct ChartOptions {
   double width = 900;  ///< [px]
   double height = 600;
 };
+constexpr auto option_rows(const ChartOptions*) {
+  return std::tuple(
+      option("title", &ChartOptions::title, "title").by_default("the scenario's name, else none"),
+      option("x_label", &ChartOptions::x_label, "label of the horizontal axis")
+          .by_default("taken from a comparison, else none"),
+      option("y_label", &ChartOptions::y_label, "label of the vertical axis")
+          .by_default("taken from a comparison, else none"),
+      option("log_x", &ChartOptions::log_x, "whether the horizontal axis is logarithmic")
+          .by_default("true for a comparison, else false"),
+      option("log_y", &ChartOptions::log_y, "whether the vertical axis is logarithmic"),
+      option("y_from", &ChartOptions::y_from,
+             "lower end of a logarithmic axis; points not above it are drawn there, hollow"),
+      option("width", &ChartOptions::width, "width in pixels"),
+      option("height", &ChartOptions::height, "height in pixels"));
+}
 
 struct ChartFiles {
   std::filesystem::path data;    ///< CSV file beside the chart

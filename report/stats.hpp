@@ -5,9 +5,11 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "base/choice.hpp"
+#include "base/option.hpp"
 #include "base/progress.hpp"
 
 // Statistics of samples of runs: the public header of stats/, which depends only on base/.
@@ -92,6 +94,15 @@ struct BootstrapOptions {
   std::uint64_t seed = 1;
   Progress* progress = nullptr;
 };
+constexpr auto option_rows(const BootstrapOptions*) {
+  return std::tuple(
+      option("resamples", &BootstrapOptions::resamples, "number of resamples, 100 to 1000000"),
+      option("seed", &BootstrapOptions::seed, "seed of the resampling"),
+      option("seeds", &BootstrapOptions::design,
+             "whether the simplification seeds are the same in every start"),
+      option("paired", &BootstrapOptions::paired,
+             "whether start i of both samples is the same start, as in one comparison"));
+}
 
 using OneSampleStatistic = std::function<double(const std::vector<double>&)>;
 using TwoSampleStatistic =
@@ -209,6 +220,20 @@ struct SampleComparisonOptions {
   std::optional<double> spread = {};  ///< see EquivalenceOptions
   MeanTest test = MeanTest::student;
 };
+constexpr auto option_rows(const SampleComparisonOptions*) {
+  return std::tuple(
+      option("confidence", &SampleComparisonOptions::confidence,
+             "confidence level of the intervals"),
+      nested<SampleComparisonOptions>(&SampleComparisonOptions::resampling),
+      option("margin", &SampleComparisonOptions::margin,
+             "largest difference of the means that counts as equivalent, in standard deviations "
+             "of the base; tested at 1 - confidence")
+          .by_default("no test"),
+      option("spread", &SampleComparisonOptions::spread,
+             "standard deviation of the base, if known from a larger sample")
+          .by_default("that of the base, as an estimate"),
+      option("test", &SampleComparisonOptions::test, "test of the means"));
+}
 
 /// A value and its confidence interval.
 struct Measured {
@@ -257,6 +282,20 @@ struct NoiseFloorOptions {
   std::uint64_t seed = 1;
   Progress* progress = nullptr;
 };
+constexpr auto option_rows(const NoiseFloorOptions*) {
+  return std::tuple(
+      option("size", &NoiseFloorOptions::base_size, "size of the base's sample to be judged")
+          .by_default("half of the only sample, else the smallest sample"),
+      option("other_size", &NoiseFloorOptions::other_size,
+             "size of the sample that is compared with it")
+          .by_default("size"),
+      option("distance", &NoiseFloorOptions::distance, "distance between samples"),
+      option("quantile", &NoiseFloorOptions::part,
+             "fraction of the distances that lie below the floor"),
+      option("resamples", &NoiseFloorOptions::resamples,
+             "distances drawn; samples of exactly `size` values are measured pair by pair instead"),
+      option("seed", &NoiseFloorOptions::seed, "seed of the drawing"));
+}
 
 /// Distribution of distances between samples of the base.
 struct NoiseFloor {

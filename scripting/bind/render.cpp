@@ -51,14 +51,14 @@ std::vector<double> numbers_of(TableReader& reader, const char* name) {
 }
 
 /// Options common to the picture and a single panel.
-void read_panel_options(TableReader& reader, PanelOptions& options) {
+void read_panel_options(const Call& call, TableReader& reader, PanelOptions& options) {
   reader.read("frame", options.frame);
   reader.read("time", options.time);
   if (std::vector<double> values = numbers_of(reader, "node_values"); !values.empty()) {
     options.node_values = std::move(values);
     show_node_values(reader, options.style);
   }
-  read_style(reader, options.style);
+  read_style(call, reader, options.style);
 }
 
 /// {subject, title = ..., time = ..., ...} at `table`: `usual` with what the keys change.
@@ -82,7 +82,7 @@ std::unique_ptr<Picture> read_panel(Call& call, int table, PanelOptions options,
   }
   TableReader reader = call.record(keys, "Panel", owner);
   reader.read("title", options.title);
-  read_panel_options(reader, options);
+  read_panel_options(call, reader, options);
   reader.finish();
   lua_settop(L, keys - 1);
   lua_rawgeti(L, table, 1);
@@ -186,7 +186,7 @@ int render_binding(Call& call) {
   reader.read("titles", options.titles);
   reader.read("title", options.text.title);
   reader.read("footer", options.text.footer);
-  read_panel_options(reader, usual);
+  read_panel_options(call, reader, usual);
   reader.finish();
   if (options.width == 0 || options.height == 0) reader.refuse("width", "1 or more, height too");
 

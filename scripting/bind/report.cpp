@@ -31,7 +31,7 @@ int animate_binding(Call& call) {
   report::AnimateOptions options;
   TableReader reader = call.options(3);
   read_options(call, reader, options);
-  read_style(reader, options.style);
+  read_style(call, reader, options.style);
   reader.finish();
   options.progress = call.progress();
   const report::Animation animation =
@@ -63,7 +63,7 @@ int chart_binding(Call& call) {
   TableReader reader = call.options(3);
   if (const auto map = call.try_value<sim::StabilityMap>(2)) {
     report::MapPictureOptions picture;
-    read_chart_options(reader, options);
+    read_chart_options(call, reader, options);
     reader.finish();
     picture.title = options.title;
     return give_drawn(call, report::draw_map(*map, picture, call.path(1)));
@@ -76,7 +76,7 @@ int chart_binding(Call& call) {
   } else {
     series = series_from_table(call, call.index(2));
   }
-  read_chart_options(reader, options);
+  read_chart_options(call, reader, options);
   reader.finish();
   const report::ChartFiles files = report::draw_chart(series, options, call.path(1));
   return give_drawn(call, {files.drawn, files.command});

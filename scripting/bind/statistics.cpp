@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "report/stats.hpp"
+#include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -73,30 +74,24 @@ report::StartSample sample_argument(Call& call, int argument, const std::string&
   return sample;
 }
 
-void read_resampling(Call& call, TableReader& reader, report::BootstrapOptions& options) {
-  options.seed = call.session().settings().seed;
-  reader.read("resamples", options.resamples);
-  reader.read("seed", options.seed);
-  reader.read("seeds", options.design);
-  options.progress = call.progress();
-}
-
 int mean_binding(Call& call) {
   return call.give(report::mean(sample_argument(call, 1, "sample").values));
 }
 
 int statistics_binding(Call& call) {
   const report::StartSample sample = sample_argument(call, 1, "sample");
-  report::BootstrapOptions resampling;
-  double confidence = report::SampleComparisonOptions{}.confidence;
+  report::SampleComparisonOptions options;
+  report::BootstrapOptions& resampling = options.resampling;
+  resampling.seed = call.session().settings().seed;
   TableReader reader = call.options(2);
-  read_resampling(call, reader, resampling);
-  reader.read("confidence", confidence);
+  reader.read("confidence", options.confidence);
+  read_options(call, reader, resampling, nullptr, "paired");
   reader.finish();
+  resampling.progress = call.progress();
   const report::Interval of_mean =
-      report::interval(report::bootstrap(sample, report::mean, resampling), confidence);
+      report::interval(report::bootstrap(sample, report::mean, resampling), options.confidence);
   const report::Interval of_deviation = report::interval(
-      report::bootstrap(sample, report::standard_deviation, resampling), confidence);
+      report::bootstrap(sample, report::standard_deviation, resampling), options.confidence);
   lua_State* L = call.lua();
   begin_table(L);
   set_field(L, "count", sample.values.size());
@@ -126,14 +121,11 @@ int compare_samples_binding(Call& call) {
   const report::StartSample base = sample_argument(call, 1, "base");
   const report::StartSample other = sample_argument(call, 2, "other");
   report::SampleComparisonOptions options;
+  options.resampling.seed = call.session().settings().seed;
   TableReader reader = call.options(3);
-  read_resampling(call, reader, options.resampling);
-  reader.read("paired", options.resampling.paired);
-  reader.read("confidence", options.confidence);
-  reader.read("margin", options.margin);
-  reader.read("spread", options.spread);
-  reader.read("test", options.test);
+  read_options(call, reader, options);
   reader.finish();
+  options.resampling.progress = call.progress();
   const report::SampleComparison result = report::compare_samples(base, other, options);
   lua_State* L = call.lua();
   begin_table(L);
@@ -156,12 +148,7 @@ int noise_floor_binding(Call& call) {
   report::NoiseFloorOptions options;
   options.seed = call.session().settings().seed;
   TableReader reader = call.options(2);
-  reader.read("size", options.base_size);
-  reader.read("other_size", options.other_size);
-  reader.read("distance", options.distance);
-  reader.read("quantile", options.part);
-  reader.read("resamples", options.resamples);
-  reader.read("seed", options.seed);
+  read_options(call, reader, options);
   reader.finish();
   options.progress = call.progress();
   return call.give(std::shared_ptr<const report::NoiseFloor>(
@@ -189,46 +176,21 @@ Parameter sample_parameter(const char* name, const char* help) {
                   "number a seed"};
 }
 
-std::vector<Parameter> resampling_parameters() {
-  const report::BootstrapOptions usual;
-  return {{.name = "confidence",
-           .type = "number",
-           .fallback = fmt::format("{}", report::SampleComparisonOptions{}.confidence),
-           .help = "of the intervals"},
-          {.name = "resamples",
-           .type = "integer",
-           .fallback = fmt::format("{}", usual.resamples),
-           .help = "100 to 1000000"},
-          {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "of the resampling"},
-          {.name = "seeds",
-           .type = "one of",
-           .fallback = "\"crossed\"",
-           .help = "whether the seeds are the same in every start",
-           .choices = words_of<report::SeedDesign>()}};
+template <class Options>
+std::vector<Parameter> session_parameters() {
+  std::vector<Parameter> parameters = parameters_of<Options>();
+  use_session_defaults(parameters);
+  return parameters;
 }
 
-std::vector<Parameter> comparison_parameters() {
-  std::vector<Parameter> parameters = resampling_parameters();
-  const std::vector<Parameter> more{
-      {.name = "paired",
-       .type = "boolean",
-       .fallback = "false",
-       .help = "whether start i of both is the same start, as in one comparison"},
-      {.name = "margin",
-       .type = "number",
-       .fallback = "no test",
-       .help = "how many standard deviations of the base the means may be apart and still count "
-               "as the same; tested at 1 - confidence"},
-      {.name = "spread",
-       .type = "number",
-       .fallback = "that of the base, as an estimate",
-       .help = "standard deviation of the base, if a larger sample tells it"},
-      {.name = "test",
-       .type = "one of",
-       .fallback = "\"student\"",
-       .help = "how the means are tested",
-       .choices = words_of<report::MeanTest>()}};
-  parameters.insert(parameters.end(), more.begin(), more.end());
+/// The options of statistics of one sample: those of a comparison that do not need a second one.
+std::vector<Parameter> resampling_parameters() {
+  std::vector<Parameter> parameters = session_parameters<report::SampleComparisonOptions>();
+  std::erase_if(parameters, [](const Parameter& parameter) {
+    for (const char* needs_two : {"paired", "margin", "spread", "test"})
+      if (parameter.name == needs_two) return true;
+    return false;
+  });
   return parameters;
 }
 
@@ -261,7 +223,7 @@ void describe_samples(Api& api) {
           "Distances between two samples, and an equivalence test of their means with a margin.",
       .arguments = {sample_parameter("base", "one value a start"),
                     sample_parameter("other", "as base; may have another size unless paired")},
-      .options = comparison_parameters(),
+      .options = session_parameters<report::SampleComparisonOptions>(),
       .returns = "table: difference (of the means, other minus base), difference_over_spread (in "
                  "standard deviations of the base), wasserstein and energy_distance (without a "
                  "root), each a table {value, low, high}; with a margin equivalent (boolean), p, "
@@ -309,7 +271,6 @@ void describe_noise_floor(Api& api) {
        .errors = "Samples of other sizes than the floor's.",
        .call = judge_method});
   api.add(type.build());
-  const report::NoiseFloorOptions usual;
   api.add(FunctionEntry{
       .name = "noise_floor",
       .group = kGroup,
@@ -319,30 +280,7 @@ void describe_noise_floor(Api& api) {
                      .type = "list of numbers",
                      .help = "a large sample of the base, or a list of samples: other starts, half "
                              "the step, another integrator"}},
-      .options =
-          {{.name = "size",
-            .type = "integer",
-            .fallback = "half of the only sample, else the smallest sample",
-            .help = "values of the base that are going to be compared"},
-           {.name = "other_size",
-            .type = "integer",
-            .fallback = "size",
-            .help = "values that are going to be compared with them"},
-           {.name = "distance",
-            .type = "one of",
-            .fallback = "\"wasserstein\"",
-            .help = "which distance",
-            .choices = words_of<report::SampleDistance>()},
-           {.name = "quantile",
-            .type = "number",
-            .fallback = fmt::format("{}", usual.part),
-            .help = "part of the distances that lie below the floor"},
-           {.name = "resamples",
-            .type = "integer",
-            .fallback = fmt::format("{}", usual.resamples),
-            .help = "distances drawn; samples of exactly `size` values are measured pair by "
-                    "pair instead"},
-           {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "of the drawing"}},
+      .options = session_parameters<report::NoiseFloorOptions>(),
       .returns = "NoiseFloor",
       .errors = "Samples that are smaller than size; fewer than 7 samples of exactly that size.",
       .example = "local floor = s.noise_floor(base_of_many_starts, {size = 24})\n"

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "report/tables.hpp"
+#include "scripting/bind/tables/options.hpp"
 
 namespace springlod::scripting {
 
@@ -37,16 +38,12 @@ report::ChartPoint read_point(Call& call, int table, const std::string& owner) {
   point.y = quantity_at(L, -1, Dimension::number, owner + "[2]");
   lua_pop(L, 2);
   lua_newtable(L);
-  for (const char* key : {"label", "low", "high", "x_low", "x_high"}) {
-    lua_getfield(L, table, key);
-    lua_setfield(L, -2, key);
-  }
+  for_each_option(point, [&](const auto& row, const auto& /*usual*/) {
+    lua_getfield(L, table, row.name);
+    lua_setfield(L, -2, row.name);
+  });
   TableReader reader = call.record(lua_gettop(L), "Point", owner);
-  reader.read("label", point.label);
-  reader.read("low", point.y_low);
-  reader.read("high", point.y_high);
-  reader.read("x_low", point.x_low);
-  reader.read("x_high", point.x_high);
+  read_options(call, reader, point);
   reader.finish();
   lua_pop(L, 1);
   return point;
@@ -56,11 +53,7 @@ report::ChartSeries read_series(Call& call, int table, const std::string& owner)
   lua_State* L = call.lua();
   TableReader reader = call.record(table, "Series", owner);
   report::ChartSeries series;
-  reader.read("name", series.name);
-  reader.read("joined", series.joined);
-  reader.read("dashed", series.dashed);
-  reader.read("colour", series.colour);
-  reader.read("symbol", series.symbol);
+  read_options(call, reader, series);
   const int points = reader.raw("points");
   if (points == 0 || !lua_istable(L, points)) reader.refuse("points", "a list of {x, y}");
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, points)); ++i) {
@@ -159,15 +152,8 @@ std::vector<report::ChartSeries> series_from_table(Call& call, int index) {
   return series;
 }
 
-void read_chart_options(TableReader& reader, report::ChartOptions& options) {
-  reader.read("title", options.title);
-  reader.read("x_label", options.x_label);
-  reader.read("y_label", options.y_label);
-  reader.read("log_x", options.log_x);
-  reader.read("log_y", options.log_y);
-  reader.read("y_from", options.y_from);
-  reader.read("width", options.width);
-  reader.read("height", options.height);
+void read_chart_options(const Call& call, TableReader& reader, report::ChartOptions& options) {
+  read_options(call, reader, options);
   for (const char* side : {"width", "height"})
     if (const double pixels = std::string_view(side) == "width" ? options.width : options.height;
         !(pixels >= kLeastChart && pixels <= kLargestChart))
@@ -176,91 +162,28 @@ void read_chart_options(TableReader& reader, report::ChartOptions& options) {
 }
 
 std::vector<Parameter> chart_parameters() {
-  return {
-      {.name = "title",
-       .type = "string",
-       .fallback = "the scenario's name, else none",
-       .help = "title"},
-      {.name = "x_label",
-       .type = "string",
-       .fallback = "told from a comparison, else none",
-       .help = "label of the horizontal axis"},
-      {.name = "y_label",
-       .type = "string",
-       .fallback = "told from a comparison, else none",
-       .help = "label of the vertical axis"},
-      {.name = "log_x",
-       .type = "boolean",
-       .fallback = "true for a comparison, else false",
-       .help = "whether the horizontal axis is logarithmic"},
-      {.name = "log_y",
-       .type = "boolean",
-       .fallback = "false",
-       .help = "whether the vertical axis is logarithmic"},
-      {.name = "y_from",
-       .type = "number",
-       .fallback = "0",
-       .help = "points of a logarithmic axis that are not above it sit on its lower end, hollow"},
-      {.name = "width",
-       .type = "number",
-       .fallback = fmt::format("{:g}", report::ChartOptions{}.width),
-       .help = "in pixels"},
-      {.name = "height",
-       .type = "number",
-       .fallback = fmt::format("{:g}", report::ChartOptions{}.height),
-       .help = "in pixels"},
-      {.name = "error",
-       .type = "one of",
-       .fallback = "\"surface\"",
-       .help = "which error of a comparison is shown",
-       .choices = words_of<ErrorKind>()}};
+  std::vector<Parameter> parameters = parameters_of<report::ChartOptions>();
+  parameters.push_back({.name = "error",
+                        .type = "one of",
+                        .fallback = "\"surface\"",
+                        .help = "error of a comparison that is shown",
+                        .choices = words_of<ErrorKind>()});
+  return parameters;
 }
 
 void describe_series(Api& api) {
-  api.add(RecordEntry{
-      .name = "Point",
-      .summary = "A point of a chart: {x, y} with these keys besides.",
-      .fields = {{.name = "label",
-                  .type = "string",
-                  .fallback = "none",
-                  .help = "written beside the point"},
-                 {.name = "low",
-                  .type = "number",
-                  .fallback = "none",
-                  .help = "lower end of an interval drawn about y"},
-                 {.name = "high", .type = "number", .fallback = "none", .help = "its upper end"},
-                 {.name = "x_low",
-                  .type = "number",
-                  .fallback = "none",
-                  .help = "lower end of an interval drawn about x"},
-                 {.name = "x_high", .type = "number", .fallback = "none", .help = "its upper end"}},
-      .example = "{0.4, 1.2, label = \"LOD-1\"}"});
-  api.add(RecordEntry{
-      .name = "Series",
-      .summary = "A line of points of a chart.",
-      .fields = {{.name = "name", .type = "string", .fallback = "none", .help = "in the legend"},
-                 {.name = "points",
-                  .type = "list of Point",
-                  .help = "{x, y} each; none: the series is in the legend alone"},
-                 {.name = "joined",
-                  .type = "boolean",
-                  .fallback = "true",
-                  .help = "whether a line joins the points"},
-                 {.name = "dashed",
-                  .type = "boolean",
-                  .fallback = "false",
-                  .help = "whether that line is dashed"},
-                 {.name = "colour",
-                  .type = "one of",
-                  .fallback = "another for each series",
-                  .help = "of points and line",
-                  .choices = words_of<report::ChartColour>()},
-                 {.name = "symbol",
-                  .type = "one of",
-                  .fallback = "another for each series",
-                  .help = "of its points",
-                  .choices = words_of<report::ChartSymbol>()}},
-      .example = "{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}"});
+  api.add(RecordEntry{.name = "Point",
+                      .summary = "A point of a chart: {x, y}, with these keys if needed.",
+                      .fields = parameters_of<report::ChartPoint>(),
+                      .example = "{0.4, 1.2, label = \"LOD-1\"}"});
+  std::vector<Parameter> fields = parameters_of<report::ChartSeries>();
+  fields.push_back({.name = "points",
+                    .type = "list of Point",
+                    .help = "{x, y} each; none: the series appears only in the legend"});
+  api.add(RecordEntry{.name = "Series",
+                      .summary = "A line of points of a chart.",
+                      .fields = std::move(fields),
+                      .example = "{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}"});
 }
 
 report::Table table_from_rows(Call& call, int index, TableReader& reader) {

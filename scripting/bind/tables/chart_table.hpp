@@ -16,7 +16,7 @@ report::ChartOptions cost_error_chart(const ComparisonValue& comparison);
 
 /// {{name = ..., points = {{x, y}, ...}}, ...} at `index`; {series = {...}} is accepted too.
 std::vector<report::ChartSeries> series_from_table(Call& call, int index);
-void read_chart_options(TableReader& reader, report::ChartOptions& options);
+void read_chart_options(const Call& call, TableReader& reader, report::ChartOptions& options);
 std::vector<Parameter> chart_parameters();
 /// The records Series and Point.
 void describe_series(Api& api);

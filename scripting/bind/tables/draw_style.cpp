@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "scripting/bind/tables/options.hpp"
 
 namespace springlod::scripting {
 
@@ -54,93 +55,28 @@ void show_node_values(TableReader& reader, render::DrawStyle& style) {
   if (!reader.has("surface")) style.surface = false;
 }
 
-void read_style(TableReader& reader, render::DrawStyle& style) {
+void read_style(const Call& call, TableReader& reader, render::DrawStyle& style) {
   reader.read("node_colour", style.node_colour);
   if (reader.has("node_colour") && style.node_colour != render::NodeColour::material)
     show_node_values(reader, style);
-  reader.read("value_label", style.values.label);
+  read_options(call, reader, style);
   if (reader.has("value_range")) style.values.range = read_range(reader, "value_range");
-  reader.read("value_scale", style.values.scaling);
-  reader.read("node_size", style.node_size);
   if (reader.has("cut")) style.cut = read_cut(reader, "cut");
-  reader.read("surface", style.surface);
-  reader.read("nodes", style.nodes);
-  reader.read("springs", style.springs);
-  reader.read("spring_colour", style.spring_colour);
-  reader.read("strain_range", style.strain_range);
-  reader.read("node_radius", style.node_radius);
-  reader.read("surface_opacity", style.surface_opacity);
-  reader.read("bold_inner_nodes", style.bold_inner_nodes);
 }
 
 std::vector<Parameter> style_parameters(const render::DrawStyle& usual) {
-  const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
-  return {
-      {.name = "surface",
-       .type = "boolean",
-       .fallback = truth(usual.surface),
-       .help = "draw the shaded surface, if there is one"},
-      {.name = "nodes",
-       .type = "boolean",
-       .fallback = truth(usual.nodes),
-       .help = "draw nodes as balls"},
-      {.name = "springs",
-       .type = "boolean",
-       .fallback = truth(usual.springs),
-       .help = "draw springs"},
-      {.name = "node_colour",
-       .type = "one of",
-       .fallback = "\"material\"",
-       .help =
-           "quantity shown by the colour of a node. All but material come with a colour bar, draw "
-           "the nodes and leave the surface out, "
-           "unless nodes and surface are given",
-       .choices = words_of<render::NodeColour>()},
-      {.name = "value_label",
-       .type = "string",
-       .fallback = "the name of node_colour",
-       .help = "written over the colour bar; with node_values it names their unit too"},
-      {.name = "value_range",
-       .type = "{low, high}",
-       .fallback = "least and largest of all panels",
-       .help = "values at the ends of the colour bar, in SI units"},
-      {.name = "value_scale",
-       .type = "one of",
-       .fallback = "\"automatic\"",
-       .help = "of the colour bar",
-       .choices = words_of<render::ValueScaling>()},
-      {.name = "node_size",
-       .type = "one of",
-       .fallback = "\"even\"",
-       .help = "of the balls",
-       .choices = words_of<render::NodeSize>()},
-      {.name = "node_radius",
-       .type = "quantity",
-       .dimension = Dimension::length,
-       .fallback = "a part of the mean spring length",
-       .help = "radius of the balls; with node_size = \"mass\" that of a node of mean mass"},
-      {.name = "spring_colour",
-       .type = "one of",
-       .fallback = "\"material\"",
-       .help = "quantity shown by the colour of a spring",
-       .choices = words_of<render::SpringColour>()},
-      {.name = "strain_range",
-       .type = "number",
-       .fallback = fmt::format("{}", usual.strain_range),
-       .help = "strain drawn in full red (stretched) or blue (compressed)"},
-      {.name = "surface_opacity",
-       .type = "number",
-       .fallback = fmt::format("{}", usual.surface_opacity),
-       .help = "below 1 shows the springs inside"},
+  std::vector<Parameter> parameters = parameters_of(usual);
+  parameters.push_back({.name = "value_range",
+                        .type = "{low, high}",
+                        .fallback = "least and largest of all panels",
+                        .help = "values at the ends of the colour bar, in SI units"});
+  parameters.push_back(
       {.name = "cut",
        .type = "{nx, ny, nz, offset}",
        .fallback = "none",
-       .help = "leaves out the nodes with n . x < offset at rest, and their springs, so that "
-               "one sees inside; {0, 1, 0, 0} keeps y >= 0. The surface stays whole"},
-      {.name = "bold_inner_nodes",
-       .type = "boolean",
-       .fallback = truth(usual.bold_inner_nodes),
-       .help = "nodes off the border in bold red"}};
+       .help = "hides the nodes with n . x < offset at rest, and their springs, to show the "
+               "inside; {0, 1, 0, 0} keeps y >= 0. The surface stays whole"});
+  return parameters;
 }
 
 }  // namespace springlod::scripting
