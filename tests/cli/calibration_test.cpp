@@ -84,7 +84,7 @@ TEST_CASE("calibration keeps its state in a store and reports stores that it can
   CHECK_THAT(ran.err, Contains("resumes from"));
 }
 
-TEST_CASE("convert resumes an interrupted calibration and ends with the same levels") {
+TEST_CASE("convert resumes an interrupted calibration and ends with the same levels", "[long]") {
   const TemporaryFolder scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
   const auto arguments = [&](const std::string& name, const std::vector<std::string>& more) {

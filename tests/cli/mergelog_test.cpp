@@ -11,7 +11,7 @@ using springlod::test::slurp;
 using springlod::test::springlod_run;
 using springlod::test::TemporaryFolder;
 
-TEST_CASE("mergelog reports where to stop and writes tables, charts and a picture") {
+TEST_CASE("mergelog reports where to stop and writes tables, charts and a picture", "[long]") {
   const TemporaryFolder scratch;
   const auto asset = scratch / "bar.glb";
   make_bar_asset(asset, 4, {"--cell", "0.25", "--levels", "1"});

@@ -62,7 +62,7 @@ void lay_out(const TemporaryFolder& scratch) {
 
 }  // namespace
 
-TEST_CASE("the Lua of every page runs") {
+TEST_CASE("the Lua of every page runs", "[long]") {
   std::vector<fs::path> pages{kSource / "README.md"};
   for (const auto& entry : fs::directory_iterator(kSource / "docs"))
     if (entry.path().extension() == ".md" && entry.path().filename() != "api.md")
@@ -99,7 +99,7 @@ TEST_CASE("every option that a page gives to a stock command is one of its optio
   CHECK(options >= 5);
 }
 
-TEST_CASE("the sample scripts run and write their documented files") {
+TEST_CASE("the sample scripts run and write their documented files", "[long]") {
   const TemporaryFolder scratch;
   const auto wrote = [&](const std::string& sample, const std::vector<std::string>& files) {
     const std::string folder = (scratch / sample).string();

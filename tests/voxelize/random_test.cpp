@@ -94,7 +94,7 @@ TEST_CASE("A random model is solid with fewer or more nodes than cells") {
   CHECK(parts[0].zero_modes == 6);
 }
 
-TEST_CASE("A rescaled random model has its E, for ten seeds and along any axis") {
+TEST_CASE("A rescaled random model has its E, for ten seeds and along any axis", "[long]") {
   const std::uint64_t seed = GENERATE(range(1, 11));
   const MaterialGrid grid = box_grid(10, 10, 10, 0.01);
   const RandomModel random = build_random(grid, {.nodes = 1000, .seed = seed});

@@ -28,7 +28,7 @@ Scenario slide(const MassSpringModel& model) {
 
 }  // namespace
 
-TEST_CASE("A sliding block stops after 1.5 m on every level of a chain") {
+TEST_CASE("A sliding block stops after 1.5 m on every level of a chain", "[long]") {
   // Long and low, so that friction at the foot does not tip it over; stiff, so that its swing after
   // the stop is small.
   const auto style = GENERATE(voxelize::LatticeStyle::corners, voxelize::LatticeStyle::centers);
