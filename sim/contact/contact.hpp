@@ -12,15 +12,15 @@ namespace springlod::sim {
 
 /// One point of the body in contact with one obstacle at this instant: section 9 of docs/method.md.
 struct Contact {
-  std::uint32_t obstacle = 0;       ///< of the scenario
-  std::uint32_t point = 0;          ///< as ContactPoints counts them
+  std::uint32_t obstacle = 0;       ///< number in the scenario
+  std::uint32_t point = 0;          ///< number in ContactPoints
   double depth = 0;                 ///< d [m] > 0
   double stiffness = 0;             ///< k = ContactPoints::stiffness, of a node kappa A [N/m]
   double normal_force = 0;          ///< k (d + damping * rate of d), cut off at 0 [N]
   double damping_force = 0;         ///< the part of normal_force that is not k d [N]
   double damping = 0;               ///< contact damping time [s]
   double friction = 0;              ///< mu
-  Vec3 normal = Vec3::UnitZ();      ///< out of the obstacle
+  Vec3 normal = Vec3::UnitZ();      ///< outward normal of the obstacle
   Vec3 slip_change = Vec3::Zero();  ///< change of the point's velocity by friction [m/s]
 
   /// Stiffness of the tangential contact spring (stick spring), 1 / ContactPoints::compliance
@@ -38,8 +38,8 @@ struct Contact {
 /// Finds which points touch the obstacles. It keeps, for every point and box, from which side of
 /// each box axis the point came: depth is measured to that side, so a point pushed past the middle
 /// of a thin box is pushed back out where it came in and the potential kappa A d^2 / 2 never jumps.
-/// (A point that gets from one side of a box to the other within one step is thrown back too, with
-/// an energy that no step resolves: boxes must be thicker than speed times step.)
+/// (A point that crosses a box within one step is pushed back too, with an energy that no step
+/// resolves: boxes must be thicker than speed times step.)
 class ContactFinder {
  public:
   /// `x`: the start positions of the nodes. Points and obstacles must outlive the finder.
@@ -52,7 +52,8 @@ class ContactFinder {
   /// The same for one obstacle and one point at x.
   std::optional<Contact> find_one(std::size_t obstacle, std::uint32_t point, const Vec3& x,
                                   const Vec3& v);
-  /// For a point that was not checked in the last steps: it was at x, outside of the obstacle.
+  /// Updates the sides of a point that was not checked in the last steps and is at x, outside the
+  /// obstacle.
   void take_sides(std::size_t obstacle, std::uint32_t point, const Vec3& x);
 
  private:

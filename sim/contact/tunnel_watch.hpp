@@ -10,11 +10,11 @@
 
 namespace springlod::sim {
 
-/// Follows the points of a body through the boxes of a scenario, step by step, whatever the
-/// scheme: a point that leaves a box by the face opposite to the one by which it came in, in one
-/// step or in many, has gone through. (Cutting a corner, in by one face and out by one beside it,
-/// happens at any step and is let pass.) A step costs one turn into the axes of each box a point;
-/// nothing without boxes.
+/// Detects tunnelling: follows the points of a body through the boxes of a scenario, step by step,
+/// for any scheme. A point has tunnelled if it leaves a box by the face opposite to the one by
+/// which it entered, in one step or in many. (Cutting a corner, in by one face and out by a
+/// neighbouring one, happens at any step length and is allowed.) A step costs one transformation
+/// per box and point, and nothing without boxes.
 class TunnelCheck {
  public:
   /// `x`: the start positions of the nodes. The points must outlive the watch.
@@ -24,8 +24,8 @@ class TunnelCheck {
   /// that went through.
   void check(const std::vector<Vec3>& x, double time, double step);
 
-  /// The same for one box and one point, from where it was to where it is: whether it went
-  /// through. Points that stay outside may be skipped.
+  /// The same for one box and one point that moved from one position to another: whether it
+  /// tunnelled. Points that stay outside may be skipped.
   bool goes_through(std::size_t wall, std::size_t point, const Vec3& from, const Vec3& to);
   [[noreturn]] void throw_tunnelled(std::size_t wall, std::size_t point, const Vec3& from,
                                     const Vec3& to, double time, double step) const;
@@ -39,17 +39,17 @@ class TunnelCheck {
   struct Wall {
     std::string name;
     SolidBox box;
-    std::vector<Face> entry;  // by which face they came in; 0 outside
+    std::vector<Face> entry;  // face by which each point entered; 0 outside
   };
   struct Pass {
-    Face in = 0;   // 0: was inside before
-    Face out = 0;  // 0: is inside now
+    Face in = 0;   // 0: it was inside before
+    Face out = 0;  // 0: it is inside now
     bool hits = false;
   };
   static Pass pass(const Vec3& half_size, const Vec3& from, const Vec3& to);
 
   const ContactPoints* points_;
-  std::vector<Vec3> at_;  // where they are [m]; nothing without walls
+  std::vector<Vec3> at_;  // positions [m]; empty without walls
   std::vector<Wall> walls_;
 };
 

@@ -11,17 +11,17 @@
 
 namespace springlod::sim {
 
-/// Places and velocities of one body in a layout made for speed, measured in a frame that its owner
-/// keeps, moved block by block. Blocks may be worked on by several threads: which does what changes
-/// no bit.
+/// Positions and velocities of one body in a fast layout, relative to a frame that the owner keeps.
+/// The body is moved block by block. Several threads may work on different blocks; the assignment
+/// of blocks to threads does not change the result.
 ///
-/// A step: every block finds its forces; as soon as all that a block `needs` have, it collects them
-/// and moves. Between the two, forces from outside may be added to its nodes.
+/// A step: every block finds its forces. When all blocks in needs() have done so, a block collects
+/// their forces and moves. External forces may be added to its nodes between collecting and moving.
 class FastBody {
  public:
   struct BlockRange {
     std::uint32_t first = 0;
-    std::uint32_t last = 0;  ///< included
+    std::uint32_t last = 0;  ///< inclusive
   };
 
   virtual ~FastBody() = default;
@@ -32,26 +32,26 @@ class FastBody {
   /// Blocks whose forces must be found before this one may move.
   virtual BlockRange needs(std::uint32_t block) const = 0;
   virtual Place place(std::uint32_t node) const = 0;
-  /// Of the block, by index.
+  /// Node numbers in the model, by index in the block.
   virtual std::span<const std::uint32_t> nodes(std::uint32_t block) const = 0;
 
-  // The nodes of the block among those of the model, in world axes; vectors of N.
+  // Copy the nodes of the block from or to vectors of all N nodes, in world axes.
   virtual void set(std::uint32_t block, const MovingFrame& frame, const std::vector<Vec3>& x,
                    const std::vector<Vec3>& v) = 0;
   virtual void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const = 0;
   virtual void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const = 0;
 
-  /// Works out the springs of a block.
+  /// Computes the spring forces of a block.
   virtual void find_forces(std::uint32_t block) = 0;
-  /// Adds what other blocks worked out on this one's nodes.
+  /// Adds the forces that other blocks computed on this block's nodes.
   virtual void collect_forces(std::uint32_t block) = 0;
-  /// Sum of damping force times velocity over the block's nodes [W], once collected; only of a body
-  /// made with damping.
+  /// Sum of damping force times velocity over the block's nodes [W], after collect_forces(). Only
+  /// for a body made with damping.
   virtual double damping_power(std::uint32_t block) const = 0;
-  /// v += kick f / m, then x += drift v, for the nodes of the block; kick and drift in [s], and
-  /// with 0 of either, that part is left out.
+  /// v += kick f / m, then x += drift v, for the nodes of the block [s]. A kick or drift of 0 skips
+  /// that part.
   virtual void move(std::uint32_t block, double kick, double drift) = 0;
-  /// Of the nodes of the block, as of its last move [m].
+  /// Bounding box of the block's nodes after its last move [m].
   virtual const Box3& bounds(std::uint32_t block) const = 0;
 
   /// Appends the indices of the block's nodes within `region` [m], rising.
@@ -60,8 +60,8 @@ class FastBody {
 
   virtual Vec3 x(Place at) const = 0;                       ///< [m]
   virtual Vec3 v(Place at) const = 0;                       ///< [m/s]
-  virtual Vec3 force(Place at) const = 0;                   ///< [N], once collected
-  virtual void add_force(Place at, const Vec3& force) = 0;  ///< [N]; before its block moves
+  virtual Vec3 force(Place at) const = 0;                   ///< [N], after collect_forces()
+  virtual void add_force(Place at, const Vec3& force) = 0;  ///< [N]; call it before the block moves
 
  protected:
   FastBody() = default;

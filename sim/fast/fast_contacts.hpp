@@ -14,9 +14,9 @@
 
 namespace springlod::sim {
 
-/// The contacts of a set of points of a fast body: the nodes of one block, or a whole skin. What
-/// Stepper does with vectors of all nodes is done here on the points near an obstacle, with the
-/// forces of the body. The derived classes decide which points are checked, and when.
+/// The contacts of a set of points of a fast body: the nodes of one block, or a whole skin. Stepper
+/// works on vectors of all nodes; this class works on the points near an obstacle and on the forces
+/// of the body. The derived classes decide which points are checked, and when.
 class FastContacts {
  public:
   /// One step of the body.
@@ -28,7 +28,7 @@ class FastContacts {
     double length = 0;   ///< dt [s]
   };
 
-  /// What all sets of one body share; must outlive them.
+  /// Data shared by all sets of one body; must outlive them.
   struct Shared {
     const ContactPoints* points;
     const std::vector<Obstacle>* obstacles;
@@ -95,13 +95,13 @@ class FastContacts {
   std::vector<Contact> contacts_;
 
  private:
-  /// Velocity of the point of contact number `contact` [m/s] ...
+  /// Velocity of the point of contact number `contact` now [m/s].
   virtual Vec3 velocity_before_kick(std::size_t contact) const = 0;
   virtual Vec3 velocity_after_kick(std::size_t contact) const = 0;
-  /// ... and what it will be after the kick with the forces of now.
+  /// Its velocity after a kick with the current forces [m/s].
   virtual Vec3 kicked_velocity(const Contact& contact, const Step& step) const = 0;
 
-  /// Keeps `passage` if it goes through a wall and is the first.
+  /// Stores the first passage through a wall.
   void check_wall(const Passage& passage);
 
   Shared shared_;

@@ -23,7 +23,7 @@ HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> displacement, hn::TFromD<D>* HWY_RES
   return to;
 }
 
-/// The same; `low` holds what x is too coarse for, and is carried along (Kahan).
+/// The same with compensated summation (Kahan): `low` holds the part below the last bit of x.
 template <class D>
 HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> displacement, hn::TFromD<D>* HWY_RESTRICT x,
                             hn::TFromD<D>* HWY_RESTRICT low) {
@@ -39,8 +39,8 @@ HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> displacement, hn::TFromD<D>* HWY_RES
 template <class Real>
 inline constexpr bool kHasLow = sizeof(Real) == sizeof(float);
 
-/// Calls move(kicks, drifts), both std::bool_constant: whether either takes any time. Not at all if
-/// neither does.
+/// Calls move(kicks, drifts) with std::bool_constant: whether kick and drift differ from 0. Does
+/// nothing if both are 0.
 template <class Move>
 HWY_INLINE void move_for(double kick, double drift, const Move& move) {
   if (kick != 0 && drift != 0)

@@ -5,8 +5,8 @@
 
 namespace springlod::sim {
 
-/// A body laid out in quads. Blocks work on copies of each other's nodes: none moves before those
-/// with copies of its nodes have found their forces.
+/// A body in quads. Blocks keep copies of each other's nodes: a block moves only after the blocks
+/// with copies of its nodes have computed their forces.
 template <class Real>
 class QuadBody final : public LaidBody<QuadLayout<Real>, QuadState<Real>> {
  public:

@@ -12,17 +12,17 @@
 namespace springlod::sim {
 namespace {
 
-// Damping times this close count as one: c was c / k times k, rounded. [1]
+// Relative difference of damping times that count as equal: c was rounded from (c / k) k. [1]
 constexpr double kSameDamping = 1e-12;
 
-/// A spring as seen from the node that works it out.
+/// A spring at the node that computes it.
 struct HalfSpring {
-  std::uint32_t other = 0;  // place in the order
+  std::uint32_t other = 0;  // rank in the order
   std::uint32_t spring = 0;
 };
 
-// A node works out the springs to later nodes, but hands on to them what would leave a quad with a
-// gap: gaps can only come where too little is left to hand on.
+// A node computes its springs to later nodes. It leaves to those nodes the springs that would form
+// an incomplete quad, so quads have gaps only at nodes that cannot pass enough springs on.
 std::vector<std::vector<HalfSpring>> assign_springs(const MassSpringModel& model,
                                                     const std::vector<std::uint32_t>& rank) {
   const std::uint32_t n = model.node_count();
@@ -49,7 +49,7 @@ std::vector<std::vector<HalfSpring>> assign_springs(const MassSpringModel& model
   return kept;
 }
 
-/// c / k of every spring, if they all have the same [s].
+/// c / k if all springs have the same, else nothing [s].
 std::optional<double> common_damping_time(const MassSpringModel& model) {
   double least = std::numeric_limits<double>::infinity();
   double most = 0;
@@ -76,7 +76,7 @@ class Laying {
       std::fill(block_of_.begin() + order_.first[b], block_of_.begin() + order_.first[b + 1], b);
   }
 
-  /// Nothing if a block has too many neighbours for its indices.
+  /// No value if a block has too many neighbours for its indices.
   std::optional<QuadLayout<Real>> lay() {
     const auto springs = assign_springs(model_, rank_);
     QuadLayout<Real> layout;
@@ -136,7 +136,7 @@ class Laying {
     return true;
   }
 
-  /// All its springs are gaps, as yet.
+  /// A pair of quads of gaps, to be filled.
   void begin_quad(std::uint32_t quad, std::uint32_t own, QuadBlock<Real>& block) const {
     if (quad % 2 == 0) {
       QuadPair<Real>& pair = block.pairs.emplace_back();
@@ -161,7 +161,7 @@ class Laying {
 
   const MassSpringModel& model_;
   BlockOrder order_;
-  std::vector<std::uint32_t> rank_;      // node -> place in the order
+  std::vector<std::uint32_t> rank_;      // node -> rank
   std::vector<std::uint32_t> block_of_;  // by rank
   std::optional<double> damping_time_;
 };

@@ -24,8 +24,8 @@ struct Vector3 {
   hn::Vec<D> x, y, z;
 };
 
-/// Where the coordinates begin. Kept in registers: the compiler must take it that any store changes
-/// what a RowState refers to.
+/// Start of each coordinate array, kept in registers: the compiler must assume that any store may
+/// change what a RowState refers to.
 template <class Real>
 struct Starts {
   Real* x;
@@ -113,7 +113,7 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
       const Vector3<D> apart = load(d, v, other) - own_v;
       const hn::Vec<D> inverse = inverse_root(d, dot<D>(along, along));
       const hn::Vec<D> rate = hn::Mul(dot<D>(along, apart), hn::Mul(inverse, inverse));
-      // Forces over length.
+      // Force / length.
       const hn::Vec<D> elastic = hn::NegMulAdd(hn::LoadU(d, properties.rest_force + lane), inverse,
                                                hn::LoadU(d, properties.stiffness + lane));
       const hn::Vec<D> damping = hn::Mul(hn::LoadU(d, properties.damping + lane), rate);
@@ -131,7 +131,7 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
   }
 }
 
-/// What earlier blocks worked out on the places of this one.
+/// Adds the forces of earlier blocks on the places of this block.
 template <class Real>
 void collect(const RowLayout<Real>& layout, std::uint32_t number,
              std::vector<typename RowState<Real>::Coordinates>& force) {
@@ -183,7 +183,7 @@ void find_nodes(const RowLayout<Real>& layout, std::uint32_t number, const RowSt
     const auto inside = hn::And(hn::And(within(x.x, low.x, high.x), within(x.y, low.y, high.y)),
                                 within(x.z, low.z, high.z));
     if (hn::AllFalse(d, inside)) continue;
-    std::uint8_t bits[8] = {};  // a bit a lane; Highway writes 8 bytes at least
+    std::uint8_t bits[8] = {};  // one bit per lane; Highway writes at least 8 bytes
     hn::StoreMaskBits(d, inside, bits);
     for (std::uint32_t lane = 0; lane < lane_count<Real>() && p + lane < block.own; ++lane)
       if ((bits[0] >> lane & 1U) != 0) indices.push_back(p + lane);

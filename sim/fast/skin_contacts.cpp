@@ -51,7 +51,8 @@ void SkinContacts::apply(const Step& step) {
   for (const Contact& c : contacts_) after_kick_.push_back(kicked_velocity(c, step));
 }
 
-// A point lies at most its reach times half the size of the nodes' box from the middle of that.
+// The distance of a point from the centre of the nodes' box is at most its reach times half the
+// size of the box.
 Box3 SkinContacts::bounds(const MovingFrame& frame) const {
   Box3 nodes;
   for (std::uint32_t b = 0; b < body().block_count(); ++b) nodes.extend(body().bounds(b));
