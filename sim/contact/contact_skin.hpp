@@ -29,7 +29,7 @@ enum class ContactAt {
 };
 
 inline constexpr Choice<ContactAt> kContacts[] = {
-    {ContactAt::nodes, "nodes", "at its own nodes, which lie inside its base's surface"},
+    {ContactAt::nodes, "nodes", "the level's own nodes, which lie inside the base's surface"},
     {ContactAt::surface, "surface",
      "points of the base's surface, interpolated from the level's nodes"}};
 constexpr ChoiceTable<Choice<ContactAt>> choices(ContactAt) {
