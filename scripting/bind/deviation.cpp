@@ -113,7 +113,7 @@ void describe_deviation(Api& api) {
                      .type = "Trajectory",
                      .help = "trajectory of a level of a chain, interpolated to level 0, or of the "
                              "base with other options"},
-                    {.name = "base", .type = "Trajectory", .help = "sample of the base"}},
+                    {.name = "base", .type = "Trajectory", .help = "trajectory of the base"}},
       .returns = "list of tables: time [s], surface (mass-weighted rms distance of the level-0 "
                  "nodes [m]), shape (the same after the best rigid fit [m]), as long as both runs "
                  "have frames of the same instants",
