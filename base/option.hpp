@@ -10,7 +10,7 @@
 namespace springlod::inline base {
 
 /// One row of an options struct: a member under the name that scripts use. The default is the
-/// member's own, in a struct that nobody touched.
+/// member's value in a default-constructed struct.
 ///
 /// A struct S lists its rows in `option_rows(const S*)`, declared beside it, where
 /// argument-dependent lookup finds it:
@@ -27,8 +27,8 @@ struct Option {
   Member S::*member;
   const char* help;
   Dimension dimension = Dimension::number;
-  const char* fallback = "";  ///< the default in words, where the member's value says too little
-  bool is_weight = false;     ///< how much something counts, not what is measured
+  const char* fallback = "";  ///< the default in words, if the member's value does not explain it
+  bool is_weight = false;     ///< a dimensionless weight, not a measured quantity
 
   constexpr Option in(Dimension unit) const {
     Option row = *this;

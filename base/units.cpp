@@ -62,7 +62,7 @@ std::span<const Unit> units_of(Dimension dimension) {
   return {};
 }
 
-/// Units that format_quantity may use, in rising order.
+/// Units that format_quantity may use, in ascending order.
 std::span<const Unit> display_units(Dimension dimension) {
   static constexpr std::array kShownLength{Unit{"nm", 1e-9}, Unit{"um", 1e-6}, Unit{"mm", 1e-3},
                                            Unit{"m", 1}, Unit{"km", 1e3}};

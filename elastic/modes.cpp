@@ -31,7 +31,7 @@ constexpr double kLeastOfShift = 1e-3;
 
 /// Modes of one component in its mass-weighted unknowns.
 struct ComponentSpectrum {
-  Eigen::VectorXd squared_frequency;  // rising
+  Eigen::VectorXd squared_frequency;  // ascending
   Eigen::VectorXd residual;
   Eigen::MatrixXd shapes;  // orthonormal columns
 };

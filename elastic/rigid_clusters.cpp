@@ -13,8 +13,8 @@ namespace springlod::elastic {
 namespace {
 
 /// Three unit vectors are coplanar if their determinant is smaller than this; directions are, if
-/// the determinant of sum u u^T is smaller than its square. Any value above rounding would do:
-/// doubtful nodes are left out of the cluster and solved for.
+/// the determinant of sum u u^T is smaller than its square. Any value above rounding errors is
+/// valid: a node near the threshold is left out of the cluster, and its motion is solved for.
 constexpr double kFlat = 1e-3;
 
 class Growth {

@@ -30,7 +30,7 @@ constexpr double kMoves = 1e-3;
 struct Body {
   std::vector<std::uint32_t> nodes;
   bool rigid = false;
-  Eigen::Index first_unknown = -1;  // -1: the body is at rest
+  Eigen::Index first_unknown = -1;  // -1: the body is held fixed
   Vec3 centre = Vec3::Zero();
   Mat3 axes = Mat3::Identity();  // of rotation
   Vec3 arm = Vec3::Ones();       // sqrt(sum |axis x r|^2) for each axis

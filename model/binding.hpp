@@ -50,7 +50,7 @@ void append_bound_point(Binding& binding, const Vec3& point, const MassSpringMod
                         const std::vector<std::uint32_t>& nodes);
 
 /// The map `outer` after `inner`: `outer` maps the points of `inner`, which maps nodes. The entries
-/// of a row are in rising order of node.
+/// of a row are in ascending order of node.
 Binding compose(const Binding& outer, const Binding& inner);
 
 /// Positions (or velocities) of the P points, interpolated from N node values.

@@ -31,7 +31,7 @@ struct Certificate {
   };
 
   std::vector<Moduli> moduli;
-  std::vector<Frequency> frequencies;  ///< the lowest ones, rising
+  std::vector<Frequency> frequencies;  ///< the lowest ones, ascending
   std::vector<Load> loads;
   double mass_error = 0;           ///< [1]
   double center_shift = 0;         ///< of the centre of mass, over the radius of gyration [1]

@@ -81,7 +81,7 @@ struct SpringSum {
   double c = 0;
 };
 
-// Springs of `node` to higher nodes, summed over the cells around it, by rising `to`.
+// Springs of `node` to higher nodes, summed over the cells around it, by ascending `to`.
 void gather_springs(const MaterialGrid& grid, const CornerNodes& nodes, std::uint32_t node,
                     std::vector<SpringSum>& sums) {
   sums.clear();

@@ -13,7 +13,7 @@ std::int8_t side_of(double coordinate) {
   return coordinate < 0 ? -1 : 1;
 }
 
-/// How deep a point is in an obstacle.
+/// Depth of a point in an obstacle.
 struct Depth {
   double depth = 0;  // [m]
   Vec3 normal = Vec3::UnitZ();
@@ -33,8 +33,8 @@ std::optional<Depth> depth_in(const SolidBox& box, std::array<std::int8_t, 3>& s
       (box.half_size - Vec3(side[0] * local[0], side[1] * local[1], side[2] * local[2]))
           .minCoeff(&axis);
   for (Eigen::Index i = 0; i < 3; ++i) {
-    // Another side may be taken wherever that leaves the depth as it is: outside, and along the
-    // axes that do not decide.
+    // The side may change if the depth stays the same: outside the box, and along the axes that do
+    // not determine the depth.
     const bool free_to_change = depth <= 0 || box.half_size[i] - std::abs(local[i]) >= depth;
     if (free_to_change) side[static_cast<std::size_t>(i)] = side_of(local[i]);
   }
@@ -42,7 +42,7 @@ std::optional<Depth> depth_in(const SolidBox& box, std::array<std::int8_t, 3>& s
   return Depth{depth, side[static_cast<std::size_t>(axis)] * box.rotation.col(axis)};
 }
 
-// What the obstacles together may add to the stiffness of a point in one direction at most [N/m].
+// Upper bound of the stiffness that all obstacles together add to a point in one direction [N/m].
 double stiffness_of_point(const ContactPoints& points, std::uint32_t point,
                           const std::vector<Obstacle>& obstacles) {
   Mat3 planes = Mat3::Zero();  // sum of k n n^T

@@ -9,7 +9,7 @@
 namespace springlod::sim {
 namespace {
 
-/// Of the springs of each node [s], N; 0 without any.
+/// Mean damping time of the springs of each node [s], N; 0 for a node without springs.
 std::vector<double> damping_times(const MassSpringModel& model) {
   std::vector<double> damping(model.node_count(), 0);
   std::vector<double> stiffness(model.node_count(), 0);

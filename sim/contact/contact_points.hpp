@@ -11,8 +11,8 @@
 namespace springlod::sim {
 
 /// Where a body touches obstacles: its nodes with an area, or the points of a skin. A point p lies
-/// at sum w_i x_i. A force f on it is w_i f on the nodes, which does the same work and, since the
-/// w_i add up to 1 and give the place of p, is the same force and the same torque.
+/// at sum w_i x_i. A force f on it is distributed to the nodes as w_i f. This conserves the work
+/// and, because the w_i add up to 1 and reproduce the position of p, the force and the torque.
 class ContactPoints {
  public:
   struct Share {
@@ -21,7 +21,7 @@ class ContactPoints {
     double kick = 0;    ///< change of the node's velocity when an impulse changes the point's [1]
   };
 
-  /// The nodes with an area, rising.
+  /// The nodes with a contact area, ascending.
   explicit ContactPoints(const MassSpringModel& model);
   /// Throws InputError for a skin that does not fit the model.
   ContactPoints(const MassSpringModel& model, const ContactSkin& skin);
@@ -32,40 +32,42 @@ class ContactPoints {
   double compliance(std::size_t point) const { return compliance_[point]; }  ///< s_p [m/N]
   /// Damping time of the compliance: mean of the springs of the nodes of the point [s].
   double compliance_damping(std::size_t point) const { return compliance_damping_[point]; }
-  /// Stiffness of its contact with an obstacle of stiffness kappa [N/m3], in series with the
-  /// compliance: kappa A / (1 + kappa A s_p) [N/m], k_n in eq. 64 of docs/method.md.
+  /// Contact stiffness of the point on an obstacle of stiffness kappa [N/m3], in series with the
+  /// surface compliance: kappa A / (1 + kappa A s_p) [N/m], k_n in eq. 64 of docs/method.md.
   double stiffness(std::size_t point, double kappa) const {
     const double bare = kappa * area_[point];
     return bare / (1 + bare * compliance_[point]);
   }
-  /// Damping time of that contact if the obstacle's is `damping` [s]: beta_n in eq. 64.
+  /// Damping time of that contact for an obstacle with the damping time `damping` [s]: beta_n in
+  /// eq. 64.
   double damping(std::size_t point, double kappa, double damping) const {
     const double given = stiffness(point, kappa) * compliance_[point];  // fraction of the depth [1]
     return (1 - given) * damping + given * compliance_damping_[point];
   }
   /// Effective mass for an impulse at the point, 1 / sum (w_i^2 / m_i) [kg].
   double mass(std::size_t point) const { return mass_[point]; }
-  /// sum |w_i| [1]: the point moves at most so much farther than any of its nodes.
+  /// sum |w_i| [1]: upper bound of the point's displacement over the largest displacement of its
+  /// nodes.
   double reach(std::size_t point) const { return reach_[point]; }
   std::span<const Share> shares(std::size_t point) const {
     return {shares_.data() + start_[point], start_[point + 1] - start_[point]};
   }
-  /// Which node it is, of the model or of the base; counted from 0.
+  /// Its node number in the model or in the base, counted from 0.
   std::uint32_t number(std::size_t point) const { return number_[point]; }
   /// For messages, counted from 1: "node 7", "the surface at node 7 of the base".
   std::string name(std::size_t point) const;
 
-  /// Of positions or velocities of the nodes.
+  /// Interpolates positions or velocities of the nodes.
   Vec3 interpolate(std::size_t point, const std::vector<Vec3>& nodes) const {
     Vec3 sum = Vec3::Zero();
     for (const Share& share : shares(point)) sum += share.weight * nodes[share.node];
     return sum;
   }
-  /// A force at the point [N] to those on the nodes.
+  /// Adds a force at the point [N] to the forces on the nodes.
   void add_force(std::size_t point, const Vec3& force, std::vector<Vec3>& forces) const {
     for (const Share& share : shares(point)) forces[share.node] += share.weight * force;
   }
-  /// Changes the point's velocity (or place) by `change` as an impulse there does.
+  /// Changes the point's velocity (or position) by `change`, as an impulse at the point would.
   void kick(std::size_t point, const Vec3& change, std::vector<Vec3>& nodes) const {
     for (const Share& share : shares(point)) nodes[share.node] += share.kick * change;
   }

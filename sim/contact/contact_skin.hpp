@@ -10,12 +10,13 @@
 namespace springlod::sim {
 
 /// The surface of the base, bound to the nodes of one of its levels: P points at which the level
-/// touches obstacles where the base does, although its own nodes lie deeper. Each point is a base
-/// node with a contact area and keeps that area, so the total contact stiffness is the base's.
+/// touches obstacles where the base does, because the level's own nodes lie deeper inside. Each
+/// point is a base node with a contact area and keeps that area, so the total contact stiffness is
+/// the base's.
 struct ContactSkin {
   Binding of_nodes;                      ///< P rows; see lod/transfer.hpp
   std::vector<double> area;              ///< [m2] > 0, P
-  std::vector<std::uint32_t> base_node;  ///< which of the base's they are, rising, P
+  std::vector<std::uint32_t> base_node;  ///< their base nodes, ascending, P
   /// Local surface compliance that merging removed, neighbours held [m/N] >= 0, P: eq. 65 of
   /// docs/method.md. It is added in series with the contact penalty, and as a tangential contact
   /// spring (stick spring) of the same compliance with friction.
@@ -25,7 +26,7 @@ struct ContactSkin {
 /// Where the levels of a chain touch obstacles.
 enum class ContactAt {
   nodes,   ///< their own
-  surface  ///< that of their base: see contact_skin
+  surface  ///< the surface of the base: see contact_skin
 };
 
 inline constexpr Choice<ContactAt> kContacts[] = {
@@ -35,12 +36,12 @@ constexpr ChoiceTable<Choice<ContactAt>> choices(ContactAt) {
   return {"contact", kContacts};
 }
 
-/// Of level `level`; that of level 0 is the base's own nodes. Throws InputError if there is no such
-/// level.
+/// The skin of level `level`; for level 0, the base's own nodes. Throws InputError if there is no
+/// such level.
 ContactSkin contact_skin(const LodChain& chain, std::uint32_t level);
 
-/// Throws InputError unless there is an area above 0 and a node of the base for each point, and
-/// each hangs on nodes below `node_count`.
+/// Throws InputError unless each point has an area above 0 and a base node, and refers only to
+/// nodes below `node_count`.
 void validate(const ContactSkin& skin, std::uint32_t node_count);
 
 }  // namespace springlod::sim

@@ -10,22 +10,22 @@
 
 namespace springlod::sim {
 
-/// Follows the points of a body through the boxes of a scenario, step by step, whatever the
-/// scheme: a point that leaves a box by the face opposite to the one by which it came in, in one
-/// step or in many, has gone through. (Cutting a corner, in by one face and out by one beside it,
-/// happens at any step and is let pass.) A step costs one turn into the axes of each box a point;
-/// nothing without boxes.
+/// Detects tunnelling of a body's points through the boxes of a scenario, with any integrator. A
+/// point has passed through a box if it leaves by the face opposite to the one by which it entered,
+/// in one step or in several. (Cutting a corner, in by one face and out by an adjacent one, happens
+/// at any step size and is allowed.) Each step rotates every point into the axes of each box;
+/// without boxes it costs nothing.
 class TunnelCheck {
  public:
   /// `x`: the start positions of the nodes. The points must outlive the watch.
   TunnelCheck(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
               const std::vector<Vec3>& x);
   /// Positions of the nodes at the end of the next step. Throws TunnelError for the first point
-  /// that went through.
+  /// that passed through a box.
   void check(const std::vector<Vec3>& x, double time, double step);
 
-  /// The same for one box and one point, from where it was to where it is: whether it went
-  /// through. Points that stay outside may be skipped.
+  /// The same for one box and one point, given its previous and present position. Returns true if
+  /// the point passed through. Points that stay outside may be skipped.
   bool goes_through(std::size_t wall, std::size_t point, const Vec3& from, const Vec3& to);
   [[noreturn]] void throw_tunnelled(std::size_t wall, std::size_t point, const Vec3& from,
                                     const Vec3& to, double time, double step) const;
@@ -39,7 +39,7 @@ class TunnelCheck {
   struct Wall {
     std::string name;
     SolidBox box;
-    std::vector<Face> entry;  // by which face they came in; 0 outside
+    std::vector<Face> entry;  // face by which they entered; 0 outside
   };
   struct Pass {
     Face in = 0;   // 0: was inside before
@@ -49,7 +49,7 @@ class TunnelCheck {
   static Pass pass(const Vec3& half_size, const Vec3& from, const Vec3& to);
 
   const ContactPoints* points_;
-  std::vector<Vec3> at_;  // where they are [m]; nothing without walls
+  std::vector<Vec3> at_;  // present positions [m]; empty without boxes
   std::vector<Wall> walls_;
 };
 

@@ -7,15 +7,15 @@
 
 namespace springlod::sim {
 
-/// The contacts of the nodes of one block: the thread that works on the block needs no others. An
-/// obstacle costs nothing while the block's bounds are clear of it.
+/// The contacts of the nodes of one block. The thread that processes the block needs no other
+/// contacts. An obstacle costs nothing while the block's bounding box does not touch it.
 class BlockContacts final : public FastContacts {
  public:
-  /// `numbers`: which of the body's contact points, all of them nodes, belong to the block.
+  /// `numbers`: the body's contact points (all are nodes) that belong to the block.
   BlockContacts(const Shared& shared, std::uint32_t block, std::vector<std::uint32_t> numbers);
 
   void apply(const Step& step) override;
-  /// Call it before the drift: keeps the bounds.
+  /// Stores the bounding box. Call it before the drift.
   void start_drift() { bounds_before_ = body().bounds(block_); }
   /// After the drift to step number n of `length` [s]: checks whether nodes went through a wall.
   /// `before`, `after`: the frame at its ends.
@@ -34,10 +34,10 @@ class BlockContacts final : public FastContacts {
   Place place(std::uint32_t point) const { return body().place(points().number(point)); }
 
   std::uint32_t block_;
-  std::vector<std::uint32_t> numbers_;                  // which points are the block's
+  std::vector<std::uint32_t> numbers_;                  // contact points of the block
   std::vector<std::uint32_t> number_of_;                // by index in the block; kNone
   std::vector<std::vector<std::uint64_t>> checked_at_;  // by obstacle and index: last step, plus 1
-  std::vector<std::uint32_t> found_;                    // indices, kept for their memory
+  std::vector<std::uint32_t> found_;                    // buffer of indices
   Vec3 frame_velocity_ = Vec3::Zero();                  // of the last apply(), before the kick
   Vec3 kicked_frame_velocity_ = Vec3::Zero();           // after the kick
   Box3 bounds_before_;

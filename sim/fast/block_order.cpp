@@ -8,7 +8,7 @@
 namespace springlod::sim {
 namespace {
 
-// Points that are left in the order they are in: a cache line or two of records.
+// Ranges of at most this many points are not sorted further: one or two cache lines of records.
 constexpr std::size_t kLeaf = 4;
 
 using Part = std::span<std::uint32_t>;
@@ -23,8 +23,8 @@ class Halving {
     return box;
   }
 
-  /// Sorts the part into halves of halves and so on; those that are first to have at most `most`
-  /// points are appended to `blocks`, unless that is null.
+  /// Sorts the range by recursive bisection. The largest ranges with at most `most` points are
+  /// appended to `blocks`, unless that is null.
   void halve(Part part, std::uint32_t most, std::vector<Part>* blocks) const {
     if (blocks != nullptr && part.size() <= most) {
       blocks->push_back(part);

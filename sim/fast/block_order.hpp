@@ -7,15 +7,16 @@
 
 namespace springlod::sim {
 
-/// Points in compact blocks of nearly equal size, neighbours in space near each other in the order.
+/// An order of points in compact blocks of nearly equal size, in which neighbours in space are
+/// close together.
 struct BlockOrder {
   std::vector<std::uint32_t> point;  ///< place -> point
-  std::vector<std::uint32_t> first;  ///< place at which each block begins, and the end
+  std::vector<std::uint32_t> first;  ///< start of each block in the order, and the end
 };
 
-/// Halves the points at the median across their longest side, again and again: blocks are the
-/// halves of at most `most` points, sorted along the longest side of the whole, and within them the
-/// order goes on halving. The same points give the same order.
+/// Recursive bisection at the median of the longest side. Blocks are the first ranges with at most
+/// `most` points, sorted along the longest side of the whole body; within a block, bisection
+/// continues. The same points give the same order.
 BlockOrder order_in_blocks(const std::vector<Vec3>& points, std::uint32_t most);
 
 }  // namespace springlod::sim

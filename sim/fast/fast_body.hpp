@@ -11,12 +11,13 @@
 
 namespace springlod::sim {
 
-/// Places and velocities of one body in a layout made for speed, measured in a frame that its owner
-/// keeps, moved block by block. Blocks may be worked on by several threads: which does what changes
-/// no bit.
+/// Positions and velocities of one body in a fast memory layout, relative to a moving frame that
+/// the owner stores. The body is advanced block by block. Several threads may process the blocks;
+/// the assignment of blocks to threads changes no bit of the result.
 ///
-/// A step: every block finds its forces; as soon as all that a block `needs` have, it collects them
-/// and moves. Between the two, forces from outside may be added to its nodes.
+/// In a step, every block computes its forces. A block moves as soon as all blocks that it `needs`
+/// have computed theirs; before, it collects their forces on its nodes. Between collecting and
+/// moving, external forces may be added to its nodes.
 class FastBody {
  public:
   struct BlockRange {
@@ -29,32 +30,32 @@ class FastBody {
   FastBody& operator=(const FastBody&) = delete;
 
   virtual std::uint32_t block_count() const = 0;
-  /// Blocks whose forces must be found before this one may move.
+  /// Blocks whose forces must be computed before this one may move.
   virtual BlockRange needs(std::uint32_t block) const = 0;
   virtual Place place(std::uint32_t node) const = 0;
-  /// Of the block, by index.
+  /// Nodes of the block, by index.
   virtual std::span<const std::uint32_t> nodes(std::uint32_t block) const = 0;
 
-  // The nodes of the block among those of the model, in world axes; vectors of N.
+  // Writes the nodes of the block into vectors of all N nodes of the model, in world axes.
   virtual void set(std::uint32_t block, const MovingFrame& frame, const std::vector<Vec3>& x,
                    const std::vector<Vec3>& v) = 0;
   virtual void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const = 0;
   virtual void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const = 0;
 
-  /// Works out the springs of a block.
+  /// Evaluates the springs of a block.
   virtual void find_forces(std::uint32_t block) = 0;
-  /// Adds what other blocks worked out on this one's nodes.
+  /// Adds the forces that other blocks computed for the nodes of this one.
   virtual void collect_forces(std::uint32_t block) = 0;
-  /// Sum of damping force times velocity over the block's nodes [W], once collected; only of a body
-  /// made with damping.
+  /// Sum of damping force times velocity over the block's nodes [W], after collecting; only for a
+  /// body built with damping.
   virtual double damping_power(std::uint32_t block) const = 0;
-  /// v += kick f / m, then x += drift v, for the nodes of the block; kick and drift in [s], and
-  /// with 0 of either, that part is left out.
+  /// v += kick f / m, then x += drift v, for the nodes of the block; kick and drift in [s]; 0 skips
+  /// that part.
   virtual void move(std::uint32_t block, double kick, double drift) = 0;
-  /// Of the nodes of the block, as of its last move [m].
+  /// Bounding box of the block's nodes after its last move [m].
   virtual const Box3& bounds(std::uint32_t block) const = 0;
 
-  /// Appends the indices of the block's nodes within `region` [m], rising.
+  /// Appends the indices of the block's nodes within `region` [m], ascending.
   virtual void nodes_in(std::uint32_t block, const Box3& region,
                         std::vector<std::uint32_t>& indices) const = 0;
 

@@ -14,9 +14,9 @@
 
 namespace springlod::sim {
 
-/// The contacts of a set of points of a fast body: the nodes of one block, or a whole skin. What
-/// Stepper does with vectors of all nodes is done here on the points near an obstacle, with the
-/// forces of the body. The derived classes decide which points are checked, and when.
+/// The contacts of a set of points of a FastBody: the nodes of one block, or a whole skin. Unlike
+/// Stepper, which uses vectors of all nodes, it processes only the points near an obstacle and adds
+/// to the forces of the body. The derived classes decide which points are checked, and when.
 class FastContacts {
  public:
   /// One step of the body.
@@ -28,7 +28,7 @@ class FastContacts {
     double length = 0;   ///< dt [s]
   };
 
-  /// What all sets of one body share; must outlive them.
+  /// Data shared by all sets of one body; must outlive them.
   struct Shared {
     const ContactPoints* points;
     const std::vector<Obstacle>* obstacles;
@@ -47,13 +47,14 @@ class FastContacts {
   const std::vector<Contact>& now() const { return contacts_; }
   /// Number of the first step with a contact.
   const std::optional<std::uint64_t>& first_step() const { return first_step_; }
-  /// The first point that went through a wall.
+  /// The first point that tunnelled through a box.
   const std::optional<Passage>& passage() const { return passage_; }
 
-  /// Adds the half of the losses of now() that belongs to the velocities before the kick, in a step
-  /// of `length` [s]. Call it between apply() and the kick.
+  /// Adds the half of the losses of now() that is computed with the velocities before the kick, in
+  /// a step of `length` [s]. Call it between apply() and the kick.
   void book_before_kick(double length, LedgerEntry& losses) const;
-  /// The half that belongs to the velocities after the kick. Call it between kick and drift.
+  /// Adds the half that is computed with the velocities after the kick. Call it between kick and
+  /// drift.
   void book_after_kick(double length, LedgerEntry& losses) const;
 
  protected:
@@ -73,13 +74,13 @@ class FastContacts {
   TunnelCheck& walls() const { return *shared_.walls; }
 
   /// Adds the contact of a point with an obstacle and its normal force, if there is one. Returns
-  /// whether there is.
+  /// true if there is one.
   bool add_contact(std::size_t obstacle, std::uint32_t point, const Motion& motion);
   /// Adds the friction forces of all contacts, and notes the first step with a contact.
   void add_friction(const Step& step);
-  /// Checks whether one of `points` went through a wall in the drift to step `number`, in a step of
-  /// `length` [s]. `swept`: bounds of their paths in world axes [m]. `motion_of(point)`: position
-  /// at the end, velocity of the drift.
+  /// Checks whether one of `points` tunnelled through a box in the drift to step `number`, in a
+  /// step of `length` [s]. `swept`: bounds of their paths in world axes [m]. `motion_of(point)`:
+  /// position at the end, velocity of the drift.
   template <class MotionOf>
   void check_walls(std::uint64_t number, double length, const Box3& swept,
                    const std::vector<std::uint32_t>& points, const MotionOf& motion_of) {
@@ -101,7 +102,7 @@ class FastContacts {
   /// ... and what it will be after the kick with the forces of now.
   virtual Vec3 kicked_velocity(const Contact& contact, const Step& step) const = 0;
 
-  /// Keeps `passage` if it goes through a wall and is the first.
+  /// Stores `passage` if it tunnels through a box and is the first to do so.
   void check_wall(const Passage& passage);
 
   Shared shared_;

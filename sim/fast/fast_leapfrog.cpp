@@ -11,13 +11,13 @@
 namespace springlod::sim {
 namespace {
 
-// Steps between two new frames [steps]: meanwhile a body at rest falls by no more than a few
-// hundredths of a metre a second behind its frame, which single precision resolves well; finding
-// the new one costs some three steps.
+// Steps between two new frames [steps]: in that time, the velocity of a body at rest differs from
+// that of its frame by no more than a few hundredths of a metre per second, which single precision
+// resolves well. Computing a new frame costs about three steps.
 constexpr std::uint64_t kFrameEvery = 64;
 
-// Threads wait for each other twice a step: below this many nodes each, that costs more than they
-// save.
+// Threads synchronize twice per step: with fewer nodes per thread than this, synchronization costs
+// more than the threads save.
 constexpr std::uint32_t kNodesAThread = 2 * kBlockNodes;
 
 std::uint32_t team_size(std::uint32_t threads, std::uint32_t blocks, std::uint32_t nodes) {
@@ -100,7 +100,7 @@ MovingFrame FastLeapfrog::observe(Share& share, MovingFrame frame) {
       body_->get_v(b, frame, v_minus_);
     }
   if (first || n_ % kFrameEvery == 0) frame = take_new_frame(share);
-  // At first forces and damping with the velocities of the start itself: v+- = v_0 +- dt/2 a.
+  // The first step computes forces and damping with the initial velocities: v+- = v_0 +- dt/2 a.
   frame = go({{.number = n_, .kick = first ? 0.5 * step_ : step_}}, share, frame);
   for (std::uint32_t b = share.first; b < share.end; ++b) body_->get_v(b, frame, v_plus_);
   return frame;
@@ -114,7 +114,7 @@ void FastLeapfrog::finish_observation() {
     points_.kick(c.point, c.slip_change, v_minus_);  // no part of a
 }
 
-// Summed up block by block, so that it is the same whoever does which.
+// Summed block by block, so that the result does not depend on the threads.
 MovingFrame FastLeapfrog::take_new_frame(const Share& share) {
   for (std::uint32_t b = share.first; b < share.end; ++b) {
     sums_[b] = {};

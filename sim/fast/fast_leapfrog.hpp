@@ -15,23 +15,22 @@
 namespace springlod::sim {
 
 struct FastOptions {
-  bool ledger = true;  ///< keep account of the losses
+  bool ledger = true;  ///< record the losses
   Precision precision = Precision::double_precision;
   std::uint32_t threads = 1;  ///< at most; 0: as many as the body is worth. Never change the result
   /// The model laid out for `precision`, shared by many runs; null: made for this run.
   std::shared_ptr<const FastModel> layout = nullptr;
-  /// Where the body touches obstacles; null: at its nodes.
+  /// The surface at which the body touches obstacles; null: its nodes.
   std::shared_ptr<const ContactSkin> skin = nullptr;
 };
 
-/// The scheme of Leapfrog with symplectic Euler's damping, on a body laid out for speed: the same
-/// steps to rounding, in single or double precision, on one thread or several, which changes no
-/// bit.
+/// The scheme of Leapfrog with symplectic Euler's damping, on a FastBody. The steps are the same
+/// except for rounding, in single or double precision. The number of threads changes no bit.
 ///
-/// Places and velocities are kept in a frame that goes along with the body and falls as it would
-/// fall freely: what the numbers must resolve is only how nodes move against each other. Several
-/// steps at once are one pass through memory: forces, kick and drift of a block right after each
-/// other.
+/// Positions and velocities are relative to a frame that moves with the body in free fall.
+/// Floating-point numbers then need to resolve only the relative motion of the nodes. Several steps
+/// together take one pass through memory each: forces, kick and drift of a block follow directly
+/// after each other.
 class FastLeapfrog final : public Stepper {
  public:
   FastLeapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -52,39 +51,39 @@ class FastLeapfrog final : public Stepper {
   /// One pass through all blocks, from step `number`.
   struct Pass {
     std::uint64_t number = 0;
-    double kick = 0;   ///< [s]; 0: the forces are not even found
+    double kick = 0;   ///< [s]; 0: the forces are not computed
     double drift = 0;  ///< [s]
   };
-  /// The losses of a block, but for its share of them that v+ adds as soon as the body drifts.
+  /// The losses of a block, except for the half with v+, which is added as soon as the body drifts.
   struct Losses {
     LedgerEntry until_now, next;
   };
 
   const std::vector<Vec3>& velocities_after() const override { return v_plus_; }
-  /// What one thread works on.
+  /// The blocks that one thread processes.
   struct Share {
     StepTeam::Member member;
     std::uint32_t first = 0, end = 0;  // blocks
     std::uint32_t kicks = 0;           // until now
   };
 
-  /// Calls work(share, frame) on all threads at once, from the frame of now, which becomes what it
-  /// returns.
+  /// Calls work(share, frame) on all threads in parallel with the present frame, and replaces that
+  /// frame by the returned one.
   void share_out(const std::function<MovingFrame(Share&, const MovingFrame&)>& work);
 
   // Within that:
 
   /// Returns the frame at the end of the passes.
   MovingFrame go(const std::vector<Pass>& passes, Share& share, MovingFrame frame);
-  /// Reads the state at step n_, kicks the body off it and reads the velocities after. Returns the
-  /// frame after.
+  /// Reads the state at step n_, applies the kick and reads the velocities after it. Returns the
+  /// frame after that step.
   MovingFrame observe(Share& share, MovingFrame frame);
   MovingFrame take_new_frame(const Share& share);
   void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
   /// The same for a body whose skin joins nodes of several blocks: blocks wait for it.
   void find_touch_and_move(const Pass& pass, const MovingFrame& frame, const Share& share);
   void apply_skin_contacts(const Pass& pass, const MovingFrame& frame);
-  /// For the forces of the blocks of others that this one needs.
+  /// Waits for the forces of the blocks of other threads that this block needs.
   void wait_for_others(std::uint32_t block, const Share& share) const;
 
   void kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block);
@@ -96,7 +95,7 @@ class FastLeapfrog final : public Stepper {
   FastContacts::Step contact_step(const Pass& pass, const MovingFrame& frame) const;
   void finish_observation();
   double kinetic() const;
-  /// Those of the blocks, or that of the skin.
+  /// The contacts of the blocks, or those of the skin.
   std::vector<const FastContacts*> contact_sets() const;
   void gather_contacts();
   void throw_if_tunnelled() const;
@@ -104,7 +103,7 @@ class FastLeapfrog final : public Stepper {
   std::shared_ptr<const FastModel> layout_;
   std::unique_ptr<FastBody> body_;
   StepTeam team_;
-  Milestones found_;  // kicks for which each block has found its forces
+  Milestones found_;  // number of kicks for which each block has computed its forces
   bool with_ledger_;
   MovingFrame frame_;
   std::vector<BlockContacts> block_contacts_;  // by block; empty if there is a skin

@@ -8,8 +8,8 @@
 namespace springlod::sim {
 namespace {
 
-// Rows with fewer of their eight springs than this on the average cost more than quads [1]: a whole
-// row takes as long as some 3.5 springs in quads (bench_step).
+// If rows hold fewer springs than this on average (of eight), they cost more than quads [1]: a row
+// takes as long as about 3.5 springs in quads (bench_step).
 constexpr std::uint64_t kLeastFill = 4;
 
 template <class Layout, class Body>

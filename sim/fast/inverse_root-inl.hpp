@@ -13,16 +13,15 @@ namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Squares of lengths below this [m2] count as this: the force of a spring of no length is 0, not
-// infinite. Its root, 1e-15 m, is below any length of interest, and its inverse is finite in both
-// precisions.
+// Squared lengths [m2] are clamped to this value, so that the force of a spring of zero length is
+// 0, not infinite. Its square root, 1e-15 m, is below any length of interest, and its inverse is
+// finite in both precisions.
 inline constexpr float kShortestSquare = 1e-30F;
 
 /// 1 / sqrt(square), to the last bit but one or two in single precision (an estimate and a Halley
-/// step), to the last bit but one in double. A Newton step leaves 3/2 of the square of the
-/// estimate's error, always to the same side: with the coarser estimates of some processors, of
-/// 4e-4, all springs together then are as if prestressed by 1e-7, which a slender body's bends
-/// show.
+/// step), to the last bit but one in double. A Newton step would leave 3/2 of the square of the
+/// estimate's error, always with the same sign. With an error of 4e-4, as on some processors, this
+/// acts as a prestrain of 1e-7 in all springs, which visibly bends a slender body.
 template <class D>
 HWY_INLINE hn::Vec<D> inverse_root(D d, hn::Vec<D> square) {
   using Real = hn::TFromD<D>;

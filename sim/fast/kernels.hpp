@@ -7,8 +7,8 @@
 
 namespace springlod::sim {
 
-/// What a layout does with vectors, block by block, as picked for the processor: see FastBody for
-/// what each does to a body.
+/// The vectorized functions of a layout, selected for the processor. Each processes one block: see
+/// FastBody.
 template <class Layout, class State>
 struct FastKernels {
   void (*find_forces)(const Layout&, std::uint32_t block, State&) = nullptr;

@@ -42,7 +42,7 @@ class LaidBody : public FastBody {
   FastKernels<Layout, State> kernels_;
 };
 
-/// What a number loses when it is rounded to Real.
+/// Rounding error of a number when it is converted to Real.
 template <class Real>
 Real rounding_of(double number) {
   return static_cast<Real>(number - static_cast<double>(static_cast<Real>(number)));

@@ -4,10 +4,10 @@
 
 namespace springlod::sim {
 
-/// How the springs of a model are laid out for speed.
+/// Memory layout of the springs of a model.
 enum class Layout {
-  fastest,   ///< in rows if it is a lattice, in quads if not
-  any_shape  ///< in quads whatever it is: so that bodies are timed by one kernel
+  fastest,   ///< rows for a lattice, quads otherwise
+  any_shape  ///< always quads, so that all bodies are timed with the same kernel
 };
 
 inline constexpr Choice<Layout> kLayouts[] = {
@@ -18,7 +18,7 @@ constexpr ChoiceTable<Choice<Layout>> choices(Layout) {
   return {"layout", kLayouts};
 }
 
-/// Of the numbers that a run is made with: float or double.
+/// Floating-point type of a run: float or double.
 enum class Precision { single_precision, double_precision };
 
 inline constexpr Choice<Precision> kPrecisions[] = {

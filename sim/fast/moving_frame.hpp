@@ -4,7 +4,7 @@
 
 namespace springlod::sim {
 
-/// Where a body's coordinates are measured from.
+/// The reference frame of a body's coordinates.
 struct MovingFrame {
   Vec3 origin = Vec3::Zero();    ///< [m]
   Vec3 velocity = Vec3::Zero();  ///< [m/s]

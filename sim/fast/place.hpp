@@ -4,14 +4,14 @@
 
 namespace springlod::sim {
 
-/// Where a layout keeps a node.
+/// Location of a node in a layout.
 struct Place {
   std::uint32_t block = 0;
   std::uint32_t index = 0;  ///< within the block
 };
 
-/// Nodes of a block at most: what a step touches of them stays in a core's second cache, and blocks
-/// are enough for the threads of models that are worth them.
+/// Largest number of nodes in a block. Their data fits into the L2 cache of a core, and large
+/// models have enough blocks for all threads.
 inline constexpr std::uint32_t kBlockNodes = 4096;
 
 }  // namespace springlod::sim

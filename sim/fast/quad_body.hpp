@@ -5,8 +5,8 @@
 
 namespace springlod::sim {
 
-/// A body laid out in quads. Blocks work on copies of each other's nodes: none moves before those
-/// with copies of its nodes have found their forces.
+/// A body in quad layout. Blocks use copies of each other's nodes. A block moves only after all
+/// blocks with copies of its nodes have computed their forces.
 template <class Real>
 class QuadBody final : public LaidBody<QuadLayout<Real>, QuadState<Real>> {
  public:

@@ -1,4 +1,4 @@
-// Springs of a block of quads. Included once for every vector target; see Highway's
+// Spring forces of a block of quads. Included once for every vector target; see Highway's
 // foreach_target.h.
 #if defined(SPRINGLOD_QUAD_FORCES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPRINGLOD_QUAD_FORCES_INL
@@ -21,7 +21,7 @@ namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// By scaled index: 8 numbers a record, 4 a force.
+// By scaled index: 8 numbers per record, 4 per force.
 template <class Real>
 HWY_INLINE const NodeRecord<Real>& record_at(const NodeRecord<Real>* records, std::size_t index) {
   return *reinterpret_cast<const NodeRecord<Real>*>(reinterpret_cast<const char*>(records) +
@@ -34,26 +34,26 @@ HWY_INLINE Real* force_at(NodeVector<Real>* forces, std::size_t index) {
 
 constexpr std::size_t kCacheLine = 64;  // [bytes]
 
-// Pairs worked out side by side, one part of the work after the other [1]. A processor looks ahead
-// over some 300 instructions, hardly three pairs: with the work of a pair in one piece, it waits
-// for the results of the one before.
+// Pairs evaluated together, interleaved stage by stage [1]. The reorder buffer of a processor holds
+// about 300 instructions, hardly three pairs: without interleaving, it waits for the results of the
+// previous pair.
 constexpr std::size_t kBatch = 16;
-// How far ahead pairs are asked for: 3 batches take longer than main memory. [pairs]
+// Prefetch distance in pairs: 3 batches take longer than the latency of main memory. [pairs]
 constexpr std::size_t kPairsAhead = 3 * kBatch;
 
-/// A number of each spring of a batch.
+/// One number per spring of a batch.
 template <class Real>
 struct SpringNumbers {
   alignas(64) Real of[kBatch][2 * kQuad];
 };
 
-/// What a batch has in common.
+/// Constants of a batch.
 template <class Real>
 struct Batch {
   const QuadPair<Real>* pairs = nullptr;
   std::size_t count = 0;
-  std::size_t ahead = 0;  // further pairs that will be worked out after a memory's delay
-  const std::array<Real, 2 * kQuad>* damping = nullptr;  // nothing if c = damping_time k
+  std::size_t ahead = 0;  // pairs to prefetch, evaluated one memory latency later
+  const std::array<Real, 2 * kQuad>* damping = nullptr;  // empty if c = damping_time k
   Real damping_time = 0;
 };
 
@@ -66,13 +66,13 @@ using V4 = hn::Vec<D4<Real>>;
 using D8 = hn::FixedTag<float, 8>;
 using V8 = hn::Vec<D8>;
 
-/// Four vectors with their coordinates side by side.
+/// Four vectors, stored by coordinate (SoA).
 template <class V>
 struct Side {
   V x, y, z;
 };
 
-/// Four records of places (lower half) and velocities (upper half) each, turned.
+/// Four records of position (lower half) and velocity (upper half), transposed.
 HWY_INLINE Side<V8> transpose(V8 a, V8 b, V8 c, V8 e) {
   const D8 d;
   const hn::Repartition<double, D8> wide;
@@ -209,7 +209,7 @@ HWY_INLINE void measure(const Batch<Real>& batch, const NodeRecord<Real>* record
   }
 }
 
-/// Forces over length [N/m], whole and, if asked for, of the damping alone.
+/// Forces over length [N/m]: total and, if requested, of damping only.
 template <bool with_damping, class Real>
 HWY_INLINE void pull(const Batch<Real>& batch, const SpringNumbers<Real>& square,
                      const SpringNumbers<Real>& x_dot_v, SpringNumbers<Real>& both,
@@ -231,7 +231,7 @@ HWY_INLINE void pull(const Batch<Real>& batch, const SpringNumbers<Real>& square
     }
 }
 
-/// Off one end and onto the other.
+/// Subtracts the force from one end and adds it to the other.
 template <class Real>
 HWY_INLINE void scatter(const Batch<Real>& batch, const SpringNumbers<Real>& over_length,
                         const NodeRecord<Real>* records, NodeVector<Real>* forces) {

@@ -18,7 +18,8 @@ namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Copies from all over the body, then the own nodes: in an order that the processor cannot guess.
+// Copies from anywhere in the body, then the own nodes. The hardware prefetcher cannot predict this
+// order.
 template <class Real>
 void gather_records(const QuadBlock<Real>& block, const QuadState<Real>& state,
                     QuadBlockState<Real>& own) {
@@ -48,7 +49,7 @@ void find_forces(const QuadLayout<Real>& layout, std::uint32_t number, QuadState
     add_forces<true>(block, damping_time, own);
 }
 
-/// What other blocks worked out on their copies of this one's nodes.
+/// The forces that other blocks computed on their copies of this block's nodes.
 template <class Real>
 void collect(const QuadBlock<Real>& block,
              std::vector<NodeVector<Real>> QuadBlockState<Real>::*forces, std::uint32_t number,

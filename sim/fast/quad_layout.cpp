@@ -12,17 +12,18 @@
 namespace springlod::sim {
 namespace {
 
-// Damping times this close count as one: c was c / k times k, rounded. [1]
+// Damping times this close count as equal: c was computed as damping time times k, with rounding.
+// [1]
 constexpr double kSameDamping = 1e-12;
 
-/// A spring as seen from the node that works it out.
+/// A spring, seen from the node that evaluates it.
 struct HalfSpring {
-  std::uint32_t other = 0;  // place in the order
+  std::uint32_t other = 0;  // position in the order
   std::uint32_t spring = 0;
 };
 
-// A node works out the springs to later nodes, but hands on to them what would leave a quad with a
-// gap: gaps can only come where too little is left to hand on.
+// A node evaluates its springs to later nodes. It passes on to them the springs that would leave a
+// quad incomplete, so gaps occur only if there are too few springs to pass on.
 std::vector<std::vector<HalfSpring>> assign_springs(const MassSpringModel& model,
                                                     const std::vector<std::uint32_t>& rank) {
   const std::uint32_t n = model.node_count();
@@ -49,7 +50,7 @@ std::vector<std::vector<HalfSpring>> assign_springs(const MassSpringModel& model
   return kept;
 }
 
-/// c / k of every spring, if they all have the same [s].
+/// c / k of all springs, if they have the same [s].
 std::optional<double> common_damping_time(const MassSpringModel& model) {
   double least = std::numeric_limits<double>::infinity();
   double most = 0;
@@ -76,7 +77,7 @@ class Laying {
       std::fill(block_of_.begin() + order_.first[b], block_of_.begin() + order_.first[b + 1], b);
   }
 
-  /// Nothing if a block has too many neighbours for its indices.
+  /// Empty if a block has more neighbours than its indices can address.
   std::optional<QuadLayout<Real>> lay() {
     const auto springs = assign_springs(model_, rank_);
     QuadLayout<Real> layout;
@@ -109,7 +110,7 @@ class Laying {
                  std::vector<std::vector<Place>>& copies, QuadBlock<Real>& block) const {
     const std::uint32_t first = order_.first[number];
     block.own = order_.first[number + 1] - first;
-    std::map<std::uint32_t, std::uint32_t> halo;  // rank -> index, in rising order of rank
+    std::map<std::uint32_t, std::uint32_t> halo;  // rank -> index, in ascending order of rank
     for (std::uint32_t i = 0; i < block.own; ++i)
       for (const HalfSpring& half : springs[first + i])
         if (block_of_[half.other] != number) halo.emplace(half.other, 0);
@@ -136,7 +137,7 @@ class Laying {
     return true;
   }
 
-  /// All its springs are gaps, as yet.
+  /// Initially, all its springs are gaps.
   void begin_quad(std::uint32_t quad, std::uint32_t own, QuadBlock<Real>& block) const {
     if (quad % 2 == 0) {
       QuadPair<Real>& pair = block.pairs.emplace_back();
@@ -161,7 +162,7 @@ class Laying {
 
   const MassSpringModel& model_;
   BlockOrder order_;
-  std::vector<std::uint32_t> rank_;      // node -> place in the order
+  std::vector<std::uint32_t> rank_;      // node -> position in the order
   std::vector<std::uint32_t> block_of_;  // by rank
   std::optional<double> damping_time_;
 };

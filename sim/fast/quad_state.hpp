@@ -8,8 +8,8 @@
 
 namespace springlod::sim {
 
-/// What a step needs of one node, in one load: 32 bytes (float) or 64 (double). The numbers that
-/// fill it up stay 0.
+/// The data of one node that a step needs, in one load: 32 bytes (float) or 64 (double). The
+/// padding stays 0.
 template <class Real>
 struct alignas(8 * sizeof(Real)) NodeRecord {
   Real x[4] = {};  ///< [m]
@@ -21,14 +21,14 @@ struct alignas(4 * sizeof(Real)) NodeVector {
   Real at[4] = {};
 };
 
-/// What moves of a block of quads, by index within it: see QuadBlock.
+/// The state of a block of quads, by index within the block: see QuadBlock.
 template <class Real>
 struct QuadBlockState {
   std::vector<NodeRecord<Real>> records;
   std::vector<NodeVector<Real>> forces;          ///< [N]
-  std::vector<NodeVector<Real>> damping_forces;  ///< the part of them that is damping; may be empty
-  /// What x of own nodes is too coarse to hold [m]: a step's displacement is often below the last
-  /// bit of a place. Empty in double precision.
+  std::vector<NodeVector<Real>> damping_forces;  ///< their damping components; may be empty
+  /// Accumulated rounding errors of x of own nodes [m]: the displacement in a step is often smaller
+  /// than the last bit of x. Empty in double precision.
   std::vector<NodeVector<Real>> low;
   Box3 bounds;  ///< of the own nodes [m]
 };
@@ -39,7 +39,7 @@ using QuadState = std::vector<QuadBlockState<Real>>;
 template <class Real>
 using QuadKernels = FastKernels<QuadLayout<Real>, QuadState<Real>>;
 
-/// For the widest vectors that this processor has.
+/// For the widest SIMD vectors of this processor.
 template <class Real>
 QuadKernels<Real> quad_kernels();
 

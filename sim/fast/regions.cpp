@@ -5,7 +5,7 @@
 namespace springlod::sim {
 namespace {
 
-// Bounds of the part of the box that lies behind the plane.
+// Bounds of that part of the box that lies behind the plane.
 Box3 part_behind(const Plane& plane, const Box3& box) {
   Vec3 least;  // of each term of normal . x
   for (int axis = 0; axis < 3; ++axis)

@@ -5,12 +5,12 @@
 
 namespace springlod::sim {
 
-// Regions in world axes: what may touch an obstacle, seen without looking at a single node.
+// Regions in world axes in which nodes may touch an obstacle, computed from bounding boxes only.
 
-/// Bounds of a turned box.
+/// Bounds of a rotated box.
 Box3 bounds_of(const SolidBox& box);
 
-/// Bounds of where something within `bounds` touches the obstacle; may be empty.
+/// Bounds of the region within `bounds` that touches the obstacle; may be empty.
 Box3 region_touching(const Obstacle& obstacle, const Box3& bounds);
 
 Box3 moved(const Box3& box, const Vec3& displacement);

@@ -19,8 +19,8 @@ std::span<const std::uint32_t> RowBody<Real>::nodes(std::uint32_t block) const {
   return std::span(this->layout_->node).subspan(of.first, of.own);
 }
 
-// Places that only fill up the last row are those of the last node, so that no spring there is of
-// no length.
+// The padding of the last row repeats the position of the last node, so that no spring there has
+// zero length.
 template <class Real>
 void RowBody<Real>::set(std::uint32_t block, const MovingFrame& frame, const std::vector<Vec3>& x,
                         const std::vector<Vec3>& v) {

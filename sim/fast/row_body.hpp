@@ -5,8 +5,8 @@
 
 namespace springlod::sim {
 
-/// A body laid out in rows. Springs lead ahead only: a block moves as soon as those up to it have
-/// found their forces.
+/// A body in row layout. Springs lead only to later nodes: a block moves as soon as it and all
+/// earlier blocks that reach it have computed their forces.
 template <class Real>
 class RowBody final : public LaidBody<RowLayout<Real>, RowState<Real>> {
  public:

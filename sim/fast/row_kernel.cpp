@@ -24,8 +24,8 @@ struct Vector3 {
   hn::Vec<D> x, y, z;
 };
 
-/// Where the coordinates begin. Kept in registers: the compiler must take it that any store changes
-/// what a RowState refers to.
+/// Pointers to the coordinate arrays, kept in registers: the compiler must assume that any store
+/// may change the members of a RowState.
 template <class Real>
 struct Starts {
   Real* x;
@@ -131,7 +131,7 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
   }
 }
 
-/// What earlier blocks worked out on the places of this one.
+/// The forces that earlier blocks computed on the nodes of this one.
 template <class Real>
 void collect(const RowLayout<Real>& layout, std::uint32_t number,
              std::vector<typename RowState<Real>::Coordinates>& force) {
@@ -183,7 +183,7 @@ void find_nodes(const RowLayout<Real>& layout, std::uint32_t number, const RowSt
     const auto inside = hn::And(hn::And(within(x.x, low.x, high.x), within(x.y, low.y, high.y)),
                                 within(x.z, low.z, high.z));
     if (hn::AllFalse(d, inside)) continue;
-    std::uint8_t bits[8] = {};  // a bit a lane; Highway writes 8 bytes at least
+    std::uint8_t bits[8] = {};  // one bit per lane; Highway writes at least 8 bytes
     hn::StoreMaskBits(d, inside, bits);
     for (std::uint32_t lane = 0; lane < lane_count<Real>() && p + lane < block.own; ++lane)
       if ((bits[0] >> lane & 1U) != 0) indices.push_back(p + lane);

@@ -11,8 +11,8 @@
 namespace springlod::sim {
 namespace {
 
-// A block has at least this many times the places that its longest spring leads ahead [1]: what it
-// works out for the next block then is little beside its own.
+// A block is at least this many times as long as the longest offset of its springs [1], so that
+// only a small fraction of its forces acts on the next block.
 constexpr std::uint32_t kBlocksReach = 4;
 
 /// A spring between places.
@@ -22,7 +22,8 @@ struct PlacedSpring {
   std::uint32_t spring = 0;
 };
 
-// Layers across the longest side, so that a spring leads as few places ahead as may be.
+// Layers are perpendicular to the longest side, so that the offsets of the springs are as small as
+// possible.
 std::vector<std::uint32_t> order_by_layers(const std::vector<Vec3>& rest) {
   std::array<Eigen::Index, 3> axes{0, 1, 2};
   const Vec3 size = bounds(rest).sizes();
@@ -38,7 +39,7 @@ std::vector<std::uint32_t> order_by_layers(const std::vector<Vec3>& rest) {
   return order;
 }
 
-/// Sorted by the eight places they begin in, then by how far they lead.
+/// Sorted by their first node, then by their offset.
 std::vector<PlacedSpring> place_springs(const MassSpringModel& model,
                                         const std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> place(order.size());
@@ -59,7 +60,7 @@ bool same_row(const PlacedSpring& p, const PlacedSpring& q) {
   return p.first / kRowLanes == q.first / kRowLanes && p.ahead == q.ahead;
 }
 
-/// Numbers equal properties alike.
+/// Gives equal properties the same number.
 template <class Real>
 class Palette {
  public:
@@ -78,10 +79,9 @@ class Palette {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> numbers_;
 };
 
-// The forces of a row are added to what is there, in memory. Rows of neighbouring directions lead
-// to overlapping places: one right after the other, each would wait for the store of the one
-// before. So those that lie next to each other in `rows`, sorted by how far they lead, are taken
-// apart.
+// The forces of a row are added to sums in memory. Rows of neighbouring directions write to
+// overlapping addresses: executed one right after another, each would wait for the store of the
+// previous one. Neighbours in `rows`, which is sorted by offset, are therefore separated.
 std::vector<SpringRow> interleave(const std::vector<SpringRow>& rows) {
   constexpr std::size_t kApart = 3;  // directions along a line of a lattice: back, across, forward
   std::vector<SpringRow> mixed;
@@ -126,7 +126,7 @@ void cut_blocks(RowLayout<Real>& layout) {
   const auto n = static_cast<std::uint32_t>(layout.node.size());
   std::uint32_t farthest = 0;
   for (const SpringRow& row : layout.rows) farthest = std::max(farthest, row.ahead);
-  // An even number of blocks of the same size, for two threads to share.
+  // An even number of blocks of the same size, so that two threads get equal shares.
   const std::uint32_t count = n / std::max(kBlockNodes, kBlocksReach * farthest);
   layout.block_places = whole_rows((n - 1) / std::max(1U, count - count % 2) + 1);
   layout.place.resize(n);

@@ -11,8 +11,8 @@
 
 namespace springlod::sim {
 
-/// What moves of a body laid out in rows, by place. One array a coordinate, long enough that a row
-/// may be loaded whole anywhere.
+/// The state of a body in row layout, by index. One array per coordinate, padded so that a whole
+/// row may be loaded at any index.
 template <class Real>
 struct RowState {
   using Array = hwy::AlignedFreeUniquePtr<Real[]>;
@@ -22,20 +22,19 @@ struct RowState {
 
   Coordinates x;  ///< [m]
   Coordinates v;  ///< [m/s]
-  /// What x is too coarse to hold [m]: a step's displacement is often below the last bit of x.
-  /// Unused in double precision.
+  /// Accumulated rounding errors of x [m]: the displacement in a step is often smaller than the
+  /// last bit of x. Unused in double precision.
   Coordinates low;
-  /// Forces that a block works out on its own places and those of its reach [N]; by block.
+  /// Forces that a block computes on its own nodes and those within its reach [N]; by block.
   std::vector<Coordinates> force;
-  std::vector<Coordinates>
-      damping_force;         ///< the part of it that is damping; empty if not asked for
-  std::vector<Box3> bounds;  ///< of the places of each block [m]
+  std::vector<Coordinates> damping_force;  ///< its damping component; empty if not requested
+  std::vector<Box3> bounds;                ///< bounds of the nodes of each block [m]
 };
 
 template <class Real>
 using RowKernels = FastKernels<RowLayout<Real>, RowState<Real>>;
 
-/// For the widest vectors that this processor has.
+/// For the widest SIMD vectors of this processor.
 template <class Real>
 RowKernels<Real> row_kernels();
 

@@ -39,7 +39,8 @@ void SkinContacts::apply(const Step& step) {
     }
   bounds_ = here;
   if (arrived_ != step.number) arrive(step, near, swept);
-  // A step may be repeated with another length: the contacts before it stay the same.
+  // A step may be repeated with another length: the contacts of the previous step then stay the
+  // same.
   if (kicked_ != step.number) contacts_before_ = std::move(contacts_);
   kicked_ = step.number;
   contacts_.clear();
@@ -51,7 +52,8 @@ void SkinContacts::apply(const Step& step) {
   for (const Contact& c : contacts_) after_kick_.push_back(kicked_velocity(c, step));
 }
 
-// A point lies at most its reach times half the size of the nodes' box from the middle of that.
+// The distance of a point from the centre of the nodes' bounding box is at most its reach times
+// half the size of that box.
 Box3 SkinContacts::bounds(const MovingFrame& frame) const {
   Box3 nodes;
   for (std::uint32_t b = 0; b < body().block_count(); ++b) nodes.extend(body().bounds(b));
@@ -82,7 +84,7 @@ void SkinContacts::find_contacts(const Step& step, std::size_t obstacle) {
   if (region_touching(thing, bounds_).isEmpty()) return;
   View& view = views_[obstacle];
   const bool afresh = !view.last || *view.last + 1 < step.number;
-  // If the step is repeated with another length, a point that is inside by now keeps its sides.
+  // If the step is repeated with another length, a point that is already inside keeps its sides.
   const bool again = view.last == step.number;
   view.last = step.number;
   for (const std::uint32_t p : numbers_) {

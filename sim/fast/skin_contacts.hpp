@@ -8,22 +8,23 @@
 
 namespace springlod::sim {
 
-/// The contacts of the points of a skin. A point may hang on nodes of several blocks, so one thread
-/// works on all points while the others wait. An obstacle costs nothing while the body is clear of
-/// it, and next to nothing for a point that cannot have reached it yet.
+/// The contacts of the points of a skin. A point may be interpolated from nodes of several blocks,
+/// so one thread processes all points while the others wait. An obstacle costs nothing while the
+/// body's bounding box does not touch it, and almost nothing for a point that cannot have reached
+/// it yet.
 class SkinContacts final : public FastContacts {
  public:
   /// The model must outlive this.
   SkinContacts(const Shared& shared, const MassSpringModel& model);
 
-  /// Checks also whether points went through walls since the last step.
+  /// Also checks whether points tunnelled through boxes since the last step.
   void apply(const Step& step) override;
 
  private:
-  /// What was seen of one obstacle.
+  /// Results of the last checks of one obstacle.
   struct View {
     std::optional<std::uint64_t> last;  // step at which it was checked
-    std::vector<double> due;            // travel before which a point cannot touch it [m]
+    std::vector<double> due;  // travel of the body below which a point cannot touch it [m]
   };
 
   Vec3 velocity_before_kick(std::size_t contact) const override;
@@ -48,7 +49,7 @@ class SkinContacts final : public FastContacts {
   std::vector<View> views_;                // by obstacle
   std::optional<std::uint64_t> kicked_;    // at which step
   std::vector<Contact> contacts_before_;
-  std::vector<Vec3> after_kick_;  // velocities of the points of now() [m/s]
+  std::vector<Vec3> after_kick_;  // velocities of the points in now() [m/s]
 };
 
 }  // namespace springlod::sim

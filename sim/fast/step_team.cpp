@@ -6,8 +6,8 @@ namespace springlod::sim {
 
 namespace {
 
-// Looks at the others before the core is offered to someone else [1]: some 20 microseconds, longer
-// than threads with equal work are apart.
+// Polls before the thread yields its core [1]: about 20 microseconds, longer than the waiting time
+// between threads with equal work.
 constexpr int kLooks = 10'000;
 
 template <class Come>

@@ -10,7 +10,7 @@ namespace springlod::sim {
 // Threads wait for each other a few microseconds at a time: waking a sleeping thread would take
 // longer than that, so they stay awake.
 
-/// Where all of them wait for all.
+/// A barrier of all threads.
 class MeetingPoint {
  public:
   explicit MeetingPoint(std::uint32_t size) : size_(size) {}
@@ -22,11 +22,11 @@ class MeetingPoint {
   std::atomic<std::uint32_t> meetings_{0};
 };
 
-/// How far each of several parts of the work has come, for threads that need each other's parts.
+/// Progress of each of several parts of the work, for threads that depend on each other's parts.
 class Milestones {
  public:
   explicit Milestones(std::uint32_t parts) : reached_(parts) {}
-  /// To be called by one thread while no other works.
+  /// Call it from one thread, while no other works.
   void reset();
   void reach(std::uint32_t part, std::uint32_t milestone) {
     reached_[part].store(milestone, std::memory_order_release);
@@ -37,14 +37,14 @@ class Milestones {
   std::vector<std::atomic<std::uint32_t>> reached_;
 };
 
-/// Threads that go through the same steps side by side.
+/// Threads that execute the same steps in parallel.
 class StepTeam {
  public:
-  /// One of them at work.
+  /// One of the threads, while it works.
   struct Member {
     std::uint32_t number = 0;
     MeetingPoint* others = nullptr;
-    /// Waits until all have come here.
+    /// Waits until all threads have reached this call.
     void meet() const {
       if (others != nullptr) others->arrive_and_wait();
     }
@@ -52,7 +52,7 @@ class StepTeam {
 
   explicit StepTeam(std::uint32_t size) : size_(size) {}
   std::uint32_t size() const { return size_; }
-  /// Calls work(member) for each member, all at once; it must not throw.
+  /// Calls work(member) for all members in parallel; it must not throw.
   void run(const std::function<void(const Member&)>& work) const;
 
  private:

@@ -62,7 +62,7 @@ TEST_CASE("Every scheme follows a damped vibration at its order") {
   const double exact = exact_stretch(beta, duration);
   for (const Integrator integrator : kAll) {
     CAPTURE(static_cast<int>(integrator), beta);
-    const std::uint32_t enough = 100;  // iterations: the order of the step alone is asked for
+    const std::uint32_t enough = 100;  // iterations; converged, so that only the step size matters
     const auto error = [&](int steps) {
       return stretch_after(with(integrator, duration / steps, enough), beta, duration) - exact;
     };
@@ -187,7 +187,7 @@ TEST_CASE("Runge-Kutta closes the ledger of the rods thrown at the wall", "[long
 
 TEST_CASE("A sliding block stops after 1.5 m under every scheme") {
   const auto model = test::block(6, 4, 2, 0.2, test::material("block", 1e7, 1000, 0.001),
-                                   voxelize::LatticeStyle::corners);
+                                 voxelize::LatticeStyle::corners);
   Scenario scene;
   scene.gravity = {0, 0, -10};
   scene.obstacles = {test::floor(2e7, 0.3)};
