@@ -144,7 +144,8 @@ void require_drawable(const PanelGrid& grid) {
 
 struct Renderer::Impl {
   Layout layout;
-  OffscreenContext context;  // of one panel size: a panel looks the same in every position
+  OffscreenContext
+      context;  // all panels have one size, so a panel looks the same in every position
   Pipeline pipeline{context};
   Overlay overlay;
 

@@ -72,7 +72,8 @@ void add_corner_node(MassSpringModel& model, const MaterialGrid& grid, const Cor
       if (around[o ^ across] == kNoIndex) area += quarter_face;
   }
   add_node(model, corner_position(grid, nodes.at[node]), mass, volume, area, border,
-           commonest_material(grid, around));  // cells are equal, so most cells have most volume
+           commonest_material(grid,
+                              around));  // cells have equal volumes, so the number of cells decides
 }
 
 struct SpringSum {

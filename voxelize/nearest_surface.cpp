@@ -127,8 +127,8 @@ class Search {
     }
   }
 
-  // Propagates the points inwards, layer by layer, each cell from its 26 neighbours; then once
-  // more.
+  // Propagates the points inwards, layer by layer: each cell takes the nearest of the points of its
+  // 26 neighbours. The whole pass is done twice.
   void propagate() {
     const std::vector<std::uint32_t> order = inward_order();
     for (int round = 0; round < kMostRounds; ++round) {

@@ -35,7 +35,7 @@ inline constexpr Choice<Verdict> kVerdicts[] = {
     {Verdict::unconverged, "unconverged", "the solver stopped short of its tolerance"},
     {Verdict::runaway, "runaway", "the energy more than doubled, in finite numbers"},
     {Verdict::diverged, "diverged", "non-finite state"},
-    {Verdict::mechanism, "mechanism", "springs leave nodes loose: not run"}};
+    {Verdict::mechanism, "mechanism", "nodes move without resistance: not run"}};
 constexpr ChoiceTable<Choice<Verdict>> choices(Verdict) {
   return {"verdict", kVerdicts};
 }
