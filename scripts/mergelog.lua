@@ -207,7 +207,7 @@ local function draw_merges(levels)
   end
   command.chart(args.out .. "/costs", series, {
     title = "What the merges of a step add to the error of f1..10, costliest first",
-    x_label = "merges (% of the step's)", y_label = "sum of their costs (%)",
+    x_label = "merges (% of all merges of the step)", y_label = "sum of their costs (%)",
   })
 end
 

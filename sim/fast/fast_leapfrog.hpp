@@ -80,7 +80,8 @@ class FastLeapfrog final : public Stepper {
   MovingFrame observe(Share& share, MovingFrame frame);
   MovingFrame take_new_frame(const Share& share);
   void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
-  /// The same for a body whose skin joins nodes of several blocks: blocks wait for it.
+  /// The same for a body with a skin. The skin connects nodes of several blocks, so the blocks wait
+  /// until its contacts are applied.
   void find_touch_and_move(const Pass& pass, const MovingFrame& frame, const Share& share);
   void apply_skin_contacts(const Pass& pass, const MovingFrame& frame);
   /// Waits for the forces of the blocks of other threads that this block needs.

@@ -10,7 +10,7 @@ namespace springlod::sim {
 /// Records the requested data at the frame times.
 class Recorder {
  public:
-  /// `frame_rate`: frames a second; 0: only the first and the last.
+  /// `frame_rate`: frames per second; 0: only the first and the last.
   Recorder(double frame_rate, bool ledger, Trajectory& trajectory)
       : rate_(frame_rate), ledger_(ledger), trajectory_(&trajectory) {}
 

@@ -74,7 +74,7 @@ Errors mean_errors(const std::vector<Frame>& frames, const BaseRun& base,
 }
 
 /// Largest difference of the mechanical energy over the base's largest kinetic energy; the ledgers
-/// hold one entry a frame.
+/// hold one entry per frame.
 double energy_difference(const std::vector<LedgerEntry>& ledger,
                          const std::vector<LedgerEntry>& base) {
   double largest = 0;
