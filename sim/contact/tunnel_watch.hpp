@@ -20,8 +20,8 @@ class TunnelCheck {
   /// `x`: the start positions of the nodes. The points must outlive the watch.
   TunnelCheck(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
               const std::vector<Vec3>& x);
-  /// Positions of the nodes at the end of the next step. Throws TunnelError for the first point
-  /// that passed through a box.
+  /// Checks the next step, at whose end the nodes are at `x`. Throws TunnelError for the first
+  /// point that passed through a box.
   void check(const std::vector<Vec3>& x, double time, double step);
 
   /// The same for one box and one point, given its previous and present position. Returns true if

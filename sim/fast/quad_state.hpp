@@ -39,7 +39,7 @@ using QuadState = std::vector<QuadBlockState<Real>>;
 template <class Real>
 using QuadKernels = FastKernels<QuadLayout<Real>, QuadState<Real>>;
 
-/// For the widest SIMD vectors of this processor.
+/// Kernels for the widest SIMD vectors of this processor.
 template <class Real>
 QuadKernels<Real> quad_kernels();
 

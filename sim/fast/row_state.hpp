@@ -34,7 +34,7 @@ struct RowState {
 template <class Real>
 using RowKernels = FastKernels<RowLayout<Real>, RowState<Real>>;
 
-/// For the widest SIMD vectors of this processor.
+/// Kernels for the widest SIMD vectors of this processor.
 template <class Real>
 RowKernels<Real> row_kernels();
 

@@ -135,7 +135,7 @@ struct StabilityPoint {
   std::uint32_t iterations = 0;  ///< of implicit schemes, at most
   double step = 0;               ///< [s]
   double limit =
-      0;  ///< stability limit of this scheme if it is explicit, otherwise of symplectic Euler [s]
+      0;  ///< stability limit: of this scheme if explicit, otherwise of symplectic Euler [s]
   bool stable = false;    ///< completed, and the energy never rose by kRunaway
   bool finished = false;  ///< completed: the numbers below are valid
   Verdict verdict = Verdict::stable;

@@ -79,8 +79,7 @@ TEST_CASE("A stick spring holds the point elastically and slides at mu f") {
   Contact contact;
   contact.normal_force = 100;
   contact.friction = 10;
-  contact.stick_stiffness =
-      800;  // omega = 20 rad/s: the point stops after pi/40 s, at a distance of 3 / 20 m
+  contact.stick_stiffness = 800;  // omega = 20 rad/s: the point stops after pi/40 s, 3 / 20 m away
   const double step = 1e-6;
   Vec3 v(3, 0, -1);
   double time = 0;
