@@ -23,7 +23,7 @@ constexpr auto option_rows(const ModeOptions*) {
                            "modes wanted; motions that no spring resists are not among them"),
                     option("accuracy", &ModeOptions::accuracy,
                            "bound of the relative error of each squared frequency"),
-                    option("seed", &ModeOptions::seed, "of the start of the iteration"));
+                    option("seed", &ModeOptions::seed, "seed of the start vectors"));
 }
 
 /// A mode of vibration about rest. Anchored nodes do not move in it.

@@ -74,9 +74,9 @@ struct GroupingOptions {
 };
 constexpr auto option_rows(const GroupingOptions*) {
   return std::tuple(option("grouping", &GroupingOptions::grouping, "which nodes merge"),
-                    option("border", &GroupingOptions::border, "what may happen to border nodes"),
+                    option("border", &GroupingOptions::border, "treatment of border nodes"),
                     option("seed", &GroupingOptions::seed,
-                           "of the random order; the same seed gives the same bits"),
+                           "seed of the random order; the same seed gives the same bits"),
                     option("grading", &GroupingOptions::grading,
                            "for compact, 0 .. 1: how much larger groups in stiff materials are "
                            "than in soft ones; larger values lengthen the stable step"));
@@ -143,9 +143,9 @@ struct TargetRegion {
 constexpr auto option_rows(const TargetRegion*) {
   return std::tuple(
       nodes_option("nodes", &TargetRegion::nodes,
-                   "of the base: their numbers, or a function of a Node that returns true for "
-                   "them; those on the border that are not anchored count"),
-      option("weight", &TargetRegion::weight, "of each load on it, where a smooth load has 1")
+                   "nodes of the base: their numbers, or a function of a Node that returns true "
+                   "for them; only border nodes that are not anchored count"),
+      option("weight", &TargetRegion::weight, "weight of each of its loads; a smooth load has 1")
           .weight(),
       option("patches", &TargetRegion::patches,
              "loads on patches within it: half of them pairs that are pulled apart, if there is "
@@ -187,19 +187,19 @@ struct TargetOptions {
 constexpr auto option_rows(const TargetOptions*) {
   return std::tuple(
       option("targets", &TargetOptions::kinds, "quantities fitted to the base"),
-      option("modes", &TargetOptions::modes, "how many of the lowest frequencies"),
+      option("modes", &TargetOptions::modes, "number of lowest frequencies"),
       option("patches", &TargetOptions::patches,
              "pairs of patches of the surface that are pulled apart, besides the nine smooth loads")
           .by_default("150, down to 60 for a base of more than 2000 nodes"),
       option("patch_weight", &TargetOptions::patch_weight,
-             "of each of them, where a smooth load has 1")
+             "weight of each of them; a smooth load has 1")
           .weight(),
       record_option("regions", &TargetOptions::regions, "Region",
                     "regions of the surface with load cases of their own", "none"),
       option("mode_weight", &TargetOptions::mode_weight, "factor on the weight of modes").weight(),
       option("load_weight", &TargetOptions::load_weight, "factor on the weight of all static loads")
           .weight(),
-      option("seed", &TargetOptions::seed, "of the patches"),
+      option("seed", &TargetOptions::seed, "seed of the patches"),
       anchored_option(&TargetOptions::anchored));
 }
 
@@ -277,10 +277,10 @@ struct CalibrateOptions {
 constexpr auto option_rows(const CalibrateOptions*) {
   return std::tuple(
       nested(&CalibrateOptions::targets), nested(&CalibrateOptions::fit),
-      option("store", &CalibrateOptions::store,
-             "folder that keeps what was found so far: a call that was stopped, or killed, goes on "
-             "from there when it is made again, to the same bits; what is of another base, level "
-             "or options is not used")
+      option(
+          "store", &CalibrateOptions::store,
+          "folder for intermediate results: an interrupted call that is repeated resumes from them "
+          "and ends with the same bits; results of another base, level or options are not used")
           .by_default("none"),
       option("keep_every", &CalibrateOptions::keep_every,
              "time between two writes of a fit's state to the store, 0: after each step; a "
@@ -329,7 +329,7 @@ constexpr auto option_rows(const SimplifyOptions*) {
                     "when a node counts as coincident or floppy", "the limits of Guard"),
       option("calibrate", &SimplifyOptions::calibrate, "calibration of the levels after merging"),
       record_option("calibration", &SimplifyOptions::calibration, "Calibration",
-                    "what calibrate = \"modes\" aims at", "that of Calibration"));
+                    "targets of calibrate = \"modes\"", "that of Calibration"));
 }
 
 }  // namespace springlod::lod

@@ -49,7 +49,7 @@ constexpr auto option_rows(const AnimateOptions*) {
                     option("camera", &Options::camera, "whether the camera follows the body"),
                     option("azimuth", &Options::azimuth,
                            "where the camera stands, in degrees about the vertical from x"),
-                    option("elevation", &Options::elevation, "how high it stands, in degrees"),
+                    option("elevation", &Options::elevation, "elevation of the camera, in degrees"),
                     option("avoid_walls", &Options::avoid_walls,
                            "mirror the azimuth where a wall would stand before the action"));
 }

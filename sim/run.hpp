@@ -53,9 +53,8 @@ constexpr auto option_rows(const RunOptions*) {
           .in(Dimension::time)
           .by_default("safety times the predicted stable step; 1 ms for the implicit schemes"),
       option("safety", &RunOptions::safety, "step as a fraction of the predicted stable step"),
-      option("precision", &RunOptions::precision,
-             "of the numbers symplectic_euler moves a body with"),
-      option("layout", &RunOptions::layout, "of the springs for symplectic_euler"),
+      option("precision", &RunOptions::precision, "floating-point precision of symplectic_euler"),
+      option("layout", &RunOptions::layout, "memory layout of the springs for symplectic_euler"),
       option("sleep", &RunOptions::sleep,
              "a body that touches something sleeps, at no cost, once its mean speed stays below "
              "this part of that of a fall through its own size; 0: never"),

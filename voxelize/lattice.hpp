@@ -57,9 +57,10 @@ struct LatticeOptions {
   HingePolicy hinges = HingePolicy::report;
 };
 constexpr auto option_rows(const LatticeOptions*) {
-  return std::tuple(option("style", &LatticeOptions::style, "where the nodes sit"),
-                    option("hinges", &LatticeOptions::hinges,
-                           "what to do where cells touch only along an edge or at a corner"));
+  return std::tuple(
+      option("style", &LatticeOptions::style, "where the nodes sit"),
+      option("hinges", &LatticeOptions::hinges,
+             "treatment of places where cells touch only along an edge or at a corner"));
 }
 
 struct LatticeModel {

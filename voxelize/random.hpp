@@ -29,10 +29,10 @@ struct RandomOptions {
 inline constexpr const char* kEndsHelp =
     "ends of springs a node on average, at least 14; every node of a random model has 14";
 inline constexpr const char* kPlacesHelp =
-    "of the random places; the same seed gives the same bits";
+    "seed of the random positions; the same seed gives the same bits";
 constexpr auto option_rows(const RandomOptions*) {
   return std::tuple(
-      option("nodes", &RandomOptions::nodes, "how many, at least 15")
+      option("nodes", &RandomOptions::nodes, "number of nodes, at least 15")
           .by_default("as spacing tells"),
       option("spacing", &RandomOptions::spacing, "edge of the cube that a node stands for")
           .in(Dimension::length)

@@ -34,7 +34,7 @@ struct RefillOptions {
   Progress* progress = nullptr;
 };
 constexpr auto option_rows(const RefillOptions*) {
-  return std::tuple(option("style", &RefillOptions::style, "what the levels are made of"),
+  return std::tuple(option("style", &RefillOptions::style, "structure of the levels"),
                     option("lattice", &RefillOptions::lattice,
                            "where the nodes of a lattice sit, as in s.lattice"),
                     option("ends", &RefillOptions::ends, kEndsHelp),

@@ -27,7 +27,7 @@ constexpr auto option_rows(const CertifyOptions*) {
       option("held_out_loads", &CertifyOptions::held_out_loads,
              "pinches, and as many pushes, on patches of the surface; calibration is fitted to "
              "neither"),
-      option("seed", &CertifyOptions::seed, "of where they act"),
+      option("seed", &CertifyOptions::seed, "seed of their positions"),
       nodes_option("within", &CertifyOptions::within,
                    "nodes of the base whose surface the held-out loads act on, such as a region "
                    "given to calibration",

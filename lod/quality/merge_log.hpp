@@ -71,7 +71,7 @@ constexpr auto option_rows(const MergeLogOptions*) {
       option("modes", &Options::modes, "lowest modes of each level; 0: none"),
       option("local_loads", &Options::local_loads,
              "pinches, and as many pushes, on patches of the surface; 0: none"),
-      option("seed", &Options::seed, "of where they act, as in certify"),
+      option("seed", &Options::seed, "seed of their positions, as in certify"),
       option("from_base", &Options::from_base,
              "each step counts from the base, also where a level was merged from the one before"),
       anchored_option(&Options::anchored));

@@ -95,11 +95,11 @@ void describe_deviation(Api& api) {
           {{.name = "number",
             .type = "integer",
             .fallback = "1",
-            .help = "of the start; the first is the scenario's own"},
+            .help = "number of the start; the first is the scenario's own"},
            {.name = "jitter",
             .type = "number",
             .fallback = fmt::format("{}", usual.jitter),
-            .help = "relative change of speed and height, as in compare"},
+            .help = "relative random change of speed and height, as in compare"},
            {.name = "seed", .type = "integer", .fallback = "s.seed", .help = "as in compare"}},
       .returns = "Scenario",
       .errors = "A jitter outside [0, 1).",
@@ -111,9 +111,9 @@ void describe_deviation(Api& api) {
       .summary = "Distance of a level's run from a run of its base, frame by frame.",
       .arguments = {{.name = "run",
                      .type = "Trajectory",
-                     .help = "of a level of a chain, brought back to level 0; or of the base with "
-                             "other options"},
-                    {.name = "base", .type = "Trajectory", .help = "of the base"}},
+                     .help = "trajectory of a level of a chain, interpolated to level 0, or of the "
+                             "base with other options"},
+                    {.name = "base", .type = "Trajectory", .help = "sample of the base"}},
       .returns = "list of tables: time [s], surface (mass-weighted rms distance of the level-0 "
                  "nodes [m]), shape (the same after the best rigid fit [m]), as long as both runs "
                  "have frames of the same instants",

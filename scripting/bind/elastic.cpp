@@ -216,9 +216,8 @@ void describe_statics(Api& api, const Parameter& model) {
       .arguments = {model},
       .options = {{.name = "force",
                    .type = "table or function",
-                   .help =
-                       "from node number to {x, y, z} [N] (those left out: none), or a function "
-                       "of a Node that returns it (nothing: none)"},
+                   .help = "force on each node [N]: a table from node number to {x, y, z}, or a "
+                           "function of a Node that returns {x, y, z} or nothing"},
                   anchored_parameter()},
       .returns = "table: " + solution,
       .errors = "No force given; anchors that leave free what the forces move. Without anchors, "

@@ -161,7 +161,7 @@ void describe_grid_type(Api& api) {
              [](const GridValue& value) { return value.grid.cell; });
   type.field("cell_count", "integer", "number of filled cells",
              [](const GridValue& value) { return value.grid.cells.size(); });
-  type.field("volume", "number", "of the filled cells [m3]", [](const GridValue& value) {
+  type.field("volume", "number", "volume of the filled cells [m3]", [](const GridValue& value) {
     return static_cast<double>(value.grid.cells.size()) * value.grid.cell * value.grid.cell *
            value.grid.cell;
   });
@@ -229,7 +229,7 @@ void describe_grid(Api& api) {
       .group = kGroup,
       .summary = "Writes a grid as .vdb: distance, material number, Young's modulus, density.",
       .arguments = {{.name = "path", .type = "string", .help = "file to write"},
-                    {.name = "grid", .type = "Grid", .help = "what to write"}},
+                    {.name = "grid", .type = "Grid", .help = "grid to write"}},
       .returns = "nothing",
       .errors = "The file cannot be written.",
       .example = "s.save_vdb(\"out/dumbbell.vdb\", grid)",

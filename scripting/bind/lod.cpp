@@ -128,8 +128,8 @@ void describe_chain(Api& api) {
                .arguments = {level,
                              {.name = "nodes",
                               .type = "list of integers or function",
-                              .help = "of the base: their numbers, or a function of a Node that "
-                                      "returns true for them"}},
+                              .help = "nodes of the base: their numbers, or a function of a Node "
+                                      "that returns true for them"}},
                .returns = "list of integers, rising",
                .errors = "A node that the base does not have.",
                .example =

@@ -98,15 +98,15 @@ void describe_records(Api& api) {
            result_field("local_load_error", "number", "mean |error| of pinches and pushes"),
            result_field(
                "answers", "list of tables",
-               "what was asked: name, kind (mode, smooth, local), change (of this step; ln of "
-               "the frequency, for loads of the compliance), error (since the base)"),
+               "quantities compared: name, kind (mode, smooth, local), change (in this step; of ln "
+               "frequency, for loads of ln compliance), error (since the base)"),
            result_field("merges", "list of MergeEntry",
                         "the nodes of the level, the costliest first")},
       .example = "s.merge_log(chain)[1].merges[1].position"});
   api.add(RecordEntry{
       .name = "MergeEntry",
       .summary = "Contribution of one merge to the errors of a MergeStep.",
-      .fields = {result_field("node", "integer", "of the level, that came of it"),
+      .fields = {result_field("node", "integer", "node of the level that results from it"),
                  result_field("pieces", "integer",
                               "nodes that became it; 1: it was not merged in this step"),
                  result_field("base_nodes", "integer", "nodes of the base in it"),
@@ -119,7 +119,7 @@ void describe_records(Api& api) {
                  result_field("smooth_loads", "number", "likewise, of the smooth loads"),
                  result_field("local_loads", "number", "likewise, of pinches and pushes"),
                  result_field("change", "list of numbers",
-                              "contribution to the change of each of the step's answers; the "
+                              "contribution to the change of each quantity in this step; the "
                               "contributions of all merges sum to the change")},
       .example = "s.merge_log(chain)[1].merges[1].frequencies"});
 }

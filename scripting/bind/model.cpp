@@ -226,7 +226,7 @@ void describe_model_type(Api& api) {
       [](lua_State* L, const ModelValue& value) { push_materials(L, value.model->materials); });
   type.field("level", "integer", "level in its chain; 0 for a model of its own",
              [](const ModelValue& value) { return value.level; });
-  type.field("made_by", "string", "how it was made",
+  type.field("made_by", "string", "method by which it was made",
              [](const ModelValue& value) { return value.made_by; });
   type.table_field(
       "provenance", "table of strings", "where it came from",
@@ -243,29 +243,27 @@ void describe_material(Api& api) {
   api.add(RecordEntry{
       .name = "Material",
       .summary = "An elastic material; springs alone give it Poisson's ratio 1/4.",
-      .fields = {{.name = "name",
-                  .type = "string",
-                  .fallback = "its key",
-                  .help = "what reports call it"},
-                 {.name = "young",
-                  .type = "quantity",
-                  .dimension = Dimension::pressure,
-                  .fallback = fmt::format("{}", usual.young),
-                  .help = "Young's modulus"},
-                 {.name = "density",
-                  .type = "quantity",
-                  .dimension = Dimension::density,
-                  .fallback = fmt::format("{}", usual.density),
-                  .help = "density"},
-                 {.name = "damping",
-                  .type = "quantity",
-                  .dimension = Dimension::time,
-                  .fallback = fmt::format("{}", usual.damping),
-                  .help = "damping time c/k of its springs"},
-                 {.name = "colour",
-                  .type = "\"#rrggbb\" or {r, g, b}",
-                  .fallback = "grey",
-                  .help = "in pictures; r, g, b of 0..1"}},
+      .fields =
+          {{.name = "name", .type = "string", .fallback = "its key", .help = "name in reports"},
+           {.name = "young",
+            .type = "quantity",
+            .dimension = Dimension::pressure,
+            .fallback = fmt::format("{}", usual.young),
+            .help = "Young's modulus"},
+           {.name = "density",
+            .type = "quantity",
+            .dimension = Dimension::density,
+            .fallback = fmt::format("{}", usual.density),
+            .help = "density"},
+           {.name = "damping",
+            .type = "quantity",
+            .dimension = Dimension::time,
+            .fallback = fmt::format("{}", usual.damping),
+            .help = "damping time c/k of its springs"},
+           {.name = "colour",
+            .type = "\"#rrggbb\" or {r, g, b}",
+            .fallback = "grey",
+            .help = "colour in pictures; r, g, b of 0..1"}},
       .example = "rubber = {young = \"0.2 MPa\", density = 1000, damping = 0.004, colour = "
                  "\"#40a060\"}"});
 }
@@ -294,7 +292,7 @@ void describe_estimates(Api& api) {
 }
 
 void describe_assets(Api& api) {
-  const Parameter chain{.name = "chain", .type = "LodChain", .help = "what simplify made"};
+  const Parameter chain{.name = "chain", .type = "LodChain", .help = "chain made by simplify"};
   api.add(FunctionEntry{
       .name = "save",
       .group = kFiles,

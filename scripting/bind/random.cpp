@@ -114,10 +114,10 @@ std::vector<Parameter> random_parameters() {
 }
 
 std::vector<Parameter> refill_parameters() {
-  std::vector<Parameter> parameters{
-      {.name = "nodes",
-       .type = "integer or list of integers",
-       .help = "how many at level 1, 2, ...; a lattice comes as near as it can"}};
+  std::vector<Parameter> parameters{{.name = "nodes",
+                                     .type = "integer or list of integers",
+                                     .help = "number of nodes of level 1, 2, ...; a lattice has "
+                                             "the nearest number that it can have"}};
   const std::vector<Parameter> more = parameters_of<voxelize::RefillOptions>();
   parameters.insert(parameters.end(), more.begin(), more.end());
   use_session_defaults(parameters);

@@ -253,11 +253,11 @@ std::vector<Parameter> render_parameters() {
       {.name = "elevation",
        .type = "number",
        .fallback = fmt::format("{}", usual.elevation),
-       .help = "how high it stands, in degrees"},
+       .help = "elevation of the camera, in degrees"},
       {.name = "titles",
        .type = "list of strings",
        .fallback = "none",
-       .help = "one a panel; lines after the first are smaller"},
+       .help = "one title per panel; lines after the first are smaller"},
       {.name = "title",
        .type = "string",
        .fallback = "none",
@@ -272,7 +272,7 @@ void describe_panel(Api& api) {
   std::vector<Parameter> fields{{.name = "title",
                                  .type = "string",
                                  .fallback = "its entry in titles",
-                                 .help = "in the corner; lines after the first are smaller"}};
+                                 .help = "title in the corner; lines after the first are smaller"}};
   for (Parameter parameter : panel_parameters()) {
     parameter.fallback = "the picture's";
     fields.push_back(std::move(parameter));
@@ -295,7 +295,7 @@ void describe_render(Api& api) {
       .arguments = {{.name = "path", .type = "string", .help = "NAME.png to write"},
                     {.name = "subject",
                      .type = "Mesh, Model, LodChain or Trajectory, or a list of them or of Panel",
-                     .help = "what to draw; a list gives panels, row by row"}},
+                     .help = "subject to draw; a list gives panels, row by row"}},
       .options = render_parameters(),
       .returns = "nothing",
       .errors = "A size beyond the largest picture; node_values that are not one a node; a time "

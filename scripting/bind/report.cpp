@@ -113,7 +113,7 @@ void describe_film(Api& api) {
       .group = kGroup,
       .summary = "Draws base and levels side by side on one clock as frame_0000.png ...",
       .arguments = {{.name = "folder", .type = "string", .help = "where the frames go"},
-                    {.name = "comparison", .type = "Comparison", .help = "what compare gave"}},
+                    {.name = "comparison", .type = "Comparison", .help = "result of compare"}},
       .options = animate_parameters(),
       .returns = "integer: number of frames",
       .errors = "A size beyond the largest picture; a file cannot be written.",

@@ -53,7 +53,7 @@ void describe_map(Api& api) {
         return fmt::format("StabilityMap: {} points, {} of them stable; stiff part: {}",
                            map.points.size(), stable, map.stiff_part);
       });
-  type.field("stiff_part", "string", "what the ratio makes stiff: a material, or one half",
+  type.field("stiff_part", "string", "part that the ratio makes stiff: a material, or one half",
              [](const sim::StabilityMap& map) { return map.stiff_part; });
   type.table_field("verdicts", "table", "number of points of each verdict that occurs",
                    push_verdicts);

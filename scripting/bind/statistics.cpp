@@ -199,7 +199,7 @@ void describe_samples(Api& api) {
       .name = "mean",
       .group = kGroup,
       .summary = "Mean of a list of numbers. s.statistics adds an interval, from five values on.",
-      .arguments = {{.name = "sample", .type = "list of numbers", .help = "at least one"}},
+      .arguments = {{.name = "sample", .type = "list of numbers", .help = "one number or more"}},
       .returns = "number",
       .errors = "An empty list; a value that is not finite.",
       .example = "print(s.mean{7.1, 8.4, 6.9})",
@@ -222,7 +222,9 @@ void describe_samples(Api& api) {
       .summary =
           "Distances between two samples, and an equivalence test of their means with a margin.",
       .arguments = {sample_parameter("base", "one value a start"),
-                    sample_parameter("other", "as base; may have another size unless paired")},
+                    sample_parameter(
+                        "other",
+                        "sample to compare with base; may have another size unless paired")},
       .options = session_parameters<report::SampleComparisonOptions>(),
       .returns = "table: difference (of the means, other minus base), difference_over_spread (in "
                  "standard deviations of the base), wasserstein and energy_distance (without a "
@@ -263,10 +265,12 @@ void describe_noise_floor(Api& api) {
   type.method(
       {.name = "judge",
        .summary = "Tests whether the distance of two samples is within the noise floor.",
-       .arguments = {{.name = "base", .type = "list of numbers", .help = "of the floor's size"},
+       .arguments = {{.name = "base",
+                      .type = "list of numbers",
+                      .help = "sample with the size of the floor"},
                      {.name = "other",
                       .type = "list of numbers",
-                      .help = "of the floor's other_size"}},
+                      .help = "sample with the other_size of the floor"}},
        .returns = "table: inside (boolean), distance, p (how often the base is as far from itself)",
        .errors = "Samples of other sizes than the floor's.",
        .call = judge_method});

@@ -13,7 +13,7 @@ std::int8_t side_of(double coordinate) {
   return coordinate < 0 ? -1 : 1;
 }
 
-/// Depth of a point in an obstacle.
+/// Penetration of a point into an obstacle.
 struct Depth {
   double depth = 0;  // [m]
   Vec3 normal = Vec3::UnitZ();
@@ -33,8 +33,8 @@ std::optional<Depth> depth_in(const SolidBox& box, std::array<std::int8_t, 3>& s
       (box.half_size - Vec3(side[0] * local[0], side[1] * local[1], side[2] * local[2]))
           .minCoeff(&axis);
   for (Eigen::Index i = 0; i < 3; ++i) {
-    // The side may change if the depth stays the same: outside the box, and along the axes that do
-    // not determine the depth.
+    // The side may change where this does not change the depth: outside, and along the axes that
+    // do not determine it.
     const bool free_to_change = depth <= 0 || box.half_size[i] - std::abs(local[i]) >= depth;
     if (free_to_change) side[static_cast<std::size_t>(i)] = side_of(local[i]);
   }
@@ -42,7 +42,7 @@ std::optional<Depth> depth_in(const SolidBox& box, std::array<std::int8_t, 3>& s
   return Depth{depth, side[static_cast<std::size_t>(axis)] * box.rotation.col(axis)};
 }
 
-// Upper bound of the stiffness that all obstacles together add to a point in one direction [N/m].
+// Upper bound of the stiffness that all obstacles add to a point in one direction [N/m].
 double stiffness_of_point(const ContactPoints& points, std::uint32_t point,
                           const std::vector<Obstacle>& obstacles) {
   Mat3 planes = Mat3::Zero();  // sum of k n n^T
@@ -72,7 +72,7 @@ Contact make_contact(const Obstacle& obstacle, const ContactPoints& points, std:
   const double elastic = contact.stiffness * at.depth;
   const double rate = -at.normal.dot(velocity);
   contact.normal_force =
-      std::max(0.0, elastic + contact.stiffness * contact.damping * rate);  // never pulling
+      std::max(0.0, elastic + contact.stiffness * contact.damping * rate);  // contact never pulls
   contact.damping_force = contact.normal_force - elastic;
   return contact;
 }

@@ -12,15 +12,15 @@ namespace springlod::sim {
 
 /// One point of the body in contact with one obstacle at this instant: section 9 of docs/method.md.
 struct Contact {
-  std::uint32_t obstacle = 0;       ///< of the scenario
-  std::uint32_t point = 0;          ///< index in ContactPoints
+  std::uint32_t obstacle = 0;       ///< number in the scenario
+  std::uint32_t point = 0;          ///< number in ContactPoints
   double depth = 0;                 ///< d [m] > 0
   double stiffness = 0;             ///< k = ContactPoints::stiffness, of a node kappa A [N/m]
   double normal_force = 0;          ///< k (d + damping * rate of d), cut off at 0 [N]
   double damping_force = 0;         ///< damping component of normal_force, normal_force - k d [N]
   double damping = 0;               ///< contact damping time [s]
   double friction = 0;              ///< mu
-  Vec3 normal = Vec3::UnitZ();      ///< out of the obstacle
+  Vec3 normal = Vec3::UnitZ();      ///< outward normal of the obstacle
   Vec3 slip_change = Vec3::Zero();  ///< change of the point's velocity by friction [m/s]
 
   /// Stiffness of the tangential contact spring (stick spring), 1 / ContactPoints::compliance
@@ -53,7 +53,7 @@ class ContactFinder {
   /// The same for one obstacle and one point at x.
   std::optional<Contact> find_one(std::size_t obstacle, std::uint32_t point, const Vec3& x,
                                   const Vec3& v);
-  /// Sets the sides of a point that was not checked in the last steps. It was at x, outside the
+  /// Updates the sides of a point that was not checked in the last steps and is at x, outside the
   /// obstacle.
   void take_sides(std::size_t obstacle, std::uint32_t point, const Vec3& x);
 
@@ -79,9 +79,9 @@ void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>
 /// and Strack 1979, "A discrete numerical model for granular assemblies").
 void apply_friction(Contact& contact, double mass, double step, const Vec3& v);
 
-/// Applies friction to the contacts one after another, because points may share nodes. `v`:
-/// velocities of the nodes after all other forces of the step. Returns the removed kinetic energy
-/// [J], including the energy stored in stick springs.
+/// Applies friction to all contacts in turn, as points may share nodes. `v`: velocities of the
+/// nodes after all other forces of the step. Returns the removed kinetic energy [J], including the
+/// energy stored in stick springs.
 double apply_friction(const ContactPoints& points, double step, std::vector<Contact>& contacts,
                       std::vector<Vec3>& v);
 

@@ -10,9 +10,9 @@
 
 namespace springlod::sim {
 
-/// Where a body touches obstacles: its nodes with an area, or the points of a skin. A point p lies
-/// at sum w_i x_i. A force f on it is distributed to the nodes as w_i f. This conserves the work
-/// and, because the w_i add up to 1 and reproduce the position of p, the force and the torque.
+/// The contact points of a body: its nodes with an area, or the points of a skin. A point p is at
+/// sum w_i x_i. A force f at p acts as w_i f on the nodes. These forces do the same work and have
+/// the same resultant force and torque as f, since the w_i add up to 1 and reproduce p.
 class ContactPoints {
  public:
   struct Share {
@@ -21,7 +21,7 @@ class ContactPoints {
     double kick = 0;    ///< change of the node's velocity when an impulse changes the point's [1]
   };
 
-  /// The nodes with a contact area, ascending.
+  /// The nodes with a contact area, in ascending order.
   explicit ContactPoints(const MassSpringModel& model);
   /// Throws InputError for a skin that does not fit the model.
   ContactPoints(const MassSpringModel& model, const ContactSkin& skin);
@@ -32,8 +32,8 @@ class ContactPoints {
   double compliance(std::size_t point) const { return compliance_[point]; }  ///< s_p [m/N]
   /// Damping time of the compliance: mean of the springs of the nodes of the point [s].
   double compliance_damping(std::size_t point) const { return compliance_damping_[point]; }
-  /// Contact stiffness of the point on an obstacle of stiffness kappa [N/m3], in series with the
-  /// surface compliance: kappa A / (1 + kappa A s_p) [N/m], k_n in eq. 64 of docs/method.md.
+  /// Stiffness of its contact with an obstacle of stiffness kappa [N/m3], in series with the
+  /// compliance: kappa A / (1 + kappa A s_p) [N/m], k_n in eq. 64 of docs/method.md.
   double stiffness(std::size_t point, double kappa) const {
     const double bare = kappa * area_[point];
     return bare / (1 + bare * compliance_[point]);
@@ -46,18 +46,18 @@ class ContactPoints {
   }
   /// Effective mass for an impulse at the point, 1 / sum (w_i^2 / m_i) [kg].
   double mass(std::size_t point) const { return mass_[point]; }
-  /// sum |w_i| [1]: upper bound of the point's displacement over the largest displacement of its
-  /// nodes.
+  /// sum |w_i| [1]: the displacement of the point / the largest displacement of its nodes is at
+  /// most this.
   double reach(std::size_t point) const { return reach_[point]; }
   std::span<const Share> shares(std::size_t point) const {
     return {shares_.data() + start_[point], start_[point + 1] - start_[point]};
   }
-  /// Its node number in the model or in the base, counted from 0.
+  /// Number of the node that the point is, in the model or in the base; counted from 0.
   std::uint32_t number(std::size_t point) const { return number_[point]; }
   /// For messages, counted from 1: "node 7", "the surface at node 7 of the base".
   std::string name(std::size_t point) const;
 
-  /// Interpolates positions or velocities of the nodes.
+  /// Position or velocity of a point, from those of the nodes.
   Vec3 interpolate(std::size_t point, const std::vector<Vec3>& nodes) const {
     Vec3 sum = Vec3::Zero();
     for (const Share& share : shares(point)) sum += share.weight * nodes[share.node];

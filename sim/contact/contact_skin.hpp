@@ -16,32 +16,33 @@ namespace springlod::sim {
 struct ContactSkin {
   Binding of_nodes;                      ///< P rows; see lod/transfer.hpp
   std::vector<double> area;              ///< [m2] > 0, P
-  std::vector<std::uint32_t> base_node;  ///< their base nodes, ascending, P
+  std::vector<std::uint32_t> base_node;  ///< node of the base at each point, ascending, P
   /// Local surface compliance that merging removed, neighbours held [m/N] >= 0, P: eq. 65 of
   /// docs/method.md. It is added in series with the contact penalty, and as a tangential contact
   /// spring (stick spring) of the same compliance with friction.
   std::vector<double> compliance;
 };
 
-/// Where the levels of a chain touch obstacles.
+/// Contact points of the levels of a chain.
 enum class ContactAt {
-  nodes,   ///< their own
-  surface  ///< the surface of the base: see contact_skin
+  nodes,   ///< the level's own nodes
+  surface  ///< points of the base's surface: see contact_skin
 };
 
 inline constexpr Choice<ContactAt> kContacts[] = {
-    {ContactAt::nodes, "nodes", "at its own nodes, which lie inside its base's surface"},
-    {ContactAt::surface, "surface", "at the base's surface, which its nodes carry"}};
+    {ContactAt::nodes, "nodes", "the level's own nodes, which lie inside the base's surface"},
+    {ContactAt::surface, "surface",
+     "points of the base's surface, interpolated from the level's nodes"}};
 constexpr ChoiceTable<Choice<ContactAt>> choices(ContactAt) {
   return {"contact", kContacts};
 }
 
-/// The skin of level `level`; for level 0, the base's own nodes. Throws InputError if there is no
-/// such level.
+/// The skin of level `level`; that of level 0 is the base's own nodes. Throws InputError if there
+/// is no such level.
 ContactSkin contact_skin(const LodChain& chain, std::uint32_t level);
 
-/// Throws InputError unless each point has an area above 0 and a base node, and refers only to
-/// nodes below `node_count`.
+/// Throws InputError unless each point has an area above 0, a node of the base, and nodes below
+/// `node_count`.
 void validate(const ContactSkin& skin, std::uint32_t node_count);
 
 }  // namespace springlod::sim

@@ -15,7 +15,7 @@ std::int8_t face(Eigen::Index axis, bool positive) {
   return positive ? number : static_cast<std::int8_t>(-number);
 }
 
-/// The face nearest to a node inside the box; 0 outside.
+/// The face nearest to a point inside; 0 outside.
 std::int8_t nearest_face(const Vec3& half_size, const Vec3& at) {
   Eigen::Index axis = 0;
   const double depth = (half_size - at.cwiseAbs()).minCoeff(&axis);
@@ -97,8 +97,7 @@ void TunnelCheck::throw_tunnelled(std::size_t wall, std::size_t point, const Vec
   const Eigen::Index axis = std::abs(pass(box.half_size, start, end).out) - 1;
   const double thickness = 2 * box.half_size[axis];
   const double moved = std::abs(end[axis] - start[axis]);
-  // If a node moves by at most half the thickness in a step, contact still pushes it back to the
-  // side it came from.
+  // A node that moves by half the thickness per step is still pushed back to the side it came from.
   const bool too_fast = moved > thickness / 2;
   const std::string advice =
       too_fast ? fmt::format("take a step below {:.3g} s or a thicker obstacle",

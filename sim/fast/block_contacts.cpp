@@ -8,7 +8,7 @@
 namespace springlod::sim {
 namespace {
 
-// Nodes without a contact area have no contact point.
+// Number of a node without contact area.
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // Regions are widened by this fraction of the block's size [1], so that rounding to single
@@ -58,7 +58,7 @@ void BlockContacts::find_contact(const Step& step, std::size_t obstacle, std::ui
   const Vec3 x = step.frame.origin + body().x(at);
   const Vec3 v = step.frame.velocity + body().v(at);
   std::uint64_t& checked_at = checked_at_[obstacle][index];
-  // Not if the step is repeated with another length: the node may already be inside.
+  // Skipped if the step is repeated with another length: the node may be inside by now.
   if (checked_at != step.number && checked_at != step.number + 1)
     finder().take_sides(obstacle, number, x - step.length * v);
   checked_at = step.number + 1;

@@ -7,15 +7,15 @@
 
 namespace springlod::sim {
 
-/// The contacts of the nodes of one block. The thread that processes the block needs no other
-/// contacts. An obstacle costs nothing while the block's bounding box does not touch it.
+/// The contacts of the nodes of one block. The thread that works on the block needs no other data.
+/// An obstacle costs nothing while the block's bounds do not touch it.
 class BlockContacts final : public FastContacts {
  public:
-  /// `numbers`: the body's contact points (all are nodes) that belong to the block.
+  /// `numbers`: the contact points of the body that belong to the block; all of them are nodes.
   BlockContacts(const Shared& shared, std::uint32_t block, std::vector<std::uint32_t> numbers);
 
   void apply(const Step& step) override;
-  /// Stores the bounding box. Call it before the drift.
+  /// Stores the bounds before the drift.
   void start_drift() { bounds_before_ = body().bounds(block_); }
   /// After the drift to step number n of `length` [s]: checks whether nodes went through a wall.
   /// `before`, `after`: the frame at its ends.
@@ -35,10 +35,10 @@ class BlockContacts final : public FastContacts {
 
   std::uint32_t block_;
   std::vector<std::uint32_t> numbers_;                  // contact points of the block
-  std::vector<std::uint32_t> number_of_;                // by index in the block; kNone
+  std::vector<std::uint32_t> number_of_;                // by index in the block; or kNone
   std::vector<std::vector<std::uint64_t>> checked_at_;  // by obstacle and index: last step, plus 1
-  std::vector<std::uint32_t> found_;                    // buffer of indices
-  Vec3 frame_velocity_ = Vec3::Zero();                  // of the last apply(), before the kick
+  std::vector<std::uint32_t> found_;                    // scratch: indices
+  Vec3 frame_velocity_ = Vec3::Zero();                  // in the last apply(), before the kick
   Vec3 kicked_frame_velocity_ = Vec3::Zero();           // after the kick
   Box3 bounds_before_;
 };

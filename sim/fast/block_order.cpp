@@ -8,7 +8,7 @@
 namespace springlod::sim {
 namespace {
 
-// Ranges of at most this many points are not sorted further: one or two cache lines of records.
+// A part of so few points is not sorted further: one or two cache lines of records.
 constexpr std::size_t kLeaf = 4;
 
 using Part = std::span<std::uint32_t>;
@@ -23,8 +23,8 @@ class Halving {
     return box;
   }
 
-  /// Sorts the range by recursive bisection. The largest ranges with at most `most` points are
-  /// appended to `blocks`, unless that is null.
+  /// Halves the part recursively. The first halves with at most `most` points are appended to
+  /// `blocks`, unless it is null.
   void halve(Part part, std::uint32_t most, std::vector<Part>* blocks) const {
     if (blocks != nullptr && part.size() <= most) {
       blocks->push_back(part);

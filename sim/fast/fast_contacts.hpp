@@ -14,9 +14,9 @@
 
 namespace springlod::sim {
 
-/// The contacts of a set of points of a FastBody: the nodes of one block, or a whole skin. Unlike
-/// Stepper, which uses vectors of all nodes, it processes only the points near an obstacle and adds
-/// to the forces of the body. The derived classes decide which points are checked, and when.
+/// The contacts of a set of points of a fast body: the nodes of one block, or a whole skin. Stepper
+/// works on vectors of all nodes; this class works on the points near an obstacle and on the forces
+/// of the body. The derived classes decide which points are checked, and when.
 class FastContacts {
  public:
   /// One step of the body.
@@ -47,7 +47,7 @@ class FastContacts {
   const std::vector<Contact>& now() const { return contacts_; }
   /// Number of the first step with a contact.
   const std::optional<std::uint64_t>& first_step() const { return first_step_; }
-  /// The first point that tunnelled through a box.
+  /// The first point that tunnelled through a wall.
   const std::optional<Passage>& passage() const { return passage_; }
 
   /// Adds the half of the losses of now() that is computed with the velocities before the kick, in
@@ -74,11 +74,11 @@ class FastContacts {
   TunnelCheck& walls() const { return *shared_.walls; }
 
   /// Adds the contact of a point with an obstacle and its normal force, if there is one. Returns
-  /// true if there is one.
+  /// whether there is.
   bool add_contact(std::size_t obstacle, std::uint32_t point, const Motion& motion);
   /// Adds the friction forces of all contacts, and notes the first step with a contact.
   void add_friction(const Step& step);
-  /// Checks whether one of `points` tunnelled through a box in the drift to step `number`, in a
+  /// Checks whether one of `points` tunnelled through a wall in the drift to step `number`, in a
   /// step of `length` [s]. `swept`: bounds of their paths in world axes [m]. `motion_of(point)`:
   /// position at the end, velocity of the drift.
   template <class MotionOf>
@@ -96,13 +96,13 @@ class FastContacts {
   std::vector<Contact> contacts_;
 
  private:
-  /// Velocity of the point of contact number `contact` [m/s] ...
+  /// Velocity of the point of contact number `contact` now [m/s].
   virtual Vec3 velocity_before_kick(std::size_t contact) const = 0;
   virtual Vec3 velocity_after_kick(std::size_t contact) const = 0;
-  /// ... and what it will be after the kick with the forces of now.
+  /// Its velocity after a kick with the current forces [m/s].
   virtual Vec3 kicked_velocity(const Contact& contact, const Step& step) const = 0;
 
-  /// Stores `passage` if it tunnels through a box and is the first to do so.
+  /// Stores the first passage through a wall.
   void check_wall(const Passage& passage);
 
   Shared shared_;

@@ -11,13 +11,13 @@
 namespace springlod::sim {
 namespace {
 
-// Steps between two new frames [steps]: in that time, the velocity of a body at rest differs from
-// that of its frame by no more than a few hundredths of a metre per second, which single precision
-// resolves well. Computing a new frame costs about three steps.
+// Interval between two new frames [steps]. In this time the velocity of a resting body relative to
+// its frame grows to a few hundredths of a metre per second, which single precision resolves well.
+// A new frame costs about three steps.
 constexpr std::uint64_t kFrameEvery = 64;
 
-// Threads synchronize twice per step: with fewer nodes per thread than this, synchronization costs
-// more than the threads save.
+// Least number of nodes per thread: with fewer, the two waits per step cost more than the thread
+// saves.
 constexpr std::uint32_t kNodesAThread = 2 * kBlockNodes;
 
 std::uint32_t team_size(std::uint32_t threads, std::uint32_t blocks, std::uint32_t nodes) {
@@ -100,7 +100,7 @@ MovingFrame FastLeapfrog::observe(Share& share, MovingFrame frame) {
       body_->get_v(b, frame, v_minus_);
     }
   if (first || n_ % kFrameEvery == 0) frame = take_new_frame(share);
-  // The first step computes forces and damping with the initial velocities: v+- = v_0 +- dt/2 a.
+  // The first forces and damping use the start velocities: v+- = v_0 +- dt/2 a.
   frame = go({{.number = n_, .kick = first ? 0.5 * step_ : step_}}, share, frame);
   for (std::uint32_t b = share.first; b < share.end; ++b) body_->get_v(b, frame, v_plus_);
   return frame;
@@ -111,7 +111,7 @@ void FastLeapfrog::finish_observation() {
   if (n_ != start_n_) return;
   for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
   for (const Contact& c : contacts_)
-    points_.kick(c.point, c.slip_change, v_minus_);  // no part of a
+    points_.kick(c.point, c.slip_change, v_minus_);  // not part of a
 }
 
 // Summed block by block, so that the result does not depend on the threads.

@@ -17,20 +17,20 @@ namespace springlod::sim {
 struct FastOptions {
   bool ledger = true;  ///< record the losses
   Precision precision = Precision::double_precision;
-  std::uint32_t threads = 1;  ///< at most; 0: as many as the body is worth. Never change the result
+  std::uint32_t threads = 1;  ///< at most; 0: chosen by body size. Does not change the result
   /// The model laid out for `precision`, shared by many runs; null: made for this run.
   std::shared_ptr<const FastModel> layout = nullptr;
-  /// The surface at which the body touches obstacles; null: its nodes.
+  /// Contact skin; null: the nodes are the contact points.
   std::shared_ptr<const ContactSkin> skin = nullptr;
 };
 
-/// The scheme of Leapfrog with symplectic Euler's damping, on a FastBody. The steps are the same
-/// except for rounding, in single or double precision. The number of threads changes no bit.
+/// The scheme of Leapfrog with symplectic Euler's damping, on a body in a fast layout: the same
+/// steps up to rounding, in single or double precision. The number of threads does not change the
+/// result.
 ///
-/// Positions and velocities are relative to a frame that moves with the body in free fall.
-/// Floating-point numbers then need to resolve only the relative motion of the nodes. Several steps
-/// together take one pass through memory each: forces, kick and drift of a block follow directly
-/// after each other.
+/// Positions and velocities are relative to a frame that follows the body in free fall, so the
+/// numbers resolve only the motion of the nodes relative to each other. Each step is one pass
+/// through memory: the forces, kick and drift of a block follow directly on one another.
 class FastLeapfrog final : public Stepper {
  public:
   FastLeapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -48,43 +48,43 @@ class FastLeapfrog final : public Stepper {
   LedgerEntry ledger_entry() const override;
 
  private:
-  /// One pass through all blocks, from step `number`.
+  /// One pass over all blocks, starting at step `number`.
   struct Pass {
     std::uint64_t number = 0;
-    double kick = 0;   ///< [s]; 0: the forces are not computed
+    double kick = 0;   ///< [s]; 0: no forces are computed
     double drift = 0;  ///< [s]
   };
-  /// The losses of a block, except for the half with v+, which is added as soon as the body drifts.
+  /// The losses of a block, without the share of v+, which is added before the drift.
   struct Losses {
     LedgerEntry until_now, next;
   };
 
   const std::vector<Vec3>& velocities_after() const override { return v_plus_; }
-  /// The blocks that one thread processes.
+  /// The work of one thread.
   struct Share {
     StepTeam::Member member;
     std::uint32_t first = 0, end = 0;  // blocks
-    std::uint32_t kicks = 0;           // until now
+    std::uint32_t kicks = 0;           // so far
   };
 
-  /// Calls work(share, frame) on all threads in parallel with the present frame, and replaces that
-  /// frame by the returned one.
+  /// Calls work(share, frame) on all threads with the current frame, which is then replaced by the
+  /// returned one.
   void share_out(const std::function<MovingFrame(Share&, const MovingFrame&)>& work);
 
-  // Within that:
+  // Called by these threads:
 
   /// Returns the frame at the end of the passes.
   MovingFrame go(const std::vector<Pass>& passes, Share& share, MovingFrame frame);
-  /// Reads the state at step n_, applies the kick and reads the velocities after it. Returns the
-  /// frame after that step.
+  /// Reads the state at step n_, kicks the body and reads the velocities after the kick. Returns
+  /// the frame after the kick.
   MovingFrame observe(Share& share, MovingFrame frame);
   MovingFrame take_new_frame(const Share& share);
   void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
-  /// The same for a body with a skin. The skin connects nodes of several blocks, so the blocks wait
-  /// until its contacts are applied.
+  /// The same for a body with a skin, whose points depend on several blocks. The blocks wait until
+  /// its contacts are applied.
   void find_touch_and_move(const Pass& pass, const MovingFrame& frame, const Share& share);
   void apply_skin_contacts(const Pass& pass, const MovingFrame& frame);
-  /// Waits for the forces of the blocks of other threads that this block needs.
+  /// Waits for the forces of the other blocks that this one needs.
   void wait_for_others(std::uint32_t block, const Share& share) const;
 
   void kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block);
@@ -96,7 +96,7 @@ class FastLeapfrog final : public Stepper {
   FastContacts::Step contact_step(const Pass& pass, const MovingFrame& frame) const;
   void finish_observation();
   double kinetic() const;
-  /// The contacts of the blocks, or those of the skin.
+  /// The contacts of all blocks, or those of the skin.
   std::vector<const FastContacts*> contact_sets() const;
   void gather_contacts();
   void throw_if_tunnelled() const;

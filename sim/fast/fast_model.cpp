@@ -8,8 +8,8 @@
 namespace springlod::sim {
 namespace {
 
-// If rows hold fewer springs than this on average (of eight), they cost more than quads [1]: a row
-// takes as long as about 3.5 springs in quads (bench_step).
+// If rows have fewer springs than this on average, quads are faster [springs of eight]: a row takes
+// as long as about 3.5 springs in quads (bench_step).
 constexpr std::uint64_t kLeastFill = 4;
 
 template <class Layout, class Body>

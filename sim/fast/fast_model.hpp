@@ -8,15 +8,15 @@
 
 namespace springlod::sim {
 
-/// A model in a fast memory layout, built once and shared by its bodies.
+/// A model in a fast layout, made once and shared by its bodies.
 class FastModel {
  public:
   virtual ~FastModel() = default;
   FastModel(const FastModel&) = delete;
   FastModel& operator=(const FastModel&) = delete;
 
-  /// The caller must set its positions and velocities. Must not outlive the model. With damping, it
-  /// computes damping_power.
+  /// A body whose positions and velocities are not set yet. It must not outlive the model. With
+  /// damping, it provides damping_power().
   virtual std::unique_ptr<FastBody> new_body(bool with_damping) const = 0;
 
  protected:
@@ -27,7 +27,7 @@ class FastModel {
 std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision,
                                            Layout layout = Layout::fastest);
 
-/// "AVX3", "AVX2", ...: the SIMD instruction set used on this processor.
+/// Vector instruction set of the kernels on this processor: "AVX3", "AVX2", ...
 const char* vector_target();
 
 }  // namespace springlod::sim

@@ -18,10 +18,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 // finite in both precisions.
 inline constexpr float kShortestSquare = 1e-30F;
 
-/// 1 / sqrt(square), to the last bit but one or two in single precision (an estimate and a Halley
-/// step), to the last bit but one in double. A Newton step would leave 3/2 of the square of the
-/// estimate's error, always with the same sign. With an error of 4e-4, as on some processors, this
-/// acts as a prestrain of 1e-7 in all springs, which visibly bends a slender body.
+/// 1 / sqrt(square), within one or two units in the last place in single precision (an estimate and
+/// a Halley step) and one in double. A Newton step would leave an error of 3/2 of the square of the
+/// estimate's error, always of the same sign. With the coarse estimates of some processors (4e-4),
+/// this acts as a prestress of 1e-7 of all springs, which is visible in the bending of slender
+/// bodies.
 template <class D>
 HWY_INLINE hn::Vec<D> inverse_root(D d, hn::Vec<D> square) {
   using Real = hn::TFromD<D>;

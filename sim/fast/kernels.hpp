@@ -7,8 +7,8 @@
 
 namespace springlod::sim {
 
-/// The vectorized functions of a layout, selected for the processor. Each processes one block: see
-/// FastBody.
+/// The vectorized functions of a layout for this processor. Each works on one block; FastBody
+/// documents them.
 template <class Layout, class State>
 struct FastKernels {
   void (*find_forces)(const Layout&, std::uint32_t block, State&) = nullptr;

@@ -42,7 +42,7 @@ class LaidBody : public FastBody {
   FastKernels<Layout, State> kernels_;
 };
 
-/// Rounding error of a number when it is converted to Real.
+/// The part of a number that is lost when it is rounded to Real.
 template <class Real>
 Real rounding_of(double number) {
   return static_cast<Real>(number - static_cast<double>(static_cast<Real>(number)));

@@ -4,16 +4,16 @@
 
 namespace springlod::sim {
 
-/// Memory layout of the springs of a model.
+/// Memory layout of the springs of a model for fast steps.
 enum class Layout {
-  fastest,   ///< rows for a lattice, quads otherwise
-  any_shape  ///< always quads, so that all bodies are timed with the same kernel
+  fastest,   ///< rows for a lattice, quads for any other model
+  any_shape  ///< quads for every model, so that one kernel times all bodies
 };
 
 inline constexpr Choice<Layout> kLayouts[] = {
     {Layout::fastest, "fastest", "rows for a lattice, quads for any other model"},
     {Layout::any_shape, "any shape",
-     "quads for a lattice too, to time a lattice and its levels by one kernel"}};
+     "quads for a lattice too, so that one kernel times a lattice and its levels"}};
 constexpr ChoiceTable<Choice<Layout>> choices(Layout) {
   return {"layout", kLayouts};
 }
@@ -24,7 +24,7 @@ enum class Precision { single_precision, double_precision };
 inline constexpr Choice<Precision> kPrecisions[] = {
     {Precision::double_precision, "double", "64 bits"},
     {Precision::single_precision, "single",
-     "32 bits: a step takes some two thirds of the time, docs/precision.md tells what it costs"}};
+     "32 bits: a step takes about two thirds of the time; see docs/precision.md for the error"}};
 constexpr ChoiceTable<Choice<Precision>> choices(Precision) {
   return {"precision", kPrecisions};
 }

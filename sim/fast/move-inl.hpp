@@ -23,7 +23,7 @@ HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> displacement, hn::TFromD<D>* HWY_RES
   return to;
 }
 
-/// The same with compensated summation (Kahan): `low` accumulates the rounding errors of x.
+/// The same with compensated summation (Kahan): `low` holds the part below the last bit of x.
 template <class D>
 HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> displacement, hn::TFromD<D>* HWY_RESTRICT x,
                             hn::TFromD<D>* HWY_RESTRICT low) {
@@ -35,12 +35,12 @@ HWY_INLINE hn::Vec<D> drift(D d, hn::Vec<D> displacement, hn::TFromD<D>* HWY_RES
   return to;
 }
 
-/// True if positions are stored in two parts, high and low.
+/// Whether positions are kept in two parts.
 template <class Real>
 inline constexpr bool kHasLow = sizeof(Real) == sizeof(float);
 
-/// Calls move(kicks, drifts), both std::bool_constant: true if the kick or drift has a length above
-/// 0. Does not call it if both are 0.
+/// Calls move(kicks, drifts) with std::bool_constant: whether kick and drift differ from 0. Does
+/// nothing if both are 0.
 template <class Move>
 HWY_INLINE void move_for(double kick, double drift, const Move& move) {
   if (kick != 0 && drift != 0)

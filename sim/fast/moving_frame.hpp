@@ -4,7 +4,7 @@
 
 namespace springlod::sim {
 
-/// The reference frame of a body's coordinates.
+/// Origin of a body's coordinates, which moves at constant velocity during a step.
 struct MovingFrame {
   Vec3 origin = Vec3::Zero();    ///< [m]
   Vec3 velocity = Vec3::Zero();  ///< [m/s]

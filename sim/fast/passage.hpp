@@ -7,11 +7,11 @@
 
 namespace springlod::sim {
 
-/// A point that tunnelled through a box.
+/// A point that tunnelled through a wall.
 struct Passage {
-  std::uint64_t step = 0;    ///< number of the step at which it was behind it
-  std::size_t wall = 0;      ///< index in TunnelCheck
-  std::size_t number = 0;    ///< index in ContactPoints
+  std::uint64_t step = 0;    ///< first step at which the point was behind the wall
+  std::size_t wall = 0;      ///< number as in TunnelCheck
+  std::size_t number = 0;    ///< number as in ContactPoints
   Vec3 from = Vec3::Zero();  ///< [m]
   Vec3 to = Vec3::Zero();    ///< [m]
 };

@@ -4,14 +4,14 @@
 
 namespace springlod::sim {
 
-/// Location of a node in a layout.
+/// Position of a node in a layout.
 struct Place {
   std::uint32_t block = 0;
   std::uint32_t index = 0;  ///< within the block
 };
 
-/// Largest number of nodes in a block. Their data fits into the L2 cache of a core, and large
-/// models have enough blocks for all threads.
+/// Largest number of nodes of a block. Its data then stay in the second-level cache of a core, and
+/// models large enough for several threads have enough blocks.
 inline constexpr std::uint32_t kBlockNodes = 4096;
 
 }  // namespace springlod::sim

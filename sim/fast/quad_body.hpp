@@ -5,8 +5,8 @@
 
 namespace springlod::sim {
 
-/// A body in quad layout. Blocks use copies of each other's nodes. A block moves only after all
-/// blocks with copies of its nodes have computed their forces.
+/// A body in quads. Blocks keep copies of each other's nodes: a block moves only after the blocks
+/// with copies of its nodes have computed their forces.
 template <class Real>
 class QuadBody final : public LaidBody<QuadLayout<Real>, QuadState<Real>> {
  public:

@@ -21,7 +21,7 @@ namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// By scaled index: 8 numbers per record, 4 per force.
+// Access by scaled index: a record has 8 numbers, a force has 4.
 template <class Real>
 HWY_INLINE const NodeRecord<Real>& record_at(const NodeRecord<Real>* records, std::size_t index) {
   return *reinterpret_cast<const NodeRecord<Real>*>(reinterpret_cast<const char*>(records) +
@@ -34,26 +34,26 @@ HWY_INLINE Real* force_at(NodeVector<Real>* forces, std::size_t index) {
 
 constexpr std::size_t kCacheLine = 64;  // [bytes]
 
-// Pairs evaluated together, interleaved stage by stage [1]. The reorder buffer of a processor holds
-// about 300 instructions, hardly three pairs: without interleaving, it waits for the results of the
-// previous pair.
+// Pairs computed together, each stage for all of them [1]. A processor looks ahead about 300
+// instructions, less than three pairs: if pairs were computed one after another, each would wait
+// for the results of the one before.
 constexpr std::size_t kBatch = 16;
-// Prefetch distance in pairs: 3 batches take longer than the latency of main memory. [pairs]
+// Prefetch distance: 3 batches take longer than an access to main memory. [pairs]
 constexpr std::size_t kPairsAhead = 3 * kBatch;
 
-/// One number per spring of a batch.
+/// One number for each spring of a batch.
 template <class Real>
 struct SpringNumbers {
   alignas(64) Real of[kBatch][2 * kQuad];
 };
 
-/// Constants of a batch.
+/// Data shared by all pairs of a batch.
 template <class Real>
 struct Batch {
   const QuadPair<Real>* pairs = nullptr;
   std::size_t count = 0;
-  std::size_t ahead = 0;  // pairs to prefetch, evaluated one memory latency later
-  const std::array<Real, 2 * kQuad>* damping = nullptr;  // empty if c = damping_time k
+  std::size_t ahead = 0;                                 // pairs to prefetch
+  const std::array<Real, 2 * kQuad>* damping = nullptr;  // null if c = damping_time k
   Real damping_time = 0;
 };
 
@@ -66,7 +66,7 @@ using V4 = hn::Vec<D4<Real>>;
 using D8 = hn::FixedTag<float, 8>;
 using V8 = hn::Vec<D8>;
 
-/// Four vectors, stored by coordinate (SoA).
+/// Four 3D vectors, one SIMD vector per coordinate.
 template <class V>
 struct Side {
   V x, y, z;
@@ -88,7 +88,7 @@ HWY_INLINE Side<V8> transpose(V8 a, V8 b, V8 c, V8 e) {
   const V8 ce_zw = hn::InterleaveUpper(d, c, e);
   return {join_lower(ab_xy, ce_xy), join_upper(ab_xy, ce_xy), join_lower(ab_zw, ce_zw)};
 }
-/// Four of x y z 0, turned.
+/// Four records x y z 0, transposed.
 HWY_INLINE Side<V4<double>> transpose(V4<double> a, V4<double> b, V4<double> c, V4<double> e) {
   const D4<double> d;
   const V4<double> ab_x_z = hn::InterleaveLower(d, a, b);
@@ -209,7 +209,7 @@ HWY_INLINE void measure(const Batch<Real>& batch, const NodeRecord<Real>* record
   }
 }
 
-/// Forces over length [N/m]: total and, if requested, of damping only.
+/// Force / length of each spring [N/m]: total and, if requested, of the damping alone.
 template <bool with_damping, class Real>
 HWY_INLINE void pull(const Batch<Real>& batch, const SpringNumbers<Real>& square,
                      const SpringNumbers<Real>& x_dot_v, SpringNumbers<Real>& both,
@@ -231,7 +231,7 @@ HWY_INLINE void pull(const Batch<Real>& batch, const SpringNumbers<Real>& square
     }
 }
 
-/// Subtracts the force from one end and adds it to the other.
+/// Subtracts the forces at one end and adds them at the other.
 template <class Real>
 HWY_INLINE void scatter(const Batch<Real>& batch, const SpringNumbers<Real>& over_length,
                         const NodeRecord<Real>* records, NodeVector<Real>* forces) {

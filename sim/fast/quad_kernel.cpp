@@ -18,8 +18,7 @@ namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Copies from anywhere in the body, then the own nodes. The hardware prefetcher cannot predict this
-// order.
+// Copies from everywhere in the body, in an order that the processor cannot predict.
 template <class Real>
 void gather_records(const QuadBlock<Real>& block, const QuadState<Real>& state,
                     QuadBlockState<Real>& own) {
@@ -49,7 +48,7 @@ void find_forces(const QuadLayout<Real>& layout, std::uint32_t number, QuadState
     add_forces<true>(block, damping_time, own);
 }
 
-/// The forces that other blocks computed on their copies of this block's nodes.
+/// Adds the forces of other blocks on their copies of this block's nodes.
 template <class Real>
 void collect(const QuadBlock<Real>& block,
              std::vector<NodeVector<Real>> QuadBlockState<Real>::*forces, std::uint32_t number,

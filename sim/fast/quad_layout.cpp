@@ -12,18 +12,17 @@
 namespace springlod::sim {
 namespace {
 
-// Damping times this close count as equal: c was computed as damping time times k, with rounding.
-// [1]
+// Relative difference of damping times that count as equal: c was rounded from (c / k) k. [1]
 constexpr double kSameDamping = 1e-12;
 
-/// A spring, seen from the node that evaluates it.
+/// A spring at the node that computes it.
 struct HalfSpring {
-  std::uint32_t other = 0;  // position in the order
+  std::uint32_t other = 0;  // rank in the order
   std::uint32_t spring = 0;
 };
 
-// A node evaluates its springs to later nodes. It passes on to them the springs that would leave a
-// quad incomplete, so gaps occur only if there are too few springs to pass on.
+// A node computes its springs to later nodes. It leaves to those nodes the springs that would form
+// an incomplete quad, so quads have gaps only at nodes that cannot pass enough springs on.
 std::vector<std::vector<HalfSpring>> assign_springs(const MassSpringModel& model,
                                                     const std::vector<std::uint32_t>& rank) {
   const std::uint32_t n = model.node_count();
@@ -50,7 +49,7 @@ std::vector<std::vector<HalfSpring>> assign_springs(const MassSpringModel& model
   return kept;
 }
 
-/// c / k of all springs, if they have the same [s].
+/// c / k if all springs have the same, else nothing [s].
 std::optional<double> common_damping_time(const MassSpringModel& model) {
   double least = std::numeric_limits<double>::infinity();
   double most = 0;
@@ -77,7 +76,7 @@ class Laying {
       std::fill(block_of_.begin() + order_.first[b], block_of_.begin() + order_.first[b + 1], b);
   }
 
-  /// Empty if a block has more neighbours than its indices can address.
+  /// No value if a block has too many neighbours for its indices.
   std::optional<QuadLayout<Real>> lay() {
     const auto springs = assign_springs(model_, rank_);
     QuadLayout<Real> layout;
@@ -137,7 +136,7 @@ class Laying {
     return true;
   }
 
-  /// Initially, all its springs are gaps.
+  /// A pair of quads that consist of gaps, to be filled with springs.
   void begin_quad(std::uint32_t quad, std::uint32_t own, QuadBlock<Real>& block) const {
     if (quad % 2 == 0) {
       QuadPair<Real>& pair = block.pairs.emplace_back();
@@ -162,7 +161,7 @@ class Laying {
 
   const MassSpringModel& model_;
   BlockOrder order_;
-  std::vector<std::uint32_t> rank_;      // node -> position in the order
+  std::vector<std::uint32_t> rank_;      // node -> rank
   std::vector<std::uint32_t> block_of_;  // by rank
   std::optional<double> damping_time_;
 };

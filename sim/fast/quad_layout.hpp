@@ -9,13 +9,13 @@
 
 namespace springlod::sim {
 
-/// Springs evaluated together; all share one node.
+/// Springs in one vector operation; all share one node.
 inline constexpr std::uint32_t kQuad = 4;
 
-/// Two quads: the data of eight springs, contiguous in memory.
+/// Two quads: the data of eight springs that a step reads, as one stream through memory.
 template <class Real>
 struct QuadPair {
-  // Indices in the block, times kIndexScale, so that they serve directly as offsets.
+  // Indices in the block times kIndexScale, which makes them addresses without arithmetic.
   std::uint16_t own[2] = {};            ///< own end of each quad
   std::uint16_t other[2 * kQuad] = {};  ///< other ends
   Real stiffness[2 * kQuad] = {};       ///< k [N/m]
@@ -24,48 +24,47 @@ struct QuadPair {
 template <class Real>
 inline constexpr std::uint32_t kIndexScale = sizeof(Real);
 
-/// The force on the copy of a node in another block; it is added to the node itself.
+/// The force on a node's copy in another block, to be added to the node itself.
 struct CopiedForce {
   std::uint32_t own = 0;  ///< index of the node in its block
   Place copy;
 };
 
-/// Neighbouring nodes and the springs that this block evaluates. Four springs form a *quad* and
-/// share one own node; their other ends are own nodes or copies of nodes of other blocks (the
-/// *halo*).
+/// Neighbouring nodes and the springs that this block computes. The four springs of a *quad* share
+/// an own node; their other ends are own nodes or copies of other blocks' nodes (the *halo*).
 ///
-/// Indices within a block: own nodes, then the halo, then a dummy node for the springs without
+/// Indices within a block: own nodes, then the halo, then an unused one for the springs without
 /// stiffness that pad a quad.
 template <class Real>
 struct QuadBlock {
   std::uint32_t own = 0;            ///< nodes
-  std::vector<std::uint32_t> node;  ///< numbers of the own nodes in the model
+  std::vector<std::uint32_t> node;  ///< number in the model of each own node
   std::vector<Real> inverse_mass;   ///< of own nodes [1/kg]
-  std::vector<Place> halo;          ///< locations of the originals
+  std::vector<Place> halo;          ///< original of each copy
 
   std::vector<QuadPair<Real>> pairs;
   std::vector<std::array<Real, 2 * kQuad>> damping;  ///< c [N s/m] by pair; empty if damping_time k
 
-  std::vector<CopiedForce> copied;  ///< ascending by own node
-  // This range of blocks includes the block itself and all blocks with copies of its nodes.
+  std::vector<CopiedForce> copied;  ///< own nodes ascending
+  // Range of blocks that contains this block and all blocks with copies of its nodes.
   std::uint32_t first_copy = 0;
   std::uint32_t last_copy = 0;
 
   std::uint32_t nowhere() const { return own + static_cast<std::uint32_t>(halo.size()); }
 };
 
-/// A model of any shape in quad layout. Every spring is evaluated once, by one of its ends, chosen
-/// so that few quads have gaps. The blocks and the order of all sums depend only on the model, not
-/// on the number of threads.
+/// A model of any shape laid out for fast steps. Each spring is computed once, at one of its ends,
+/// which is chosen so that few quads have gaps. The blocks and the order of all sums depend only on
+/// the model, not on the number of threads.
 template <class Real>
 struct QuadLayout {
   std::vector<QuadBlock<Real>> blocks;
-  std::vector<Place> place;  ///< of each node; N
-  /// c / k of all springs, if they have the same [s].
+  std::vector<Place> place;  ///< place of each node; N
+  /// c / k if all springs have the same, else 0 [s].
   double damping_time = 0;
 };
 
-/// Throws InputError for a node with more than some 8000 springs.
+/// Throws InputError for a node with more than about 8000 springs.
 template <class Real>
 QuadLayout<Real> make_quad_layout(const MassSpringModel& model);
 

@@ -5,9 +5,9 @@
 namespace springlod::sim {
 namespace {
 
-// Bounds of that part of the box that lies behind the plane.
+// Bounds of the part of the box that lies behind the plane.
 Box3 part_behind(const Plane& plane, const Box3& box) {
-  Vec3 least;  // of each term of normal . x
+  Vec3 least;  // least value of each term of normal . x
   for (int axis = 0; axis < 3; ++axis)
     least[axis] = plane.normal[axis] * (plane.normal[axis] > 0 ? box.min()[axis] : box.max()[axis]);
   Box3 part = box;

@@ -5,12 +5,13 @@
 
 namespace springlod::sim {
 
-// Regions in world axes in which nodes may touch an obstacle, computed from bounding boxes only.
+// Bounding boxes in world axes, to tell whether a block may touch an obstacle without visiting
+// nodes.
 
-/// Bounds of a rotated box.
+/// Bounding box of a rotated box.
 Box3 bounds_of(const SolidBox& box);
 
-/// Bounds of the region within `bounds` that touches the obstacle; may be empty.
+/// Bounding box of the part of `bounds` that is inside the obstacle; may be empty.
 Box3 region_touching(const Obstacle& obstacle, const Box3& bounds);
 
 Box3 moved(const Box3& box, const Vec3& displacement);

@@ -5,8 +5,8 @@
 
 namespace springlod::sim {
 
-/// A body in row layout. Springs lead only to later nodes: a block moves as soon as it and all
-/// earlier blocks that reach it have computed their forces.
+/// A body in rows. Springs end only at later places, so a block can move when the blocks up to it
+/// have computed their forces.
 template <class Real>
 class RowBody final : public LaidBody<RowLayout<Real>, RowState<Real>> {
  public:

@@ -24,8 +24,8 @@ struct Vector3 {
   hn::Vec<D> x, y, z;
 };
 
-/// Pointers to the coordinate arrays, kept in registers: the compiler must assume that any store
-/// may change the members of a RowState.
+/// Start of each coordinate array, kept in registers: the compiler must assume that any store may
+/// change what a RowState refers to.
 template <class Real>
 struct Starts {
   Real* x;
@@ -113,7 +113,7 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
       const Vector3<D> apart = load(d, v, other) - own_v;
       const hn::Vec<D> inverse = inverse_root(d, dot<D>(along, along));
       const hn::Vec<D> rate = hn::Mul(dot<D>(along, apart), hn::Mul(inverse, inverse));
-      // Forces over length.
+      // Force / length.
       const hn::Vec<D> elastic = hn::NegMulAdd(hn::LoadU(d, properties.rest_force + lane), inverse,
                                                hn::LoadU(d, properties.stiffness + lane));
       const hn::Vec<D> damping = hn::Mul(hn::LoadU(d, properties.damping + lane), rate);
@@ -131,7 +131,7 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
   }
 }
 
-/// The forces that earlier blocks computed on the nodes of this one.
+/// Adds the forces of earlier blocks on the places of this block.
 template <class Real>
 void collect(const RowLayout<Real>& layout, std::uint32_t number,
              std::vector<typename RowState<Real>::Coordinates>& force) {

@@ -11,8 +11,8 @@
 namespace springlod::sim {
 namespace {
 
-// A block is at least this many times as long as the longest offset of its springs [1], so that
-// only a small fraction of its forces acts on the next block.
+// Least ratio of the places of a block to those that its longest spring reaches ahead [1], so that
+// the block has little work for the next one compared with its own.
 constexpr std::uint32_t kBlocksReach = 4;
 
 /// A spring between places.
@@ -22,8 +22,7 @@ struct PlacedSpring {
   std::uint32_t spring = 0;
 };
 
-// Layers are perpendicular to the longest side, so that the offsets of the springs are as small as
-// possible.
+// Layers normal to the longest side, so that springs reach as few places ahead as possible.
 std::vector<std::uint32_t> order_by_layers(const std::vector<Vec3>& rest) {
   std::array<Eigen::Index, 3> axes{0, 1, 2};
   const Vec3 size = bounds(rest).sizes();
@@ -39,7 +38,7 @@ std::vector<std::uint32_t> order_by_layers(const std::vector<Vec3>& rest) {
   return order;
 }
 
-/// Sorted by their first node, then by their offset.
+/// Sorted by the eight places in which they begin, then by reach.
 std::vector<PlacedSpring> place_springs(const MassSpringModel& model,
                                         const std::vector<std::uint32_t>& order) {
   std::vector<std::uint32_t> place(order.size());
@@ -79,9 +78,9 @@ class Palette {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> numbers_;
 };
 
-// The forces of a row are added to sums in memory. Rows of neighbouring directions write to
-// overlapping addresses: executed one right after another, each would wait for the store of the
-// previous one. Neighbours in `rows`, which is sorted by offset, are therefore separated.
+// The forces of a row are added in memory. Rows of neighbouring directions write to overlapping
+// places: executed one right after another, each would wait for the store of the previous one.
+// Therefore rows that are neighbours in `rows`, which is sorted by reach, are separated.
 std::vector<SpringRow> interleave(const std::vector<SpringRow>& rows) {
   constexpr std::size_t kApart = 3;  // directions along a line of a lattice: back, across, forward
   std::vector<SpringRow> mixed;
@@ -126,7 +125,7 @@ void cut_blocks(RowLayout<Real>& layout) {
   const auto n = static_cast<std::uint32_t>(layout.node.size());
   std::uint32_t farthest = 0;
   for (const SpringRow& row : layout.rows) farthest = std::max(farthest, row.ahead);
-  // An even number of blocks of the same size, so that two threads get equal shares.
+  // An even number of blocks of equal size, so that two threads get equal work.
   const std::uint32_t count = n / std::max(kBlockNodes, kBlocksReach * farthest);
   layout.block_places = whole_rows((n - 1) / std::max(1U, count - count % 2) + 1);
   layout.place.resize(n);

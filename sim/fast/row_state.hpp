@@ -11,8 +11,8 @@
 
 namespace springlod::sim {
 
-/// The state of a body in row layout, by index. One array per coordinate, padded so that a whole
-/// row may be loaded at any index.
+/// The changing data of a body in rows, by place. Each coordinate is one array, padded so that a
+/// whole row can be loaded at any place.
 template <class Real>
 struct RowState {
   using Array = hwy::AlignedFreeUniquePtr<Real[]>;
@@ -22,19 +22,19 @@ struct RowState {
 
   Coordinates x;  ///< [m]
   Coordinates v;  ///< [m/s]
-  /// Accumulated rounding errors of x [m]: the displacement in a step is often smaller than the
-  /// last bit of x. Unused in double precision.
+  /// Part of the positions below the last bit of x [m], where the displacement of a step often
+  /// lies. Unused in double precision.
   Coordinates low;
-  /// Forces that a block computes on its own nodes and those within its reach [N]; by block.
+  /// Forces that a block computes on its own places and those in its reach [N]; by block.
   std::vector<Coordinates> force;
-  std::vector<Coordinates> damping_force;  ///< its damping component; empty if not requested
-  std::vector<Box3> bounds;                ///< bounds of the nodes of each block [m]
+  std::vector<Coordinates> damping_force;  ///< its damping part; empty if not requested
+  std::vector<Box3> bounds;                ///< bounds of the places of each block [m]
 };
 
 template <class Real>
 using RowKernels = FastKernels<RowLayout<Real>, RowState<Real>>;
 
-/// Kernels for the widest SIMD vectors of this processor.
+/// The kernels for the widest vectors of this processor.
 template <class Real>
 RowKernels<Real> row_kernels();
 

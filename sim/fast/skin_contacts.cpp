@@ -52,8 +52,8 @@ void SkinContacts::apply(const Step& step) {
   for (const Contact& c : contacts_) after_kick_.push_back(kicked_velocity(c, step));
 }
 
-// The distance of a point from the centre of the nodes' bounding box is at most its reach times
-// half the size of that box.
+// The distance of a point from the centre of the nodes' box is at most its reach times half the
+// size of the box.
 Box3 SkinContacts::bounds(const MovingFrame& frame) const {
   Box3 nodes;
   for (std::uint32_t b = 0; b < body().block_count(); ++b) nodes.extend(body().bounds(b));
@@ -84,7 +84,7 @@ void SkinContacts::find_contacts(const Step& step, std::size_t obstacle) {
   if (region_touching(thing, bounds_).isEmpty()) return;
   View& view = views_[obstacle];
   const bool afresh = !view.last || *view.last + 1 < step.number;
-  // If the step is repeated with another length, a point that is already inside keeps its sides.
+  // If the step is repeated with another length, a point that is inside by now keeps its sides.
   const bool again = view.last == step.number;
   view.last = step.number;
   for (const std::uint32_t p : numbers_) {

@@ -8,23 +8,22 @@
 
 namespace springlod::sim {
 
-/// The contacts of the points of a skin. A point may be interpolated from nodes of several blocks,
-/// so one thread processes all points while the others wait. An obstacle costs nothing while the
-/// body's bounding box does not touch it, and almost nothing for a point that cannot have reached
-/// it yet.
+/// The contacts of the points of a skin. A point may depend on nodes of several blocks, so one
+/// thread works on all points while the others wait. An obstacle costs nothing while the body does
+/// not touch it, and almost nothing for a point that cannot have reached it yet.
 class SkinContacts final : public FastContacts {
  public:
   /// The model must outlive this.
   SkinContacts(const Shared& shared, const MassSpringModel& model);
 
-  /// Also checks whether points tunnelled through boxes since the last step.
+  /// Also checks whether points tunnelled through walls since the last step.
   void apply(const Step& step) override;
 
  private:
-  /// Results of the last checks of one obstacle.
+  /// Last check of one obstacle.
   struct View {
     std::optional<std::uint64_t> last;  // step at which it was checked
-    std::vector<double> due;  // travel of the body below which a point cannot touch it [m]
+    std::vector<double> due;  // travel of the body below which each point cannot touch it [m]
   };
 
   Vec3 velocity_before_kick(std::size_t contact) const override;
@@ -40,14 +39,14 @@ class SkinContacts final : public FastContacts {
   void find_contacts(const Step& step, std::size_t obstacle);
 
   const MassSpringModel* model_;
-  std::vector<std::uint32_t> numbers_;  // of all points
-  double reach_ = 1;                    // the largest of the points [1]
+  std::vector<std::uint32_t> numbers_;  // numbers of all points
+  double reach_ = 1;                    // largest reach of a point [1]
   std::vector<Vec3> x_, v_;             // of the nodes
   Box3 bounds_;
-  std::optional<std::uint64_t> arrived_;   // at which step
-  double travel_ = 0, travel_before_ = 0;  // of the fastest node, step by step [m]
+  std::optional<std::uint64_t> arrived_;   // step number
+  double travel_ = 0, travel_before_ = 0;  // sum over the steps of the fastest node's travel [m]
   std::vector<View> views_;                // by obstacle
-  std::optional<std::uint64_t> kicked_;    // at which step
+  std::optional<std::uint64_t> kicked_;    // step number
   std::vector<Contact> contacts_before_;
   std::vector<Vec3> after_kick_;  // velocities of the points in now() [m/s]
 };

@@ -22,11 +22,11 @@ class MeetingPoint {
   std::atomic<std::uint32_t> meetings_{0};
 };
 
-/// Progress of each of several parts of the work, for threads that depend on each other's parts.
+/// Progress of each part of the work, for threads that depend on each other's parts.
 class Milestones {
  public:
   explicit Milestones(std::uint32_t parts) : reached_(parts) {}
-  /// Call it from one thread, while no other works.
+  /// Call it from one thread while no other works.
   void reset();
   void reach(std::uint32_t part, std::uint32_t milestone) {
     reached_[part].store(milestone, std::memory_order_release);
@@ -37,14 +37,14 @@ class Milestones {
   std::vector<std::atomic<std::uint32_t>> reached_;
 };
 
-/// Threads that execute the same steps in parallel.
+/// Threads that run the same steps in parallel.
 class StepTeam {
  public:
-  /// One of the threads, while it works.
+  /// One thread of the team.
   struct Member {
     std::uint32_t number = 0;
     MeetingPoint* others = nullptr;
-    /// Waits until all threads have reached this call.
+    /// Waits until all members have called it.
     void meet() const {
       if (others != nullptr) others->arrive_and_wait();
     }
@@ -52,7 +52,7 @@ class StepTeam {
 
   explicit StepTeam(std::uint32_t size) : size_(size) {}
   std::uint32_t size() const { return size_; }
-  /// Calls work(member) for all members in parallel; it must not throw.
+  /// Calls work(member) for all members in parallel; work must not throw.
   void run(const std::function<void(const Member&)>& work) const;
 
  private:

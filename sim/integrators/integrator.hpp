@@ -71,12 +71,13 @@ struct SolverOptions {
 };
 constexpr auto option_rows(const SolverOptions*) {
   return std::tuple(
-      option("iterations", &SolverOptions::iterations, "of the implicit schemes, a step")
+      option("iterations", &SolverOptions::iterations,
+             "iterations per step of the implicit schemes")
           .by_default("20 of Newton, 1 sweep of xpbd, 10 of projective_dynamics"),
       option("tolerance", &SolverOptions::tolerance,
              "part of the forces at which backward Euler stops iterating"),
       option("linear_iterations", &SolverOptions::linear_iterations,
-             "of the conjugate gradients inside one iteration of Newton, at most")
+             "largest number of conjugate-gradient iterations in one Newton iteration")
           .by_default("twice the unknowns"));
 }
 

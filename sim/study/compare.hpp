@@ -30,8 +30,8 @@ constexpr auto option_rows(const CompareOptions*) {
   return std::tuple(
       option("starts", &CompareOptions::starts, "starts, the same for every level"),
       option("jitter", &CompareOptions::jitter,
-             "relative change of speed and height from start to start; the first has none"),
-      option("seed", &CompareOptions::seed, "of the jitter"),
+             "relative random change of speed and height of each start after the first"),
+      option("seed", &CompareOptions::seed, "seed of the jitter"),
       option("threads", &CompareOptions::threads, kThreadsHelp),
       option("error_window", &CompareOptions::error_window,
              "time after the base's first contact up to which errors are averaged")

@@ -51,8 +51,8 @@ constexpr auto option_rows(const EnsembleOptions*) {
   return std::tuple(
       option("starts", &EnsembleOptions::starts, "starts, the same for every level"),
       option("jitter", &EnsembleOptions::jitter,
-             "relative change of speed and height from start to start; the first has none"),
-      option("seed", &EnsembleOptions::seed, "of the jitter"),
+             "relative random change of speed and height of each start after the first"),
+      option("seed", &EnsembleOptions::seed, "seed of the jitter"),
       option("threads", &EnsembleOptions::threads, kThreadsHelp), nested(&EnsembleOptions::run));
 }
 

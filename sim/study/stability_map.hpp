@@ -92,14 +92,16 @@ constexpr auto option_rows(const StabilityOptions*) {
              "whether springs keep theirs; without it every loss of energy is the scheme's own"),
       option("integrators", &Options::integrators, "as for run").by_default("all"),
       option("iterations", &Options::iterations,
-             "of xpbd and projective_dynamics, which run with each of these")
+             "iterations per step of xpbd and projective_dynamics; each number is run")
           .by_default("the default of each"),
-      option("steps", &Options::steps,
-             "of the explicit integrators, as parts of the predicted limit"),
+      option("steps", &Options::steps, "step lengths for explicit integrators / predicted limit"),
       option("implicit_steps", &Options::implicit_steps,
-             "of backward Euler, as parts of the period of the body's slowest mode"),
-      option("sweep_steps", &Options::sweep_steps, "of xpbd and projective_dynamics, likewise"),
-      option("absolute_steps", &Options::absolute_steps, "for all integrators, in place of these")
+             "step lengths for backward Euler / period of the slowest mode"),
+      option("sweep_steps", &Options::sweep_steps,
+             "step lengths for xpbd and projective_dynamics / period of the slowest mode"),
+      option(
+          "absolute_steps", &Options::absolute_steps,
+          "step lengths for all integrators, instead of steps, implicit_steps and sweep_steps [s]")
           .in(Dimension::time)
           .by_default("none"),
       option("periods", &Options::periods, "length of each run in periods of the slowest mode"),
@@ -107,7 +109,7 @@ constexpr auto option_rows(const StabilityOptions*) {
           .in(Dimension::time)
           .by_default("from periods"),
       option("threads", &Options::threads, "0: all cores; never changes a result"),
-      option("seed", &Options::seed, "of the search for frequencies"));
+      option("seed", &Options::seed, "seed of the search for frequencies"));
 }
 
 /// One level at one ratio: data common to all its points.

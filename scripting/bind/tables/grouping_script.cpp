@@ -181,8 +181,8 @@ std::vector<Parameter> grouping_function_parameters() {
           {.name = "pair_cost",
            .type = "function(a, b) -> number",
            .fallback = "none",
-           .help = "which neighbour merges first, low first; a and b are Node tables joined by a "
-                   "spring; math.huge forbids the pair"}};
+           .help = "order in which neighbours merge, lowest first; a and b are Node tables joined "
+                   "by a spring; math.huge forbids the pair"}};
 }
 
 }  // namespace springlod::scripting

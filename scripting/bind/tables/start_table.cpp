@@ -72,7 +72,7 @@ void describe_start(Api& api) {
                  {.name = "time",
                   .type = "number",
                   .fallback = "0",
-                  .help = "of a final state [s]; a run begins at 0 whatever it is"}},
+                  .help = "time of a final state [s]; ignored by runs, which begin at 0"}},
       .example = "start = trajectory.final"});
 }
 
