@@ -136,8 +136,7 @@ struct StabilityPoint {
   Integrator integrator = Integrator::symplectic_euler;
   std::uint32_t iterations = 0;  ///< of implicit schemes, at most
   double step = 0;               ///< [s]
-  double limit =
-      0;  ///< stability limit: of this scheme if explicit, otherwise of symplectic Euler [s]
+  double limit = 0;       ///< stability limit of this scheme; of symplectic Euler if implicit [s]
   bool stable = false;    ///< completed, and the energy never rose by kRunaway
   bool finished = false;  ///< completed: the numbers below are valid
   Verdict verdict = Verdict::stable;
