@@ -10,7 +10,7 @@
 
 namespace springlod::inline base {
 
-/// One word that an option may take: the value it stands for, its name, what it means.
+/// One word that an option may take: its value, its name and its meaning.
 template <class E>
 struct Choice {
   using Value = E;
@@ -26,7 +26,7 @@ struct ChoiceTable {
   template <std::size_t n>
   constexpr ChoiceTable(const char* table_name, const Row (&table_rows)[n])
       : name(table_name), rows(table_rows) {}
-  const char* name;  ///< what scripts call the table: "border" for s.choices.border
+  const char* name;  ///< name of the table in scripts: "border" for s.choices.border
   std::span<const Row> rows;
 };
 

@@ -33,8 +33,8 @@ class DisjointSets {
     return true;
   }
 
-  /// Makes `i` a set of its own again. Call it for all elements of the set: the others still refer
-  /// to `i`.
+  /// Makes `i` a set of its own again. Call it for all elements of the set: otherwise the others
+  /// still refer to `i`.
   void separate(std::uint32_t i) {
     assert(i < parent_.size());
     parent_[i] = i;

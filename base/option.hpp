@@ -10,7 +10,7 @@
 namespace springlod::inline base {
 
 /// One row of an options struct: a member under the name that scripts use. The default is the
-/// member's own, in a struct that nobody touched.
+/// member's value in a default-constructed struct.
 ///
 /// A struct S lists its rows in `option_rows(const S*)`, declared beside it, where
 /// argument-dependent lookup finds it:
@@ -19,16 +19,16 @@ namespace springlod::inline base {
 ///     return std::tuple(option("tolerance", &FitOptions::tolerance, "mean error ..."), ...);
 ///   }
 ///
-/// From these rows come what scripts can set, help, documentation, and the fingerprints by which a
-/// stored calibration is recognized. Members without a row are not for scripts.
+/// These rows define which options scripts can set, the help, the documentation, and the
+/// fingerprints that identify a stored calibration. Scripts cannot set members without a row.
 template <class S, class Member>
 struct Option {
   const char* name;
   Member S::*member;
   const char* help;
   Dimension dimension = Dimension::number;
-  const char* fallback = "";  ///< the default in words, where the member's value says too little
-  bool is_weight = false;     ///< how much something counts, not what is measured
+  const char* fallback = "";  ///< the default in words, if the member's value does not explain it
+  bool is_weight = false;     ///< a dimensionless weight, not a measured quantity
 
   constexpr Option in(Dimension unit) const {
     Option row = *this;
@@ -67,7 +67,7 @@ constexpr NodesOption<S> nodes_option(const char* name, std::vector<std::uint32_
   return {name, member, help, fallback};
 }
 
-/// An options struct within another, or a list of such: scripts write it as a table of its own,
+/// A nested options struct, or a list of such structs. Scripts write it as a separate table,
 /// documented as `record`.
 template <class S, class Member>
 struct RecordOption {
@@ -85,7 +85,7 @@ constexpr RecordOption<S, Member> record_option(const char* name, Member S::*mem
   return {name, member, record, help, fallback};
 }
 
-/// An options struct within another whose rows scripts write beside those of the outer one.
+/// A nested options struct; scripts write its rows directly in the table of the outer struct.
 template <class S, class Member>
 struct NestedOptions {
   Member S::*member;

@@ -5,8 +5,8 @@
 
 namespace springlod::inline base {
 
-/// Calls body(job, stopped) once for every job below `count`, in rising order, on `threads` threads
-/// (0: all cores).
+/// Calls body(job, stopped) once for every job below `count`, in ascending order, on `threads`
+/// threads (0: all cores).
 ///
 /// If jobs throw, the exception of the lowest failed job reaches the caller, for any number of
 /// threads. No further jobs are started then; for running jobs stopped() becomes true, and they

@@ -8,7 +8,8 @@ namespace springlod::inline base {
 // Lea and Flood 2014, "Fast splittable pseudorandom number generators", with the constants of
 // Vigna's public-domain splitmix64.c). It is not cryptographic.
 
-/// The state of SplitMix64 grows by this at each number: 2^64 over the golden ratio, made odd.
+/// Increment of the state of SplitMix64 for each number: 2^64 over the golden ratio, rounded to an
+/// odd number.
 inline constexpr std::uint64_t kSplitMixIncrement = 0x9e3779b97f4a7c15ULL;
 
 /// One step of SplitMix64: 64 random bits that depend on the state `z` alone.

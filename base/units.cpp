@@ -20,7 +20,7 @@ struct Unit {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// The SI unit stands first.
+// The SI unit is the first entry.
 constexpr std::array kLength{Unit{"m", 1},     Unit{"nm", 1e-9},   Unit{"um", 1e-6},
                              Unit{"mm", 1e-3}, Unit{"cm", 1e-2},   Unit{"dm", 1e-1},
                              Unit{"km", 1e3},  Unit{"in", 0.0254}, Unit{"ft", 0.3048}};
@@ -62,7 +62,7 @@ std::span<const Unit> units_of(Dimension dimension) {
   return {};
 }
 
-/// Units that format_quantity may use, in rising order.
+/// Units that format_quantity may use, in ascending order.
 std::span<const Unit> display_units(Dimension dimension) {
   static constexpr std::array kShownLength{Unit{"nm", 1e-9}, Unit{"um", 1e-6}, Unit{"mm", 1e-3},
                                            Unit{"m", 1}, Unit{"km", 1e3}};

@@ -77,8 +77,8 @@ std::unique_ptr<btSoftBody> soft_body(const MassSpringModel& model, const sim::S
   return body;
 }
 
-/// Order of links in the position-based solver: as our springs are sorted, or reordered by Bullet
-/// to reduce dependencies between consecutive links.
+/// Order of links in the position-based solver: the order of our springs, or an order by Bullet
+/// with fewer dependencies between consecutive links.
 struct Sweeps {
   int iterations = 1;
   bool reordered = false;

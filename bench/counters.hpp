@@ -13,7 +13,8 @@ void count_springs(benchmark::State& state, const MassSpringModel& model, double
 /// Sets the counter `name`: time of an iteration divided by `count` [ns].
 void count_ns(benchmark::State& state, const char* name, double count);
 
-/// Reports the minimum of a benchmark's repetitions ("least"), which other load disturbs least.
+/// Reports the minimum of a benchmark's repetitions ("least"), which is least affected by other
+/// load.
 benchmark::internal::Benchmark* keep_least(benchmark::internal::Benchmark* registered);
 
 }  // namespace springlod::bench

@@ -1,6 +1,6 @@
-// What we wrote ourselves beside what the standard library has for it: the radix sort of a visit
-// order beside std::sort and std::stable_sort, and the barrier of a team of threads beside
-// std::barrier. Both sides take turns within one run: counters are ratios of their least times.
+// Compares our own code with its equivalent in the standard library: the radix sort of a visit
+// order with std::sort and std::stable_sort, and the barrier of a team of threads with
+// std::barrier. Both sides alternate within one run: counters are ratios of their least times.
 
 #include <algorithm>
 #include <barrier>
@@ -37,8 +37,8 @@ struct Side {
   double least = std::numeric_limits<double>::infinity();  // [s]
 };
 
-/// The first side is ours and is what is timed; "std::sort/ours = 3" means that std::sort takes
-/// three times as long. `ns_each`: the least time of ours over `count`.
+/// The first side is our code; its time is the reported time: "std::sort/ours = 3" means that
+/// std::sort takes three times as long. `ns_each`: the least time of ours over `count`.
 void take_turns(benchmark::State& state, std::vector<Side> sides, double count) {
   for (auto _ : state)
     for (Side& side : sides) {
@@ -51,7 +51,7 @@ void take_turns(benchmark::State& state, std::vector<Side> sides, double count) 
     state.counters[std::string(sides[i].name) + "/ours"] = sides[i].least / sides[0].least;
 }
 
-/// Random keys, as those that draw the order in which nodes are visited.
+/// Random keys, like those that determine the order in which nodes are visited.
 void sort_nodes(benchmark::State& state) {
   std::mt19937_64 random(1);
   std::vector<KeyedNode> drawn(static_cast<std::size_t>(state.range(0)));
@@ -80,8 +80,9 @@ BENCHMARK(sort_nodes)
     ->UseManualTime()
     ->Unit(benchmark::kMicrosecond);
 
-/// Two threads that meet after every piece of work, as those of a step do: no work at all, and
-/// some microseconds of it. Few meetings at a time, so that some fall between what else runs here.
+/// Two threads that synchronize after every piece of work, as in a step: once without work, and
+/// once with some microseconds of work. Few synchronizations per timing, so that some timings are
+/// not disturbed by other processes.
 void meet(benchmark::State& state) {
   constexpr int kMeetings = 100;
   constexpr std::uint32_t kThreads = 2;

@@ -31,7 +31,7 @@ using namespace springlod;
 constexpr std::uint32_t kAround = 1000;
 constexpr std::uint32_t kAcross = 500;
 constexpr double kCells = 256;  // along the longest side
-constexpr float kBand = 3;      // [cells], as voxelize() asks for
+constexpr float kBand = 3;      // [cells], the value that voxelize() uses
 
 /// A ring of radius `ring` whose cross-section has the radius `tube` [m].
 TriangleMesh torus_mesh(double ring, double tube, std::uint32_t around, std::uint32_t across) {

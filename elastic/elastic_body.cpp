@@ -36,7 +36,7 @@ constexpr double kMostStored = 5e7;
 Eigen::MatrixXd rigid_motions(const MassSpringModel& component, const Eigen::VectorXd& root_mass,
                               Eigen::Index rotations) {
   const MassProperties whole = mass_properties(component);
-  const Eigen::SelfAdjointEigenSolver<Mat3> principal(whole.inertia);  // moments in rising order
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(whole.inertia);  // moments in ascending order
   Eigen::MatrixXd motions(root_mass.size(), 3 + rotations);
   for (std::uint32_t i = 0; i < component.node_count(); ++i) {
     const auto row = 3 * static_cast<Eigen::Index>(i);
@@ -51,7 +51,7 @@ Eigen::MatrixXd rigid_motions(const MassSpringModel& component, const Eigen::Vec
   return motions;
 }
 
-/// The 3n x 3n block of a 3N x 3N matrix that belongs to `nodes` (n, rising).
+/// The 3n x 3n block of a 3N x 3N matrix that belongs to `nodes` (n, ascending).
 Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix,
                                      const std::vector<std::uint32_t>& nodes) {
   std::vector<Eigen::Triplet<double>> entries;

@@ -18,7 +18,7 @@ class SparseCholesky;
 /// unknowns the stiffness is D = M^-1/2 K M^-1/2 [1/s2], and modes are orthonormal. K includes the
 /// springs to anchored nodes; anchored nodes have no unknowns.
 struct ElasticComponent {
-  std::vector<std::uint32_t> nodes;       ///< n, rising
+  std::vector<std::uint32_t> nodes;       ///< n, ascending
   Eigen::VectorXd root_mass;              ///< sqrt(m) of each unknown [kg^1/2], 3n
   Eigen::SparseMatrix<double> stiffness;  ///< D, 3n x 3n, both triangles
   /// 3n x z, orthonormal: rigid motions and mechanisms. z = 0 if the anchors leave none.
@@ -40,7 +40,7 @@ struct ElasticComponent {
 /// A model factorised once for several analyses: modes and static loads. Treat it as immutable.
 struct ElasticBody {
   std::uint32_t node_count = 0;
-  std::vector<std::uint32_t> anchored;       ///< rising, each once; empty: the body is free
+  std::vector<std::uint32_t> anchored;       ///< ascending, each once; empty: the body is free
   std::vector<ElasticComponent> components;  ///< by their lowest node; those with a free node
   std::uint32_t zero_mode_count() const;
 };

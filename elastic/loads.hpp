@@ -36,8 +36,9 @@ struct StaticSolution {
 
 struct StaticOptions {
   /// Relative residual at which a load counts as solved: norm of the residual force / norm of the
-  /// force, both divided by the root of the masses. 0: iterate until rounding stops the progress.
-  /// Above 0, one solution with the factors usually suffices, and `residual` is then 0.
+  /// force, both divided by the root of the masses. 0: iterate until rounding errors prevent
+  /// further improvement. Above 0, one solution with the factors usually suffices, and `residual`
+  /// is then 0.
   double relative_tolerance = 0;
 };
 
@@ -75,7 +76,7 @@ struct LocalLoadOptions {
 
 /// Two patches, pulled apart: "patches 1", ... Every other pair is close together (at most two
 /// radii), the others are anywhere. About half of the pairs are pulled along the line between their
-/// centres, the others in a random direction. Fewer loads, or none, come back if the surface has no
+/// centres, the others in a random direction. Returns fewer loads, or none, if the surface has no
 /// room for two patches.
 std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoadOptions& options);
 
@@ -96,8 +97,8 @@ struct RegionLoadOptions {
 
 /// The nine smooth loads on each material region (connected nodes of one material) that reaches the
 /// surface: "stretch x of rod at node 0", ... They measure the stiffness of the region by itself;
-/// loads on the whole body hardly depend on stiff regions that soft ones connect. None if the body
-/// is one region.
+/// loads on the whole body hardly depend on stiff regions that soft ones connect. Returns none if
+/// the body is one region.
 std::vector<StaticLoad> region_loads(const MassSpringModel& model,
                                      const RegionLoadOptions& options = {});
 

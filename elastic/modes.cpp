@@ -31,7 +31,7 @@ constexpr double kLeastOfShift = 1e-3;
 
 /// Modes of one component in its mass-weighted unknowns.
 struct ComponentSpectrum {
-  Eigen::VectorXd squared_frequency;  // rising
+  Eigen::VectorXd squared_frequency;  // ascending
   Eigen::VectorXd residual;
   Eigen::MatrixXd shapes;  // orthonormal columns
 };
@@ -109,14 +109,15 @@ class BlockLanczos {
     projected_.bottomRows(kBlock) = along.transpose();  // the solver reads the lower triangle only
     coupling_ = orthonormalise(next_);
     // If the Krylov space is exhausted (bodies with many equal frequencies), the new vectors are
-    // rounding errors. Made orthogonal, they serve as new start vectors.
+    // rounding errors. After orthogonalization, they serve as new start vectors.
     subtract_product(basis, transposed_product(basis, next_), next_);
     component_.remove_zero_modes(next_);
     coupling_ = orthonormalise(next_) * coupling_;
   }
 
   bool converged() {
-    // The test costs the cube of the number of vectors: it is repeated when there are a tenth more.
+    // The cost of the test grows with the cube of the number of vectors. It is therefore repeated
+    // only after that number has grown by a tenth.
     next_look_ = vectors_ + vectors_ / 10;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(projected_);
     theta_ = solver.eigenvalues().tail(count_).reverse();

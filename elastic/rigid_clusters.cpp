@@ -12,9 +12,10 @@
 namespace springlod::elastic {
 namespace {
 
-/// Three unit vectors are coplanar if their determinant is smaller than this; directions are, if
-/// the determinant of sum u u^T is smaller than its square. Any value above rounding would do:
-/// doubtful nodes are left out of the cluster and solved for.
+/// Three unit vectors count as coplanar if their determinant is smaller than this. Several
+/// directions u count as coplanar if the determinant of sum u u^T is smaller than its square. Any
+/// value above rounding errors is valid: a node near the threshold is left out of the cluster, and
+/// its motion is solved for.
 constexpr double kFlat = 1e-3;
 
 class Growth {
@@ -50,7 +51,7 @@ class Growth {
     return std::abs(edges.determinant()) > kFlat;
   }
 
-  /// Four free nodes, i the lowest, each connected to each by springs and not coplanar.
+  /// Four free nodes, not coplanar, with i the lowest; springs connect every pair.
   std::optional<std::array<std::uint32_t, 4>> tetrahedron_at(std::uint32_t i) const {
     std::vector<std::uint32_t> around;
     springs_.for_each(i, [&](std::uint32_t j, std::uint32_t) {

@@ -22,7 +22,7 @@ constexpr Eigen::Index kDenseUnknowns = 120;
 constexpr Eigen::Index kKrylovVectors = 16;
 constexpr Eigen::Index kMaxRestarts = 200;
 /// Residual / eigenvalue at which Lanczos stops. The residual is added to the result, so the
-/// eigenvalue is at most this much too large, the frequency half as much.
+/// relative error of the eigenvalue is at most this, and that of the frequency half of it.
 constexpr double kResidualTolerance = 1e-4;
 
 /// The operator x -> (M^-1/2 K M^-1/2 + G/M) x in the form that Spectra needs.

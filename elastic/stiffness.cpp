@@ -17,7 +17,7 @@ struct Block {
   Mat3 value;
 };
 
-/// The 3 x 3 blocks in the columns of node j, by rising row.
+/// The 3 x 3 blocks in the columns of node j, by ascending row.
 void fill_column(const MassSpringModel& model, const SpringRows& rows, std::uint32_t j,
                  std::vector<Block>& column) {
   column.clear();

@@ -30,7 +30,7 @@ constexpr double kMoves = 1e-3;
 struct Body {
   std::vector<std::uint32_t> nodes;
   bool rigid = false;
-  Eigen::Index first_unknown = -1;  // -1: the body is at rest
+  Eigen::Index first_unknown = -1;  // -1: the body is held fixed
   Vec3 centre = Vec3::Zero();
   Mat3 axes = Mat3::Identity();  // of rotation
   Vec3 arm = Vec3::Ones();       // sqrt(sum |axis x r|^2) for each axis
@@ -194,7 +194,7 @@ class ZeroModes {
     if (stiffness.rows() == 0) return 0;
     Factor factor;
     factor.analyzePattern(stiffness);
-    // If a pivot is exactly zero, another shift avoids it.
+    // If a pivot is exactly zero, the factorization is repeated with another shift.
     for (const double shift : {1.0, 1.37, 1.88, 2.57, 3.52, 4.83}) {
       factor.setShift(-shift * kZero);
       factor.factorize(stiffness);
@@ -253,7 +253,7 @@ class ZeroModes {
     if (component.anchored > 0) {
       modes.expected = 0;
     } else if (component.has_resting_body) {
-      modes.zero_modes += 6;  // those of the body at rest
+      modes.zero_modes += 6;  // those of the body that is held fixed
     } else {
       rigid = rigid_motions(component);
       modes.expected = static_cast<std::uint32_t>(rigid.cols());

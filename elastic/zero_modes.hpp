@@ -24,11 +24,11 @@ struct ComponentModes {
 };
 
 /// Counts the zero modes of each connected component, in linear theory about rest. They depend on
-/// the geometry of the springs and not on their stiffnesses. Clusters that are rigid beyond doubt
-/// are found first, and each moves as one body; few unknowns remain even of large models. The zero
-/// modes of the remaining system are counted by Sylvester's law of inertia, and their motions are
-/// found by inverse iteration. Anchored nodes are held by springs to the ground, as stiff as
-/// the other springs. Throws InputError for an anchored node that the model does not have.
+/// the geometry of the springs and not on their stiffnesses. Clusters that are certainly rigid are
+/// found first, and each is treated as one rigid body. Even large models then have few unknowns.
+/// The zero modes of the remaining system are counted by Sylvester's law of inertia, and their
+/// motions are found by inverse iteration. Anchored nodes are held by springs to the ground, as
+/// stiff as the other springs. Throws InputError for an anchored node that the model does not have.
 std::vector<ComponentModes> zero_modes(const MassSpringModel& model,
                                        const std::vector<std::uint32_t>& anchored = {});
 

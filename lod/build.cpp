@@ -77,8 +77,8 @@ Step guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
   return {std::move(sound.groups), std::move(sound.links)};
 }
 
-/// Exactly `wanted` groups after the guards. The guards fuse some groups, and the next attempt
-/// requests as many more; surplus groups are fused, the smallest first.
+/// Exactly `wanted` groups after the guards. If the guards fuse n groups, the next attempt requests
+/// n more; surplus groups are then fused, the smallest first.
 Step exact_step(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
                 std::uint32_t level, std::uint32_t wanted) {
   constexpr int kTries = 20;
@@ -92,7 +92,7 @@ Step exact_step(const Level& finer, const SpringRows& springs, const SimplifyOpt
     }
     if (step.groups.count == wanted) return step;
     found = step.groups.count;
-    // One more each time; otherwise the same groups could recur.
+    // One more group in each attempt; otherwise the same groups could recur.
     requested =
         std::min(requested + (found < wanted ? wanted - found : 0) + 1, finer.model.node_count());
   }

@@ -117,7 +117,7 @@ std::vector<Candidate> choose(const std::vector<Candidate>& candidates, std::siz
   if (candidates.size() <= count) return candidates;
   std::vector<Candidate> chosen(candidates.begin(),
                                 candidates.begin() + static_cast<std::ptrdiff_t>(count));
-  for (std::size_t round = 0; round < 2; ++round) {  // from a line to a plane to the space
+  for (std::size_t round = 0; round < 2; ++round) {  // from a line to a plane to the full space
     Vec3 mean = Vec3::Zero();
     for (const Candidate& c : chosen) mean += model.rest[c.node] / static_cast<double>(count);
     Mat3 variance = Mat3::Zero();

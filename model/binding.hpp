@@ -31,17 +31,18 @@ struct BindOptions {
   std::uint32_t nodes_per_point = 8;
 };
 
-/// Binds each point to its nearest node and the nearest of the neighbours up to two springs away. A
-/// point is so never bound to a limb that is close to it but not connected. If these nodes are
-/// coplanar and others nearby are not, the farthest are replaced by such. Throws InputError for a
-/// model without nodes or fewer than 4 nodes per point.
+/// Binds each point to its nearest node and the nearest of the neighbours up to two springs away.
+/// Therefore, a point is never bound to a part of the body that is close to it but not connected.
+/// If these nodes are coplanar, the farthest are replaced by nearby nodes outside the plane, if
+/// there are any. Throws InputError for a model without nodes or fewer than 4 nodes per point.
 Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& model,
                     const BindOptions& options = {});
 
 /// Appends a row with the moving-least-squares weights of first order of one point (Lancaster &
 /// Salkauskas 1981; docs/method.md, eq. 26): the w that minimise sum w_j^2 / phi_j with sum w_j = 1
 /// and sum w_j X_j = point, over the candidate nodes `nodes` of `model`. The kernel phi decreases
-/// with the distance. The nearest node stands first; a point at a node depends on that node alone.
+/// with the distance. The nearest node is the first entry; a point at a node depends on that node
+/// alone.
 ///
 /// The weights are bounded: a point far outside the nodes, compared with their distances, is
 /// projected back towards them. `bind_points` and the transfer between levels are built on it.
@@ -50,7 +51,7 @@ void append_bound_point(Binding& binding, const Vec3& point, const MassSpringMod
                         const std::vector<std::uint32_t>& nodes);
 
 /// The map `outer` after `inner`: `outer` maps the points of `inner`, which maps nodes. The entries
-/// of a row are in rising order of node.
+/// of a row are in ascending order of node.
 Binding compose(const Binding& outer, const Binding& inner);
 
 /// Positions (or velocities) of the P points, interpolated from N node values.

@@ -7,8 +7,8 @@
 namespace springlod::inline model {
 
 /// Measured properties of a level beside those of its base, stored with it in the asset
-/// (docs/method.md, section 6). Relative errors are level / base - 1. All values are linear, about
-/// rest.
+/// (docs/method.md, section 6). Relative errors are level / base - 1. All values are those of the
+/// model linearized about rest.
 struct Certificate {
   /// Moduli of a material from its average stress and strain under the smooth loads
   /// (docs/method.md, eqs. 9 and 10).
@@ -31,7 +31,7 @@ struct Certificate {
   };
 
   std::vector<Moduli> moduli;
-  std::vector<Frequency> frequencies;  ///< the lowest ones, rising
+  std::vector<Frequency> frequencies;  ///< the lowest ones, ascending
   std::vector<Load> loads;
   double mass_error = 0;           ///< [1]
   double center_shift = 0;         ///< of the centre of mass, over the radius of gyration [1]

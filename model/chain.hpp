@@ -24,8 +24,8 @@ struct Groups {
 Groups identity_groups(std::uint32_t node_count);
 /// The map `coarser` after `finer`.
 Groups compose(const Groups& finer, const Groups& coarser);
-/// The coarse nodes that the fine `nodes` were merged into, rising, each once. A group is so
-/// anchored if any of its nodes is. Throws InputError for a node that is not in the map.
+/// The coarse nodes that the fine `nodes` were merged into, ascending, each once. Therefore, a
+/// group is anchored if any of its nodes is. Throws InputError for a node that is not in the map.
 std::vector<std::uint32_t> mapped_nodes(const Groups& groups,
                                         const std::vector<std::uint32_t>& nodes);
 /// Throws InputError unless every group number is below count and occurs.

@@ -10,8 +10,8 @@ namespace springlod::inline model {
 /// A connected component of a model as a separate model.
 struct ModelComponent {
   MassSpringModel model;
-  std::vector<std::uint32_t> nodes;    ///< number in the whole model of each node, rising
-  std::vector<std::uint32_t> springs;  ///< number in the whole model of each spring, rising
+  std::vector<std::uint32_t> nodes;    ///< number of each node in the whole model, ascending
+  std::vector<std::uint32_t> springs;  ///< number of each spring in the whole model, ascending
 };
 
 /// Splits a model into its connected components. `components` is connected_components(model).

@@ -62,7 +62,8 @@ struct MassProperties {
 };
 MassProperties mass_properties(const MassSpringModel& model);
 
-/// Centre of mass of the nodes at positions x [m]. Given their velocities: its velocity [m/s].
+/// Centre of mass of the nodes at positions x [m]. If `x` holds velocities, the velocity of the
+/// centre of mass [m/s].
 Vec3 center_of_mass(const MassSpringModel& model, const std::vector<Vec3>& x);
 
 std::uint32_t border_count(const MassSpringModel& model);

@@ -12,7 +12,7 @@ Box3 bounds(const TriangleMesh& mesh) {
 
 double signed_volume(const TriangleMesh& mesh, const MeshPart& part) {
   if (part.triangle_count == 0) return 0;
-  // Relative to a vertex of the part: far from the origin the terms would cancel.
+  // Relative to a vertex of the part: far from the origin, cancellation would lose digits.
   const Vec3 o = mesh.positions[mesh.triangles[part.first_triangle][0]];
   double six_volumes = 0;
   for (std::uint32_t t = 0; t < part.triangle_count; ++t) {

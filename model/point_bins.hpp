@@ -74,7 +74,7 @@ class PointBins {
   std::array<int, 3> count_{};
   Vec3 size_ = Vec3::Zero();           // of a bin [m]
   std::vector<std::uint32_t> start_;   // of each bin in sorted_, and the end
-  std::vector<std::uint32_t> sorted_;  // points by bin, rising within each
+  std::vector<std::uint32_t> sorted_;  // points by bin, ascending within each
 };
 
 }  // namespace springlod::inline model

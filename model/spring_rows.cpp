@@ -22,7 +22,7 @@ SpringRows::SpringRows(std::uint32_t node_count, const std::vector<std::uint32_t
     end.higher += start.higher;
     start = {end.lower, end.higher - start.higher};
   }
-  // `lower` is the end of each row here. Filling the row backwards moves it to the start.
+  // `lower` is the end of each row here. Filling the row backwards moves this index to its start.
   for (std::uint32_t s = spring_count(); s-- > 0;) lower_[--start_[b[s]].lower] = {a[s], s};
 }
 

@@ -10,10 +10,10 @@
 
 namespace springlod::inline model {
 
-/// The springs of each node in rising order of neighbour, in half the memory of a full adjacency:
-/// the model is sorted by (a, b), so the springs from a node to higher nodes are consecutive
-/// already and only those to lower nodes are listed. Refers to the ends of the springs, which must
-/// outlive it.
+/// The springs of each node in ascending order of neighbour, in half the memory of a full
+/// adjacency: the model is sorted by (a, b), so the springs from a node to higher nodes are
+/// consecutive already and only those to lower nodes are listed. Refers to the ends of the springs,
+/// which must outlive it.
 class SpringRows {
  public:
   explicit SpringRows(const MassSpringModel& model)
@@ -31,7 +31,7 @@ class SpringRows {
     return end.lower - start.lower + end.higher - start.higher;
   }
 
-  /// Calls visit(neighbour, spring) for each spring of `node`, in rising order of neighbour.
+  /// Calls visit(neighbour, spring) for each spring of `node`, in ascending order of neighbour.
   template <class Visit>
   void for_each(std::uint32_t node, const Visit& visit) const {
     const Start& start = start_[node];

@@ -133,7 +133,7 @@ int Overlay::draw_scale(Image& image, const PixelRect& panel, const ColourScale&
 void Overlay::draw_panel(Image& image, const PixelRect& panel, const PanelLabels& labels) {
   const Sizes sizes(panel.height);
   draw_heading(image, panel, labels);
-  // Above the footer, which may be centred right beside them.
+  // Above the footer, which may extend close to them.
   int bottom = panel.y + panel.height - whole(sizes.margin);
   for (const ColourScale& scale : labels.scales)
     bottom = draw_scale(image, panel, scale, bottom) - whole(sizes.margin / 2);

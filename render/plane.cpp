@@ -32,7 +32,7 @@ PlanePatch plane_patch(const DrawnPlane& plane, const Camera& camera, double asp
   const double offset = plane.offset / length;
   const Vec3 world_up = camera.up.normalized();
   PlanePatch patch;
-  constexpr double kWall = 0.7;  // cosine: steeper than 45 deg
+  constexpr double kWall = 0.7;  // cosine of the angle: steeper than 45 deg
   patch.upright = std::abs(normal.dot(world_up)) < kWall;
   Vec3 v = world_up - world_up.dot(normal) * normal;
   if (!patch.upright) {

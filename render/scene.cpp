@@ -144,7 +144,7 @@ void require_drawable(const PanelGrid& grid) {
 
 struct Renderer::Impl {
   Layout layout;
-  OffscreenContext context;  // of one panel size: a panel looks the same in every position
+  OffscreenContext context;  // of the size of one panel
   Pipeline pipeline{context};
   Overlay overlay;
 

@@ -87,7 +87,7 @@ struct ChartOptions {
   std::string y_label;
   bool log_x = false;
   bool log_y = false;
-  double y_from = 0;   ///< lower end of a log axis; points not above it are drawn there, hollow
+  double y_from = 0;   ///< lower end of a log axis; points at or below it are drawn there, hollow
   double width = 900;  ///< [px]
   double height = 600;
 };

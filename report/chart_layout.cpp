@@ -68,7 +68,7 @@ std::vector<Tick> log_ticks(double low, double high) {
 
 struct Box {
   double x0, y0, x1, y1;
-  double weight = 1;  ///< cost of hiding it, per area
+  double weight = 1;  ///< cost of hiding it, per unit of area
 };
 
 double overlap(const Box& a, const Box& b) {

@@ -54,7 +54,7 @@ std::size_t width(std::string_view text) {
   return columns;
 }
 
-// "12.5 %", "18.6x": texts that line up on the right as numbers do.
+// "12.5 %", "18.6x": texts that are aligned to the right, as numbers are.
 bool starts_as_number(std::string_view text) {
   if (text == "nan" || text == "inf" || text == "-inf") return true;
   const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
@@ -105,7 +105,7 @@ std::vector<std::string> row_texts(const std::vector<Cell>& row, NumberText numb
 }  // namespace
 
 std::string number_text(double value) {
-  std::array<char, 32> buffer{};  // the longest shortest form has 24 characters
+  std::array<char, 32> buffer{};  // no shortest representation has more than 24 characters
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), end.ptr};
 }

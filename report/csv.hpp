@@ -26,11 +26,11 @@ inline Cell whole(std::uint64_t value) {
 /// Shortest decimal text that parses to the same double.
 std::string number_text(double value);
 
-/// RFC 4180; numbers by number_text, nothing as an empty cell. Written aside and renamed. Throws
-/// IoError, InputError for a ragged table.
+/// RFC 4180; numbers by number_text, nothing as an empty cell. Written under a temporary name and
+/// renamed. Throws IoError, InputError for a ragged table.
 void save_csv(const Table& table, const std::filesystem::path& path);
-/// Columns aligned for a terminal: numbers with four digits, to the right as texts that start with
-/// one ("12.5 %"). Throws InputError for a ragged table.
+/// Columns aligned for a terminal. Numbers have four digits; they and texts that start with a
+/// number ("12.5 %") are aligned to the right. Throws InputError for a ragged table.
 std::string format_table(const Table& table);
 
 }  // namespace springlod::report

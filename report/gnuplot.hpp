@@ -29,7 +29,7 @@ std::string gnuplot_terminal(const std::filesystem::path& picture, double width,
                              double font);
 
 /// Writes the script and runs it. The script refers to its data and picture by name without folder,
-/// so that all can be moved together. Throws IoError.
+/// so that the files can be moved together. Throws IoError.
 Drawing draw_with_gnuplot(const std::string& script, const std::filesystem::path& picture);
 
 }  // namespace springlod::report

@@ -31,14 +31,14 @@ double mean(const std::vector<double>& sample);
 double standard_deviation(const std::vector<double>& sample);
 
 /// Quantile of order `part` (0..1), interpolated linearly (Hyndman and Fan 1996, type 7; the
-/// default of R and NumPy). At least one value.
+/// default of R and NumPy). Needs at least one value.
 double quantile(std::vector<double> sample, double part);
 /// The same for a sorted sample; the order is not checked.
 double sorted_quantile(const std::vector<double>& rising, double part);
 
 /// Glass's delta [1]: mean of `other` minus mean of `base`, divided by the standard deviation of
-/// `base`. If all values of the base are equal, it is infinite, or 0 for equal means. At least two
-/// values in `base`.
+/// `base`. If all values of the base are equal, it is infinite, or 0 for equal means. Needs at
+/// least two values in `base`.
 double difference_over_spread(const std::vector<double>& base, const std::vector<double>& other);
 
 /// 1-Wasserstein (earth mover's) distance of two samples: the integral of |F - G| of their
@@ -250,7 +250,7 @@ struct SampleComparison {
   std::optional<Equivalence> equivalence;
 };
 
-/// All on the same resamples: BCa intervals for the differences, percentile intervals for the
+/// All use the same resamples: BCa intervals for the differences, percentile intervals for the
 /// distances. Throws InputError as bootstrap and test_equivalence do.
 SampleComparison compare_samples(const StartSample& base, const StartSample& other,
                                  const SampleComparisonOptions& options = {});
@@ -272,8 +272,8 @@ double distance_between(const std::vector<double>& base, const std::vector<doubl
 
 struct NoiseFloorOptions {
   /// Sizes of the two samples of each distance. They must equal the sizes of the samples to be
-  /// judged, as distances decrease with sample size. 0: half of the only source, else the smallest
-  /// source.
+  /// judged, as distances decrease with sample size. 0: half of the only source, or the smallest of
+  /// several sources.
   std::uint32_t base_size = 0;
   std::uint32_t other_size = 0;  ///< 0: as base_size
   SampleDistance distance = SampleDistance::wasserstein;

@@ -7,7 +7,7 @@ local parser = command.parser("compare", "Run every level of an asset under one 
   .. "Writes table.csv, starts.csv, chart.svg, chart.png, frames/frame_0000.png ..., "
   .. "comparison.mp4 and timings.csv (wall-clock times, the only output that varies between runs).")
 parser:argument("asset", "a .glb asset, written by convert or s.save")
-parser:option("--scenario", "Lua file that returns a scenario table, as s.scenario takes")
+parser:option("--scenario", "Lua file that returns a table for s.scenario")
   :argname("<file.lua>"):count(1)
 parser:option("--out", "folder to write to"):argname("<folder>"):count(1)
 parser:option("--starts", "number of starts; every level uses the same ones")

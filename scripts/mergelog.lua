@@ -182,7 +182,7 @@ local function draw_errors(levels)
     title = ("Where to stop: %s, %d to %d nodes"):format(command.base_name(args.asset),
       levels[1].nodes, last.nodes),
     x_label = "nodes kept (% of the base's); numbers: cost over the base's",
-    y_label = "mean error beside the base (%)",
+    y_label = "mean error relative to the base (%)",
     log_y = true,
   })
 end
@@ -207,7 +207,7 @@ local function draw_merges(levels)
   end
   command.chart(args.out .. "/costs", series, {
     title = "What the merges of a step add to the error of f1..10, costliest first",
-    x_label = "merges (% of the step's)", y_label = "sum of their costs (%)",
+    x_label = "merges (% of all merges of the step)", y_label = "sum of their costs (%)",
   })
 end
 
@@ -218,7 +218,7 @@ local function draw_where(chain, entry)
   for i, node in ipairs(chain:group_map(entry.level)) do cost[i] = 100 * of_node[node] end
   s.render(args.out .. "/where.png", {chain[0], {chain[0], cut = {0, 1, 0,
     chain[0].center[2]}}}, {
-    node_values = cost, value_label = "part of the merge in the error of f1..10 (%)",
+    node_values = cost, value_label = "contribution of the merge to the error of f1..10 (%)",
     surface = false, nodes = true, titles = {"outside", "cut open"},
     title = ("%d nodes -> %d"):format(chain[0].node_count, entry.nodes), width = 480, height = 400,
   })

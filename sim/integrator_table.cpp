@@ -1,4 +1,4 @@
-// Every integrator there is. A new one is a file with its stepper, an enumerator and a row here.
+// All integrators. To add one: write a file with its stepper, an enumerator and a row here.
 
 #include "elastic/stable_step.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
@@ -13,7 +13,7 @@
 namespace springlod::sim {
 namespace {
 
-constexpr std::uint32_t kNewtonIterations = 20;  // Newton rarely wants more than 5
+constexpr std::uint32_t kNewtonIterations = 20;  // Newton's method rarely needs more than 5
 constexpr std::uint32_t kSweeps = 1;  // small steps rather than sweeps (Macklin et al. 2019)
 constexpr std::uint32_t kLocalGlobalIterations = 10;
 

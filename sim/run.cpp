@@ -14,11 +14,12 @@
 namespace springlod::sim {
 namespace {
 
-// A step is not longer than this part of the duration [1], so that a body without any stiffness has
-// a trajectory too.
+// Longest step as a fraction of the duration [1], so that a body without any stiffness has a
+// trajectory too.
 constexpr double kLongestStep = 0.01;
 
-// Schemes without a limit take steps that follow contacts and the vibration of whole bodies [s].
+// Step of schemes without a stability limit: short enough to resolve contacts and the slow
+// vibration of bodies [s].
 constexpr double kImplicitStep = 1e-3;
 
 void validate(const RunOptions& options) {

@@ -22,26 +22,26 @@ struct StepLimit;
 struct RunOptions {
   Integrator integrator = Integrator::symplectic_euler;
   SolverOptions solver = {};  ///< for the implicit schemes
-  /// Step [s]; left out: 1 ms for the implicit schemes, for the others `safety` times the predicted
-  /// stable step, contact stiffness included; symplectic Euler halves it where springs are
-  /// stretched or flattened so far that it would not hold, and doubles it again afterwards.
+  /// Step [s]. Default: 1 ms for the implicit schemes; for the others, `safety` times the predicted
+  /// stable step, including contact stiffness. Symplectic Euler halves the step while springs are
+  /// stretched or flattened so much that it would be unstable, and doubles it again afterwards.
   std::optional<double> step = std::nullopt;
   double safety = 0.8;
-  /// A body that touches an obstacle is left to sleep, at no cost, once its nodes' mean speed has
-  /// stayed below this part of sqrt(|g| size), about that of a fall through its own size [1]; 0:
+  /// A body in contact sleeps, at no cost, once the mean speed of its nodes has stayed below this
+  /// fraction of sqrt(|g| size), which is about the speed after a fall through its own size [1]; 0:
   /// never.
   double sleep = 1e-5;
-  /// Frames kept a second of simulated time; 0: only the first and last state.
+  /// Stored frames per second of simulated time; 0: only the first and last state.
   double frame_rate = 60;
-  /// Record the energy ledger (costs about half as much again).
+  /// Record the energy ledger (increases the cost by about half).
   bool ledger = true;
-  /// Of the numbers that symplectic Euler moves the body with; see docs/precision.md.
+  /// Floating-point precision of symplectic Euler; see docs/precision.md.
   Precision precision = Precision::double_precision;
-  Layout layout = Layout::fastest;  ///< of the springs for symplectic Euler
-  /// Threads for symplectic Euler; 0: as many as the body is worth. Never changes the result.
+  Layout layout = Layout::fastest;  ///< memory layout of the springs for symplectic Euler
+  /// Threads for symplectic Euler; 0: chosen by the size of the body. Never changes the result.
   std::uint32_t threads = 1;
-  /// Where the body touches obstacles; none: at its own nodes, those of a coarse level deep inside
-  /// the base's surface. See contact_skin.
+  /// The surface at which the body touches obstacles; none: its own nodes, which in a coarse level
+  /// lie deep inside the base's surface. See contact_skin.
   std::shared_ptr<const ContactSkin> skin = nullptr;
   Progress* progress = nullptr;
 };
@@ -65,8 +65,8 @@ constexpr auto option_rows(const RunOptions*) {
 
 inline constexpr const char* kThreadsHelp = "0: all cores; never changes a result";
 
-/// Two nodes joined by a spring that went past each other: it turned over between two checks of the
-/// body, beyond what the body as a whole turned.
+/// Two nodes of a spring that moved past each other: the spring inverted between two checks of the
+/// body, relative to the rotation of the whole body.
 struct Crossing {
   std::uint32_t a = 0;  ///< node
   std::uint32_t b = 0;  ///< node
@@ -81,52 +81,52 @@ struct Frame {
 /// One run of one model: deterministic, single-threaded.
 struct Trajectory {
   double step = 0;            ///< at rest [s]
-  double shortest_step = 0;   ///< where springs were strained hard [s]
+  double shortest_step = 0;   ///< while springs were strongly strained [s]
   double predicted_step = 0;  ///< stable step predicted for the model and its contacts [s]
   std::uint64_t steps = 0;
-  /// Springs evaluated, in every step and iteration: the deterministic measure of cost. (A sparse
-  /// factorization, of which it knows nothing, counts as one pass.)
+  /// Spring evaluations in all steps and iterations: the deterministic measure of cost. (A sparse
+  /// factorization counts as one pass.)
   std::uint64_t spring_updates = 0;
-  /// Steps that the solver of backward Euler ended short of its tolerance.
+  /// Steps in which the solver of backward Euler did not reach its tolerance.
   std::uint64_t unconverged_steps = 0;
   double simulated = 0;                 ///< [s]; below the duration if a stop rule ended the run
   double wall_seconds = 0;              ///< measured; never part of a result that must repeat
-  double planning_seconds = 0;          ///< of these what went before the first step (plan_runs)
+  double planning_seconds = 0;          ///< of these, the time before the first step (plan_runs)
   std::vector<Frame> frames;            ///< at the frame times, first and last included
-  std::vector<LedgerEntry> ledger;      ///< one a frame; empty if not asked for
+  std::vector<LedgerEntry> ledger;      ///< one per frame; empty if not requested
   std::optional<double> first_contact;  ///< [s]
-  std::optional<double> asleep_since;   ///< [s]; from there on it was not moved any more
-  /// The first springs to turn over: from there on the body is inside out at that place.
+  std::optional<double> asleep_since;   ///< [s]; from then on it was not advanced
+  /// The first inverted springs: from then on, the body is inside out at that place.
   std::optional<Crossing> first_crossing;
   State final;
 };
 
-/// What runs of one model have in common, whatever their start: may be shared between threads.
+/// Data shared by the runs of one model from any start; may be shared between threads.
 struct RunPlan {
   std::shared_ptr<const StepLimit> limit;             ///< never null
   std::shared_ptr<const FastModel> layout = nullptr;  ///< for symplectic Euler
 };
-/// For all runs with these options and obstacles. Throws InputError for a wrong model, scenario or
-/// option.
+/// Valid for all runs with these options and obstacles. Throws InputError for a wrong model,
+/// scenario or option.
 RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
                   const RunOptions& options);
 
 /// Runs the model under the scenario. The step is `safety` times the predicted one, shortened so
-/// that the duration is a whole number of steps, or exactly the one given. Frames lie exactly at
-/// the frame times, between steps on the straight line that the scheme draws; ledger entries at the
-/// last step before. Throws InputError for a wrong model, scenario or option, UnstableError naming
-/// node and time as soon as a coordinate stops being finite or the energy grows without a source,
+/// that the duration is a whole number of steps, or exactly the one given. Frames are at exactly
+/// the frame times, interpolated linearly between steps; ledger entries are those of the last step
+/// before. Throws InputError for a wrong model, scenario or option, UnstableError naming node and
+/// time as soon as a coordinate stops being finite or the energy grows without a source,
 /// TunnelError as soon as a node has gone through a box.
 Trajectory run(const MassSpringModel& model, const Scenario& scenario,
                const RunOptions& options = {});
-/// From positions and velocities of its own instead of the scenario's throw.
+/// Starts from the given positions and velocities instead of the scenario's throw.
 Trajectory run(const MassSpringModel& model, const Scenario& scenario, const State& start,
                const RunOptions& options);
-/// With what was planned for this model, these obstacles and these options.
+/// Uses the plan made for this model, these obstacles and these options.
 Trajectory run(const MassSpringModel& model, const Scenario& scenario, const State& start,
                const RunOptions& options, const RunPlan& plan);
 
-/// What Scenario::measure_from asks for [m], from the displacement of the centre of mass.
+/// The distance defined by Scenario::measure_from [m], from the displacement of the centre of mass.
 double measured_distance(const Scenario& scenario, const Vec3& first_center,
                          const Vec3& final_center);
 

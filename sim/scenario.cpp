@@ -11,7 +11,7 @@
 namespace springlod::sim {
 namespace {
 
-// How far a unit vector or a rotation may be off [1]: what a script loses by writing 6 digits.
+// Tolerance of a unit vector or a rotation [1]: the rounding error of 6 digits in a script.
 constexpr double kUnitTolerance = 1e-6;
 
 void require(bool ok, std::string_view field, std::string_view rule) {
@@ -104,7 +104,8 @@ void validate(const Scenario& scenario) {
 State initial_state(const MassSpringModel& model, const Throw& start) {
   validate(start);
   const Vec3 center = mass_properties(model).center;
-  // Written as changes to the rest positions, so that a body left where it is keeps its bits.
+  // Computed as displacements of the rest positions, so that a body that is not moved keeps its
+  // positions bit by bit.
   const Vec3 shift = start.placed ? Vec3(start.position - center) : Vec3(Vec3::Zero());
   const Mat3 turn = start.rotation - Mat3::Identity();
   State state = rest_state(model);

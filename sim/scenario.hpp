@@ -11,22 +11,22 @@
 
 namespace springlod::sim {
 
-/// Half-space obstacle: material is where normal . x < offset.
+/// Half-space obstacle: solid where normal . x < offset.
 struct Plane {
   Vec3 normal = Vec3::UnitZ();  ///< unit length, out of the obstacle
   double offset = 0;            ///< [m]
 };
-/// Solid box, may be turned.
+/// Solid box, may be rotated.
 struct SolidBox {
   Vec3 center = Vec3::Zero();        ///< [m]
   Vec3 half_size = Vec3::Ones();     ///< [m] > 0
   Mat3 rotation = Mat3::Identity();  ///< box axes as columns
-  /// The point as seen along the box axes from its centre [m].
+  /// Coordinates of the point in the box axes, from the centre of the box [m].
   Vec3 local(const Vec3& point) const { return rotation.transpose() * (point - center); }
 };
 
-/// A fixed thing that nodes bump into: a penalty force kappa A d on a node of contact area A at
-/// depth d, Coulomb friction capped so that a step never reverses the slip.
+/// A fixed obstacle. A node of contact area A at depth d gets the penalty force kappa A d. Coulomb
+/// friction is limited so that a step never reverses the slip.
 struct Obstacle {
   std::variant<Plane, SolidBox> shape;
   std::string name;        ///< "floor", "wall": for labels and measurements
@@ -36,11 +36,11 @@ struct Obstacle {
       0;  ///< contact damping time [s] >= 0: force kappa A (d + damping * rate of d), never pulling
 };
 
-/// How a body is placed and thrown: turned about its centre of mass, then moved.
+/// Initial placement and velocity of a body: rotated about its centre of mass, then translated.
 struct Throw {
   Mat3 rotation = Mat3::Identity();
-  Vec3 position = Vec3::Zero();  ///< where the centre of mass goes [m], if `placed`
-  bool placed = false;           ///< false: stays where the model has it
+  Vec3 position = Vec3::Zero();  ///< position of the centre of mass [m], if `placed`
+  bool placed = false;           ///< false: the body stays at the position in the model
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
   Vec3 spin = Vec3::Zero();      ///< angular velocity [rad/s]
 };

@@ -9,8 +9,8 @@
 
 namespace springlod::voxelize {
 
-/// The most frequent material of `cells` (a few numbers; kNoIndex is skipped); of equally frequent
-/// ones the lowest number. At least one cell must exist.
+/// The most frequent material of `cells` (a few numbers; kNoIndex is skipped); in a tie, the lowest
+/// number. At least one cell must exist.
 inline std::uint16_t commonest_material(const MaterialGrid& grid,
                                         std::span<const std::uint32_t> cells) {
   std::uint16_t best = 0;

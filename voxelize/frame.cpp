@@ -10,7 +10,7 @@
 namespace springlod::voxelize {
 namespace {
 
-// Most cells in the bounding box: 2 GB at some 20 bytes a cell. Their lattice would have as many
+// Most cells in the bounding box: 2 GB at about 20 bytes per cell. Their lattice would have as many
 // nodes and nine times as many springs.
 constexpr double kMostCells = 1e8;
 // Largest distance from the origin / size of the object. Beyond it, coordinates resolve the object

@@ -17,7 +17,7 @@ namespace springlod::voxelize {
 
 using CellIndex = std::array<std::int32_t, 3>;
 
-class DistanceField;  // an OpenVDB level set; only voxelize/ sees inside
+class DistanceField;  // an OpenVDB level set, defined only in voxelize/
 
 /// A sparse grid: only filled cells are stored, sorted by (z, y, x), each with a material. Cell (i,
 /// j, k) is the cube from origin + cell * (i, j, k) to origin + cell * (i+1, j+1, k+1).

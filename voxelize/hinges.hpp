@@ -14,8 +14,8 @@ namespace springlod::voxelize {
 /// cells. Sorted by node, the corner before the edges along x, y, z.
 std::vector<Hinge> find_hinges(const MaterialGrid& grid, const CornerNodes& nodes);
 
-/// Fills cells until no hinge is left. A new cell takes the most frequent material of its face
-/// neighbours and depth 0. Returns the number of new cells.
+/// Fills cells until no hinge is left. A new cell gets the most frequent material of its face
+/// neighbours, and the depth 0. Returns the number of new cells.
 std::uint32_t fill_hinges(MaterialGrid& grid);
 
 }  // namespace springlod::voxelize

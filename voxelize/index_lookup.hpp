@@ -19,7 +19,7 @@ inline bool grid_order(const CellIndex& l, const CellIndex& r) {
 }
 
 /// Finds an index in a list sorted by grid_order: by a dense table over the bounding box if that is
-/// small enough, else by binary search. Refers to the list, which must outlive it.
+/// small enough, otherwise by binary search. Refers to the list, which must outlive it.
 class IndexLookup {
  public:
   explicit IndexLookup(const std::vector<CellIndex>& sorted);

@@ -26,7 +26,7 @@ openvdb::Coord coord(const CellIndex& c) {
   return {c[0], c[1], c[2]};
 }
 
-/// A mesh as meshToVolume reads it; the names are those that it calls.
+/// Adapter of a mesh for meshToVolume, which prescribes the names of its members.
 // NOLINTBEGIN(readability-identifier-naming)
 struct SurfaceInCells {
   const std::vector<Vec3>& positions;

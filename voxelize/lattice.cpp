@@ -72,7 +72,8 @@ void add_corner_node(MassSpringModel& model, const MaterialGrid& grid, const Cor
       if (around[o ^ across] == kNoIndex) area += quarter_face;
   }
   add_node(model, corner_position(grid, nodes.at[node]), mass, volume, area, border,
-           commonest_material(grid, around));  // cells are equal, so most cells have most volume
+           commonest_material(grid,
+                              around));  // cells have equal volumes, so the number of cells decides
 }
 
 struct SpringSum {
@@ -81,7 +82,7 @@ struct SpringSum {
   double c = 0;
 };
 
-// Springs of `node` to higher nodes, summed over the cells around it, by rising `to`.
+// Springs of `node` to higher nodes, summed over the cells around it, by ascending `to`.
 void gather_springs(const MaterialGrid& grid, const CornerNodes& nodes, std::uint32_t node,
                     std::vector<SpringSum>& sums) {
   sums.clear();

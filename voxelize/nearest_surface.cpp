@@ -117,7 +117,7 @@ class Search {
       if (outer_[n] == 0 || squared_[n] != kNotFound) continue;
       for (std::size_t i = 0; i < 26; ++i) {
         if (table_.neighbour(n, i) != kNoIndex) continue;
-        const int place = static_cast<int>(i < 13 ? i : i + 1);  // of the 27 with the cell itself
+        const int place = static_cast<int>(i < 13 ? i : i + 1);  // index among the 27 cells
         const Eigen::Vector3f step =
             Eigen::Vector3i(place % 3 - 1, place / 3 % 3 - 1, place / 9 - 1).cast<float>();
         if (step.squaredNorm() / 4 >= squared_[n]) continue;
@@ -127,8 +127,8 @@ class Search {
     }
   }
 
-  // Propagates the points inwards, layer by layer, each cell from its 26 neighbours; then once
-  // more.
+  // Propagates the points inwards, layer by layer: each cell takes the nearest of the points of its
+  // 26 neighbours. The whole pass is done twice.
   void propagate() {
     const std::vector<std::uint32_t> order = inward_order();
     for (int round = 0; round < kMostRounds; ++round) {

@@ -21,7 +21,7 @@ namespace {
 
 /// Samples for each node: the error of Lloyd's centroids is then below a tenth of the spacing.
 constexpr double kSamplesPerNode = 48;
-/// More nodes than fit into memory with their samples.
+/// Limit of the number of nodes: more do not fit into memory with their samples.
 constexpr double kMostNodes = 1e8;
 
 std::uint32_t node_count(const MaterialGrid& grid, const RandomOptions& options) {
@@ -157,7 +157,7 @@ PairMaterial series(const Material& m1, const Material& m2) {
   return {2 * m1.young * m2.young / sum, (m1.damping * m2.young + m2.damping * m1.young) / sum};
 }
 
-/// Springs for E = 1 Pa without damping: the network that is measured.
+/// Springs for E = 1 Pa without damping, for the stretch test.
 void add_unit_springs(const std::vector<NodePair>& pairs, MassSpringModel& model) {
   model.stiffness = unit_stiffness(pairs, model.volume);
   model.damping.assign(pairs.size(), 0);

@@ -28,7 +28,7 @@ constexpr int kHalvings = 12;
 // Factor on the disk radius if more nodes are wanted and no place is left.
 constexpr double kShrink = 0.9;
 
-/// The nodes placed so far, in bins, with a test of the distance to a new one.
+/// The nodes placed so far, in bins, with a test of the distance to a new node.
 class Darts {
  public:
   Darts(const Box3& box, double bin) : box_(box), bin_(bin) {

@@ -17,7 +17,7 @@ constexpr std::uint32_t kLeastNodes = 100;
 /// Candidates for each node; the one farthest from the existing nodes is taken.
 constexpr std::uint32_t kCandidates = 10;
 constexpr double kSamplesPerNode = 60;
-/// In spacings: within it are twice as many neighbours as a node needs.
+/// Search radius in spacings: it contains twice as many neighbours as a node needs.
 constexpr double kSearchRadius = 2.0;
 
 Vec3 shortest(Vec3 offset) {

@@ -10,8 +10,8 @@
 namespace springlod::voxelize {
 namespace {
 
-// Within this many spacings a node of an even packing has some 44 neighbours, twice as many as it
-// needs; on a flat surface half as many.
+// Search radius in spacings. In a uniform packing it contains about 44 neighbours of a node, twice
+// as many as needed; on a flat surface, half as many.
 constexpr double kSearchRadius = 2.2;
 constexpr double kWiden = 1.5;
 // A path of cells may lead around a step of the surface if their centres lie within this many cells

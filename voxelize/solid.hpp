@@ -13,7 +13,7 @@ namespace springlod::voxelize {
 /// names for the lid and the pot).
 struct SolidReport {
   std::string part;                     ///< name of its first mesh part
-  std::vector<std::uint32_t> parts;     ///< numbers of its mesh parts, rising
+  std::vector<std::uint32_t> parts;     ///< numbers of its mesh parts, ascending
   std::uint64_t boundary_edges = 0;     ///< edges with one triangle, after welding
   std::uint64_t nonmanifold_edges = 0;  ///< with an odd number (> 1) or inconsistent orientation
   double volume = 0;                    ///< signed [m3]

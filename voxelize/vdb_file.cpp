@@ -27,7 +27,7 @@ constexpr const char* kMaterialCount = "springlod_material_count";
 constexpr const char* kHasDistance = "springlod_has_distance";
 
 constexpr std::int32_t kOutside = -1;  // in the grid "material"
-constexpr int kBand = 3;               // half width of a level set in cells, as OpenVDB's tools
+constexpr int kBand = 3;  // half width of a level set in cells, the default of OpenVDB's tools
 
 std::string material_key(std::size_t n, const char* field) {
   return fmt::format("springlod_material_{}_{}", n, field);

@@ -12,8 +12,8 @@ namespace {
 // Fraction of the bounding diagonal below which two vertices are merged: some 10 times the rounding
 // of single precision, far below any detail that a grid of cells resolves.
 constexpr double kWeldTolerance = 1e-6;
-// Side of a hash cell in tolerances: so large that few points are near two cells, so small that few
-// share one.
+// Side of a hash cell in tolerances: large enough that few points are near two cells, small enough
+// that few points share a cell.
 constexpr double kHashCell = 64;
 // Bits of a hash cell's index along one axis: there are some 1 / (64 * 1e-6) = 15625 cells.
 constexpr unsigned kCellBits = 16;

@@ -29,8 +29,8 @@ void check(const ElasticBody& body, const StaticLoad& load) {
                                    script_number(i)));
 }
 
-/// Largest component of a load along the zero modes / norm of the load that counts as 0: far above
-/// rounding in either.
+/// Largest component of a load along the zero modes that counts as 0, relative to the norm of the
+/// load: far above rounding in either.
 constexpr double kPushes = 1e-9;
 
 /// Rejects a load that acts on a motion which the anchors leave free: it has no static solution.

@@ -14,8 +14,8 @@ struct BalancedSolverOptions {
   Eigen::Index most_steps = 20000;
 };
 
-/// Solves K u = f by conjugate gradients for a stiffness matrix that nothing holds. K is singular,
-/// but the forces must balance: iterates from zero then stay free of rigid motions.
+/// Solves K u = f by conjugate gradients for the stiffness matrix of an unsupported body. K is
+/// singular, but the forces must balance: iterates from zero then stay free of rigid motions.
 class BalancedSolver {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;

@@ -14,8 +14,9 @@ namespace {
 /// The springs of a node are coplanar if their spread normal to the plane / spread within it (both
 /// squared) is below this. It is 0.3 for a surface node of a lattice.
 constexpr double kFlat = 1e-3;
-/// Average strain / largest local strain below which the average is left over from cancellation.
-/// Stretches and shears have 0.3 and more, bends and twists of irregular models up to 0.05.
+/// If average strain / largest local strain is below this, the average is only a residue of
+/// cancellation. Stretches and shears have 0.3 and more, bends and twists of irregular models up to
+/// 0.05.
 constexpr double kCancelled = 0.1;
 /// Determinant of the normal equations / square of mu's entry. Below this, all strains are of one
 /// kind (pure shear, isotropic) up to rounding, and determine only one of the two moduli.
@@ -44,7 +45,7 @@ std::vector<Mat3> inverse_spreads(const MassSpringModel& model) {
 }
 
 /// Strain of each node from the affine motion closest to that of its neighbours. One affine motion
-/// for all nodes of a material would not do: its gradient is not the average of uneven strain
+/// for all nodes of a material would be wrong: its gradient is not the average of uneven strain
 /// (forces per volume), and the relative motion of two regions of one material would count as
 /// strain.
 std::vector<Mat3> node_strains(const MassSpringModel& model, const std::vector<Mat3>& inverse,

@@ -23,7 +23,7 @@ struct Bar {
   Eigen::Index axis = 2;
   double low = 0;
   double high = 0;
-  double end_depth = 0;  // largest distance from the extreme nodes of a node of an end
+  double end_depth = 0;  // a node within this distance of the extreme nodes belongs to an end
   double length() const { return high - low; }
   bool at_low(const Vec3& p) const { return p[axis] <= low + end_depth; }
   bool at_high(const Vec3& p) const { return p[axis] >= high - end_depth; }
@@ -37,7 +37,7 @@ Bar measure_bar(const MassSpringModel& model, int axis) {
   bar.axis = axis;
   bar.low = box.min()[axis];
   bar.high = box.max()[axis];
-  constexpr double kFlat = 1e-9;  // of the size: rounding in the coordinates of one plane
+  constexpr double kFlat = 1e-9;  // fraction of the size: rounding in the coordinates of one plane
   if (model.spring_count() == 0 || !(bar.length() > kFlat * box.sizes().norm()))
     throw InputError(
         fmt::format("stretch test: the model has fewer than two planes of nodes along "

@@ -110,7 +110,7 @@ class Dissector {
     unmark(nodes);
     if (low == 0) return std::nullopt;
     Cut cut{axis, place, low_crossing < high_crossing, 0};
-    // The fewest nodes in the separator win; among equals, the most equal halves.
+    // The separator with the fewest nodes is chosen; in a tie, the one with the most equal halves.
     const auto size = static_cast<double>(nodes.size());
     const double left = static_cast<double>(cut.from_low ? low - low_crossing : low) / size;
     const double right =

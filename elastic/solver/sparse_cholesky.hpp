@@ -37,8 +37,9 @@ class SparseCholesky {
  private:
   /// Columns of one supernode: a dense block, first its own rows, then those of its ancestors.
   struct Front {
-    Eigen::Index first = 0;           // its first unknown, in the order of elimination
-    std::vector<std::uint32_t> rows;  // nodes of its ancestors, by their place in the order; rising
+    Eigen::Index first = 0;  // its first unknown, in the order of elimination
+    std::vector<std::uint32_t>
+        rows;  // nodes of its ancestors, by their place in the order; ascending
     std::uint32_t parent = Dissection::kNoParent;
     Eigen::MatrixXd block;
     Eigen::Index width() const { return block.cols(); }

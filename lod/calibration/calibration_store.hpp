@@ -48,7 +48,8 @@ class CalibrationStore {
 
 /// Hash of all inputs of the measurements of a component of the base.
 std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options);
-/// Hash of all inputs of the fit of a component of a level; `level_part` is its start.
+/// Hash of all inputs of the fit of a component of a level; `level_part` is the component before
+/// the fit.
 std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel& level_part,
                            const Groups& of_base, const FitOptions& options);
 

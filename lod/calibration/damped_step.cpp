@@ -11,7 +11,8 @@
 namespace springlod::lod {
 namespace {
 
-/// Passes of the active set. Constraints still violated after the last are left to the next step.
+/// Passes of the active set. Constraints that are still violated after the last pass are handled in
+/// the next step.
 constexpr int kPasses = 3;
 /// Factor on the damping while the step is too long.
 constexpr double kRaise = 3;

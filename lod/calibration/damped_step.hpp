@@ -21,8 +21,8 @@ struct StepProblem {
 };
 
 /// Levenberg-Marquardt step d, n (Levenberg 1944, Marquardt 1963). `damping` is epsilon over the
-/// mean diagonal of G^T G [1]; it is raised until the root mean square of d is at most `most_rms`,
-/// and returned as raised.
+/// mean diagonal of G^T G [1]; it is increased until the root mean square of d is at most
+/// `most_rms`, and holds the increased value on return.
 Eigen::VectorXd damped_step(const StepProblem& problem, double& damping);
 
 }  // namespace springlod::lod

@@ -13,8 +13,8 @@ namespace {
 
 /// Least factor on a mass in one correction.
 constexpr double kLeastFactor = 0.2;
-/// Passes of the correction. It is linear in the masses, so one pass would do but for rounding and
-/// kLeastFactor.
+/// Passes of the correction. It is linear in the masses, so one pass would suffice without rounding
+/// errors and kLeastFactor.
 constexpr int kCorrections = 3;
 
 /// Least number of nodes of a material region with its own constraints: twice its ten moments. In a

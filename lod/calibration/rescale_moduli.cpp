@@ -21,8 +21,7 @@ std::vector<double> work_by_material(const MassSpringModel& model) {
 void rescale_moduli(const MassSpringModel& base, MassSpringModel& level) {
   const std::vector<double> wanted = work_by_material(base);
   const std::vector<double> found = work_by_material(level);
-  std::vector<double>
-      root;  // sqrt of each material's factor; a spring multiplies those of its ends
+  std::vector<double> root;  // square root of each material's factor
   for (std::size_t m = 0; m < wanted.size(); ++m)
     root.push_back(found[m] > 0 ? std::sqrt(wanted[m] / found[m]) : 1);
   for (std::uint32_t s = 0; s < level.spring_count(); ++s) {

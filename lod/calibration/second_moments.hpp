@@ -10,10 +10,10 @@ Mat3 second_moments(const MassSpringModel& model);
 
 /// Restores the second moments of mass of each connected component of a merged level by one linear
 /// map of its nodes (docs/method.md, eq. 27). Merging removes the moments within the groups: 12 to
-/// 15 % of a sphere's at 20 % of the nodes. Of all linear maps that restore the moments this one
-/// displaces the masses least (optimal transport between two ellipsoids). k L and c L of every
-/// spring are conserved as in a merge. A component that is flat along an axis (a sheet, a rope)
-/// stays flat.
+/// 15 % of a sphere's at 20 % of the nodes. This is the linear map that restores the moments with
+/// the smallest displacement of the masses (optimal transport between two ellipsoids). k L and c L
+/// of every spring are conserved as in a merge. A component that is flat along an axis (a sheet, a
+/// rope) stays flat.
 void restore_second_moments(const MassSpringModel& base, const Groups& of_base,
                             MassSpringModel& level);
 

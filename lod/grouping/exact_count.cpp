@@ -15,8 +15,8 @@
 namespace springlod::lod {
 namespace {
 
-/// The last node of a breadth-first search within the group from its first member. The other nodes
-/// stay connected without it.
+/// The last node of a breadth-first search within the group from its first member. Removing it
+/// leaves the other nodes connected.
 std::uint32_t last_reached(const SpringRows& springs, const Groups& groups,
                            const std::vector<std::uint32_t>& members) {
   std::vector<std::uint32_t> reached{members.front()};
@@ -29,7 +29,7 @@ std::uint32_t last_reached(const SpringRows& springs, const Groups& groups,
   return reached.back();
 }
 
-/// The merged nodes, as far as the choice of partners needs them.
+/// The data of the merged nodes that the choice of partners needs.
 struct Merged {
   std::vector<std::uint32_t> size;
   std::vector<Vec3> center;

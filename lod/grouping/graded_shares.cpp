@@ -13,7 +13,7 @@ namespace {
 
 /// Least share of a kind relative to the proportional share; the largest is its inverse.
 constexpr double kLeastFraction = 0.5;
-/// Groups that resolve the shape of a kind.
+/// Number of groups that is enough to resolve the shape of a kind.
 constexpr double kShape = 24;
 
 double sum(const std::vector<double>& shares) {

@@ -21,8 +21,8 @@ MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinki
 
 /// MassRule::proximity (docs/method.md, eq. 25): redistributes masses and volumes of `base` to the
 /// nodes of `coarse`. Each base node is a cube of its volume, cut into eight pieces; each piece
-/// goes to the nearest coarse node. A coarse node without a piece gets the nearest one that another
-/// node can spare. Total mass and volume are conserved, the centre of mass is not. Positions,
+/// goes to the nearest coarse node. A coarse node without a piece gets the nearest piece of a node
+/// that has several. Total mass and volume are conserved, the centre of mass is not. Positions,
 /// contact areas and springs are unchanged.
 void share_by_proximity(const MassSpringModel& base, MassSpringModel& coarse);
 

@@ -36,7 +36,7 @@ void find_nearest(const MassSpringModel& coarse, Pieces& pieces) {
   for (const Vec3& p : pieces.at) pieces.nearest.push_back(bins.nearest(p).point);
 }
 
-/// Gives each node without a piece the nearest one that its owner can spare.
+/// Gives each node without a piece the nearest piece among those of nodes with more than one.
 void leave_none_empty(const MassSpringModel& coarse, Pieces& pieces) {
   std::vector<std::uint32_t> owned(coarse.node_count(), 0);
   for (const std::uint32_t n : pieces.nearest) ++owned[n];

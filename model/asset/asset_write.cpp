@@ -109,7 +109,7 @@ class ExactWriter {
   asset_format::Checksum checksum_;
 };
 
-/// Estimated size of the buffer: 112 B a node and 32 B a spring, rounded up.
+/// Estimated size of the buffer: 112 B per node and 32 B per spring, rounded up.
 std::size_t expected_bytes(const LodAsset& asset) {
   std::size_t bytes = std::size_t{64} * 1024;
   for (const Level& level : asset.chain.levels)

@@ -14,7 +14,7 @@ namespace springlod::inline model {
 // The container of binary glTF 2.0: a header of 12 bytes, a chunk of JSON text and a chunk of
 // binary data.
 
-/// What is wrong with a .glb file, without its name.
+/// Describes the damage of a .glb file, without the file name.
 class Damage : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,5 +1,5 @@
--- Keeps the results of long runs as CSV files in a folder. Kept results are not computed again, so
--- that an interrupted script resumes where it stopped.
+-- Keeps the results of long runs as CSV files in a folder. Stored results are not computed again,
+-- so that an interrupted script resumes where it stopped.
 
 local s = require "springlod"
 

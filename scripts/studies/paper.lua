@@ -140,7 +140,7 @@ local function table_2(rods)
 end
 
 local function paper()
-  local cases = paper_runs.cases(settings) -- before the store opens: materials may be wrong
+  local cases = paper_runs.cases(settings) -- before opening the store, as materials may be invalid
   local store = run_store.open(args.out .. "/runs", run_settings())
   local all = {cases.ball, table.unpack(cases.rods)}
   paper_runs.run(all, settings, store)
@@ -148,7 +148,7 @@ local function paper()
   write_page(("%d paired starts, %d simplification seeds, jitter %g, friction %g, 1 unit of speed "
     .. "= %g m/s, seed %d. W1: 1-Wasserstein distance to the base; inside: simplification seeds "
     .. "whose W1 is below the noise floor; same: mean shown to be within %g spreads of the base; "
-    .. "turned: runs in which springs turned over."):format(
+    .. "turned: runs in which springs inverted."):format(
     settings.starts, settings.simplifications, settings.jitter, settings.friction,
     settings.speed_scale, settings.seed, settings.margin))
   table_1(cases.ball)

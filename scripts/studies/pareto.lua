@@ -23,7 +23,7 @@ local parser = command.parser("pareto", "Simplify the base of an asset with ever
   .. "vary between runs), left-out.csv, models/ (all levels) and command.txt. After an "
   .. "interruption (Ctrl-C) the same command resumes.")
 parser:argument("asset", "a .glb asset, written by convert or s.save; only its base is used")
-parser:option("--scenario", "Lua file that returns a scenario table, as s.scenario takes")
+parser:option("--scenario", "Lua file that returns a table for s.scenario")
   :argname("<file.lua>"):count(1)
 parser:option("--out", "folder to write to"):argname("<folder>"):count(1)
 local function axis(name, help)
@@ -186,7 +186,7 @@ end
 
 local function report(study, variants, left_out)
   pareto_tables.save(args.out, variants, left_out, study)
-  local x_label = ("cost of a simulated second over the base's (%.3g s by the clock)"):format(
+  local x_label = ("wall-clock cost of a simulated second, base = 1 (base: %.3g s)"):format(
     study.times:base_cost())
   for _, chart in ipairs(charts_of(study)) do
     if wanted[chart.name] then
@@ -205,7 +205,7 @@ end
 
 local function pareto()
   local scene, asset = command.load_table(args.scenario), s.load(args.asset)
-  -- Before the store opens: either may be wrong.
+  -- Before the store is opened, because either may be invalid.
   local settings, scenario = settings_of(asset), s.scenario(scene)
   local study = {
     base = asset[0], size = asset[0].bounds.diagonal, scene = scene, scenario = scenario,

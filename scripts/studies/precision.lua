@@ -190,7 +190,7 @@ end
 local function drop_body(body)
   local model = body.make("0.5 ms")
   local scene, step = plan_drop(body, model)
-  local function drop(precision, length) -- never put to sleep, for comparison to the end
+  local function drop(precision, length) -- no sleeping, so that runs are comparable to the end
     return s.run(model, scene, {step = length, precision = precision, sleep = 0,
       frame_rate = frame_rate})
   end

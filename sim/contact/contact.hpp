@@ -17,7 +17,7 @@ struct Contact {
   double depth = 0;                 ///< d [m] > 0
   double stiffness = 0;             ///< k = ContactPoints::stiffness, of a node kappa A [N/m]
   double normal_force = 0;          ///< k (d + damping * rate of d), cut off at 0 [N]
-  double damping_force = 0;         ///< the part of normal_force that is not k d [N]
+  double damping_force = 0;         ///< damping component of normal_force, normal_force - k d [N]
   double damping = 0;               ///< contact damping time [s]
   double friction = 0;              ///< mu
   Vec3 normal = Vec3::UnitZ();      ///< outward normal of the obstacle
@@ -31,22 +31,23 @@ struct Contact {
   double stick_gain = 0;        ///< energy that the stick spring stored in this step [J]
   double stick_energy() const { return 0.5 * stick_stiffness * stretch.squaredNorm(); }  ///< [J]
 
-  /// Change of normal_force with depth where the rate is that of a step of length dt [N/m].
+  /// Derivative of normal_force with respect to depth, if the depth grows over a step of length dt
+  /// [N/m].
   double implicit_stiffness(double step) const { return stiffness * (1 + damping / step); }
 };
 
 /// Finds which points touch the obstacles. It keeps, for every point and box, from which side of
-/// each box axis the point came: depth is measured to that side, so a point pushed past the middle
-/// of a thin box is pushed back out where it came in and the potential kappa A d^2 / 2 never jumps.
-/// (A point that crosses a box within one step is pushed back too, with an energy that no step
-/// resolves: boxes must be thicker than speed times step.)
+/// each box axis the point came. Depth is measured to that side. A point pushed past the middle of
+/// a thin box is therefore pushed out where it entered, and the potential kappa A d^2 / 2 stays
+/// continuous. (A point that crosses a box within one step is also pushed back, with an energy
+/// error that no time step resolves: boxes must be thicker than speed times step.)
 class ContactFinder {
  public:
   /// `x`: the start positions of the nodes. Points and obstacles must outlive the finder.
   ContactFinder(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
                 const std::vector<Vec3>& x);
-  /// Contacts with nodes at x with velocities v (for contact damping): obstacle by obstacle, points
-  /// rising.
+  /// Contacts for node positions x and velocities v (for contact damping), ordered by obstacle,
+  /// then by point.
   void find(const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Contact>& contacts);
 
   /// The same for one obstacle and one point at x.
@@ -67,8 +68,8 @@ class ContactFinder {
 void add_normal_forces(const ContactPoints& points, const std::vector<Contact>& contacts,
                        std::vector<Vec3>& force);
 
-/// Points that still touch the obstacle of the step before keep the stretch of their stick spring;
-/// others start with none. Both lists are ordered as ContactFinder orders them.
+/// Points that touch the same obstacle as in the previous step keep the stretch of their stick
+/// spring; for others it starts at zero. Both lists have the order of ContactFinder.
 void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>& now);
 
 /// Applies friction over a step to a point of velocity v and mass m: sets slip_change, and stretch
@@ -79,8 +80,8 @@ void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>
 void apply_friction(Contact& contact, double mass, double step, const Vec3& v);
 
 /// Applies friction to all contacts in turn, as points may share nodes. `v`: velocities of the
-/// nodes after all other forces of the step. Returns the kinetic energy removed [J], the energy
-/// stored in stick springs included.
+/// nodes after all other forces of the step. Returns the removed kinetic energy [J], including the
+/// energy stored in stick springs.
 double apply_friction(const ContactPoints& points, double step, std::vector<Contact>& contacts,
                       std::vector<Vec3>& v);
 
@@ -88,8 +89,9 @@ double apply_friction(const ContactPoints& points, double step, std::vector<Cont
 double contact_energy(const std::vector<Contact>& contacts);
 
 /// Upper bound of the stiffness that contacts add to each node in one direction [N/m], N: eq. 68 of
-/// docs/method.md. Planes at an angle count by their common direction. Points that several nodes
-/// carry are bounded by (sum w_j x_j)^2 <= sum |w_j| sum |w_j| x_j^2.
+/// docs/method.md. For several planes, the bound uses the direction in which their stiffnesses add
+/// up most. For points interpolated from several nodes it uses (sum w_j x_j)^2 <= sum |w_j| sum
+/// |w_j| x_j^2.
 std::vector<double> contact_stiffness(const ContactPoints& points,
                                       const std::vector<Obstacle>& obstacles);
 

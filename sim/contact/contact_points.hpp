@@ -21,7 +21,7 @@ class ContactPoints {
     double kick = 0;    ///< change of the node's velocity when an impulse changes the point's [1]
   };
 
-  /// The nodes with an area, in rising order.
+  /// The nodes with a contact area, in ascending order.
   explicit ContactPoints(const MassSpringModel& model);
   /// Throws InputError for a skin that does not fit the model.
   ContactPoints(const MassSpringModel& model, const ContactSkin& skin);
@@ -38,7 +38,8 @@ class ContactPoints {
     const double bare = kappa * area_[point];
     return bare / (1 + bare * compliance_[point]);
   }
-  /// Damping time of that contact if the obstacle's is `damping` [s]: beta_n in eq. 64.
+  /// Damping time of that contact for an obstacle with the damping time `damping` [s]: beta_n in
+  /// eq. 64.
   double damping(std::size_t point, double kappa, double damping) const {
     const double given = stiffness(point, kappa) * compliance_[point];  // fraction of the depth [1]
     return (1 - given) * damping + given * compliance_damping_[point];

@@ -31,9 +31,10 @@ std::vector<double> own_compliance(const MassSpringModel& model) {
   return compliance;
 }
 
-/// Fraction of its freedom that each node lost to its group [1], 0 for a group of one: first factor
-/// of eq. 65 of docs/method.md. (Two equal nodes joined by stiffness b and held by a - b: each
-/// alone is more compliant than both together by 1 / (2 (a + b)), less than half of 1 / a.)
+/// Fraction of its degrees of freedom that each node lost by joining its group [1], 0 for a group
+/// of one: first factor of eq. 65 of docs/method.md. (Two equal nodes joined by stiffness b and
+/// held by a - b: each alone is more compliant than both together by 1 / (2 (a + b)), less than
+/// half of 1 / a.)
 std::vector<double> lost_freedom(const MassSpringModel& base, const Groups& groups) {
   std::vector<double> mass(groups.count, 0);
   for (std::uint32_t i = 0; i < base.node_count(); ++i) mass[groups.of[i]] += base.mass[i];

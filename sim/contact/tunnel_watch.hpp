@@ -20,11 +20,11 @@ class TunnelCheck {
   /// `x`: the start positions of the nodes. The points must outlive the watch.
   TunnelCheck(const ContactPoints& points, const std::vector<Obstacle>& obstacles,
               const std::vector<Vec3>& x);
-  /// Positions of the nodes at the end of the next step. Throws TunnelError for the first point
-  /// that went through.
+  /// Checks the next step, at whose end the nodes are at `x`. Throws TunnelError for the first
+  /// point that tunnelled.
   void check(const std::vector<Vec3>& x, double time, double step);
 
-  /// The same for one box and one point that moved from one position to another: whether it
+  /// The same for one box and one point that moved from one position to another. Returns true if it
   /// tunnelled. Points that stay outside may be skipped.
   bool goes_through(std::size_t wall, std::size_t point, const Vec3& from, const Vec3& to);
   [[noreturn]] void throw_tunnelled(std::size_t wall, std::size_t point, const Vec3& from,

@@ -54,7 +54,7 @@ class FastBody {
   /// Bounding box of the block's nodes after its last move [m].
   virtual const Box3& bounds(std::uint32_t block) const = 0;
 
-  /// Appends the indices of the block's nodes within `region` [m], rising.
+  /// Appends the indices of the block's nodes within `region` [m], ascending.
   virtual void nodes_in(std::uint32_t block, const Box3& region,
                         std::vector<std::uint32_t>& indices) const = 0;
 

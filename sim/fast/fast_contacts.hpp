@@ -47,13 +47,14 @@ class FastContacts {
   const std::vector<Contact>& now() const { return contacts_; }
   /// Number of the first step with a contact.
   const std::optional<std::uint64_t>& first_step() const { return first_step_; }
-  /// The first point that went through a wall.
+  /// The first point that tunnelled through a wall.
   const std::optional<Passage>& passage() const { return passage_; }
 
-  /// Adds the half of the losses of now() that belongs to the velocities before the kick, in a step
-  /// of `length` [s]. Call it between apply() and the kick.
+  /// Adds the half of the losses of now() that is computed with the velocities before the kick, in
+  /// a step of `length` [s]. Call it between apply() and the kick.
   void book_before_kick(double length, LedgerEntry& losses) const;
-  /// The half that belongs to the velocities after the kick. Call it between kick and drift.
+  /// Adds the half that is computed with the velocities after the kick. Call it between kick and
+  /// drift.
   void book_after_kick(double length, LedgerEntry& losses) const;
 
  protected:
@@ -77,9 +78,9 @@ class FastContacts {
   bool add_contact(std::size_t obstacle, std::uint32_t point, const Motion& motion);
   /// Adds the friction forces of all contacts, and notes the first step with a contact.
   void add_friction(const Step& step);
-  /// Checks whether one of `points` went through a wall in the drift to step `number`, in a step of
-  /// `length` [s]. `swept`: bounds of their paths in world axes [m]. `motion_of(point)`: position
-  /// at the end, velocity of the drift.
+  /// Checks whether one of `points` tunnelled through a wall in the drift to step `number`, in a
+  /// step of `length` [s]. `swept`: bounds of their paths in world axes [m]. `motion_of(point)`:
+  /// position at the end, velocity of the drift.
   template <class MotionOf>
   void check_walls(std::uint64_t number, double length, const Box3& swept,
                    const std::vector<std::uint32_t>& points, const MotionOf& motion_of) {

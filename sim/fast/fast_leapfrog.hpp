@@ -80,7 +80,8 @@ class FastLeapfrog final : public Stepper {
   MovingFrame observe(Share& share, MovingFrame frame);
   MovingFrame take_new_frame(const Share& share);
   void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
-  /// The same for a body with a skin, whose points depend on several blocks: blocks wait for it.
+  /// The same for a body with a skin, whose points depend on several blocks. The blocks wait until
+  /// its contacts are applied.
   void find_touch_and_move(const Pass& pass, const MovingFrame& frame, const Share& share);
   void apply_skin_contacts(const Pass& pass, const MovingFrame& frame);
   /// Waits for the forces of the other blocks that this one needs.

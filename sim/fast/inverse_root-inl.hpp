@@ -13,9 +13,9 @@ namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Squares of lengths below this [m2] count as this: the force of a spring of no length is 0, not
-// infinite. Its root, 1e-15 m, is below any length of interest, and its inverse is finite in both
-// precisions.
+// Squared lengths [m2] are clamped to this value, so that the force of a spring of zero length is
+// 0, not infinite. Its square root, 1e-15 m, is below any length of interest, and its inverse is
+// finite in both precisions.
 inline constexpr float kShortestSquare = 1e-30F;
 
 /// 1 / sqrt(square), within one or two units in the last place in single precision (an estimate and

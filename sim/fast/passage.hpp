@@ -7,7 +7,7 @@
 
 namespace springlod::sim {
 
-/// A point that went through a wall.
+/// A point that tunnelled through a wall.
 struct Passage {
   std::uint64_t step = 0;    ///< first step at which the point was behind the wall
   std::size_t wall = 0;      ///< number as in TunnelCheck

@@ -109,7 +109,7 @@ class Laying {
                  std::vector<std::vector<Place>>& copies, QuadBlock<Real>& block) const {
     const std::uint32_t first = order_.first[number];
     block.own = order_.first[number + 1] - first;
-    std::map<std::uint32_t, std::uint32_t> halo;  // rank -> index, in rising order of rank
+    std::map<std::uint32_t, std::uint32_t> halo;  // rank -> index, in ascending order of rank
     for (std::uint32_t i = 0; i < block.own; ++i)
       for (const HalfSpring& half : springs[first + i])
         if (block_of_[half.other] != number) halo.emplace(half.other, 0);
@@ -136,7 +136,7 @@ class Laying {
     return true;
   }
 
-  /// A pair of quads of gaps, to be filled.
+  /// A pair of quads that consist of gaps, to be filled with springs.
   void begin_quad(std::uint32_t quad, std::uint32_t own, QuadBlock<Real>& block) const {
     if (quad % 2 == 0) {
       QuadPair<Real>& pair = block.pairs.emplace_back();

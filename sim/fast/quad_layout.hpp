@@ -45,7 +45,7 @@ struct QuadBlock {
   std::vector<QuadPair<Real>> pairs;
   std::vector<std::array<Real, 2 * kQuad>> damping;  ///< c [N s/m] by pair; empty if damping_time k
 
-  std::vector<CopiedForce> copied;  ///< own nodes rising
+  std::vector<CopiedForce> copied;  ///< own nodes ascending
   // Range of blocks that contains this block and all blocks with copies of its nodes.
   std::uint32_t first_copy = 0;
   std::uint32_t last_copy = 0;

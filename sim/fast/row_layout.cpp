@@ -78,9 +78,9 @@ class Palette {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> numbers_;
 };
 
-// The forces of a row are added in memory. Rows of neighbouring directions end at overlapping
-// places: one right after the other, each would wait for the store of the one before. Therefore
-// rows that are neighbours in `rows`, which is sorted by reach, are separated.
+// The forces of a row are added in memory. Rows of neighbouring directions write to overlapping
+// places: executed one right after another, each would wait for the store of the previous one.
+// Therefore rows that are neighbours in `rows`, which is sorted by reach, are separated.
 std::vector<SpringRow> interleave(const std::vector<SpringRow>& rows) {
   constexpr std::size_t kApart = 3;  // directions along a line of a lattice: back, across, forward
   std::vector<SpringRow> mixed;

@@ -17,7 +17,7 @@ struct SpringRow {
   std::uint32_t properties = 0;  ///< index into RowLayout::properties
 };
 
-/// Properties of the eight springs of a row; all 0 where there is no spring.
+/// Properties of the eight springs of a row; all 0 for a missing spring.
 template <class Real>
 struct RowProperties {
   Real stiffness[kRowLanes] = {};   ///< k [N/m]
@@ -35,10 +35,10 @@ struct RowBlock {
   std::uint32_t places() const { return (own + kRowLanes - 1) / kRowLanes * kRowLanes; }
 };
 
-/// A lattice laid out for fast steps: nodes sorted by layer, line and column, so that neighbouring
-/// nodes have their neighbours side by side. Eight springs of one direction are a *row*: their ends
-/// are plain loads. Each spring is computed once, from its first node. Rows with equal properties
-/// share them: 1 to 2 bytes per spring.
+/// A lattice laid out for fast steps. Nodes are sorted by layer, line and column, so that the
+/// neighbours of adjacent nodes are adjacent too. Eight springs of one direction form a *row*,
+/// whose ends are contiguous in memory and need no gather. Each spring is computed once, from its
+/// first node. Rows with equal properties share them: 1 to 2 bytes per spring.
 template <class Real>
 struct RowLayout {
   std::vector<std::uint32_t> node;       ///< node at each place; N

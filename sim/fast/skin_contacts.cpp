@@ -39,7 +39,8 @@ void SkinContacts::apply(const Step& step) {
     }
   bounds_ = here;
   if (arrived_ != step.number) arrive(step, near, swept);
-  // A step may be repeated with another length: the contacts before it stay the same.
+  // A step may be repeated with another length: the contacts of the previous step then stay the
+  // same.
   if (kicked_ != step.number) contacts_before_ = std::move(contacts_);
   kicked_ = step.number;
   contacts_.clear();

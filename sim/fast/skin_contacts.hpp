@@ -16,14 +16,14 @@ class SkinContacts final : public FastContacts {
   /// The model must outlive this.
   SkinContacts(const Shared& shared, const MassSpringModel& model);
 
-  /// Also checks whether points went through walls since the last step.
+  /// Also checks whether points tunnelled through walls since the last step.
   void apply(const Step& step) override;
 
  private:
   /// Last check of one obstacle.
   struct View {
     std::optional<std::uint64_t> last;  // step at which it was checked
-    std::vector<double> due;            // travel at which each point may touch it first [m]
+    std::vector<double> due;  // travel of the body below which each point cannot touch it [m]
   };
 
   Vec3 velocity_before_kick(std::size_t contact) const override;

@@ -6,8 +6,8 @@ namespace springlod::sim {
 
 namespace {
 
-// Polls before the core is yielded [1]: about 20 microseconds, longer than threads with equal work
-// differ.
+// Polls before the core is yielded [1]: about 20 microseconds, longer than the waiting time between
+// threads with equal work.
 constexpr int kLooks = 10'000;
 
 template <class Come>

@@ -11,7 +11,8 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-// Newton's direction need not be exact: this part of the gradient may be left [1].
+// Newton's direction need not be exact: this is the relative residual tolerance of its linear
+// system [1].
 constexpr double kLinearTolerance = 1e-3;
 
 class GradientSolver final : public BackwardEuler::LinearSolver {
@@ -75,7 +76,7 @@ BackwardEuler::BackwardEuler(const MassSpringModel& model, const Scenario& scena
 BackwardEuler::~BackwardEuler() = default;
 
 // Column 3a + d holds rows 3a + d .. 3a + 2, then rows 3b .. 3b + 2 of every spring (a, b) in the
-// model's order, which is that of rising b.
+// model's order, which is that of ascending b.
 void BackwardEuler::make_pattern() {
   const Eigen::Index size = 3 * static_cast<Eigen::Index>(model_->node_count());
   std::vector<int> per_column(static_cast<std::size_t>(size));
@@ -107,7 +108,7 @@ double BackwardEuler::energy(const std::vector<Vec3>& x) {
     energy += model_->mass[i] * (x[i] - free_[i]).squaredNorm() / (2 * step_ * step_);
     trial_velocity_[i] = (x[i] - x_[i]) / step_;
   }
-  ContactFinder finder = finder_;  // a trial must not change from which side a node came
+  ContactFinder finder = finder_;  // a trial must not change the side from which a node came
   finder.find(x, trial_velocity_, trial_contacts_);
   for (const Contact& c : trial_contacts_)
     energy += c.normal_force * c.normal_force / (2 * c.implicit_stiffness(step_));
@@ -158,8 +159,8 @@ void BackwardEuler::add_contact(const Contact& contact) {
 }
 
 bool BackwardEuler::descend() {
-  constexpr double kSufficient = 1e-4;  // Armijo's fraction of the slope
-  constexpr int kHalvings = 20;         // of Newton's step: below that rounding decides
+  constexpr double kSufficient = 1e-4;  // Armijo constant: fraction of the directional derivative
+  constexpr int kHalvings = 20;         // of Newton's step: below it, rounding errors dominate
   const Eigen::VectorXd direction = solver_->solve(matrix_, -gradient_);
   spring_updates_ += solver_->passes() * model_->spring_count();
   const double slope = gradient_.dot(direction);
@@ -180,7 +181,7 @@ bool BackwardEuler::descend() {
 
 void BackwardEuler::solve() {
   springs_.begin_step(x_);
-  double scale = 0;  // of the forces at work [N]
+  double scale = 0;  // of the acting forces [N]
   for (std::size_t i = 0; i < x_.size(); ++i) {
     free_[i] = x_[i] + step_ * (v_[i] + step_ * gravity_);
     x_next_[i] = x_[i] + step_ * v_[i];

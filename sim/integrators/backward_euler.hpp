@@ -14,10 +14,10 @@ namespace springlod::sim {
 ///
 ///   sum m |x - x_n - dt v_n - dt^2 g|^2 / (2 dt^2) + elastic + damping + contact energy,
 ///
-/// found by Newton's method with a line search. Each spring gives k' u u^T + k' max(0, 1 - L'/l)
-/// (1 - u u^T) to the matrix: the part that compression makes negative is left out, so that the
-/// matrix stays positive definite (as in Teran et al. 2005, and exact for springs).
-/// Unconditionally stable; it damps vibrations that the step does not resolve.
+/// found by Newton's method with a line search. Each spring contributes k' u u^T + k' max(0, 1 -
+/// L'/l) (1 - u u^T) to the matrix. The term that is negative under compression is clamped to 0,
+/// which keeps the matrix positive definite (Teran et al. 2005; for springs the projection is
+/// exact). Unconditionally stable; it damps vibrations that the step does not resolve.
 class BackwardEuler final : public WholeStep {
  public:
   BackwardEuler(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -33,25 +33,27 @@ class BackwardEuler final : public WholeStep {
                                   const Eigen::VectorXd& right) = 0;
     /// Passes over the springs that the last solution took.
     virtual std::uint64_t passes() const = 0;
-    /// Whether the last solution is as exact as it should be.
+    /// True if the last solution is within the tolerance.
     virtual bool converged() const = 0;
   };
 
  private:
   void solve() override;
-  /// What is minimised at x; leaves the contacts there in trial_contacts_.
+  /// The minimised function at x; stores the contacts at x in trial_contacts_.
   double energy(const std::vector<Vec3>& x);
-  /// Its gradient into gradient_ and its matrix into matrix_, with trial_contacts_ of x.
+  /// Writes its gradient to gradient_ and its Hessian to matrix_. Needs the trial_contacts_ of x.
   void linearise(const std::vector<Vec3>& x);
-  /// A point that several nodes carry joins these, in the matrix by a bound on the diagonal alone:
-  /// that keeps its pattern, and costs Newton's method some iterations.
+  /// A point interpolated from several nodes couples these nodes. In the matrix, the coupling is
+  /// replaced by a bound on the diagonal. This keeps the sparsity pattern, but Newton's method
+  /// needs some more iterations.
   void add_contact(const Contact& contact);
   void make_pattern();
   void add_to_diagonal(std::uint32_t node, const Mat3& block);
-  /// Goes from x_next_ against the gradient; false if that brings nothing any more.
+  /// Gradient descent from x_next_; false if it no longer decreases the function.
   bool descend();
-  /// Newton's method from x_next_; whether it came to an end: forces within the tolerance of
-  /// `scale` [N], or no descent left although the linear system was solved (rounding).
+  /// Newton's method from x_next_. Returns true if it converged: the forces are within the
+  /// tolerance times `scale` [N], or no descent is possible although the linear system was solved
+  /// (rounding).
   bool minimise(double scale);
 
   ImplicitSprings springs_;
@@ -64,7 +66,7 @@ class BackwardEuler final : public WholeStep {
   std::vector<Contact> trial_contacts_;
   double energy_ = 0;
   std::uint64_t unconverged_steps_ = 0;
-  bool gave_up_ = false;  // on the step worked out last, which may yet be taken
+  bool gave_up_ = false;  // for the step computed last, which may still be taken
 };
 
 }  // namespace springlod::sim

@@ -5,8 +5,9 @@
 
 namespace springlod::sim {
 
-/// Half of what leapfrog loses to one contact in a step of length `step` [s], with the velocity `v`
-/// of its point half a step before (to_neighbour = -step) or after (step): see LedgerEntry.
+/// Half of the energy that leapfrog loses to one contact in a step of length `step` [s]. `v` is the
+/// velocity of its point half a step before (to_neighbour = -step) or after (to_neighbour = step):
+/// see LedgerEntry.
 void book_contact(const Contact& contact, double mass, double step, const Vec3& v,
                   double to_neighbour, LedgerEntry& losses);
 

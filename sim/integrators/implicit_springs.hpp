@@ -6,15 +6,15 @@
 
 namespace springlod::sim {
 
-/// Springs as an implicit step of length dt sees them. With l the length at the end of the step and
-/// l_n that at its start, k (l - L) + c (l - l_n)/dt is the force of a spring without damping, of
-/// stiffness k + c/dt and rest length (k L + c l_n/dt) / (k + c/dt): damping then is part of the
-/// energy that the step minimises.
+/// Springs in an implicit step of length dt. With l the length at the end of the step and l_n that
+/// at its start, k (l - L) + c (l - l_n)/dt is the force of a spring without damping, of stiffness
+/// k + c/dt and rest length (k L + c l_n/dt) / (k + c/dt): damping is then part of the energy that
+/// the step minimises.
 class ImplicitSprings {
  public:
   ImplicitSprings(const MassSpringModel& model, double step);
 
-  /// Takes the lengths at the start of the step.
+  /// Stores the lengths at the start of the step.
   void begin_step(const std::vector<Vec3>& x);
 
   double stiffness(std::uint32_t spring) const { return stiffness_[spring]; }      ///< [N/m]
@@ -30,7 +30,8 @@ class ImplicitSprings {
   std::vector<double> stiffness_, rest_length_, start_length_;
 };
 
-/// Direction of spring `s` at x and its length [m]; of no length it points along x.
+/// Direction of spring `s` at x and its length [m]; a spring of zero length gets the direction of
+/// the x axis.
 struct SpringAxis {
   Vec3 unit;
   double length;

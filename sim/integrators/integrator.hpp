@@ -16,8 +16,7 @@ struct RunPlan;
 struct Scenario;
 class Stepper;
 
-/// How a run goes from one step to the next; what each is stands in its row, see
-/// choices(Integrator).
+/// Time integration scheme of a run. Its row in the table describes it: see choices(Integrator).
 enum class Integrator {
   symplectic_euler,
   velocity_verlet,
@@ -36,36 +35,38 @@ struct IntegratorChoice : Choice<Integrator> {
                                    const RunPlan& plan);
   struct Traits {
     /// Largest stable step [s] for frequencies up to omega_max [rad/s] and one damping time [s].
-    /// Null: implicit, the step is not bound by the model's highest frequency.
+    /// Null: implicit; the model's highest frequency does not limit the step.
     double (*stable_step)(double omega_max, double damping_time) = nullptr;
-    std::uint32_t iterations = 0;  ///< at most, unless others are asked for; 0: does not iterate
-    /// Takes a fixed number of cheap iterations and promises no tolerance.
+    std::uint32_t iterations = 0;  ///< default of the maximum; 0: does not iterate
+    /// Takes a fixed number of cheap iterations, without a tolerance.
     bool swept = false;
-    /// Moved by the kernels of sim/fast: has a layout and a precision, and may change its step.
+    /// Uses the kernels of sim/fast: has a layout and a precision, and may change its step.
     bool fast = false;
-    /// Two lines above a column of a stability map; of swept schemes the second names one
-    /// iteration.
+    /// Two header lines of its column in a stability map; for schemes with a fixed number of
+    /// iterations, the second names one iteration.
     const char* heading[2] = {"", ""};
   } traits;
 };
 ChoiceTable<IntegratorChoice> choices(Integrator);
-/// What scripts may ask of an integrator.
+/// The options of an integrator that scripts can set.
 constexpr auto choice_traits(const IntegratorChoice& row) {
   return std::array{std::pair("implicit", row.traits.stable_step == nullptr),
                     std::pair("swept", row.traits.swept), std::pair("fast", row.traits.fast)};
 }
 
-/// Whether the step is not bound by the model's highest frequency.
+/// True if the model's highest frequency does not limit the step.
 bool is_implicit(Integrator integrator);
 
-/// For the schemes that iterate.
+/// Options of the iterative schemes.
 struct SolverOptions {
-  /// Newton iterations at most (backward Euler), sweeps over all springs (XPBD), local-global
-  /// iterations (projective dynamics); 0: those of the integrator's row.
+  /// Largest number of Newton iterations (backward Euler), sweeps over all springs (XPBD),
+  /// local-global iterations (projective dynamics); 0: those of the integrator's row.
   std::uint32_t iterations = 0;
-  /// Backward Euler stops once the forces left are this part of those at the start of the step [1].
+  /// Backward Euler stops when the residual forces are at most this fraction of those at the start
+  /// of the step [1].
   double tolerance = 1e-6;
-  /// Iterations of the conjugate gradients inside one of Newton's at most; 0: twice the unknowns.
+  /// Largest number of conjugate gradient iterations in one Newton iteration; 0: twice the number
+  /// of unknowns.
   std::uint32_t linear_iterations = 0;
 };
 constexpr auto option_rows(const SolverOptions*) {
@@ -80,7 +81,7 @@ constexpr auto option_rows(const SolverOptions*) {
           .by_default("twice the unknowns"));
 }
 
-/// Iterations at most that `options` stand for: their default filled in; 0 for the explicit
+/// Largest number of iterations under `options`, after filling in the default; 0 for the explicit
 /// schemes.
 std::uint32_t iterations_of(Integrator integrator, const SolverOptions& options);
 

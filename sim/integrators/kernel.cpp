@@ -5,8 +5,9 @@
 namespace springlod::sim {
 namespace {
 
-// A spring shorter than this part of its rest length has no direction left to push along: its force
-// fades to 0 with its length instead of dividing by 0. Far below anything a sound run comes to.
+// The direction of a spring shorter than this fraction of its rest length is undefined. Its force
+// decreases to 0 with its length, which avoids a division by 0. Stable runs never come near this
+// length.
 constexpr double kShortest = 1e-9;
 
 }  // namespace
@@ -17,8 +18,8 @@ void add_spring_forces(const MassSpringModel& model, const std::vector<Vec3>& x,
                        std::vector<Vec3>& damping_force) {
   const std::uint32_t spring_count = model.spring_count();
   for (std::uint32_t s = 0; s < spring_count;) {
-    // Springs are sorted by a: all of one a are summed up before they go to memory, or every spring
-    // would wait for the store of the one before.
+    // Springs are sorted by a. The forces on one a are summed in registers before they are stored;
+    // otherwise every spring would wait for the store of the previous one.
     const std::uint32_t a = model.a[s];
     const Vec3& xa = x[a];
     const Vec3& va = v[a];

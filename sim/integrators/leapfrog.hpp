@@ -7,13 +7,13 @@
 
 namespace springlod::sim {
 
-/// The moving part of a run, as leapfrog sees it: positions x_n at whole steps, velocities half a
-/// step before and after.
+/// The state of a run under leapfrog: positions x_n at whole steps, velocities half a step before
+/// and after.
 ///
 ///   kick:   v+ = v- + dt (F(x_n, w_n) / m + g), then friction takes its part of the slip
 ///   drift:  x_{n+1} = x_n + dt v+
 ///
-/// Both integrators are this scheme; they differ in the velocity w_n that damping sees:
+/// Both integrators are this scheme; they differ in the velocity w_n that the damping force uses:
 /// - symplectic_euler: w_n = v-, the old velocity. Damping is first order in dt; the limit is
 ///   dt = -beta + sqrt(beta^2 + 4/omega^2).
 /// - velocity_verlet: w_n = v- + (v- - v--) / 2, the velocity extrapolated to x_n. Damping is

@@ -10,17 +10,17 @@ namespace springlod::sim {
 ///
 /// What is exact. With velocities v- and v+ half a step before and after x_n, the product
 /// K_n = sum m v- . v+ / 2 obeys K_{n+1} - K_n = (F_n + F_{n+1}) . (x_{n+1} - x_n) / 2: the
-/// trapezoid rule of the work. So K_n + U(x_n) is kept to rounding where forces are linear in x, at
-/// any step. Sorting that sum by forces instead of steps, a dissipative force F_d loses
-/// -dt F_d . (v- + v+) / 2 a step (at the first and last step only the inner half). Every mechanism
-/// is computed from its own force, none is the remainder of the others, so that the sum of
-/// all entries is a real check. What it then shows is the trapezoid error of turning springs, and
-/// nodes that change the face of a box.
+/// trapezoid rule of the work. If forces are linear in x, K_n + U(x_n) is therefore conserved
+/// except for rounding, for any step. If that sum is split by forces instead of by steps, a
+/// dissipative force F_d loses -dt F_d . (v- + v+) / 2 per step (half of it in the first and the
+/// last step). Every loss is computed from its own force, and none as the remainder of the others.
+/// The sum of all entries is therefore an independent check. It shows the trapezoid error of
+/// rotating springs, and nodes that move to another face of a box.
 ///
-/// Contacts that begin or end within a step: from depth -g (a gap) to d the trapezoid rule takes
-/// kappa A d (d + g) / 2 out of the motion but the penalty spring stores kappa A d^2 / 2 only;
-/// kappa A d g / 2 is lost, and partly regained when the contact ends. That
-/// is a real loss of the stepped contact, which goes with dt^2: it is booked under lost_contact.
+/// Contacts that begin or end within a step: from depth -g (a gap) to d, the trapezoid rule takes
+/// the energy kappa A d (d + g) / 2 out of the motion, but the penalty spring stores only kappa A
+/// d^2 / 2. The rest, kappa A d g / 2, is lost and partly regained when the contact ends. This
+/// discretization loss is proportional to dt^2 and is recorded under lost_contact.
 ///
 /// K_n is not a sum of squares: it lies below the kinetic energy of the mean velocity by
 /// m |dt F/m|^2 / 8.
@@ -33,8 +33,8 @@ struct LedgerEntry {
   double lost_damping = 0;   ///< to spring damping
   double lost_friction = 0;  ///< to sliding, and to the dampers of stick springs
   double lost_contact = 0;   ///< to contact damping and to contact beginning or ending in mid-step
-  double lost_switch = 0;    ///< to a switch of the level, or of the step (K_n depends on it)
-  /// What is still there and could move the body.
+  double lost_switch = 0;    ///< to a change of the level, or of the step (K_n depends on it)
+  /// The energy that can still become motion.
   double mechanical() const { return kinetic + elastic + gravity + contact; }
   double total() const {
     return mechanical() + lost_damping + lost_friction + lost_contact + lost_switch;

@@ -32,7 +32,8 @@ void ProjectiveDynamics::make_matrix() {
   matrix_.setFromTriplets(entries.begin(), entries.end());
 }
 
-// At least the node's part of the stiffness of a point that several carry: see contact_stiffness.
+// At least the node's fraction of the stiffness of a point interpolated from several nodes: see
+// contact_stiffness.
 double ProjectiveDynamics::held_by(const Contact& contact,
                                    const ContactPoints::Share& share) const {
   return std::abs(share.weight) * points_.reach(contact.point) * contact.implicit_stiffness(step_);
@@ -40,7 +41,7 @@ double ProjectiveDynamics::held_by(const Contact& contact,
 
 void ProjectiveDynamics::take_contacts() {
   for (std::size_t i = 0; i < x_.size(); ++i) v_next_[i] = (x_next_[i] - x_[i]) / step_;
-  ContactFinder finder = finder_;  // a trial must not change from which side a node came
+  ContactFinder finder = finder_;  // a trial must not change the side from which a node came
   finder.find(x_next_, v_next_, trial_contacts_);
   std::vector<double> touching(model_->node_count(), 0.0);
   for (const Contact& c : trial_contacts_)
@@ -64,7 +65,7 @@ void ProjectiveDynamics::global_step() {
     right_.row(model_->a[s]) -= wanted.transpose();
     right_.row(model_->b[s]) += wanted.transpose();
   }
-  // A node that touches is held in place but may leave the obstacle.
+  // A node in contact is held in place but may leave the obstacle.
   for (const Contact& c : trial_contacts_)
     for (const ContactPoints::Share& share : points_.shares(c.point))
       right_.row(share.node) +=

@@ -10,11 +10,11 @@
 
 namespace springlod::sim {
 
-/// Projective dynamics (Bouaziz et al. 2014; Liu et al. 2013 for springs): backward Euler by turns
-/// of a local step, where every spring takes its wanted length in its present direction, and a
-/// global one with the constant matrix M/dt^2 + sum k' over springs (N x N, factorized once, and
-/// again when other nodes come to touch). Cut short it is too soft where stiffnesses differ much,
-/// and resists turning.
+/// Projective dynamics (Bouaziz et al. 2014; Liu et al. 2013 for springs): solves backward Euler by
+/// alternating two steps. The local step gives every spring its target length in its present
+/// direction. The global step solves a system with the constant matrix M/dt^2 + sum k' over springs
+/// (N x N, factorized once, and again when the set of touching nodes changes). If it is stopped
+/// before convergence, bodies with large stiffness ratios are too soft, and rotation is damped.
 class ProjectiveDynamics final : public WholeStep {
  public:
   ProjectiveDynamics(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -26,9 +26,9 @@ class ProjectiveDynamics final : public WholeStep {
 
   void solve() override;
   void make_matrix();
-  /// Makes contacts at x_next_ part of the matrix; factorizes it anew if they are others.
+  /// Adds the contacts at x_next_ to the matrix; factorizes it again if they changed.
   void take_contacts();
-  /// Stiffness by which a contact holds one of the nodes that carry its point [N/m].
+  /// Stiffness of a contact at one of the nodes from which its point is interpolated [N/m].
   double held_by(const Contact& contact, const ContactPoints::Share& share) const;
   void global_step();
 

@@ -13,10 +13,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// How far along `lambda` the scheme stays stable: largest t with |R(lambda t)| <= 1. The region of
-// stability is seen whole from 0 in the left half plane, and lies within |z| < 4.
+// Stability limit along the direction `lambda`: largest t with |R(lambda t)| <= 1. In the left half
+// plane, the stability region is star-shaped about 0, and it lies within |z| < 4.
 double reach(const Complex& lambda) {
-  constexpr double kSlack = 1e-12;  // |R| = 1 - O(z^6) on the imaginary axis: rounding decides
+  constexpr double kSlack = 1e-12;  // |R| = 1 - O(z^6) on the imaginary axis: rounding would decide
   const auto stable = [&](double t) {
     const Complex z = lambda * t;
     return std::abs(1. + z * (1. + z / 2. * (1. + z / 3. * (1. + z / 4.)))) <= 1 + kSlack;
@@ -75,7 +75,7 @@ double RungeKutta::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3
 void RungeKutta::solve() {
   struct Stage {
     double at;      // where the next stage is evaluated [steps]
-    double weight;  // of this stage in the sum [1]
+    double weight;  // weight of this stage in the sum [1]
   };
   constexpr std::array<Stage, 4> kStages{{{0.5, 1. / 6}, {0.5, 1. / 3}, {1, 1. / 3}, {0, 1. / 6}}};
   x_stage_ = x_;

@@ -6,9 +6,9 @@
 
 namespace springlod::sim {
 
-/// The classical Runge-Kutta scheme of fourth order on (x, v): elastic, damping and contact forces
-/// at four points a step. (Where nodes touch obstacles or come free, and for friction, which is
-/// split off, its order is lower.)
+/// The classical Runge-Kutta scheme of fourth order on (x, v): evaluates elastic, damping and
+/// contact forces at four points per step. (The order is lower in steps where nodes touch or leave
+/// obstacles, and for friction, which is applied after the step.)
 class RungeKutta final : public WholeStep {
  public:
   RungeKutta(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -16,7 +16,7 @@ class RungeKutta final : public WholeStep {
 
  private:
   void solve() override;
-  /// Acceleration at (x, v) into `a`; returns the power that damping takes [W].
+  /// Writes the acceleration at (x, v) to `a`; returns the power dissipated by damping [W].
   double accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Vec3>& a);
 
   std::vector<Vec3> x_stage_, v_stage_, acceleration_, damping_force_;

@@ -9,8 +9,8 @@
 namespace springlod::sim {
 namespace {
 
-// Damping that leaves less than this part of the step is what bounds it [1]. Symplectic Euler comes
-// to it where the highest mode is damped at 3/4 of the critical ratio.
+// The step counts as limited by damping if it is shorter than this fraction of the undamped limit
+// [1]. Symplectic Euler reaches the fraction if the damping ratio of the highest mode is 3/4.
 constexpr double kDampingPart = 0.5;
 
 }  // namespace

@@ -15,7 +15,7 @@
 
 namespace springlod::sim {
 
-/// One scheme at work on one body, step by step, as `run` drives it:
+/// One scheme that advances one body step by step. `run` calls it as follows:
 ///
 ///   prepare(); { read step n; advance(steps); } ...
 ///
@@ -31,31 +31,31 @@ class Stepper {
   virtual void prepare() = 0;
   /// Throws TunnelError as soon as a node has gone through a box.
   virtual void advance(std::uint64_t steps) = 0;
-  /// Goes on from x_n with steps of another length [s]. Returns whether the scheme can.
+  /// Continues from x_n with steps of another length [s]. Returns false if the scheme cannot.
   virtual bool change_step(double /*step*/) { return false; }
 
   std::uint64_t step_number() const { return n_; }
   double time() const { return time_of(n_); }
   double step() const { return step_; }
-  /// Springs evaluated so far, every one of every iteration counted: the deterministic cost.
+  /// Spring evaluations so far, over all iterations: the deterministic cost.
   virtual std::uint64_t spring_updates() const = 0;
-  /// Steps whose solver used up its iterations short of its tolerance. Schemes that take a fixed
-  /// number of iterations promise no tolerance and have none.
+  /// Steps whose solver used all its iterations without reaching its tolerance. Always 0 for
+  /// schemes with a fixed number of iterations, which have no tolerance.
   virtual std::uint64_t unconverged_steps() const { return 0; }
 
   const std::vector<Vec3>& positions() const { return x_; }
   const std::vector<Contact>& contacts() const { return contacts_; }
   /// When nodes first touched an obstacle [s].
   std::optional<double> first_contact() const { return first_contact_; }
-  /// Positions on the path of the scheme from x_n to x_{n+1} (t_n <= time <= t_{n+1}).
+  /// Positions interpolated between x_n and x_{n+1} as the scheme defines (t_n <= time <= t_{n+1}).
   virtual std::vector<Vec3> positions_at(double time) const = 0;
   virtual State state() const = 0;
   Vec3 center_of_mass() const;
-  Vec3 center_velocity() const;  ///< from the velocities with which the body goes on
+  Vec3 center_velocity() const;  ///< from the velocities with which the body continues
   /// Energies at t_n and losses so far; what is exact depends on the scheme.
   virtual LedgerEntry ledger_entry() const = 0;
-  /// Sum of m v . v / 2 [J] of the velocities with which the body goes on, and the node that has
-  /// most of it.
+  /// Sum of m v . v / 2 [J] of the velocities with which the body continues, and the node with the
+  /// largest term.
   double kinetic_after(std::uint32_t* fastest) const;
 
  protected:
@@ -66,16 +66,16 @@ class Stepper {
   double time_of(std::uint64_t n) const {
     return start_time_ + static_cast<double>(n - start_n_) * step_;
   }
-  /// The velocities with which the body goes on from x_n.
+  /// The velocities with which the body continues from x_n.
   virtual const std::vector<Vec3>& velocities_after() const = 0;
-  /// Gravity's potential against the start [J].
+  /// Gravitational potential energy relative to the start [J].
   double gravity_energy() const;
 
   const MassSpringModel* model_;
   Vec3 gravity_;
   double step_;
   std::uint64_t n_ = 0;
-  // Where steps of this length began.
+  // The time at which steps of this length began.
   std::uint64_t start_n_ = 0;
   double start_time_ = 0;  // [s]
   std::vector<Vec3> x_;
@@ -104,7 +104,7 @@ class StepByStep : public Stepper {
 struct StepperOptions {
   Integrator integrator = Integrator::symplectic_euler;
   SolverOptions solver = {};
-  bool ledger = true;  ///< keep account of the losses
+  bool ledger = true;  ///< record the losses
   /// Where the body touches obstacles; none: at its nodes.
   std::shared_ptr<const ContactSkin> skin = nullptr;
 };

@@ -8,19 +8,19 @@
 
 namespace springlod::sim {
 
-/// Schemes that keep positions and velocities at the same instants. What a scheme does is solve();
-/// friction comes after it, as a cap on slip. In the implicit schemes, whose steps are long, it
-/// also corrects the positions by the slip that it removed.
+/// Schemes with positions and velocities at the same instants. solve() implements the scheme;
+/// friction is applied after it and limits the slip. In the implicit schemes, whose steps are long,
+/// it also corrects the positions by the slip that it removed.
 ///
-/// Its ledger holds the true energies of (x_n, v_n) and the work of each dissipative force as the
-/// scheme sees it. What a scheme gains or loses by itself is in no entry: it shows as the drift of
-/// the total.
+/// Its ledger holds the true energies of (x_n, v_n) and the work of each dissipative force in the
+/// discrete scheme. No entry holds the numerical gain or loss of a scheme: it appears as the drift
+/// of the total.
 class WholeStep : public StepByStep {
  public:
   void prepare() final;
 
   std::uint64_t spring_updates() const final { return spring_updates_; }
-  /// On the straight line from x_n to x_{n+1}.
+  /// Interpolates linearly between x_n and x_{n+1}.
   std::vector<Vec3> positions_at(double time) const final;
   State state() const final { return {x_, v_, time()}; }
   LedgerEntry ledger_entry() const final;
@@ -29,16 +29,16 @@ class WholeStep : public StepByStep {
   WholeStep(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
             const StepperOptions& options);
 
-  /// From x_ and v_ to x_next_ and v_next_, without friction. Adds to spring_updates_ and, with a
-  /// ledger, to lost_damping_.
+  /// Computes x_next_ and v_next_ from x_ and v_, without friction. Adds to spring_updates_ and,
+  /// with a ledger, to lost_damping_.
   virtual void solve() = 0;
-  /// How every implicit scheme ends its solve(): v_next_ is the mean velocity to x_next_, and
-  /// damping losses are booked.
+  /// Every implicit scheme calls this at the end of solve(). It sets v_next_ to the mean velocity
+  /// over the step and records the damping losses.
   void finish_implicit(const ImplicitSprings& springs);
 
   bool with_ledger_;
   std::vector<Vec3> v_;                // at x_
-  std::vector<Vec3> x_next_, v_next_;  // of the step that prepare() worked out
+  std::vector<Vec3> x_next_, v_next_;  // of the step that prepare() computed
   std::uint64_t spring_updates_ = 0;
   double lost_damping_ = 0;  // [J]
 
@@ -49,7 +49,7 @@ class WholeStep : public StepByStep {
 
   bool friction_moves_;
   std::vector<Contact> next_contacts_;
-  // Losses of the step to x_{n+1}, which count from there on.
+  // Losses of the step to x_{n+1}, added to the ledger when the step is taken.
   LedgerEntry losses_, next_losses_;
 };
 

@@ -35,7 +35,8 @@ void Xpbd::sweep_springs() {
 void Xpbd::sweep_contacts() {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Contact& c = candidates_[i];
-    // Depth less the part at which damping alone would hold, along the normal of the first find.
+    // Depth minus the depth that damping alone would balance, along the normal at which the contact
+    // was found.
     const double stiffness = c.implicit_stiffness(step_);
     const double depth = c.normal_force / stiffness -
                          c.normal.dot(points_.interpolate(c.point, x_next_) - found_at_[i]);

@@ -8,9 +8,10 @@
 namespace springlod::sim {
 
 /// Extended position based dynamics (Macklin, Mueller, Chentanez 2016): springs as constraints
-/// l = L' of compliance 1/k', contacts as one-sided ones, solved one after the other in the model's
-/// order. One sweep and small steps rather than many sweeps (Macklin et al. 2019). Swept to
-/// convergence it is backward Euler; cut short it is softer, the more so the stiffer the springs.
+/// l = L' of compliance 1/k', contacts as unilateral constraints, solved one after another in the
+/// model's order (Gauss-Seidel). It takes one sweep and small steps instead of many sweeps (Macklin
+/// et al. 2019). If it is iterated to convergence, it is backward Euler; with fewer sweeps, bodies
+/// are softer, and the effect grows with the stiffness of the springs.
 class Xpbd final : public WholeStep {
  public:
   Xpbd(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
@@ -25,8 +26,8 @@ class Xpbd final : public WholeStep {
   std::uint32_t sweeps_;
   std::vector<double> inverse_mass_;        // [1/kg]
   std::vector<double> multiplier_;          // of springs [N s2]
-  std::vector<Contact> candidates_;         // found at the free flight's end ...
-  std::vector<Vec3> found_at_;              // ... where their nodes were then [m]
+  std::vector<Contact> candidates_;         // found at the end of the step without forces ...
+  std::vector<Vec3> found_at_;              // ... and the positions of their nodes there [m]
   std::vector<double> contact_multiplier_;  // [N s2] >= 0
 };
 

@@ -12,12 +12,13 @@
 namespace springlod::sim {
 namespace {
 
-// The kinetic energy of the half-step velocities may exceed what is there by
-// 1 / (1 - (omega dt / 2)^2): 50 if all of it were in the top mode at 0.99 of the limit. [1]
+// The kinetic energy of the half-step velocities may exceed the true energy by the factor 1 / (1 -
+// (omega dt / 2)^2): 50 if all of it is in the highest mode at 0.99 of the limit. [1]
 constexpr double kEnergyMargin = 100;
 
-// Strain whose energy counts as rounding [1]: below it nothing is called growth. Without damping
-// rounding shakes a body more and more, single precision within a second to strains of 1e-6.
+// Strain whose energy counts as rounding [1]: growth below it is ignored. Without damping, rounding
+// errors excite a growing vibration; in single precision it reaches strains of 1e-6 within a
+// second.
 double rounding_strain(Precision precision) {
   return precision == Precision::single_precision ? 1e-3 : 1e-11;
 }

@@ -9,12 +9,13 @@
 
 namespace springlod::sim {
 
-/// Detects divergence: compares the kinetic energy with all energy that could have become kinetic.
+/// Detects divergence: compares the kinetic energy with the total energy that could have become
+/// kinetic.
 class EnergyCheck {
  public:
-  /// `start`: after the first kick. Its v+ count, not the ledger's v- . v+, which is negative for a
-  /// body released at rest. `precision`: that the body moves with. `step` and `limit` are for what
-  /// the message advises.
+  /// `start`: after the first kick. The check uses its v+, because the ledger's v- . v+ is negative
+  /// for a body released at rest. `precision`: of the body's state. `step` and `limit` are for the
+  /// advice in the message.
   EnergyCheck(const MassSpringModel& model, const Stepper& start, Precision precision, double step,
               const StepLimit& limit);
 

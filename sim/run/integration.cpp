@@ -16,13 +16,15 @@
 namespace springlod::sim {
 namespace {
 
-// Steps between two checks of the whole body [steps], which cost as much as some three of them. A
-// step at twice the limit multiplies speeds by 14 a step, which stays finite in double precision.
+// Steps between two checks of the whole body [steps]; a check costs about as much as three steps.
+// At twice the stability limit, speeds grow by the factor 14 per step and stay finite in double
+// precision until the next check.
 constexpr std::uint64_t kCheckEvery = 64;
-// The same while springs are strained hard: what is stable may change within few steps.
+// The same while springs are strongly strained: the stability limit may then change within a few
+// steps.
 constexpr std::uint64_t kCheckOftenEvery = 16;
 
-/// One run in progress.
+/// A run in progress.
 class Integration {
  public:
   Integration(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -67,7 +69,7 @@ class Integration {
     return steps > 0 ? static_cast<std::uint64_t>(steps) : 0;
   }
 
-  /// Whether the stop rule ends the run here.
+  /// True if the stop rule ends the run at this step.
   bool check() {
     check_energy();
     springs_.check(body_->state());

@@ -4,8 +4,8 @@
 
 namespace springlod::sim {
 
-/// What `run` does once all is planned: takes the steps, watches over them and fills the
-/// trajectory, whose step is set.
+/// Executes a planned run: takes and checks the steps and fills in the trajectory, whose step is
+/// already set.
 void integrate(const MassSpringModel& model, const Scenario& scenario, const State& start,
                const RunOptions& options, const RunPlan& plan, Trajectory& trajectory);
 

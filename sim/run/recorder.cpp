@@ -18,7 +18,7 @@ void Recorder::record(const Stepper& body) {
 }
 
 std::uint64_t Recorder::steps_to_next(const Stepper& body) const {
-  constexpr double kMany = 1e9;  // more than anyone takes at once
+  constexpr double kMany = 1e9;  // more than any run takes at once
   const double steps = std::floor((next_time() - body.time()) / body.step());
   if (!(steps > 1)) return 1;
   return static_cast<std::uint64_t>(std::min(steps, kMany));
@@ -32,7 +32,7 @@ void Recorder::record_rest(const Stepper& body, double time) {
 }
 
 void Recorder::record_end(const Stepper& body, double time) {
-  // Steps and frame times are rounded differently: what lies this close is the same instant.
+  // Steps and frame times are rounded differently: times this close count as the same instant.
   const double same = 1e-6 * body.step();
   auto& frames = trajectory_->frames;
   if (!frames.empty() && frames.back().time > time - same) {

@@ -7,20 +7,20 @@
 
 namespace springlod::sim {
 
-/// Keeps what is asked for at the frame times.
+/// Records the requested data at the frame times.
 class Recorder {
  public:
-  /// `frame_rate`: frames a second; 0: only the first and the last.
+  /// `frame_rate`: frames per second; 0: only the first and the last.
   Recorder(double frame_rate, bool ledger, Trajectory& trajectory)
       : rate_(frame_rate), ledger_(ledger), trajectory_(&trajectory) {}
 
   /// All frames that fall into the step that `body` is about to take.
   void record(const Stepper& body);
-  /// Steps after which the next frame falls into the step that follows; 1 or more.
+  /// Number of steps until the next frame falls into the following step; at least 1.
   std::uint64_t steps_to_next(const Stepper& body) const;
-  /// All frames until `time` of a body that does not move any more.
+  /// Records all frames until `time` of a body that no longer moves.
   void record_rest(const Stepper& body, double time);
-  /// The last state, at `time`, unless it is a frame already.
+  /// Records the last state, at `time`, unless it is already a frame.
   void record_end(const Stepper& body, double time);
 
  private:

@@ -5,7 +5,8 @@
 namespace springlod::sim {
 namespace {
 
-// A body sleeps after it has been at rest this long [s]: longer than a bounce stays at its top.
+// A body sleeps after it has been at rest for this long [s]: longer than a bouncing body is slow at
+// the top of its path.
 constexpr double kRest = 0.25;
 
 }  // namespace

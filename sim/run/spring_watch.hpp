@@ -8,16 +8,15 @@
 
 namespace springlod::sim {
 
-/// Checks all springs, now and then, for inversion and strain.
+/// Checks all springs at intervals for inversion and strain.
 class SpringCheck {
  public:
   SpringCheck(const MassSpringModel& model, const State& start) : model_(&model), before_(start) {}
   void check(State state);
 
-  /// The first spring, in the model's order, found turned over: its direction differed by
-  /// more than a right angle from that at the check before, turned along with the body (by its
-  /// angular velocity). The force depends on the length alone, so it does
-  /// not show that the ends went past each other.
+  /// The first inverted spring in the model's order. Its direction differs by more than a right
+  /// angle from that at the previous check, rotated with the body (by its angular velocity). The
+  /// force depends on the length alone and does not reveal that the ends moved past each other.
   const std::optional<Crossing>& first_crossing() const { return first_crossing_; }
   /// Largest |l - L| / L of the last check [1].
   double largest_strain() const { return largest_strain_; }

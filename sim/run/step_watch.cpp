@@ -8,20 +8,20 @@
 namespace springlod::sim {
 namespace {
 
-// A step is halved above this part of the limit, and doubled if twice of it is below the other; far
-// enough apart that it does not go back and forth [1].
+// A step is halved if it exceeds the first fraction of the limit, and doubled if twice the step is
+// below the second. The fractions differ enough to prevent alternation [1].
 constexpr double kTooLong = 0.95;
 constexpr double kShortEnough = 0.85;
 
-constexpr std::uint32_t kMostHalvings = 6;  // a body that needs more is past saving
+constexpr std::uint32_t kMostHalvings = 6;  // a body that needs more has diverged
 
 }  // namespace
 
 StepController::StepController(const MassSpringModel& model, const StepLimit& limit, double step)
     : model_(&model), limit_(limit), step_(step) {}
 
-// The bounds of the nodes lie above the highest frequency, of light ones far above. So none counts
-// for more than by how much it grew.
+// The frequency bounds of the nodes exceed the highest frequency, those of light nodes by far.
+// Therefore only the relative growth of each bound is used.
 double StepController::frequency(const std::vector<Vec3>& x) {
   if (at_rest_.empty())
     at_rest_ = elastic::node_frequency_bounds(*model_, model_->rest, limit_.ground_stiffness);

@@ -8,31 +8,32 @@
 
 namespace springlod::sim {
 
-/// Shortens the stable time step while springs are strained hard (section 8 of docs/method.md):
-/// stretched springs are stiff across their length too, and the springs of a flattened body point
-/// in one direction.
+/// Shortens the time step while springs are strongly strained (section 8 of docs/method.md):
+/// stretched springs are also stiff across their length, and the springs of a flattened body are
+/// nearly parallel.
 class StepController {
  public:
-  /// Stretched by up to this [1], a node's stiffness grows 1 + 2 (1 - 1/1.25) = 1.4 times at most,
-  /// the highest frequency 1.18 times: a step of 0.8 of the limit at rest holds. Strains below are
-  /// not checked.
+  /// Up to this strain [1], a node's stiffness grows at most by the factor 1 + 2 (1 - 1/1.25) =
+  /// 1.4, and the highest frequency by 1.18: a step of 0.8 of the limit at rest remains stable.
+  /// Smaller strains are not checked.
   static constexpr double kSmallStrain = 0.25;
 
-  /// `step`: the one chosen at rest [s].
+  /// `step`: the step for the body at rest [s].
   StepController(const MassSpringModel& model, const StepLimit& limit, double step);
 
-  /// The step to take from here [s]: the first one over a power of two, so that steps still add up
-  /// to the same duration. `strain`: largest of the springs [1]; small ones are not checked.
+  /// The step to take from here [s]: the initial step divided by a power of two, so that steps
+  /// still add up to the same duration. `strain`: the largest strain of the springs [1]; small
+  /// strains are not checked.
   double step_for(const std::vector<Vec3>& x, double strain);
 
  private:
-  /// Highest frequency with nodes at x [rad/s].
+  /// Highest frequency for node positions x [rad/s].
   double frequency(const std::vector<Vec3>& x);
 
   const MassSpringModel* model_;
   StepLimit limit_;
   double step_;
-  std::vector<double> at_rest_;  // bounds of the nodes [rad2/s2]; empty until first asked for
+  std::vector<double> at_rest_;  // bounds of the nodes [rad2/s2]; empty until first needed
   std::uint32_t halvings_ = 0;
 };
 

@@ -18,7 +18,7 @@
 namespace springlod::sim {
 namespace {
 
-// How much later than the end of the window a frame at it may seem to be [s].
+// Tolerance by which a frame at the end of the window may seem to be later [s].
 constexpr double kRounding = 1e-9;
 
 void validate(const LodChain& chain, const CompareOptions& options) {
@@ -74,7 +74,7 @@ Errors mean_errors(const std::vector<Frame>& frames, const BaseRun& base,
 }
 
 /// Largest difference of the mechanical energy over the base's largest kinetic energy; the ledgers
-/// hold one entry a frame.
+/// hold one entry per frame.
 double energy_difference(const std::vector<LedgerEntry>& ledger,
                          const std::vector<LedgerEntry>& base) {
   double largest = 0;
@@ -110,7 +110,8 @@ class Comparing {
   Comparison run_all() {
     const std::uint64_t jobs = std::uint64_t{options_.starts} * chain_.levels.size();
     Task task(options_.progress, "compare", jobs * RunProgress::kUnits);
-    // Start by start, the base first: a level that waits for its base waits for a run in progress.
+    // Ordered by start, the base first: when a level waits for its base, the base's run has already
+    // begun.
     run_jobs(jobs, options_.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
       const auto start = static_cast<std::uint32_t>(job / chain_.levels.size());
       const auto level = static_cast<std::uint32_t>(job % chain_.levels.size());
@@ -145,7 +146,7 @@ class Comparing {
   void run_coarser(std::uint32_t level, std::uint32_t start, const std::function<bool()>& stopped) {
     Trajectory trajectory = run_level(level, start, stopped);
     std::vector<Frame> base_frames = bring_back(level, trajectory.frames);
-    const auto base_run = slots_[start].base;  // a copy: one future is not for several threads
+    const auto base_run = slots_[start].base;  // a copy: several threads must not share one future
     const std::shared_ptr<BaseRun>& base = base_run.get();
     const Errors errors =
         mean_errors(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);

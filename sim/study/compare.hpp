@@ -18,11 +18,11 @@ struct CompareOptions {
   std::uint64_t seed = 1;
   std::uint32_t threads =
       0;                ///< runs are spread over threads; 0: all cores. Never changes the result
-  RunOptions run = {};  ///< of all levels; they have no skin in common
+  RunOptions run = {};  ///< options for all levels; each level has its own skin
   ContactAt contact = ContactAt::nodes;
   /// Errors are averaged from t = 0 to this long after the base's first contact [s].
   double error_window = 0.25;
-  /// Goes into the labels of the levels: "hb" makes "LOD-hb-1"; empty: "LOD-1".
+  /// Part of the labels of the levels: "hb" gives "LOD-hb-1"; empty: "LOD-1".
   std::string variant = {};
   Progress* progress = nullptr;
 };
@@ -49,8 +49,8 @@ struct StartResult : RunSummary {
   double shape_error = 0;  ///< the same after the best rigid fit, over all common frames [m]
   /// Largest difference of the mechanical energy from the base's at one time, over the base's
   /// largest kinetic energy [1]: the maximum energy difference of Yeh, Reinman, Patel, Faloutsos
-  /// 2009 (their percentage is of the energy itself, which has no zero where gravity has none). 0
-  /// without a ledger.
+  /// 2009 (they divide by the total energy, which is defined only up to a constant). 0 without a
+  /// ledger.
   double energy_difference = 0;
 };
 
@@ -58,7 +58,7 @@ struct LevelRuns {
   std::string label;  ///< "base", "LOD-hb-1"
   std::uint32_t level = 0;
   std::vector<StartResult> starts;
-  /// Of the first start, brought back to level 0 (N0 positions a frame).
+  /// Trajectory of the first start, mapped to level 0 (N0 positions per frame).
   Trajectory first;
   std::vector<Frame> base_frames;
 };
@@ -69,9 +69,10 @@ struct Comparison {
 };
 
 /// Runs every level of the chain from the same starts, spread over threads; the result does not
-/// depend on their number. Only the frames of the first start are kept. Without frames between
-/// (frame_rate 0) the errors mean nothing. Throws what the first run that failed threw, naming
-/// level and start; InterruptedError from `progress` stops all runs.
+/// depend on their number. Only the frames of the first start are kept. With frame_rate 0 there are
+/// no frames in between, and the errors are meaningless. Throws the exception of the first run that
+/// failed, with its level and start in the message; InterruptedError from `progress` stops all
+/// runs.
 Comparison compare(const LodChain& chain, const Scenario& scenario,
                    const CompareOptions& options = {});
 

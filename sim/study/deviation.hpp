@@ -11,7 +11,7 @@ namespace springlod::sim {
 double rms_distance(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
                     const std::vector<double>& mass);
 
-/// The same after the rotation and translation of p that make it least (Kabsch 1976).
+/// The same after the rotation and translation of p that minimize it (Kabsch 1976).
 double rms_distance_after_fit(const std::vector<Vec3>& p, const std::vector<Vec3>& q,
                               const std::vector<double>& mass);
 
@@ -22,8 +22,8 @@ struct Deviation {
   double shape = 0;    ///< rms_distance_after_fit [m]
 };
 
-/// Frame by frame, as long as both runs have frames of the same instants. The frames of a level are
-/// those brought back to level 0.
+/// Distances of all frames, as long as both runs have frames at the same instants. The frames of a
+/// level must be mapped to level 0.
 std::vector<Deviation> deviation_over_time(const std::vector<Frame>& frames,
                                            const std::vector<Frame>& base,
                                            const std::vector<double>& mass);

@@ -14,7 +14,7 @@ namespace springlod::sim {
 
 /// The start of run number `index`: speed times 1 + jitter u1, height (z of the centre of mass)
 /// times 1 + jitter u2, with u1, u2 uniform in [-1, 1) from (seed, index) alone; index 0 stays as
-/// it is. `center`: centre of mass of the model, which a start that is not placed keeps.
+/// it is. `center`: centre of mass of the model, used if the start has no position.
 Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
                std::uint32_t index);
 
@@ -26,21 +26,21 @@ struct RunSummary {
   double wall_seconds = 0;  ///< measured; kept out of results
   double ledger_error = 0;  ///< closure_error; 0 without a ledger
   std::uint64_t unconverged_steps = 0;
-  std::optional<double> first_crossing;  ///< when springs first turned over [s], see Trajectory
+  std::optional<double> first_crossing;  ///< when springs first inverted [s], see Trajectory
 };
 
-/// Runs the model from the scenario's start and sums it up. `center`: where the body's centre of
-/// mass is if the start does not place it. `plan`: of the model under this scenario, whatever the
-/// start. Errors are those of run, led by `name`.
+/// Runs the model from the scenario's start and returns a summary. `center`: the body's centre of
+/// mass if the start has no position. `plan`: of the model under this scenario; the same for all
+/// starts. Throws the errors of run, prefixed with `name`.
 Trajectory run_start(const MassSpringModel& model, const Scenario& scenario, const Vec3& center,
                      const RunOptions& options, const RunPlan& plan, const std::string& name,
                      RunSummary& summary);
 
-/// Many starts of one model. Starts with the same seed, jitter and number are the same for every
-/// model of the same centre of mass: paired.
+/// Many starts of one model. Starts with the same seed, jitter and number are the same for all
+/// models with the same centre of mass; samples are therefore paired.
 struct EnsembleOptions {
   std::uint32_t starts = 24;
-  std::uint32_t first_start = 0;  ///< number of the first of them; number 0 has no jitter
+  std::uint32_t first_start = 0;  ///< number of the first start; number 0 has no jitter
   double jitter = 0.02;           ///< see `jittered`
   std::uint64_t seed = 1;
   std::uint32_t threads = 0;  ///< 0: all cores. Never changes the result
@@ -60,8 +60,8 @@ struct EnsembleRun : RunSummary {
   std::uint32_t start = 0;  ///< its number
 };
 
-/// Runs the model from every start, spread over threads; one result a start, in their order.
-/// Throws what the first run that failed threw, naming the start.
+/// Runs the model from every start, spread over threads; one result per start, in the order of
+/// starts. Throws the exception of the first run that failed, with its start in the message.
 std::vector<EnsembleRun> run_ensemble(const MassSpringModel& model, const Scenario& scenario,
                                       const EnsembleOptions& options = {});
 

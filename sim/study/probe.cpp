@@ -11,10 +11,11 @@ namespace {
 // Amplitude of the ends in the slowest mode, as a fraction of the longest side [1].
 constexpr double kSwing = 0.01;
 
-// Angle by which the body turns in all [rad]: moves the ends by about that amplitude.
+// Total angle of rotation of the body [rad]: it moves the ends by about that amplitude.
 constexpr double kTurn = 0.05;
 
-// Mean of the square of the place along the body in [-1, 1], so that bending moves no mean.
+// Mean square of the coordinate along the body in [-1, 1]; subtracted so that bending does not move
+// the centre of mass.
 constexpr double kMeanSquare = 1. / 3;
 
 }  // namespace
@@ -22,7 +23,8 @@ constexpr double kMeanSquare = 1. / 3;
 ProbeMotion probe_motion(const MassSpringModel& base, double omega, double duration) {
   const Vec3 size = bounds(base.rest).sizes();
   std::array<Eigen::Index, 3> axes{0, 1, 2};
-  for (int pass = 0; pass < 2; ++pass)  // three sides, the longest first; equal ones stay in order
+  for (int pass = 0; pass < 2;
+       ++pass)  // three sides, the longest first; equal ones keep their order
     for (std::size_t i = 0; i < 2; ++i)
       if (size[axes[i + 1]] > size[axes[i]]) std::swap(axes[i], axes[i + 1]);
   ProbeMotion motion;
@@ -45,7 +47,7 @@ State probe_state(const MassSpringModel& model, const ProbeMotion& motion) {
   }
   const Vec3 drift = center_of_mass(model, state.v);
   for (Vec3& v : state.v) v -= drift;
-  // The turning that stretching and bending bring along goes, so that only the spin is left.
+  // Removes the rotation due to stretching and bending, so that only the spin remains.
   const Vec3 center = mass_properties(model).center;
   const Vec3 turn = motion.spin - angular_velocity(model, state);
   for (std::uint32_t i = 0; i < model.node_count(); ++i)

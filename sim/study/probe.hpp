@@ -6,10 +6,10 @@
 
 namespace springlod::sim {
 
-/// The motion by which schemes are probed: the body at rest in shape, with velocities that stretch
-/// it along its longest side, bend it across, and turn it slowly. Smooth, so that every model of
-/// the body, fine or coarse, resolves it; small (strains of about 1 %) and short, so that it does
-/// not turn chaotic; and all of it at the body's own slow pace.
+/// The test motion of the schemes. The body starts from its rest shape, with velocities that
+/// stretch it along its longest side, bend it and rotate it slowly. The motion is smooth, so that
+/// fine and coarse models of the body resolve it. It is small (strains of about 1 %) and short, so
+/// that it does not become chaotic. Its time scale is that of the body's slowest mode.
 struct ProbeMotion {
   Vec3 center = Vec3::Zero();   ///< centre of mass of the base [m]
   Vec3 along = Vec3::UnitX();   ///< axis of the longest side
@@ -23,7 +23,7 @@ struct ProbeMotion {
 /// For a base whose slowest mode has the angular frequency `omega` [rad/s], over `duration` [s].
 ProbeMotion probe_motion(const MassSpringModel& base, double omega, double duration);
 
-/// The start of a model, of whatever level. Its centre of mass rests.
+/// The initial state of a model of any level. Its centre of mass stays at rest.
 State probe_state(const MassSpringModel& model, const ProbeMotion& motion);
 
 }  // namespace springlod::sim

@@ -9,10 +9,11 @@
 
 namespace springlod::sim {
 
-/// One run of many: turns its steps into its share of the whole, and stops it when asked to.
+/// Progress of one run of many: converts its steps to a fraction of the whole, and stops the run on
+/// request.
 class RunProgress : public Progress {
  public:
-  /// Of one run, whatever its number of steps.
+  /// Units per run, for any number of steps.
   static constexpr std::uint64_t kUnits = 1000;
 
   RunProgress(Progress* whole, const std::function<bool()>& stopped)
@@ -23,7 +24,7 @@ class RunProgress : public Progress {
     done_ += count;
     report(kUnits * done_ / total_);
   }
-  /// The remaining share when a stop rule ended the run early.
+  /// Reports the remaining units if a stop rule ended the run early.
   void finish() { report(kUnits); }
 
  private:

@@ -17,15 +17,14 @@
 namespace springlod::sim {
 namespace {
 
-// Modes by which a level is judged.
+// Number of modes used to evaluate a level.
 constexpr std::uint32_t kModes = 6;
 
-// The reference's step as part of the limit [1]: a mode of half the highest frequency is off by 1
-// part in 800 of its phase, what moves smoothly by much less.
+// The reference's step as a fraction of the limit [1]: a mode of half the highest frequency has a
+// relative phase error of 1/800, and smooth motion a much smaller one.
 constexpr double kReferencePart = 0.25;
 
-// By how much the distance from a run of twice the step exceeds the error, for a scheme of second
-// order [1].
+// Distance from a run with twice the step, divided by the error, for a scheme of second order [1].
 constexpr double kOrderGain = 3;
 
 std::vector<double> lowest_frequencies(const MassSpringModel& model, std::uint64_t seed) {

@@ -15,13 +15,13 @@ namespace springlod::sim {
 struct RescaledChain {
   LodChain chain;
   std::vector<double> frequencies;  ///< of the base, lowest first [rad/s]
-  double period = 0;                ///< of the slowest mode [s]
+  double period = 0;                ///< period of the slowest mode [s]
   ProbeMotion motion;
 };
-/// Throws InputError if the base has no mode that springs resist.
+/// Throws InputError if all modes of the base are zero modes.
 RescaledChain rescaled_chain(const LodChain& chain, double ratio, const StabilityOptions& options);
 
-/// A level at one ratio, ready to be probed: the reference that its runs are compared with.
+/// A level at one ratio, with the reference for its test runs.
 struct Specimen {
   std::shared_ptr<const RescaledChain> at_ratio;
   State start;
@@ -32,16 +32,17 @@ struct Specimen {
   double error(const MassSpringModel& model, const std::vector<Frame>& frames) const;
 };
 
-/// Times at which runs are compared, the last of them the end.
+/// Times at which runs are compared; the last one is the end of the run.
 inline constexpr int kSamples = 20;
 
-/// Makes the reference and fills in the rest of `body`, whose level and ratio are set. The
-/// reference is two runs, each with a progress of its own.
+/// Computes the reference and fills in the other members of `body`, whose level and ratio are set.
+/// The reference needs two runs, each with its own progress.
 Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
                        const StabilityOptions& options, std::array<Progress*, 2> progress,
                        StabilityBody& body);
 
-/// Nodes that springs leave loose, worst first, over all parts; empty for a sound model.
+/// Nodes that move in mechanisms, worst first, over all connected components; empty for a model
+/// without mechanisms.
 std::vector<std::uint32_t> loose_nodes(const MassSpringModel& model);
 
 }  // namespace springlod::sim

@@ -56,8 +56,8 @@ std::vector<std::uint32_t> levels_of(const LodChain& chain, const StabilityOptio
   return levels;
 }
 
-// Steps of an explicit run at least: at 1.1 of the limit, where speeds grow by 2.4 a step
-// (Runge-Kutta 1.9), an instability comes up from rounding within 50.
+// Smallest number of steps of an explicit run. At 1.1 of the limit, speeds grow by the factor 2.4
+// per step (Runge-Kutta: 1.9), and an instability grows from rounding errors within 50 steps.
 constexpr double kLeastSteps = 200;
 
 /// Steps of a scheme [s].
@@ -72,7 +72,7 @@ std::vector<double> steps_of(const StabilityPoint& point, const StabilityBody& b
   return sorted_once(steps);
 }
 
-/// The verdict on a run that came to its end.
+/// The verdict on a completed run.
 Verdict judge(const StabilityBody& body, const StabilityPoint& point, const Trajectory& run) {
   if (!point.stable) return Verdict::runaway;
   if (run.unconverged_steps > 0) return Verdict::unconverged;
@@ -93,7 +93,7 @@ double worst_drift(const std::vector<LedgerEntry>& ledger) {
   return worst;
 }
 
-/// One call of stability_map.
+/// The work of one call of stability_map.
 class Mapping {
  public:
   Mapping(const LodChain& chain, const StabilityOptions& options)
@@ -134,12 +134,12 @@ class Mapping {
       }
     }
     specimens_.resize(map_.bodies.size());
-    // A reference is two runs.
+    // A reference needs two runs.
     Task task(options_.progress, "stability: references",
               2 * map_.bodies.size() * RunProgress::kUnits);
     run_jobs(map_.bodies.size(), options_.threads, [&](std::uint64_t job, const auto& stopped) {
-      // The last ratios are the longest to run: they go first, so that no thread waits for another
-      // at the end.
+      // The last ratios take longest. They run first, so that threads finish at about the same
+      // time.
       const std::size_t body = map_.bodies.size() - 1 - job;
       RunProgress fine(options_.progress, stopped);
       RunProgress check(options_.progress, stopped);

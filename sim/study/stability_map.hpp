@@ -16,13 +16,13 @@ enum class Verdict {
   stable,       ///< none of the others
   inaccurate,   ///< its error is above kInaccurate
   drifting,     ///< the scheme itself gained or lost more than kDrifting of the energy
-  off_design,   ///< the level is not the body any more: the error of its frequencies is above
+  off_design,   ///< the level no longer represents the body: the error of its frequencies is above
                 ///< kOffDesign
   crossed,      ///< springs crossed: the body is inside out somewhere
-  unconverged,  ///< the solver of backward Euler gave up short of its tolerance
-  runaway,      ///< the energy rose by kRunaway: the numbers are finite and mean nothing
+  unconverged,  ///< the solver of backward Euler stopped before it reached its tolerance
+  runaway,      ///< the energy rose by kRunaway: the state is finite but meaningless
   diverged,     ///< non-finite state or growing energy
-  mechanism,    ///< springs leave nodes loose: not run
+  mechanism,    ///< nodes move without resistance: not run
 };
 
 inline constexpr Choice<Verdict> kVerdicts[] = {
@@ -35,7 +35,7 @@ inline constexpr Choice<Verdict> kVerdicts[] = {
     {Verdict::unconverged, "unconverged", "the solver stopped short of its tolerance"},
     {Verdict::runaway, "runaway", "the energy more than doubled, in finite numbers"},
     {Verdict::diverged, "diverged", "non-finite state"},
-    {Verdict::mechanism, "mechanism", "springs leave nodes loose: not run"}};
+    {Verdict::mechanism, "mechanism", "nodes move without resistance: not run"}};
 constexpr ChoiceTable<Choice<Verdict>> choices(Verdict) {
   return {"verdict", kVerdicts};
 }
@@ -44,11 +44,10 @@ constexpr ChoiceTable<Choice<Verdict>> choices(Verdict) {
 inline constexpr double kInaccurate = 0.1;
 /// Energy gained or lost by the scheme over the energy at the start [1].
 inline constexpr double kDrifting = 0.1;
-/// Energy gained over the energy at the start beyond which a run is not called stable, although its
-/// numbers are finite [1].
+/// Relative energy gain above which a run counts as unstable, even with a finite state [1].
 inline constexpr double kRunaway = 1;
-/// Mean relative error of a level's lowest frequencies against the base's [1]. Plain merging stays
-/// below it at two levels of the paper's bodies (5 to 17 %).
+/// Mean relative error of a level's lowest frequencies against the base's [1]. Merging without
+/// calibration stays below it for two levels of the paper's bodies (5 to 17 %).
 inline constexpr double kOffDesign = 0.25;
 
 struct StabilityOptions {
@@ -56,23 +55,24 @@ struct StabilityOptions {
   /// Young's modulus of the stiff part over that of the soft one: see with_stiffness_ratio.
   std::vector<double> ratios{1, 10, 100, 1e3, 1e4, 1e5};
   /// Levels change with the ratio as if they were merged again from the rescaled base; false: they
-  /// stay as they are, which shows how far from its design ratio a level may be used.
+  /// stay unchanged, which shows how far a level may be used from its design ratio.
   bool remake_levels = true;
   std::vector<Integrator> integrators = all_choices<Integrator>();
-  /// Of XPBD and projective dynamics, each run with each; 0: the default of the scheme.
+  /// Numbers of iterations of XPBD and projective dynamics, each combined with each step; 0: the
+  /// default of the scheme.
   std::vector<std::uint32_t> iterations{0};
-  /// Whether springs keep their damping. Without it every loss of energy is the scheme's own, and
-  /// the explicit limit falls with the root of the ratio instead of the ratio.
+  /// True if springs keep their damping. Without damping, every loss of energy is numerical, and
+  /// the explicit limit falls with the square root of the ratio instead of the ratio.
   bool damping = false;
-  /// Of explicit schemes, in their own predicted limits [1].
+  /// Steps of explicit schemes, relative to their predicted stability limits [1].
   std::vector<double> steps{0.5, 0.9, 1.1, 2, 5, 20};
-  /// Of backward Euler, in periods of the body's slowest mode [1].
+  /// Steps of backward Euler, in periods of the body's slowest mode [1].
   std::vector<double> implicit_steps{0.003, 0.01, 0.03, 0.1};
-  /// Of XPBD and projective dynamics, whose steps are cheaper, in periods of the slowest mode [1].
+  /// Steps of XPBD and projective dynamics, which are cheaper, in periods of the slowest mode [1].
   std::vector<double> sweep_steps{0.0003, 0.001, 0.003, 0.01, 0.03};
   /// Steps for all schemes, in place of these [s].
   std::vector<double> absolute_steps = {};
-  /// How long each run is, in periods of the body's slowest mode [1].
+  /// Duration of each run, in periods of the body's slowest mode [1].
   double periods = 1;
   std::optional<double> duration = {};  ///< the same in seconds
   std::uint32_t threads = 0;            ///< 0: all cores. Never changes the result
@@ -112,22 +112,23 @@ constexpr auto option_rows(const StabilityOptions*) {
       option("seed", &Options::seed, "seed of the search for frequencies"));
 }
 
-/// One level at one ratio: what all its points share.
+/// One level at one ratio: data common to all its points.
 struct StabilityBody {
   std::uint32_t level = 0;
   double ratio = 1;
   std::uint32_t nodes = 0;
   std::uint32_t springs = 0;
-  double period = 0;    ///< of the slowest mode of the base [s]
+  double period = 0;    ///< period of the slowest mode of the base [s]
   double duration = 0;  ///< of each run [s]
-  /// Of symplectic Euler [s]: what the map draws as the predicted limit.
+  /// Stability limit of symplectic Euler [s]: the map shows it as the predicted limit.
   double limit = 0;
   bool limited_by_damping = false;
   /// Mean relative error of the lowest frequencies against those of the base at the same ratio [1].
   double frequency_error = 0;
-  /// Distance of the reference from one of twice its step, over 3, as the error of a point [1].
+  /// Estimated error of the reference: its distance from a run with twice the step, divided by 3;
+  /// in the unit of the error of a point [1].
   double reference_error = 0;
-  std::vector<std::uint32_t> mechanism_nodes;  ///< loose nodes, worst first
+  std::vector<std::uint32_t> mechanism_nodes;  ///< nodes in mechanisms, worst first
 };
 
 struct StabilityPoint {
@@ -135,34 +136,33 @@ struct StabilityPoint {
   Integrator integrator = Integrator::symplectic_euler;
   std::uint32_t iterations = 0;  ///< of implicit schemes, at most
   double step = 0;               ///< [s]
-  double limit = 0;              ///< of this scheme if it is explicit, else of symplectic Euler [s]
-  bool stable = false;           ///< it came to its end with an energy that never rose by kRunaway
-  bool finished = false;         ///< it came to its end: the numbers below are there
+  double limit = 0;       ///< stability limit of this scheme; of symplectic Euler if implicit [s]
+  bool stable = false;    ///< completed, and the energy never rose by kRunaway
+  bool finished = false;  ///< completed: the numbers below are valid
   Verdict verdict = Verdict::stable;
   std::optional<double> diverged_at;  ///< [s]
-  /// The worst node of a run that diverged, of a crossing, of a mechanism.
+  /// The worst node of a run that diverged, of an inverted spring or of a mechanism.
   std::optional<std::uint32_t> node;
   // Of finished runs:
-  double energy_drift =
-      0;  ///< worst change of the ledger's total, with its sign, over the first [1]
+  double energy_drift = 0;  ///< largest signed change of the ledger's total / first total [1]
   /// RMS distance of the nodes from those of the reference over the RMS of its displacement from
   /// the start, both weighted by mass, over kSamples common times [1].
   double error = 0;
-  double cost = 0;  ///< spring updates a simulated second
+  double cost = 0;  ///< spring updates per simulated second
   std::uint64_t unconverged_steps = 0;
   double wall_seconds = 0;  ///< measured; kept out of results
 };
 
 struct StabilityMap {
   std::string stiff_part;              ///< what is stiff
-  std::vector<StabilityBody> bodies;   ///< level by level, ratios rising
-  std::vector<StabilityPoint> points;  ///< body by body, scheme by scheme, steps rising
+  std::vector<StabilityBody> bodies;   ///< by level, ratios ascending
+  std::vector<StabilityPoint> points;  ///< by body, then by scheme, steps ascending
 };
 
-/// Runs every level at every stiffness ratio under every scheme and step, and compares each run
-/// with a fine one of the same model: velocity Verlet at a quarter of its limit. The bits do not
-/// depend on the number of threads. Throws InputError for options out of range and a chain whose
-/// base has no mode, InterruptedError from `progress`.
+/// Runs every level at every stiffness ratio with every scheme and step, and compares each run with
+/// a reference of the same model: velocity Verlet at a quarter of its limit. The number of threads
+/// changes no bit of the result. Throws InputError for options out of range and for a chain whose
+/// base has no mode, and InterruptedError from `progress`.
 StabilityMap stability_map(const LodChain& chain, const StabilityOptions& options = {});
 
 }  // namespace springlod::sim

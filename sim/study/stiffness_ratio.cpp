@@ -59,7 +59,7 @@ std::vector<double> base_factors(const MassSpringModel& base, const StiffPart& p
   return factor;
 }
 
-/// Number of the spring between two nodes; that of no spring if there is none.
+/// Number of the spring between two nodes; the largest uint32 if there is none.
 std::uint32_t find_spring(const MassSpringModel& model, std::uint32_t a, std::uint32_t b) {
   if (a > b) std::swap(a, b);
   const auto first = std::lower_bound(model.a.begin(), model.a.end(), a) - model.a.begin();
@@ -70,8 +70,8 @@ std::uint32_t find_spring(const MassSpringModel& model, std::uint32_t a, std::ui
   return static_cast<std::uint32_t>(found - model.b.begin());
 }
 
-/// By how much each node's surroundings change, on the average over the volume of its group: for
-/// springs of a level that stand for no spring of the base.
+/// Factor by which the stiffness around each node changes, averaged over the volume of its group.
+/// It is used for springs of a level that replace no spring of the base.
 std::vector<double> group_factors(const MassSpringModel& base, const StiffPart& part,
                                   const Groups& groups, double ratio) {
   std::vector<double> before(groups.count, 0);
@@ -112,7 +112,7 @@ void scale_springs(MassSpringModel& model, const std::vector<double>& factor) {
   }
 }
 
-/// Materials are what reports show: they follow, but for the halves of a body of one material.
+/// Reports show the materials, so they are changed too, except in a body of one material.
 void scale_materials(MassSpringModel& model, double softest, double ratio) {
   for (Material& material : model.materials)
     if (material.young > softest) material.young = ratio * softest;

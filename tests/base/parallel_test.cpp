@@ -1,5 +1,5 @@
-// Jobs on several threads. Jobs that wait for each other do so without time limits: the order of
-// events is the same however fast the machine is.
+// Jobs on several threads. Jobs wait for each other without time limits, so the order of events
+// does not depend on the speed of the machine.
 
 #include "base/parallel.hpp"
 
@@ -28,7 +28,7 @@ void wait_for(const std::atomic<bool>& event) {
 
 TEST_CASE("Every job runs once, for any number of threads", "[threaded]") {
   const std::uint32_t threads = GENERATE(0U, 1U, 2U, 5U, 80U);
-  std::vector<int> runs(50, 0), stops(50, 0);  // plain: no two threads may have the same job
+  std::vector<int> runs(50, 0), stops(50, 0);  // not atomic: no two threads may run the same job
   run_jobs(runs.size(), threads, [&](std::uint64_t job, const Stopped& stopped) {
     ++runs[job];
     stops[job] += stopped() ? 1 : 0;

@@ -42,7 +42,7 @@ TEST_CASE("below() is uniform, and unit() covers [0, 1)") {
     CHECK((unit >= 0 && unit < 1));
     sum += unit;
   }
-  // Five standard deviations of a count, and of a mean of uniform numbers.
+  // Tolerances: five standard deviations of a count, and of a mean of uniform numbers.
   for (const int count : hits) CHECK(std::abs(count - 10000) < 5 * std::sqrt(10000.0 * 6 / 7));
   CHECK(std::abs(sum / kDraws - 0.5) < 5 / std::sqrt(12.0 * kDraws));
   CHECK(random.below(1) == 0);

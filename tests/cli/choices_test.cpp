@@ -1,4 +1,4 @@
-// The words of options, as scripts, help and commands see them.
+// The words that options may take, in scripts, help and commands.
 
 #include <catch2/catch.hpp>
 

@@ -22,12 +22,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Results that hold on every processor, beside those of one kind of processors.
+/// Results that are equal on all processors, and results that are equal on one kind of processor.
 const char* const kAny = "any";
 
-/// The kind of this processor, as far as results depend on it: the vectors that steps are computed
-/// with, and the fused multiply-add in the mathematical functions of the C library. Empty if it is
-/// none of those that are told apart here.
+/// The kind of this processor, by the properties that affect results: the SIMD instruction set of
+/// the step kernels, and fused multiply-add in the mathematical functions of the C library. Empty
+/// for other processors.
 std::string processor_kind() {
 #if defined(__x86_64__)
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return "";
@@ -45,7 +45,7 @@ void append(std::string& bytes, const std::vector<T>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-/// The numbers of all levels; neither provenance nor how they lie in the file.
+/// The numbers of all levels, without provenance and independent of the file layout.
 std::string hash_of_levels(const fs::path& asset) {
   std::string bytes;
   for (const springlod::Level& level : springlod::load_asset(asset).chain.levels) {
@@ -102,7 +102,7 @@ TEST_CASE("The main job has the results whose hashes are kept") {
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
 
-  // What is only merged needs neither vectors nor BLAS.
+  // Merging alone uses neither SIMD kernels nor BLAS.
   Hashes found{{{kAny, "merged-levels"}, hash_of_levels(scratch / "merged.glb")}};
   if (!kind.empty()) {
     found[{kind, "merged-comparison"}] = springlod::content_hash(slurp(scratch / "merged.csv"));

@@ -47,7 +47,7 @@ TEST_CASE("paper resumes after an interruption, with the same tables for any num
   std::vector<std::string> with_fitted = paper(scratch / "whole", "5", "2");
   with_fitted.emplace_back("--calibrated");
   const Ran more = springlod_interrupted(with_fitted, "ball/LOD-fit-b-1-seed-1");
-  CHECK(more.err.find("ball/LOD-1") == std::string::npos);  // kept runs are not repeated
+  CHECK(more.err.find("ball/LOD-1") == std::string::npos);  // stored runs are not repeated
   CHECK(std::filesystem::exists(scratch / "whole/runs/ball/LOD-fit-b-1-seed-1.csv"));
 
   std::vector<std::string> one_way = paper(scratch / "whole", "5", "2");
@@ -69,8 +69,8 @@ TEST_CASE("paper resumes after an interruption, with the same tables for any num
 TEST_CASE("paper identifies the materials of kept runs by content, independent of the path") {
   const TemporaryFolder scratch;
   const auto with_materials = [&](const std::string& file, const std::string& shell) {
-    // Soft, for a long time step. The name of the unused material has all characters that CSV
-    // quotes.
+    // Soft, so that the time step is long. The name of the unused material has all characters that
+    // CSV quotes.
     const std::string core = "core = {young = '10 kPa', density = 1000, colour = {0.5, 0.2, 0.2}}";
     const std::string spare = R"(['spare, "100 %"\n'] = {young = 1e6, density = 1000})";
     spit(scratch / file,

@@ -113,7 +113,7 @@ TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat 
   CHECK_THAT(slurp(out / "command.txt"), Contains("springlod --seed 1 pareto ") &&
                                              Contains("--scenario ") && Contains("--quick"));
 
-  // Kept models, runs and times reproduce the same files; further integrators only add rows.
+  // Stored models, runs and times reproduce the same files; further integrators only add rows.
   const std::string before = slurp(out / "timings.csv");
   REQUIRE(springlod_run(arguments(scratch, {"-q"})).exit_code == 0);
   CHECK(slurp(out / "timings.csv") == before);

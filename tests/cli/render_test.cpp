@@ -10,7 +10,7 @@ using namespace springlod::test;
 
 namespace {
 
-// Runs `call`, which may use s, m (a model of two nodes), run (0.1 s of it) and folder.
+// Runs `call`, which may use s, m (a model of two nodes), run (a run of m over 0.1 s) and folder.
 Ran draw(const std::string& call, const TemporaryFolder& scratch) {
   const std::string script = R"(
     local s = require "springlod"

@@ -52,7 +52,7 @@ inline MassSpringModel corners_box(int nx, int ny, int nz, double a, double youn
   return m;
 }
 
-/// Both models as one disconnected model.
+/// Both models combined into one disconnected model.
 inline MassSpringModel side_by_side(const MassSpringModel& first, const MassSpringModel& second,
                                     const Vec3& shift) {
   MassSpringModel both = first;

@@ -32,7 +32,7 @@ void check_against_dense(const MassSpringModel& m, const Modes& found, double to
 }
 
 TEST_CASE("The lowest modes of uneven models are those of a dense solver") {
-  // Below and above the size from which the iteration is used.
+  // Below and above the size at which the iteration replaces the dense solver.
   const int n = GENERATE(4, 5, 7);
   const std::uint64_t seed = GENERATE(1U, 2U);
   const MassSpringModel m = uneven_model(seed, n);
@@ -142,7 +142,7 @@ TEST_CASE("The bending frequency of a free bar converges to Timoshenko's with fi
         test::corners_box(cells, cells, 8 * cells, thick / cells, young, density);
     const Modes modes = lowest_modes(bar, {.count = 2});
     CHECK(modes.zero_modes_skipped == 6);
-    // Both bending directions have one frequency.
+    // Both bending directions have the same frequency.
     CHECK(modes.modes[0].frequency() == Approx(modes.modes[1].frequency()).epsilon(1e-6));
     found.push_back(modes.modes[0].frequency());
   }

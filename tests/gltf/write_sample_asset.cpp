@@ -16,7 +16,7 @@ int main(int argc, char** argv) try {
   springlod::LodAsset asset = springlod::test::sample_asset();
   springlod::save_asset(asset, folder / "chain.glb");
 
-  // No surface, no springs, a single node: every optional piece left out.
+  // No surface, no springs, a single node: all optional elements are omitted.
   springlod::LodAsset bare;
   bare.chain.levels.resize(1);
   bare.chain.levels[0].model = springlod::test::make_model({{1, 2, 3}}, {});

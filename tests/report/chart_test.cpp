@@ -52,7 +52,7 @@ TEST_CASE("a chart is drawn with its labels, and script and data are kept beside
   draw_chart(some_series(), kOptions, again);
   CHECK(read_file(again) == svg);
 
-  // The command draws the same picture again.
+  // The command reproduces the same picture.
   std::filesystem::remove(path);
   REQUIRE(std::system(files.command.c_str()) == 0);
   CHECK(read_file(path) == svg);
@@ -205,7 +205,7 @@ TEST_CASE("a label in a crowd is moved away from its point and joined to it by a
   const PlacedLabel label = place_labels(crowd, axis, axis, frame).at(0);
   CHECK(label.led);
   CHECK(label.point_x == Approx(axis.place(5)));
-  // Outside the crowd, half of whose height is 0.5.
+  // Outside the crowded region, whose half height is 0.5.
   const double height = axis.place(0.5) - axis.place(0);
   const double width = axis.place(0.6) - axis.place(0);
   CHECK((std::abs(label.y - label.point_y) > height || std::abs(label.x - label.point_x) > width));

@@ -5,7 +5,7 @@
 
 namespace springlod::test {
 
-/// Changes PATH for its lifetime.
+/// Changes PATH during its lifetime.
 class PathIs {
  public:
   explicit PathIs(const std::string& value) {

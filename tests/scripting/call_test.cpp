@@ -1,4 +1,4 @@
-// Arguments and tables of options, checked against what is described.
+// Arguments and tables of options are checked against their descriptions.
 
 #include "scripting/engine/call.hpp"
 

@@ -74,7 +74,7 @@ TEST_CASE("A failed chunk reports the line of the error, and the next one runs")
 TEST_CASE("Ctrl-C stops a chunk, also inside pcall, and is cleared afterwards") {
   const InterruptHandler handler;
   ScriptState state({}, make_api());
-  // The signal comes while the loop runs: it is the chunk that sends it.
+  // The chunk itself sends the signal, so it arrives while the loop runs.
   lua_register(state.lua(), "press_ctrl_c", [](lua_State*) { return std::raise(SIGINT); });
   const Reply reply =
       evaluate(state, "press_ctrl_c() while true do pcall(function() found = 1 end) end");

@@ -1,4 +1,4 @@
-// How the prompt shows a value.
+// Display of values at the prompt.
 
 #include "scripting/engine/inspect.hpp"
 
@@ -47,7 +47,7 @@ TEST_CASE("Tables are shown with the list first, then keys in order, nested") {
 TEST_CASE("Recursive and deeply nested tables are truncated") {
   CHECK(shown("(function() local t = {} t.self = t return t end)()") == "{self = {...}}");
   CHECK(shown("{{{1}}}", {.depth = 2}) == "{{{...}}}");
-  // The same table twice is no loop.
+  // A table that occurs twice is not a cycle.
   CHECK(shown("(function() local t = {1} return {t, t} end)()") == "{{1}, {1}}");
 }
 

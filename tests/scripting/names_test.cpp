@@ -1,4 +1,4 @@
-// Near names for what was mistyped, and what the prompt completes a word to.
+// Suggestions for mistyped names, and completion at the prompt.
 
 #include <algorithm>
 #include <string>

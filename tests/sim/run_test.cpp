@@ -20,7 +20,8 @@ TEST_CASE("The energy ledger closes within 1 % for the ball rolling on the floor
   const auto& end = t.ledger.back();
   CHECK(end.lost_damping > 0);
   CHECK(end.lost_friction > 0);
-  // The floor has no damping: only what contacts lose that begin in mid-step.
+  // The floor has no damping: lost_contact holds only the losses of contacts that begin within a
+  // step.
   CHECK(std::abs(end.lost_contact) < 0.01 * end.lost_damping);
   CHECK(t.ledger.size() == t.frames.size());
 }
@@ -39,7 +40,7 @@ TEST_CASE("The energy ledger closes within 1 % for the rods thrown at the wall")
 }
 
 TEST_CASE("The ledger sees a mechanism that is left out") {
-  // Were the losses remainders of each other, the sum would close without one of them too.
+  // If one loss were computed as the remainder of the others, the sum would also close without it.
   auto t = run(test::rods(), test::rods_scene());
   auto without = t.ledger;
   for (auto& entry : without) entry.lost_damping = 0;
@@ -87,7 +88,7 @@ TEST_CASE("Frames lie at the frame times, first and last state included") {
   CHECK(t.frames.back().time == Approx(0.55));
   CHECK((t.frames.back().x == t.final.x));
   CHECK((t.frames.front().x == model.rest));
-  scene.duration = 0.5;  // the last frame is the last state: not twice
+  scene.duration = 0.5;  // the last frame is the last state and occurs once
   CHECK(run(model, scene, {.frame_rate = 10}).frames.size() == 6);
   CHECK(run(model, scene, {.frame_rate = 0}).frames.size() == 2);
   // More frames than steps.
@@ -98,7 +99,7 @@ TEST_CASE("Frames lie at the frame times, first and last state included") {
 
 TEST_CASE("A stop rule ends the run once the body has been slow for long enough") {
   auto model = test::block(6, 6, 2, 0.1, test::material("m", 1e6, 1000, 0.002),
-                             voxelize::LatticeStyle::corners);
+                           voxelize::LatticeStyle::corners);
   Scenario scene;
   scene.gravity = {0, 0, -10};
   scene.obstacles = {test::floor(1e7, 0.5)};

@@ -32,7 +32,7 @@ inline const LodChain& small_chain() {
   return chain;
 }
 
-/// For small_chain: thrown turning onto the floor.
+/// For small_chain: thrown onto the floor with a spin.
 inline sim::Scenario small_scene(double duration) {
   sim::Scenario scene;
   scene.obstacles = {floor(1e6, 0.5)};
@@ -56,7 +56,7 @@ inline sim::Scenario ball_scene() {
   return scene;
 }
 
-/// Scene 2: the rods thrown turning at a wall.
+/// Scene 2: the rods thrown at a wall with a spin.
 inline sim::Scenario rods_scene() {
   sim::Scenario scene;
   sim::Obstacle wall = floor(2e6, 0.5);

@@ -13,10 +13,10 @@
 #include "tests/sim/scenes.hpp"
 #include "voxelize/lattice.hpp"
 
-/// Steppers side by side, through everything that a body can meet.
+/// Compares steppers in a scene with all kinds of contact.
 namespace springlod::test {
 
-/// A block of cells of two materials with a bite taken out of it.
+/// A block of cells of two materials with a notch.
 inline MassSpringModel two_material_block(int side) {
   voxelize::MaterialGrid grid;
   grid.cell = 0.01;
@@ -32,7 +32,7 @@ inline MassSpringModel two_material_block(int side) {
   return voxelize::build_lattice(grid).model;
 }
 
-/// Falls onto a floor, slides into a turned block, spinning.
+/// The body spins, falls onto a floor and slides into a rotated box.
 inline sim::Scenario rough_scene(const MassSpringModel& model) {
   sim::Scenario scene;
   sim::Obstacle ground = floor(2e6, 0.4);

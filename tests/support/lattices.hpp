@@ -52,7 +52,7 @@ inline MassSpringModel box_lattice(int nx, int ny, int nz, double a = 1, double 
   const auto index = [&](int x, int y, int z) {
     return static_cast<std::uint32_t>((z * ny + y) * nx + x);
   };
-  // The 9 of the 18 neighbours with higher numbers, in rising order.
+  // The 9 of the 18 neighbours with higher numbers, in ascending order.
   constexpr std::array<std::array<int, 3>, 9> kForward{{{1, 0, 0},
                                                         {-1, 1, 0},
                                                         {0, 1, 0},

@@ -13,8 +13,8 @@ namespace springlod::test {
 
 inline constexpr double kPi = std::numbers::pi;
 
-/// Closed sphere by latitude and longitude, bumpy on demand; 2 rings (segments - 1) triangles or
-/// so. Organic at `bumps` = 0.15.
+/// Closed sphere by latitude and longitude, optionally bumpy; about 2 rings (segments - 1)
+/// triangles. Organic at `bumps` = 0.15.
 inline TriangleMesh sphere_mesh(double radius, int segments, int rings, double bumps = 0) {
   TriangleMesh mesh;
   const auto point = [&](double theta, double phi) {

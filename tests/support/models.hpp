@@ -50,7 +50,7 @@ inline double uniform(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// A jittered n^3 lattice with 18 neighbours, masses, stiffnesses and materials drawn by chance.
+/// A jittered n^3 lattice with 18 neighbours and random masses, stiffnesses and materials.
 inline MassSpringModel random_model(std::uint64_t seed, int n = 5) {
   std::mt19937_64 random(seed);
   std::vector<Vec3> rest;

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Against a program that hangs; nothing takes a fraction of it, on any machine [ms].
+// Timeout for a program that hangs; far longer than any test takes [ms].
 constexpr int kPatience = 240'000;
 
 const std::string kProgram = std::string(SPRINGLOD_BINARY_DIR) + "/app/springlod";
@@ -71,12 +71,12 @@ int exit_code_of(int process) {
 // A child process with pipes for its three streams.
 class Child {
  public:
-  enum class Stderr { free, held };  // held: blocks the program until each line of it was read
+  enum class Stderr { free, held };  // held: the program blocks until each line has been read
 
   explicit Child(const std::vector<std::string>& arguments,
                  const fs::path& folder = SPRINGLOD_SOURCE_DIR, Stderr of_program = Stderr::free)
       : err_(of_program == Stderr::held ? O_DIRECT : 0) {
-    // One page, and in packet mode (O_DIRECT) each write takes a page of its own.
+    // The pipe has one page, and in packet mode (O_DIRECT) each write occupies a whole page.
     if (of_program == Stderr::held && fcntl(err_.write_end, F_SETPIPE_SZ, 1) < 0)
       throw std::runtime_error("no pipe of one page");
     std::vector<std::string> words{kProgram};
@@ -211,7 +211,7 @@ bool Terminal::shows(const std::string& text) {
 int Terminal::exit_code() {
   while (read_more(kPatience)) {
   }
-  // As a descriptor, to wait for with a time limit.
+  // As a file descriptor, which can be polled with a time limit.
   const int handle = static_cast<int>(syscall(SYS_pidfd_open, process_, 0));
   pollfd end{handle, POLLIN, 0};
   const bool ended = handle >= 0 && poll(&end, 1, kPatience) > 0;

@@ -19,9 +19,9 @@ struct Ran {
 Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input = "",
                   const std::filesystem::path& folder = SPRINGLOD_SOURCE_DIR);
 
-/// Runs it, interrupts it (SIGINT) as soon as `mark` shows on its stderr, and waits for its end.
-/// However slowly the test reads, the program is still at work then if it has more than two lines
-/// left to write after the mark: its stderr is a pipe that holds one line.
+/// Runs it, interrupts it (SIGINT) as soon as `mark` appears on its stderr, and waits for its end.
+/// Its stderr is a pipe that holds one line. Even if the test reads slowly, the program is
+/// therefore still running at the interrupt if it has more than two lines to write after the mark.
 Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark);
 
 /// The program in a pseudo-terminal with simulated keyboard input.
@@ -34,12 +34,12 @@ class Terminal {
   Terminal& operator=(const Terminal&) = delete;
 
   void type(const std::string& keys);
-  /// Waits until `text` shows in what came since the last wait; false if nothing more comes, for
-  /// the program ended or hangs.
+  /// Waits until `text` appears in the output since the last wait; false if the program ended or
+  /// hangs.
   bool shows(const std::string& text);
   /// All terminal output so far.
   const std::string& screen() const { return screen_; }
-  /// Waits for the program to leave; -1 if it hangs.
+  /// Waits for the program to exit; -1 if it hangs.
   int exit_code();
 
  private:
@@ -62,7 +62,7 @@ struct BoxPart {
 };
 std::string obj_of_boxes(const std::vector<BoxPart>& parts, double width = 1);
 /// Converts a bar of `length` x 1 x 1 to the asset `asset` (.glb) by `springlod convert` with
-/// `options`. The mesh is kept beside it.
+/// `options`. The mesh file is kept beside it.
 void make_bar_asset(const std::filesystem::path& asset, double length,
                     const std::vector<std::string>& options);
 /// A unit box without its top face.

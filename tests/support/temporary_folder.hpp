@@ -4,7 +4,7 @@
 
 namespace springlod::test {
 
-/// A new folder. The destructor removes it with everything in it.
+/// A new folder. The destructor removes the folder with its contents.
 class TemporaryFolder {
  public:
   /// Throws std::runtime_error if the folder cannot be made.

@@ -192,7 +192,7 @@ TEST_CASE("Unit and up axis of an FBX file are used") {
   CHECK(imported.report.unit == Approx(0.0254));
   CHECK(imported.report.up == UpAxis::z);
   CHECK(bounds(imported.mesh).max().isApprox(0.0254 * Vec3(6, 2, 3), 1e-6));
-  // The caller knows better.
+  // The options of the caller take precedence.
   const ImportedMesh forced = import_mesh(folder / "inch.fbx", {.unit = 1, .up = UpAxis::y});
   CHECK(bounds(forced.mesh).max().isApprox(Vec3(6, 0, 2), 1e-6));
 }

@@ -100,7 +100,8 @@ TEST_CASE("Two cells that share an edge have a hinge: seven zero modes") {
   REQUIRE(parts.size() == 1);
   CHECK(parts[0].node_count == 14);
   CHECK(parts[0].zero_modes == 7);
-  CHECK(parts[0].mechanism_nodes.size() == 6);  // one cell rotates, the other and the edge rest
+  CHECK(parts[0].mechanism_nodes.size() ==
+        6);  // one cell rotates; the other one and the edge do not move
 }
 
 TEST_CASE("Two cells that share a corner have nine zero modes") {

@@ -39,7 +39,7 @@ TEST_CASE("A voxelized mesh is restored from a .vdb file") {
   save_vdb(grid, folder / "made/ball.vdb");
   const MaterialGrid loaded = load_vdb(folder / "made/ball.vdb");
   check_same(grid, loaded);
-  // What was loaded can be saved again, its level set included.
+  // A loaded grid can be saved again, including its level set.
   save_vdb(loaded, folder / "again.vdb");
   check_same(grid, load_vdb(folder / "again.vdb"));
 }

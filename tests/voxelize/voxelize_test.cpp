@@ -347,7 +347,7 @@ TEST_CASE("One thread and two give the same grid") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1, 64);
   add_sphere(mesh, "other", {0.7, 0.2, 0.1}, 1, 64);
-  for (int i = 0; i < 12; ++i)  // more than are processed at once
+  for (int i = 0; i < 12; ++i)  // more solids than are processed at once
     add_box(mesh, "box " + std::to_string(i), {-1 + 0.2 * i, -1.5, -1}, {-0.7 + 0.2 * i, 0, 1.5});
   const auto run = [&](std::uint32_t threads) {
     VoxelizeOptions options = with_cell(0.03);

@@ -91,7 +91,7 @@ local function samples(one, settings)
 end
 
 -- The distances of a sample, run if they are not in the store, and the number of its runs in which
--- springs turned over.
+-- springs inverted.
 local function distances(sample, scene, store)
   local rows = store:rows(sample.name, columns, function()
     return s.ensemble(sample.model(), scene, sample.options)

@@ -98,8 +98,8 @@ local function add_legend(series, points)
 end
 
 -- One series per grouping and calibration, and the points of the paper's variants. `front` is a set
--- of points; these and the base are labelled. Of the points not above `y_from` only those on the
--- front are drawn.
+-- of points; these and the base are labelled. Points at or below `y_from` are drawn only if they
+-- are on the front.
 local function series_of(points, front, y_from)
   local series, of_look, paper = {}, {}, {}
   for _, point in ipairs(points) do

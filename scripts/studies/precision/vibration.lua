@@ -67,7 +67,7 @@ function vibration.fit(times, values, frequency)
     local change = solve(matrix, right)
     fit.cosine, fit.sine = fit.cosine + change[1], fit.sine + change[2]
     fit.offset, fit.frequency = fit.offset + change[3], fit.frequency + change[4]
-    -- Converged: the change is down to rounding.
+    -- Converged: the change is only rounding error.
     if iteration > 2 and math.abs(change[4]) >= last then return fit end
     if iteration > 1 then last = math.abs(change[4]) end
   end

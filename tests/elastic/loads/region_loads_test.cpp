@@ -7,7 +7,8 @@ using namespace springlod::elastic;
 
 namespace {
 
-/// A bar of nodes 1 m apart, springs between those nearer than 1.5 m; all at the border.
+/// A bar of nodes 1 m apart, with springs between nodes closer than 1.5 m; all nodes are border
+/// nodes.
 MassSpringModel block(int width, int depth, int height) {
   MassSpringModel bar;
   bar.materials.resize(1);
@@ -33,7 +34,7 @@ MassSpringModel block(int width, int depth, int height) {
   return bar;
 }
 
-/// A bar of 12 x 4 x 4 nodes, its middle third of another material.
+/// A bar of 12 x 4 x 4 nodes, whose middle third has another material.
 MassSpringModel striped_bar() {
   MassSpringModel bar = block(12, 4, 4);
   bar.materials.resize(2, bar.materials.front());

@@ -60,7 +60,7 @@ TEST_CASE("Patch test: uniform stress on a corners bar gives the strain of its m
   }
 }
 
-/// Work of unit moments that bend a bar of one cell in cross-section and `cells` in length.
+/// Work of unit moments that bend a bar with a cross-section of one cell and a length of `cells`.
 StaticSolution bend_by_moments(int cells) {
   const double a = 0.01;
   const MassSpringModel bar = test::corners_box(1, 1, cells, a, 1e7, 1000);
@@ -82,8 +82,8 @@ TEST_CASE("The compliance of a bar a thousand times as long as thick is the sum 
   // not depend on the length.
   const double end = bend_by_moments(20).compliance;
   const double cell = (bend_by_moments(40).compliance - end) / 20;
-  // The matrix has a relative rounding of 1e-16, and its stiffnesses are some 1e12 times those of
-  // bending.
+  // The entries of the matrix have a relative rounding error of 1e-16, and they are about 1e12
+  // times the bending stiffnesses.
   CHECK(bar.compliance == Approx(end + 980 * cell).epsilon(1e-3));
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("The moduli of two materials are measured separately") {
   CHECK(found[0].material == 0);
   CHECK(found[1].material == 1);
   CHECK(found[0].young == Approx(1e6).epsilon(0.01));
-  // The nodes of the interface count for this half (a fourteenth of its volume) but have soft cells
+  // The nodes of the interface belong to this half (a fourteenth of its volume) but have soft cells
   // on one side.
   CHECK(found[1].young == Approx(1e7).epsilon(0.08));
   for (const MaterialModuli& each : found) CHECK(each.poisson == Approx(0.25).margin(0.01));
@@ -90,7 +90,7 @@ TEST_CASE("The moduli of two materials are measured separately") {
 }
 
 TEST_CASE("Relative motion of two regions of one material is not strain") {
-  // Two stiff ends; the middle third is a thousand times as soft and so strained far more.
+  // Two stiff ends; the middle third is a thousand times softer and therefore strained far more.
   MassSpringModel bar = test::corners_box(4, 4, 18, 0.1, 1e6, 1000);
   bar.materials.push_back(Material{.name = "soft"});
   for (std::uint32_t i = 0; i < bar.node_count(); ++i)

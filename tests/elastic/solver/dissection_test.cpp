@@ -1,4 +1,4 @@
-// The order of elimination and its tree, against their definitions.
+// Checks the order of elimination and its tree against their definitions.
 
 #include "elastic/solver/dissection.hpp"
 
@@ -52,8 +52,8 @@ bool is_above(const Dissection& found, std::uint32_t above, std::uint32_t supern
   return supernode == above;
 }
 
-/// Springs that join two supernodes neither of which is above the other: separators that do not
-/// separate.
+/// Number of springs between two supernodes of which neither is an ancestor of the other: they
+/// violate the separation.
 int wrong_couplings(const Dissection& found, const MassSpringModel& model) {
   std::vector<std::uint32_t> supernode_of(model.node_count());
   for (std::uint32_t p = 0; p < found.supernodes.size(); ++p)
@@ -127,7 +127,7 @@ TEST_CASE("Bodies side by side, loose nodes and nodes in one place are ordered t
   const Dissection apart = dissect(box.rest, {std::vector<std::uint32_t>(505, 0), {}});
   check_order(apart, 504);
   check_supernodes(apart);
-  for (const Dissection::Supernode& supernode : apart.supernodes)  // nothing has to be separated
+  for (const Dissection::Supernode& supernode : apart.supernodes)  // nothing needs to be separated
     CHECK(supernode.parent == Dissection::kNoParent);
 
   const std::vector<Vec3> heap(504, Vec3(1, 2, 3));

@@ -16,8 +16,8 @@
 #include "lod/build.hpp"
 #include "lod/calibration/calibrate.hpp"
 #include "lod/calibration/calibration_store.hpp"
-#include "tests/support/bodies.hpp"
 #include "tests/support/assets.hpp"
+#include "tests/support/bodies.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Stands for a program that is killed: nothing is kept when it comes up.
+/// Represents a killed program: no state is saved when it is thrown.
 struct Killed {};
 
 /// Stops the calibration after `stop_after` advances and records what is reported.
@@ -67,7 +67,7 @@ class Watcher : public Progress {
   std::vector<std::string> tasks;
   std::string said, last_detail;
   std::uint64_t steps = 0;
-  std::uint64_t first_advance = 0;  // what was kept of the first level, where something was
+  std::uint64_t first_advance = 0;  // stored steps of the first level, if any
 
  private:
   std::mutex mutex_;

@@ -21,7 +21,7 @@ double sum(const std::vector<double>& values) {
 }  // namespace
 
 TEST_CASE("The paper's figure 2: by proximity, mass shifts to neighbours that did not merge") {
-  // Six nodes of 1 kg in a row, the two in the middle merged.
+  // Six nodes of 1 kg in a row; the two in the middle are merged.
   std::vector<Vec3> points;
   std::vector<TableSpring> springs;
   for (std::uint32_t i = 0; i < 6; ++i) {
@@ -35,8 +35,8 @@ TEST_CASE("The paper's figure 2: by proximity, mass shifts to neighbours that di
   CHECK(merged.mass == std::vector<double>{1, 1, 2, 1, 1});
   const std::vector<Vec3> rest = merged.rest;
   share_by_proximity(row, merged);
-  // Nodes at 1, 2.6 and 4.2 share at 1.8 and 3.4; the merged ones had pieces at 1.75, 2.25, 2.95
-  // and 3.45.
+  // The boundaries between the nodes at 1, 2.6 and 4.2 are at 1.8 and 3.4; the merged nodes had
+  // pieces at 1.75, 2.25, 2.95 and 3.45.
   CHECK(merged.rest == rest);
   CHECK(merged.mass[0] == 1);
   CHECK(merged.mass[1] == 1.5);

@@ -30,7 +30,7 @@ TEST_CASE("The determinant test agrees with the eigenvalues") {
   int sound = 0;
   int flat = 0;
   for (int trial = 0; trial < 20000; ++trial) {
-    // From isotropic to nearly planar and nearly straight.
+    // Directions from isotropic to nearly planar and nearly collinear.
     const Vec3 extent(1, std::pow(10, -3 * test::uniform(random)),
                       std::pow(10, -3 * test::uniform(random)));
     Rigidity node;

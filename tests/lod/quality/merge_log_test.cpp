@@ -181,7 +181,7 @@ TEST_CASE("the costs of merges in a step correlate with their costs alone") {
 }
 
 TEST_CASE("a merge that leaves a node loose is found by a motion that the base does not have") {
-  // A bar and, at one corner, a node that hangs on three springs once its neighbours merged.
+  // A bar in which a corner node is held by only three springs after its neighbours are merged.
   const MassSpringModel base = block(3, 3, 6);
   const std::uint32_t far = base.node_count() - 1;
   const LodChain sound = merged_by_hand(base, {{0, 1}});

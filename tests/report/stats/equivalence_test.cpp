@@ -54,7 +54,7 @@ TEST_CASE("means a margin apart are declared equivalent at the rate alpha") {
   CHECK(said(-1, apart, kRepetitions) == Approx(0.05).margin(chance + 0.005));
   const EquivalenceOptions paired{.margin = 0.5, .paired = true};
   CHECK(said(0.5, paired, kRepetitions) == Approx(0.05).margin(chance + 0.005));
-  // Twice the margin: never.
+  // At twice the margin, the test never reports equivalence.
   CHECK(said(2, apart, kRepetitions) == 0);
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("distances of large samples are those of their distributions") {
       {exponential, slow, 1, 1.0 / 3},
       {normal, wide_normal, std::sqrt(2 / std::numbers::pi), normal_energy}};
   for (const Case& c : cases) {
-    // Sizes differ, as they may.
+    // The samples may have different sizes.
     const Values base = even_sample(kSize, c.base);
     const Values other = even_sample(kSize / 2 * 3, c.other);
     CHECK(wasserstein_distance(base, other) == Approx(c.wasserstein).epsilon(1e-3));
@@ -104,7 +104,7 @@ TEST_CASE("distances of large samples are those of their distributions") {
   RandomStream chance(2);
   const Values base = normal_sample(chance, kSize);
   const Values other = normal_sample(chance, kSize, 1);
-  // Random error 4 sqrt(2 / n) = 0.04; E|N(1, 2)| by hand.
+  // Random error 4 sqrt(2 / n) = 0.04; E|N(1, 2)| is computed by hand.
   CHECK(wasserstein_distance(base, other) == Approx(1).margin(0.04));
   const double between = 2 / std::sqrt(std::numbers::pi) * std::exp(-0.25) + 1 -
                          2 * cdf(boost::math::normal(), -std::sqrt(0.5));

@@ -38,7 +38,7 @@ std::vector<Vec3> random_vectors(std::size_t count, double size, std::uint64_t s
   return vectors;
 }
 
-/// small_chain's level 1 pushed askew into a floor and a box.
+/// Level 1 of small_chain, rotated and pushed into a floor and a box.
 struct Pressed {
   const MassSpringModel& model = small_chain().levels[1].model;
   ContactPoints points{model, contact_skin(small_chain(), 1)};
@@ -101,7 +101,7 @@ TEST_CASE("A level's skin carries every affine motion to the base's surface, are
 }
 
 TEST_CASE("The contact of the skin has the surface compliance that merging removed") {
-  // Two nodes side by side on a third: a pair merged, one left alone.
+  // Three nodes: the first two are merged, the third stays single.
   MassSpringModel base = test::table_model({{0, 0, 0}, {1, 0, 0}, {0, 0, -1}}, {1, 3, 2},
                                            {{0, 1, 100}, {0, 2, 300}, {1, 2, 200}});
   base.contact_area = {0.1, 0.1, 0.1};
@@ -116,8 +116,8 @@ TEST_CASE("The contact of the skin has the surface compliance that merging remov
   level = test::table_model({{0.75, 0, 0}, {0, 0, -1}}, {4, 2}, {{0, 1, 500}});
   level.damping[0] = 0.01 * 500;
   const ContactSkin skin = contact_skin(chain, 1);
-  // Node 0 pulls along (1, 0, -3) / sqrt(10), where it has (100 + 9 * 300) / 10 N/m; of its freedom
-  // it lost 3/4, the rest is the pair's.
+  // The mean spring direction of node 0 is (1, 0, -3) / sqrt(10), and its stiffness along it is
+  // (100 + 9 * 300) / 10 N/m. It lost 3/4 of its degrees of freedom; the pair keeps the rest.
   CHECK(skin.compliance[0] == Approx(0.75 / 280));
   CHECK(skin.compliance[2] == 0);
   const ContactPoints points(level, skin);
@@ -181,7 +181,7 @@ TEST_CASE("Friction on a skin removes the energy it reports; stick springs store
   CHECK(held < taken);
   contacts.resize(1);
   contacts[0].friction = 1e6;
-  contacts[0].stick_stiffness = 0;  // and without one no slip turns round
+  contacts[0].stick_stiffness = 0;  // without a stick spring, no slip reverses
   apply_friction(body.points, 1e-3, contacts, v);
   const Vec3 left = body.points.interpolate(contacts[0].point, v);
   CHECK((left - contacts[0].normal.dot(left) * contacts[0].normal).norm() < 1e-12);
@@ -276,7 +276,8 @@ TEST_CASE("The predicted step of a level with a skin holds on a stiff floor") {
   scene.start.spin = {0.2, 0.3, 0};
   scene.duration = 0.3;
   ContactSkin hard = contact_skin(chain, 2);
-  std::fill(hard.compliance.begin(), hard.compliance.end(), 0.0);  // the contact's stiffness alone
+  std::fill(hard.compliance.begin(), hard.compliance.end(),
+            0.0);  // only the stiffness of the contact
   const auto skin = std::make_shared<ContactSkin>(hard);
   const MassSpringModel& model = chain.levels[2].model;
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::runge_kutta_4);

@@ -79,7 +79,7 @@ TEST_CASE("A stick spring holds the point elastically and slides at mu f") {
   Contact contact;
   contact.normal_force = 100;
   contact.friction = 10;
-  contact.stick_stiffness = 800;  // omega = 20 rad/s: the point stops after pi/40 s, 3 / 20 m on
+  contact.stick_stiffness = 800;  // omega = 20 rad/s: the point stops after pi/40 s, 3 / 20 m away
   const double step = 1e-6;
   Vec3 v(3, 0, -1);
   double time = 0;
@@ -182,7 +182,7 @@ TEST_CASE("A node pressed past the middle of a thin box goes back where it came 
     CHECK(contacts[0].depth == Approx(0.01 - height));
     CHECK((contacts[0].normal - out).norm() < 1e-12);
   }
-  // Seen from below the same plate pushes down.
+  // A point that started below the same plate is pushed down.
   ContactFinder from_below(points, obstacles, {-0.02 * out});
   from_below.find({-0.003 * out}, {Vec3::Zero()}, contacts);
   REQUIRE(contacts.size() == 1);

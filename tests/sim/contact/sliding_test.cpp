@@ -10,7 +10,7 @@ using namespace springlod::sim;
 
 namespace {
 
-/// Laid on the floor with its lowest contact node just touching.
+/// The body lies on the floor; its lowest contact node just touches it.
 Scenario slide(const MassSpringModel& model) {
   double lowest = model.rest[0].z();
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
@@ -29,11 +29,10 @@ Scenario slide(const MassSpringModel& model) {
 }  // namespace
 
 TEST_CASE("A sliding block stops after 1.5 m on every level of a chain", "[long]") {
-  // Long and low, so that friction at the foot does not tip it over; stiff, so that its swing after
-  // the stop is small.
+  // Long and low, so that friction does not tip it over; stiff, so that its vibration after the
+  // stop is small.
   const auto style = GENERATE(voxelize::LatticeStyle::corners, voxelize::LatticeStyle::centers);
-  const auto base =
-      test::block(12, 8, 4, 0.1, test::material("block", 1e7, 1000, 0.001), style);
+  const auto base = test::block(12, 8, 4, 0.1, test::material("block", 1e7, 1000, 0.001), style);
   const auto border = GENERATE(lod::BorderRule::none, lod::BorderRule::weak);
   lod::SimplifyOptions options;
   options.grouping.border = border;

@@ -1,4 +1,4 @@
-// Fast layouts held to the plain kernel.
+// Fast layouts compared with the plain kernel.
 
 #include <memory>
 #include <random>
@@ -59,7 +59,7 @@ TEST_CASE("Fast steps are those of the plain kernel, to rounding, whatever the l
 }
 
 TEST_CASE("Fast steps of bodies of many blocks are those of the plain kernel") {
-  const int side = GENERATE(25, 33);  // blocks that are no multiple of a line, nor of a layer
+  const int side = GENERATE(25, 33);  // block sizes are multiples neither of a line nor of a layer
   const bool merged = GENERATE(false, true);
   const MassSpringModel lattice = two_material_block(side);
   const MassSpringModel model =
@@ -86,7 +86,7 @@ TEST_CASE("Fast steps are those of the plain kernel on every kind of vectors") {
   const double near = precision == Precision::double_precision ? 1e-11 : 1e-6;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     INFO(hwy::TargetName(target));
-    hwy::DisableTargets(target - 1);  // better ones have lower bits
+    hwy::DisableTargets(target - 1);  // newer instruction sets have lower bits
     const std::string used = vector_target();
     const Outcome fast = after<FastLeapfrog>(model, scene, kFew, {.precision = precision}, 1000);
     hwy::DisableTargets(0);
@@ -120,7 +120,7 @@ TEST_CASE("Fast steps give the same bits on any number of threads", "[threaded]"
       merged ? lod::simplify(lattice, {.levels = 1}).levels[1].model : lattice;
   REQUIRE(model.node_count() > 24'000);  // worth three threads
   const Scenario scene = rough_scene(model);
-  constexpr std::uint64_t kFew = 70;  // beyond a change of the frame
+  constexpr std::uint64_t kFew = 70;  // includes a change of the frame
   const auto on = [&](std::uint32_t threads) {
     return after<FastLeapfrog>(model, scene, kFew, {.precision = precision, .threads = threads},
                                1000);
@@ -141,7 +141,7 @@ TEST_CASE("A lattice laid out as any shape moves as it does in rows, to rounding
   };
   const Outcome rows = in(Layout::fastest);
   const Outcome quads = in(Layout::any_shape);
-  CHECK(rows.state.x != quads.state.x);  // sums in another order: it is another kernel
+  CHECK(rows.state.x != quads.state.x);  // different order of summation: the kernels differ
   CHECK(largest_difference(rows.state.x, quads.state.x) <
         1e-11 * bounds(model.rest).sizes().norm());
 }
@@ -182,7 +182,7 @@ TEST_CASE("A fast run may change its step: same path, ledger closed") {
   }
   CHECK(changing.step_number() == 3 * 140);
   CHECK(changing.time() == Approx(steady.time()));
-  // Shorter steps are more accurate, so the path differs by that.
+  // Shorter steps are more accurate, so the paths differ by the time-step error.
   CHECK(largest_difference(steady.state().x, changing.state().x) <
         1e-3 * bounds(model.rest).sizes().norm());
   CHECK(changing.ledger_entry().lost_switch != 0);
@@ -200,7 +200,8 @@ TEST_CASE("Bodies past the middle of a thin box stay on their side of it when th
   Obstacle plate;
   plate.name = "plate";
   plate.friction = 0;
-  // Would stop a rigid body three thicknesses deep, m v^2 = kappa A d^2: well past the middle.
+  // The plate would stop a rigid body at a depth of three thicknesses, m v^2 = kappa A d^2: far
+  // beyond its middle.
   const double face = box.sizes().x() * box.sizes().y();
   plate.stiffness = mass_properties(model).mass / (face * std::pow(3 * 2 * half, 2));
   plate.shape = SolidBox{.center = box.center() - Vec3(0, 0, 0.5 * box.sizes().z() + 1.1 * half),

@@ -1,5 +1,5 @@
-// The thread team of the fast steps. What members share is plain memory: a missing order between
-// them shows in the thread sanitizer, or as another result.
+// The thread team of the fast steps. The members share non-atomic memory: the thread sanitizer, or
+// a different result, reveals missing synchronization.
 
 #include "sim/fast/step_team.hpp"
 
@@ -20,7 +20,8 @@ std::uint64_t mixed(std::uint64_t left, std::uint64_t own, std::uint64_t right) 
   return 6364136223846793005ULL * (own + 3 * left + 5 * right) + 1442695040888963407ULL;
 }
 
-/// A ring of parts, each made of itself and its two neighbours at every step; by one thread.
+/// A ring of parts on one thread. In every step, each part is computed from itself and its two
+/// neighbours.
 Values stepped(Values values, std::uint32_t steps) {
   const std::size_t n = values.size();
   for (std::uint32_t step = 0; step < steps; ++step) {
@@ -74,7 +75,7 @@ TEST_CASE("Steps that wait for their neighbours' milestones come to what one thr
   const std::uint32_t size = GENERATE(1U, 2U, 3U, 5U);
   constexpr std::uint32_t kParts = 7, kSteps = 300;
   const Values wanted = stepped(first_values(kParts), kSteps);
-  // Of the step before and of this one: a neighbour may be a step ahead, never two.
+  // Values of the previous and the present step: a neighbour may be one step ahead, never two.
   std::vector<Values> values{first_values(kParts), Values(kParts)};
   Milestones done(kParts);
   StepTeam(size).run([&](const StepTeam::Member& member) {

@@ -1,5 +1,5 @@
-// Schemes besides leapfrog: their order, what they conserve, and that those that solve the same
-// equations agree.
+// Schemes other than leapfrog: their order, their conserved quantities, and the agreement of
+// schemes that solve the same equations.
 #include <cmath>
 #include <numbers>
 
@@ -17,7 +17,7 @@ using namespace springlod::sim;
 
 namespace {
 
-const double kOmega = 20;  // of a unit mass reduced from two of 2 kg on 400 N/m [rad/s]
+const double kOmega = 20;  // of two masses of 2 kg (reduced mass 1 kg) on 400 N/m [rad/s]
 const double kPeriod = 2 * std::numbers::pi / kOmega;
 
 /// Two nodes of 2 kg on a spring of 400 N/m and damping time `beta`, stretched by 1 cm.
@@ -62,7 +62,7 @@ TEST_CASE("Every scheme follows a damped vibration at its order") {
   const double exact = exact_stretch(beta, duration);
   for (const Integrator integrator : kAll) {
     CAPTURE(static_cast<int>(integrator), beta);
-    const std::uint32_t enough = 100;  // iterations: the order of the step alone is asked for
+    const std::uint32_t enough = 100;  // iterations; converged, so that only the step size matters
     const auto error = [&](int steps) {
       return stretch_after(with(integrator, duration / steps, enough), beta, duration) - exact;
     };
@@ -96,7 +96,7 @@ TEST_CASE("Every scheme keeps momentum and, thrown free, the parabola within its
     CHECK((momentum / mass_properties(model).mass - speed).norm() < 1e-6);  // what solvers leave
     const Vec3 fall = 0.5 * t.simulated * t.simulated * scene.gravity;
     const Vec3 way = center_of_mass(model, t.final.x) - start;
-    // The schemes of first order fall with the speed at the end of the step.
+    // In free fall, the first-order schemes use the velocity at the end of the step.
     const double late = is_implicit(integrator) ? 0.5 * 9.81 * t.simulated * t.step : 0;
     CHECK((way - scene.start.velocity * t.simulated - fall).norm() == Approx(late).margin(1e-7));
   }
@@ -118,7 +118,8 @@ TEST_CASE("Backward Euler gives the same by conjugate gradients and by factoriza
 
 TEST_CASE("Swept to convergence, XPBD and projective dynamics are backward Euler") {
   MassSpringModel model = test::random_model(3, 3);
-  for (double& k : model.stiffness) k *= 1e4;  // k dt^2 / m of some 25: work for the iterations
+  for (double& k : model.stiffness)
+    k *= 1e4;  // k dt^2 / m of about 25, so that several iterations are needed
   Scenario scene = test::weightless(0.05);
   scene.start.spin = {3, 1, 2};
   RunOptions options = with(Integrator::backward_euler_direct, 0.005);
@@ -131,8 +132,8 @@ TEST_CASE("Swept to convergence, XPBD and projective dynamics are backward Euler
       return largest_distance(run(model, scene, with(integrator, 0.005, iterations)).final.x,
                               end.x);
     };
-    // XPBD pushes along the directions of each sweep, not along those at the end: its limit is near
-    // backward Euler's, not on it.
+    // XPBD corrects along the spring directions of each sweep instead of those at the end of the
+    // step. Its limit is therefore close to backward Euler, but not equal to it.
     const double limit = integrator == Integrator::xpbd ? 1e-2 : 1e-5;
     CHECK(off(1000) < limit * moved);
     CHECK(off(2) > 10 * off(1000));
@@ -154,7 +155,7 @@ TEST_CASE("Implicit schemes stay bounded at any step, and lose energy") {
     const LedgerEntry& last = t.ledger.back();
     CHECK(last.kinetic < first.kinetic);
     CHECK(last.kinetic > 0.1 * first.kinetic);
-    // One sweep of XPBD at so long a step leaves springs far from the length they should have.
+    // With such a long step, one sweep of XPBD leaves springs far from their target lengths.
     if (integrator != Integrator::xpbd) CHECK(last.kinetic + last.elastic < first.kinetic);
   }
 }
@@ -162,7 +163,8 @@ TEST_CASE("Implicit schemes stay bounded at any step, and lose energy") {
 TEST_CASE("Runge-Kutta is stable below its predicted step and diverges above it") {
   CHECK(runge_kutta_stable_step(10, 0) == Approx(2 * std::sqrt(2) / 10).epsilon(1e-6));
   CHECK(runge_kutta_stable_step(0, 0.1) == std::numeric_limits<double>::infinity());
-  // Overdamped: the fast root is -beta omega^2, and the real axis ends at 2.7853.
+  // Overdamped: the fast root is about -beta omega^2, and the stability interval on the real axis
+  // ends at 2.7853.
   CHECK(runge_kutta_stable_step(100, 1) == Approx(2.7853 / 1e4).epsilon(1e-3));
   const double beta = GENERATE(0.0, 0.002);
   MassSpringModel model = test::random_model(1, 3);
@@ -187,7 +189,7 @@ TEST_CASE("Runge-Kutta closes the ledger of the rods thrown at the wall", "[long
 
 TEST_CASE("A sliding block stops after 1.5 m under every scheme") {
   const auto model = test::block(6, 4, 2, 0.2, test::material("block", 1e7, 1000, 0.001),
-                                   voxelize::LatticeStyle::corners);
+                                 voxelize::LatticeStyle::corners);
   Scenario scene;
   scene.gravity = {0, 0, -10};
   scene.obstacles = {test::floor(2e7, 0.3)};

@@ -1,4 +1,4 @@
-// Motions with a known answer: free flight, conserved momenta, oscillators, bounces.
+// Motions with known solutions: free flight, conserved momenta, oscillators, bounces.
 #include <cmath>
 #include <numbers>
 
@@ -37,7 +37,7 @@ MassSpringModel pair_of_nodes(double damping_time, double area = 0) {
   return m;
 }
 
-/// Stretched by 1 % and let go: half of the amplitude at either end.
+/// Stretched by 1 % and released: each end moves with half of the amplitude.
 MassSpringModel stretched(MassSpringModel m, double by) {
   m.rest[1].x() += by;
   return m;
@@ -88,14 +88,15 @@ TEST_CASE("Momentum and angular momentum are kept to rounding without gravity an
   const auto model = test::rods();
   Scenario scene = test::weightless(1);
   scene.start.velocity = {3, 1, 4};
-  scene.start.spin = {10, 50, 20};  // hard enough to bend the joint far
+  scene.start.spin = {10, 50, 20};  // hard enough to bend the joint strongly
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::velocity_verlet);
   const State start = initial_state(model, scene.start);
   const auto t = run(model, scene, {.integrator = integrator});
   const Vec3 p = momentum(model, start);
   CHECK((momentum(model, t.final) - p).norm() < 1e-11 * p.norm());
-  // The start's half step back is a force too: it keeps L at x_0, so L = sum m x v+ from there on.
-  // At whole steps, v = (v- + v+)/2 adds x_n x dt F_n / 2, which is 0 for forces along springs.
+  // The initial half step backwards applies forces too: it conserves L at x_0, so L = sum m x v+
+  // afterwards. At whole steps, v = (v- + v+)/2 adds x_n x dt F_n / 2, which is 0 for forces along
+  // springs.
   const Vec3 l = angular_momentum(model, start);
   CHECK((angular_momentum(model, t.final) - l).norm() < 1e-10 * l.norm());
 }
@@ -107,7 +108,7 @@ TEST_CASE("Two nodes on a spring vibrate at the frequency of theory") {
   const auto model = stretched(pair_of_nodes(0), 0.01);
   const auto t = run(model, test::weightless(20 * period),
                      {.integrator = integrator, .step = step, .frame_rate = 1 / step});
-  // Leapfrog vibrates a little fast: omega' = (2/dt) asin(omega dt / 2), exactly.
+  // The frequency of leapfrog is slightly too high: omega' = (2/dt) asin(omega dt / 2), exactly.
   const double omega = 2 / step * std::asin(kOmega * step / 2);
   double worst = 0;
   double from_theory = 0;
@@ -142,8 +143,8 @@ TEST_CASE("A damped vibration decays at the rate of theory") {
   const double step = period / 400;
   const double euler = deviation(Integrator::symplectic_euler, step);
   const double verlet = deviation(Integrator::velocity_verlet, step);
-  // Damping seen half a step late speeds the vibration up by decay dt / 2; the phase error
-  // omega t decay dt / 2 times exp(-decay t) is largest at t = 1 / decay.
+  // Damping forces that are half a step late increase the frequency by the fraction decay dt / 2.
+  // The phase error omega t decay dt / 2 times exp(-decay t) is largest at t = 1 / decay.
   CHECK(euler == Approx(kOmega * step / (2 * std::numbers::e)).epsilon(0.1));
   CHECK(verlet < 0.0006);
   // First and second order in the step.
@@ -163,8 +164,8 @@ TEST_CASE("A spring that shrinks to a point stays finite") {
 }
 
 TEST_CASE("Forces are the gradient of the elastic energy") {
-  MassSpringModel model = test::block(2, 2, 2, 0.1, test::material("m", 1e6, 1000, 0),
-                                        voxelize::LatticeStyle::corners);
+  MassSpringModel model =
+      test::block(2, 2, 2, 0.1, test::material("m", 1e6, 1000, 0), voxelize::LatticeStyle::corners);
   std::vector<Vec3> x = model.rest;
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     x[i] += 0.02 * Vec3(std::sin(3.0 * i), std::cos(5.0 * i), std::sin(7.0 * i + 1));
@@ -185,8 +186,9 @@ TEST_CASE("Forces are the gradient of the elastic energy") {
 }
 
 TEST_CASE("The ledger of a coarsely stepped bounce closes to rounding, with and without losses") {
-  // Plane and weight are linear and the spring stays at rest length, so nothing is left to excuse a
-  // gap: not the start, not contacts that begin and end in mid-step, not friction or damping.
+  // The forces of plane and weight are linear, and the spring stays at its rest length. The ledger
+  // must therefore close exactly, including the start, contacts that begin and end within a step,
+  // friction and damping.
   const double friction = GENERATE(0.0, 0.4);
   const double damping = GENERATE(0.0, 0.01);
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::velocity_verlet);
@@ -208,7 +210,7 @@ TEST_CASE("The ledger of a coarsely stepped bounce closes to rounding, with and 
 }
 
 TEST_CASE("Without damping a bounce on the floor gives the speed back") {
-  // Both nodes hit at once, so the spring stays out of it: 1/2 m v^2 against 1/2 kappa A d^2.
+  // Both nodes hit at the same time, so the spring has no effect: 1/2 m v^2 = 1/2 kappa A d^2.
   auto model = pair_of_nodes(0, 0.01);
   Scenario scene = test::weightless(0.2);
   scene.obstacles = {test::floor(1e6, 0)};
@@ -216,7 +218,7 @@ TEST_CASE("Without damping a bounce on the floor gives the speed back") {
   scene.start.position = {0, 0, 0.1};
   scene.start.velocity = {0, 0, -2};
   const double omega = std::sqrt(1e6 * 0.01 / kMass);
-  const double step = 0.01 / omega;  // what is lost goes with the step squared
+  const double step = 0.01 / omega;  // the loss is proportional to the square of the step
   const auto t = run(model, scene, {.step = step});
   REQUIRE(t.first_contact.has_value());
   CHECK(*t.first_contact == Approx(0.05).margin(2 * step));
@@ -224,5 +226,6 @@ TEST_CASE("Without damping a bounce on the floor gives the speed back") {
   CHECK(closure_error(t.ledger) < 1e-4);
   double stored = 0;
   for (const auto& entry : t.ledger) stored = std::max(stored, entry.contact);
-  CHECK(stored > 0.5 * kMass * 4);  // most of 2 x 1/2 m v^2 was in the floor in one of the frames
+  CHECK(stored >
+        0.5 * kMass * 4);  // in one of the frames, most of 2 x 1/2 m v^2 was stored in the contact
 }

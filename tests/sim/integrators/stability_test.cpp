@@ -13,21 +13,21 @@ using namespace springlod::sim;
 
 namespace {
 
-// Enough for an instability of the slowest kind to show: at 1.001 of the limit speeds grow by a
-// factor 1.09 a step.
+// Enough steps to detect the slowest instability: at 1.001 of the limit, speeds grow by the factor
+// 1.09 per step.
 constexpr double kManySteps = 1e5;
 
 /// Level 0 or 1 of a small block of two materials.
 MassSpringModel small_body(bool merged, double damping) {
   auto model = test::block(4, 3, 3, 0.1, test::material("m", 1e6, 1000, damping),
-                             voxelize::LatticeStyle::centers);
+                           voxelize::LatticeStyle::centers);
   if (!merged) return model;
   lod::SimplifyOptions options;
   options.levels = 1;
   return lod::simplify(model, options).levels[1].model;
 }
 
-/// Turns at a rate that stretches springs by about 1e-9: linear, but far above rounding.
+/// Rotates at a rate that stretches springs by about 1e-9: linear, but far above rounding.
 Scenario stir(double duration) {
   Scenario scene;
   scene.gravity = Vec3::Zero();

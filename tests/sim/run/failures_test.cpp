@@ -1,4 +1,4 @@
-// Runs that must fail: each is detected and reported with its cause.
+// Runs that must fail: each failure is detected and reported with its cause.
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,7 @@ namespace {
 
 MassSpringModel cube(double damping = 0) {
   return test::block(3, 3, 3, 0.1, test::material("m", 1e5, 1000, damping),
-                       voxelize::LatticeStyle::corners);
+                     voxelize::LatticeStyle::corners);
 }
 
 /// A block thrown along x at a wall of the given thickness.
@@ -54,11 +54,12 @@ TEST_CASE("A fast body that jumps a thin wall in a step is stopped by name under
   for (const Integrator integrator : all_choices<Integrator>()) {
     CAPTURE(to_string(integrator));
     RunOptions options{.integrator = integrator, .step = 2e-4, .frame_rate = 0};
-    // The implicit schemes see the wall at the end of a step and push back; their steps are longer.
+    // The implicit schemes evaluate contact at the end of a step and push back; their steps are
+    // longer.
     if (is_implicit(integrator)) options.step = 5e-4;
     try {
       run(model, scene, options);
-      // Pushed back out on the side it came from is as good an end.
+      // A body that is pushed back out on the side it came from is also correct.
       CHECK(is_implicit(integrator));
     } catch (const TunnelError& e) {
       CHECK(e.node() < model.node_count());
@@ -73,7 +74,8 @@ TEST_CASE("A fast body that jumps a thin wall in a step is stopped by name under
 
 TEST_CASE("The step that the tunnelling message advises keeps the body out") {
   const MassSpringModel model = cube();
-  // Stiff enough to stop 40 m/s within half the wall: the surface is 1 kg on 0.0025 m2 a node.
+  // Stiff enough to stop 40 m/s within half the thickness of the wall: each surface node has 1 kg
+  // and 0.0025 m2.
   const Scenario scene = wall_scene(0.02, 20, 3e9);
   const TunnelError e = tunnelling(model, scene, {.step = 2e-3});
   const std::string message = e.what();
@@ -115,7 +117,7 @@ TEST_CASE("A path over the edge, a corner cut and a rest on top of a box are no 
   CHECK_NOTHROW(follow({{0, 0, 0.05}, {0, 0, 0.2}, {2, 0, 0.2}, {2, 0, -1}, {0, 0, -0.2}}));
   CHECK_THROWS_AS(follow({{0, 0, 0.11}, {0, 0, -0.11}}), TunnelError);
   CHECK_THROWS_AS(follow({{0, 0, 0.11}, {0, 0, 0.05}, {0, 0, -0.05}, {0, 0, -0.2}}), TunnelError);
-  // In from the start, nearest to the top.
+  // Inside the box from the start, nearest to the top.
   CHECK_THROWS_AS(follow({{0, 0, 0.05}, {0, 0, -0.2}}), TunnelError);
   CHECK_THROWS_AS(follow({{-3, 0.1, 0}, {3, 0.1, 0}}), TunnelError);
 }
@@ -166,7 +168,7 @@ TEST_CASE("Nodes that go past each other in a run are reported, under every sche
   const MassSpringModel model = cube();
   Scenario scene = test::weightless(0.05);
   State start = rest_state(model);
-  // Two neighbours shot at each other, through each other and far beyond.
+  // Two neighbours move towards each other, through each other and far beyond.
   start.v[0] = {25, 0, 0};
   start.v[1] = {-25, 0, 0};
   for (const Integrator integrator : all_choices<Integrator>()) {
@@ -178,7 +180,7 @@ TEST_CASE("Nodes that go past each other in a run are reported, under every sche
     CHECK(wild.first_crossing->time > 0);
     for (const Vec3& x : wild.final.x) CHECK(x.allFinite());
   }
-  scene.start.spin = {0, 0, 300};  // a quick turn is no crossing
+  scene.start.spin = {0, 0, 300};  // a fast rotation is not an inversion
   scene.duration = 0.02;
   CHECK_FALSE(run(cube(), scene, {.step = 1e-4}).first_crossing.has_value());
 }

@@ -18,7 +18,7 @@ namespace {
 
 MassSpringModel soft_block() {
   return test::block(5, 5, 5, 0.1, test::material("m", 1e5, 1000, 0),
-                       voxelize::LatticeStyle::corners);
+                     voxelize::LatticeStyle::corners);
 }
 
 std::vector<Vec3> scaled(const MassSpringModel& model, const Vec3& by) {
@@ -50,22 +50,22 @@ TEST_CASE("A node's frequency bound grows as springs are stretched or flattened"
   const auto bounds_at = [](const MassSpringModel& model, const std::vector<Vec3>& x) {
     return elastic::node_frequency_bounds(model, x, {});
   };
-  // Stretched or not, it is stiffest along itself: 2 k / m.
+  // Stretched or not, the spring is stiffest along its direction: 2 k / m.
   CHECK(bounds_at(pair, pair.rest)[0] == Approx(8));
   CHECK(bounds_at(pair, {Vec3::Zero(), 3 * Vec3::UnitX()})[1] == Approx(8));
   CHECK(elastic::node_frequency_bounds(pair, pair.rest, {2, 0})[0] == Approx(9));
 
   const MassSpringModel model = soft_block();
   const auto rest = bounds_at(model, model.rest);
-  // Light corners lead; their bound is not exact.
+  // The light corner nodes have the largest bound, which is not exact.
   const double most = std::sqrt(*std::max_element(rest.begin(), rest.end()));
   CHECK(most > (1 - 1e-12) * elastic::frequency_bound(model));
   CHECK(most < 1.1 * elastic::frequency_bound(model));
-  // Inside, springs to all sides sum up to the same whatever the direction. Stretched to twice the
-  // length, each counts 1 + 2 (1 - 1/2) times.
+  // At inner nodes, the sum over all springs is isotropic. At twice the length, each spring counts
+  // 1 + 2 (1 - 1/2) times.
   const std::size_t inside = inner_node(model);
   CHECK(bounds_at(model, scaled(model, {2, 2, 2}))[inside] == Approx(2 * rest[inside]));
-  // Pressed flat, what was aslant points along the plane.
+  // In a flattened body, the diagonal springs lie in the plane.
   CHECK(bounds_at(model, scaled(model, {1, 1, 0.05}))[inside] > 1.2 * rest[inside]);
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   std::vector<Vec3> turned = model.rest;
@@ -90,7 +90,7 @@ TEST_CASE("A body let go stretched to twice its size only holds with the step ad
   Scenario scene = test::weightless(2);
   const State start{scaled(model, {2, 2, 2}), std::vector<Vec3>(model.node_count(), Vec3::Zero()),
                     0};
-  // As it snaps back it turns inside out: only the step is checked here.
+  // The body inverts as it springs back; only the step is checked here.
   RunOptions options{.safety = 0.95};
   const Trajectory adapted = run(model, scene, start, options);
   CHECK(adapted.shortest_step < adapted.step);
@@ -101,7 +101,7 @@ TEST_CASE("A body let go stretched to twice its size only holds with the step ad
 
 TEST_CASE("A body at rest sleeps at no cost; one that falls, floats or has sleep = 0 does not") {
   const MassSpringModel model = test::block(3, 3, 3, 0.1, test::material("m", 1e6, 1000, 0.01),
-                                              voxelize::LatticeStyle::corners);
+                                            voxelize::LatticeStyle::corners);
   Scenario scene;
   scene.obstacles = {test::floor(1e6, 0.5)};
   scene.obstacles[0].damping = 0.01;

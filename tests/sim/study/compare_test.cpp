@@ -75,7 +75,7 @@ TEST_CASE("Every level starts from the same jittered throw") {
   options.starts = 4;
   options.jitter = 0.1;
   Scenario scene = small_scene();
-  scene.obstacles.clear();  // in free flight the distance depends on the throw alone
+  scene.obstacles.clear();  // in free flight, the distance depends only on the throw
   const auto result = compare(test::small_chain(), scene, options);
   for (std::size_t s = 0; s < 4; ++s)
     for (std::size_t l = 1; l < 3; ++l)
@@ -161,7 +161,7 @@ TEST_CASE(
   CHECK(list[1].shape == Approx(0).margin(1e-12));
   CHECK(list[2].time == 0.2);
   CHECK(list[2].surface == Approx(0.4 * std::sqrt(0.75)));
-  // 0.3 and 0.1 off the centre that they share
+  // 0.3 and 0.1 from their common centre
   CHECK(list[2].shape == Approx(std::sqrt((0.09 + 3 * 0.01) / 4)));
 }
 

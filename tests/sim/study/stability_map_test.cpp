@@ -24,7 +24,8 @@ LodChain chain_of(const MassSpringModel& base, std::uint32_t levels = 0) {
   return {.levels = {Level{base, identity_groups(base.node_count()), "base"}}};
 }
 
-/// A bar of 2 x 2 x 6 cells, its lower half rod, its upper half rubber a thousandth as stiff.
+/// A bar of 2 x 2 x 6 cells. The lower half is "rod"; the upper half is "rubber", a thousand times
+/// softer.
 MassSpringModel two_halves(voxelize::LatticeStyle style) {
   std::vector<std::pair<voxelize::CellIndex, std::uint16_t>> cells;
   for (int z = 0; z < 6; ++z)
@@ -39,7 +40,7 @@ MassSpringModel two_halves(voxelize::LatticeStyle style) {
 
 MassSpringModel one_material() {
   return test::block(2, 2, 4, 0.1, test::material("m", 1e5, 1000, 0.0005),
-                       voxelize::LatticeStyle::corners);
+                     voxelize::LatticeStyle::corners);
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -124,7 +125,7 @@ TEST_CASE("From ratio 1 to 1e5 explicit schemes hold below their limit and are c
     CAPTURE(body.ratio);
     CHECK(body.reference_error < 5e-3);
     CHECK_FALSE(body.limited_by_damping);
-    // By the root of the ratio, in the end.
+    // For large ratios, the limit falls with the square root of the ratio.
     if (body.ratio > 100) CHECK(limit / body.limit == Approx(std::sqrt(10)).epsilon(0.05));
     limit = body.limit;
   }
@@ -132,7 +133,7 @@ TEST_CASE("From ratio 1 to 1e5 explicit schemes hold below their limit and are c
     CAPTURE(to_string(point.integrator), map.bodies[point.body].ratio, point.step / point.limit);
     if (point.step < point.limit) {
       CHECK(point.stable);
-      // Runge-Kutta damps fast vibrations: here, where all is fast, more than it should.
+      // Runge-Kutta damps fast vibrations; here all modes are fast, so it damps too much.
       const bool damps = point.integrator == Integrator::runge_kutta_4 && point.energy_drift < 0;
       CHECK((point.verdict == Verdict::stable || (damps && point.verdict == Verdict::drifting)));
       CHECK(point.error < 0.08);
@@ -168,7 +169,8 @@ TEST_CASE(
       CHECK(point.error < 0.5);
       CHECK(point.unconverged_steps == 0);
     } else if (ratio >= 1000 && point.step > 0.04 * map.bodies[point.body].period) {
-      // A few sweeps cannot carry forces through stiff springs: never called sound.
+      // A few sweeps cannot transmit forces through stiff springs: no point has the verdict
+      // "stable".
       CHECK(
           (!point.finished || point.energy_drift < kRunaway || point.verdict == Verdict::runaway));
       CHECK(point.verdict != Verdict::stable);
@@ -215,8 +217,8 @@ TEST_CASE("A bar one cell thick is a mechanism on centers and sound on corners")
   CHECK(sound.points[0].verdict == Verdict::stable);
   CHECK(sound.bodies[0].mechanism_nodes.empty());
   // A plate of one layer of centers bends freely.
-  const auto plate = test::block(5, 4, 1, 0.1, test::material("m", 1e5, 1000, 0),
-                                   voxelize::LatticeStyle::centers);
+  const auto plate =
+      test::block(5, 4, 1, 0.1, test::material("m", 1e5, 1000, 0), voxelize::LatticeStyle::centers);
   CHECK(stability_map(chain_of(plate), options).points[0].verdict == Verdict::mechanism);
 }
 
@@ -242,7 +244,7 @@ TEST_CASE("A level used off the ratio that it was made for is named, with its fr
 
 TEST_CASE("A map shows damping as what bounds the step") {
   LodChain chain = chain_of(test::block(2, 2, 4, 0.1, test::material("m", 1e5, 1000, 0.05),
-                                          voxelize::LatticeStyle::corners));
+                                        voxelize::LatticeStyle::corners));
   StabilityOptions options;
   options.ratios = {1};
   options.integrators = {Integrator::symplectic_euler};
