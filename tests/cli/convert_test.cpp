@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "model/asset/asset.hpp"
-#include "tests/support/program.hpp"
 #include "tests/support/assets.hpp"
+#include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
 using nlohmann::json;

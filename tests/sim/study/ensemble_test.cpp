@@ -59,12 +59,10 @@ TEST_CASE("An ensemble is the same in parts and for any number of threads", "[th
 TEST_CASE("An ensemble refuses what it cannot run, and names the start that diverged") {
   EnsembleOptions options;
   options.starts = 0;
-  CHECK_THROWS_AS(run_ensemble(test::small_chain().levels[0].model, scene(), options),
-                  InputError);
+  CHECK_THROWS_AS(run_ensemble(test::small_chain().levels[0].model, scene(), options), InputError);
   options.starts = 2;
   options.jitter = 1;
-  CHECK_THROWS_AS(run_ensemble(test::small_chain().levels[0].model, scene(), options),
-                  InputError);
+  CHECK_THROWS_AS(run_ensemble(test::small_chain().levels[0].model, scene(), options), InputError);
   options.jitter = 0.02;
   options.run.step = 3 * predicted_step(test::small_chain().levels[0].model, scene());
   try {
@@ -89,6 +87,6 @@ TEST_CASE("Ensemble runs report when springs turned over, or that none did") {
     CHECK(*runs[i].first_crossing > 0.001);
     CHECK(runs[i].first_crossing == comparison.levels[0].starts[i].first_crossing);
   }
-  CHECK_FALSE(run_ensemble(test::small_chain().levels[0].model, scene(), {.starts = 1})[0]
-                  .first_crossing);
+  CHECK_FALSE(
+      run_ensemble(test::small_chain().levels[0].model, scene(), {.starts = 1})[0].first_crossing);
 }
