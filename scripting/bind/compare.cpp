@@ -165,16 +165,14 @@ void describe_comparison(Api& api) {
 }
 
 std::vector<Parameter> compare_parameters() {
-  std::vector<Parameter> parameters = parameters_of<sim::CompareOptions>();
-  use_session_defaults(parameters);
+  std::vector<Parameter> parameters = session_parameters<sim::CompareOptions>();
   parameters.push_back(contact_parameter());
   return parameters;
 }
 
 std::vector<Parameter> ensemble_parameters() {
   const sim::EnsembleOptions usual;
-  std::vector<Parameter> parameters = parameters_of(usual);
-  use_session_defaults(parameters);
+  std::vector<Parameter> parameters = session_parameters<sim::EnsembleOptions>();
   parameters.push_back(
       {.name = "first",
        .type = "integer",

@@ -148,8 +148,7 @@ void describe_chain(Api& api) {
 }
 
 std::vector<Parameter> simplify_options() {
-  std::vector<Parameter> parameters = parameters_of<lod::SimplifyOptions>();
-  use_session_defaults(parameters);
+  std::vector<Parameter> parameters = session_parameters<lod::SimplifyOptions>();
   extend_grouping_parameter(find_parameter(parameters, "grouping"));
   const std::vector<Parameter> functions = grouping_function_parameters();
   parameters.insert(parameters.end(), functions.begin(), functions.end());

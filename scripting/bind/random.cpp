@@ -107,20 +107,13 @@ int refill_binding(Call& call) {
   return call.give(std::shared_ptr<const LodAsset>(asset));
 }
 
-std::vector<Parameter> random_parameters() {
-  std::vector<Parameter> parameters = parameters_of<voxelize::RandomOptions>();
-  use_session_defaults(parameters);
-  return parameters;
-}
-
 std::vector<Parameter> refill_parameters() {
-  std::vector<Parameter> parameters{{.name = "nodes",
-                                     .type = "integer or list of integers",
-                                     .help = "number of nodes of level 1, 2, ...; a lattice has "
-                                             "the nearest number that it can have"}};
-  const std::vector<Parameter> more = parameters_of<voxelize::RefillOptions>();
-  parameters.insert(parameters.end(), more.begin(), more.end());
-  use_session_defaults(parameters);
+  std::vector<Parameter> parameters = session_parameters<voxelize::RefillOptions>();
+  parameters.insert(parameters.begin(),
+                    {.name = "nodes",
+                     .type = "integer or list of integers",
+                     .help = "number of nodes of level 1, 2, ...; a lattice has the nearest number "
+                             "that it can have"});
   return parameters;
 }
 
@@ -132,7 +125,7 @@ void describe_random(Api& api) {
       .group = "From mesh to model",
       .summary = "Builds a model of randomly placed nodes in a grid, any number of them.",
       .arguments = {{.name = "grid", .type = "Grid", .help = "filled cells"}},
-      .options = random_parameters(),
+      .options = session_parameters<voxelize::RandomOptions>(),
       .returns = "Model: with the mesh's surface bound to its nodes; what was measured of it is in "
                  "its provenance",
       .errors = "An empty grid, fewer than 15 nodes or 14 ends, more nodes than there is room for.",

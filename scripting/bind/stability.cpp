@@ -82,12 +82,6 @@ void describe_map(Api& api) {
   api.add(type.build());
 }
 
-std::vector<Parameter> parameters() {
-  std::vector<Parameter> parameters = parameters_of<sim::StabilityOptions>();
-  use_session_defaults(parameters);
-  return parameters;
-}
-
 }  // namespace
 
 void describe_stability(Api& api) {
@@ -98,7 +92,7 @@ void describe_stability(Api& api) {
       .summary = "Maps step and stiffness ratio for every level and integrator: verdict, time of "
                  "divergence, error against a fine run, and cost.",
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels to probe"}},
-      .options = parameters(),
+      .options = session_parameters<sim::StabilityOptions>(),
       .returns = "StabilityMap",
       .errors =
           "A level that does not exist, a number that is not above 0, a base without springs. "

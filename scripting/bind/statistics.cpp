@@ -1,6 +1,7 @@
 // Samples of numbers: statistics, distances between samples, and the noise floor.
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,8 @@ namespace springlod::scripting {
 namespace {
 
 constexpr const char* kGroup = "Statistics";
+/// The row of BootstrapOptions that statistics of one sample leave out.
+constexpr std::string_view kNeedsTwoSamples = "paired";
 
 using Lists = std::vector<std::vector<double>>;
 
@@ -85,7 +88,7 @@ int statistics_binding(Call& call) {
   resampling.seed = call.session().settings().seed;
   TableReader reader = call.options(2);
   reader.read("confidence", options.confidence);
-  read_options(call, reader, resampling, nullptr, "paired");
+  read_options(call, reader, resampling, nullptr, kNeedsTwoSamples);
   reader.finish();
   resampling.progress = call.progress();
   const report::Interval of_mean =
@@ -176,21 +179,13 @@ Parameter sample_parameter(const char* name, const char* help) {
                   "number a seed"};
 }
 
-template <class Options>
-std::vector<Parameter> session_parameters() {
-  std::vector<Parameter> parameters = parameters_of<Options>();
-  use_session_defaults(parameters);
-  return parameters;
-}
-
-/// The options of statistics of one sample: those of a comparison that do not need a second one.
-std::vector<Parameter> resampling_parameters() {
-  std::vector<Parameter> parameters = session_parameters<report::SampleComparisonOptions>();
-  std::erase_if(parameters, [](const Parameter& parameter) {
-    for (const char* needs_two : {"paired", "margin", "spread", "test"})
-      if (parameter.name == needs_two) return true;
-    return false;
-  });
+/// The options that statistics_binding reads.
+std::vector<Parameter> statistics_parameters() {
+  std::vector<Parameter> compared = parameters_of<report::SampleComparisonOptions>();
+  std::vector<Parameter> parameters = session_parameters<report::BootstrapOptions>();
+  std::erase_if(parameters,
+                [](const Parameter& parameter) { return parameter.name == kNeedsTwoSamples; });
+  parameters.insert(parameters.begin(), find_parameter(compared, "confidence"));
   return parameters;
 }
 
@@ -209,7 +204,7 @@ void describe_samples(Api& api) {
       .group = kGroup,
       .summary = "Mean, spread and quartiles of a sample, with intervals.",
       .arguments = {sample_parameter("sample", "one value a start")},
-      .options = resampling_parameters(),
+      .options = statistics_parameters(),
       .returns = "table: count, mean, mean_low, mean_high, deviation, deviation_low, "
                  "deviation_high, minimum, lower_quartile, median, upper_quartile, maximum",
       .errors = "Fewer than 5 starts; a value that is not finite.",

@@ -58,8 +58,7 @@ TEST_CASE("The exception of the lowest failed job reaches the caller, with its t
   CHECK_THROWS_WITH(run_jobs(50, threads, failing), "7");
 }
 
-TEST_CASE("Jobs after a failed one are not started, those under way are told to stop",
-          "[threaded]") {
+TEST_CASE("Jobs after a failed one are not started, those under way are cancelled", "[threaded]") {
   std::atomic<bool> second_runs{false};
   std::atomic<int> started{0};
   const auto body = [&](std::uint64_t job, const Stopped& stopped) {

@@ -56,10 +56,9 @@ void show_node_values(TableReader& reader, render::DrawStyle& style) {
 }
 
 void read_style(const Call& call, TableReader& reader, render::DrawStyle& style) {
-  reader.read("node_colour", style.node_colour);
+  read_options(call, reader, style);
   if (reader.has("node_colour") && style.node_colour != render::NodeColour::material)
     show_node_values(reader, style);
-  read_options(call, reader, style);
   if (reader.has("value_range")) style.values.range = read_range(reader, "value_range");
   if (reader.has("cut")) style.cut = read_cut(reader, "cut");
 }

@@ -188,4 +188,12 @@ Parameter& find_parameter(std::vector<Parameter>& parameters, std::string_view n
 /// Sets the defaults of `seed` and `threads` to those of the session: "s.seed".
 void use_session_defaults(std::vector<Parameter>& parameters);
 
+/// parameters_of with the session's defaults.
+template <HasOptions S>
+std::vector<Parameter> session_parameters() {
+  std::vector<Parameter> parameters = parameters_of<S>();
+  use_session_defaults(parameters);
+  return parameters;
+}
+
 }  // namespace springlod::scripting
