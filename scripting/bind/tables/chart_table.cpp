@@ -166,7 +166,7 @@ std::vector<Parameter> chart_parameters() {
   parameters.push_back({.name = "error",
                         .type = "one of",
                         .fallback = "\"surface\"",
-                        .help = "error of a comparison that is shown",
+                        .help = "error shown for a comparison",
                         .choices = words_of<ErrorKind>()});
   return parameters;
 }
@@ -179,7 +179,7 @@ void describe_series(Api& api) {
   std::vector<Parameter> fields = parameters_of<report::ChartSeries>();
   fields.push_back({.name = "points",
                     .type = "list of Point",
-                    .help = "{x, y} each; none: the series appears only in the legend"});
+                    .help = "points {x, y}; if empty, the series appears only in the legend"});
   api.add(RecordEntry{.name = "Series",
                       .summary = "A line of points of a chart.",
                       .fields = std::move(fields),
