@@ -97,7 +97,7 @@ struct Trajectory {
   std::vector<LedgerEntry> ledger;      ///< one per frame; empty if not requested
   std::optional<double> first_contact;  ///< [s]
   std::optional<double> asleep_since;   ///< [s]; from then on it was not advanced
-  /// The first inverted springs: from then on, the body is inside out at that place.
+  /// The first inverted spring: from then on, the deformation near it is not physical.
   std::optional<Crossing> first_crossing;
   State final;
 };

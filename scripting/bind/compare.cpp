@@ -42,11 +42,11 @@ void warn(Console& console, const std::vector<sim::RunSummary>& runs) {
                     "steps; use more iterations, a greater tolerance or a smaller step",
                     unconverged, runs.size()));
   if (crossed > 0)
-    console.say(fmt::format(
-        "compare: in {} of {} runs nodes went past each other, the first by t = {:.4g} s: "
-        "the body is inside out there; use a stiffer material, a slower impact or a "
-        "finer model",
-        crossed, runs.size(), first));
+    console.say(
+        fmt::format("compare: in {} of {} runs springs were inverted, the first by t = {:.4g} s "
+                    "(nodes crossed); "
+                    "use a stiffer material, a slower impact or a finer model",
+                    crossed, runs.size(), first));
 }
 
 int compare_binding(Call& call) {

@@ -1,5 +1,5 @@
-// Elasticity of mass-spring models: measured moduli, zero modes, modes and static loads, of free
-// and of anchored bodies.
+// Elasticity of mass-spring models: measured moduli, zero modes, modes and static loads of free and
+// anchored bodies.
 
 #include <string>
 #include <utility>

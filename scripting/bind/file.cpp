@@ -1,4 +1,4 @@
-// Files as a whole: written, and told apart by their content.
+// Whole files: writing text, and hashing content.
 
 #include "base/file.hpp"
 

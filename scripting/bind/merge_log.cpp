@@ -1,4 +1,4 @@
-// Which merges cost which error.
+// The merge log: contributions of merges to the errors of a level.
 
 #include "lod/quality/merge_log.hpp"
 

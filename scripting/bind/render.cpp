@@ -204,7 +204,7 @@ int render_binding(Call& call) {
   return 0;
 }
 
-/// Of a single panel, or of all.
+/// Options of a single panel or of all panels.
 std::vector<Parameter> panel_parameters() {
   std::vector<Parameter> parameters{
       {.name = "frame",

@@ -32,7 +32,7 @@ void warn(Console& console, const sim::Trajectory& run) {
                     run.unconverged_steps, run.steps));
   if (run.first_crossing)
     console.say(fmt::format(
-        "run: nodes {} and {} went past each other by t = {:.4g} s: the body is inside out there; "
+        "run: the spring of nodes {} and {} was inverted by t = {:.4g} s (its nodes crossed); "
         "use a stiffer material, a slower impact or a finer model",
         script_number(run.first_crossing->a), script_number(run.first_crossing->b),
         run.first_crossing->time));

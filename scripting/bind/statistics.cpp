@@ -62,12 +62,13 @@ report::StartSample sample_argument(Call& call, int argument, const std::string&
   bool by_seeds = false;
   Lists lists = lists_at(call, argument, name, by_seeds);
   if (!by_seeds) return {std::move(lists[0])};
-  if (lists[0].empty()) throw InputError(name + "[1] is empty; give every start one value a seed");
+  if (lists[0].empty())
+    throw InputError(name + "[1] is empty; give every start one value per seed");
   report::StartSample sample{{}, static_cast<std::uint32_t>(lists[0].size())};
   for (std::size_t i = 0; i < lists.size(); ++i) {
     if (lists[i].size() != lists[0].size())
       throw InputError(fmt::format(
-          "{0}[{1}] and {0}[1] differ in length, {2} and {3}; give every start one value a seed",
+          "{0}[{1}] and {0}[1] differ in length, {2} and {3}; give every start one value per seed",
           name, i + 1, lists[i].size(), lists[0].size()));
     sample.values.insert(sample.values.end(), lists[i].begin(), lists[i].end());
   }

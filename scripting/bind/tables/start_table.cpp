@@ -12,7 +12,7 @@ namespace springlod::scripting {
 
 namespace {
 
-// One {x, y, z} a node.
+// One {x, y, z} per node.
 void read_points(TableReader& state, const char* name, Dimension dimension,
                  std::vector<Vec3>& points) {
   const int list = state.raw(name);
