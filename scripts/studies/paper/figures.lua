@@ -188,7 +188,7 @@ local function rods_solid_and_wire(context)
   end
   return context:draw("figure-7",
     "Figure 7: two stiff rods joined by rubber, solid and as springs\n"
-    .. "Both solids are the same mesh: in a level, it is bound to fewer nodes", panels,
+    .. "Solid, both are the same mesh: a level carries it with fewer nodes", panels,
     {columns = 2, width = 600, height = 300, azimuth = -78, elevation = 20})
 end
 
@@ -209,7 +209,7 @@ local function throw_at_wall(context)
     end
   end
   return context:draw("figure-8", "Figure 8: scenario 2, two rods thrown at a wall\n"
-    .. "Drawn: the mesh, bound to the nodes of each model", panels,
+    .. "Drawn: the mesh, carried by the nodes of either model", panels,
     {columns = 2, width = 480, height = 330, camera = "fixed", azimuth = -115, surface = true,
       nodes = false, springs = false})
 end
