@@ -114,7 +114,7 @@ ElasticComponent make_component(const ModelComponent& whole, const std::vector<s
       kMostStored)
     throw InputError(
         fmt::format("elastic analysis: the component at node {} has {} zero modes, too many to "
-                    "store; zero_modes lists the loose nodes",
+                    "store; zero_modes lists the nodes of mechanisms",
                     script_number(component.nodes.front()), found.zero_modes));
   component.stiffness = stiffness_matrix(model);
   if (free.size() < model.node_count()) component.stiffness = block_of(component.stiffness, free);

@@ -19,11 +19,11 @@ struct ModeOptions {
   Progress* progress = nullptr;  ///< may be null
 };
 constexpr auto option_rows(const ModeOptions*) {
-  return std::tuple(option("count", &ModeOptions::count,
-                           "modes wanted; motions that no spring resists are not among them"),
-                    option("accuracy", &ModeOptions::accuracy,
-                           "bound of the relative error of each squared frequency"),
-                    option("seed", &ModeOptions::seed, "seed of the start vectors"));
+  return std::tuple(
+      option("count", &ModeOptions::count, "number of modes; zero modes are not counted"),
+      option("accuracy", &ModeOptions::accuracy,
+             "bound of the relative error of each squared frequency"),
+      option("seed", &ModeOptions::seed, "seed of the start vectors"));
 }
 
 /// A mode of vibration about rest. Anchored nodes do not move in it.

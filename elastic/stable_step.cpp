@@ -149,7 +149,7 @@ double eigenvalue_bound(const Mat3& symmetric) {
 double largest_frequency(const MassSpringModel& model, const FrequencyOptions& options) {
   const std::vector<double>& ground = options.ground_stiffness;
   if (!ground.empty() && ground.size() != model.node_count())
-    throw InputError(fmt::format("ground stiffness: {} values for {} nodes; give one a node",
+    throw InputError(fmt::format("ground stiffness: {} values for {} nodes; give one per node",
                                  ground.size(), model.node_count()));
   const MassWeightedStiffness op(model, ground);
   const double bound = squared_bound(model, ground);

@@ -73,13 +73,14 @@ struct GroupingOptions {
   PairCost pair_cost{};          ///< replaces the key by which neighbours are chosen
 };
 constexpr auto option_rows(const GroupingOptions*) {
-  return std::tuple(option("grouping", &GroupingOptions::grouping, "which nodes merge"),
-                    option("border", &GroupingOptions::border, "treatment of border nodes"),
-                    option("seed", &GroupingOptions::seed,
-                           "seed of the random order; the same seed gives the same bits"),
-                    option("grading", &GroupingOptions::grading,
-                           "for compact, 0 .. 1: how much larger groups in stiff materials are "
-                           "than in soft ones; larger values lengthen the stable step"));
+  return std::tuple(
+      option("grouping", &GroupingOptions::grouping, "rule that selects the nodes that merge"),
+      option("border", &GroupingOptions::border, "treatment of border nodes"),
+      option("seed", &GroupingOptions::seed,
+             "seed of the random order; the same seed gives the same bits"),
+      option("grading", &GroupingOptions::grading,
+             "grading of compact, 0 .. 1: with larger values, groups are larger in stiff materials "
+             "than in soft ones, and the stable step is longer"));
 }
 
 /// Distribution of mass to merged nodes (the paper, section 4.2 and figure 2).
@@ -91,8 +92,9 @@ enum class MassRule {
 };
 
 inline constexpr Choice<MassRule> kMassRules[] = {
-    {MassRule::proportional, "proportional", "a node has the masses of its group"},
-    {MassRule::proximity, "proximity", "each piece of the base goes to the nearest node"}};
+    {MassRule::proportional, "proportional", "a node has the mass of its group"},
+    {MassRule::proximity, "proximity",
+     "each eighth of a base node's mass goes to the nearest node of the level"}};
 constexpr ChoiceTable<Choice<MassRule>> choices(MassRule) {
   return {"mass", kMassRules};
 }
@@ -114,8 +116,9 @@ constexpr auto option_rows(const GuardOptions*) {
              "fusion distance of joined nodes, as a fraction of the mean spring length"),
       option("least_springs", &GuardOptions::least_springs,
              "number of springs below which a node is floppy"),
-      option("least_rigidity", &GuardOptions::least_rigidity,
-             "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T is below"));
+      option(
+          "least_rigidity", &GuardOptions::least_rigidity,
+          "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T is below this"));
 }
 
 /// Moments of mass that a calibration keeps (docs/method.md, eqs. 35 and 36).
@@ -127,8 +130,7 @@ enum class KeptMoments {
 inline constexpr Choice<KeptMoments> kKeptMoments[] = {
     {KeptMoments::body, "body", "those of the whole body"},
     {KeptMoments::pieces, "pieces",
-     "those of each of its pieces of one material too: more accurate in impacts, shorter stable "
-     "time step"}};
+     "also those of each material region: more accurate in impacts, shorter stable time step"}};
 constexpr ChoiceTable<Choice<KeptMoments>> choices(KeptMoments) {
   return {"moments", kKeptMoments};
 }
@@ -145,11 +147,12 @@ constexpr auto option_rows(const TargetRegion*) {
       nodes_option("nodes", &TargetRegion::nodes,
                    "nodes of the base: their numbers, or a function of a Node that returns true "
                    "for them; only border nodes that are not anchored count"),
-      option("weight", &TargetRegion::weight, "weight of each of its loads; a smooth load has 1")
+      option("weight", &TargetRegion::weight,
+             "weight of each load of the region; a smooth load has 1")
           .weight(),
       option("patches", &TargetRegion::patches,
-             "loads on patches within it: half of them pairs that are pulled apart, if there is "
-             "room, the others pushed against the body's inertia"));
+             "number of loads on patches within the region: half are pairs that are pulled apart, "
+             "if there is room; the others are pushes, which the body's inertia balances"));
 }
 
 /// Kinds of targets of a calibration.
@@ -188,11 +191,12 @@ constexpr auto option_rows(const TargetOptions*) {
   return std::tuple(
       option("targets", &TargetOptions::kinds, "quantities fitted to the base"),
       option("modes", &TargetOptions::modes, "number of lowest frequencies"),
-      option("patches", &TargetOptions::patches,
-             "pairs of patches of the surface that are pulled apart, besides the nine smooth loads")
-          .by_default("150, down to 60 for a base of more than 2000 nodes"),
+      option(
+          "patches", &TargetOptions::patches,
+          "number of pairs of surface patches that are pulled apart, besides the nine smooth loads")
+          .by_default("150; fewer, down to 60, for a base of more than 2000 nodes"),
       option("patch_weight", &TargetOptions::patch_weight,
-             "weight of each of them; a smooth load has 1")
+             "weight of each pair of patches; a smooth load has 1")
           .weight(),
       record_option("regions", &TargetOptions::regions, "Region",
                     "regions of the surface with load cases of their own", "none"),
@@ -227,13 +231,15 @@ constexpr auto option_rows(const FitOptions*) {
              "the tolerance, smooth loads and regions 8 times, patches 20 times")
           .by_default("0.002 sqrt(N0 / N)"),
       option("iterations", &FitOptions::iterations,
-             "steps at most; by itself fewer for levels of more than 500 nodes, down to 10")
+             "maximum number of steps; the default is smaller, down to 10, for levels of more than "
+             "500 nodes")
           .by_default("90"),
       option("least_frequency", &FitOptions::least_frequency,
-             "where the largest frequency, which bounds the step, need not fall any further, over "
-             "that of a lattice of as many nodes"),
+             "the fit ends when the highest frequency, which bounds the step, is at most this "
+             "fraction of that of a lattice with as many nodes"),
       option("moments", &FitOptions::moments,
-             "masses shift between nodes; which mass, centre and second moments stay"));
+             "moments of mass (mass, centre, second moments) that stay unchanged while masses "
+             "shift between nodes"));
 }
 
 /// Treatment of levels after merging.
@@ -249,11 +255,13 @@ struct CalibrateChoice : Choice<Calibrate> {
 };
 inline constexpr CalibrateChoice kCalibrate[] = {
     {{Calibrate::none, "none", "levels are only merged"}, ""},
-    {{Calibrate::moduli, "moduli", "levels get the moduli of eq. 2 of the paper"},
+    {{Calibrate::moduli, "moduli",
+      "springs are scaled so that each material has the base's Young's modulus by eq. 2 of the "
+      "paper"},
      ", moduli rescaled"},
     {{Calibrate::modes, "modes",
-      "levels get the base's frequencies and compliances, with as long a step as that allows, and "
-      "carry a certificate of it"},
+      "levels are fitted to the base's frequencies and compliances, with the longest stable step "
+      "that these allow, and get a certificate"},
      ", calibrated"}};
 constexpr ChoiceTable<CalibrateChoice> choices(Calibrate) {
   return {"calibrate", kCalibrate};
@@ -283,8 +291,8 @@ constexpr auto option_rows(const CalibrateOptions*) {
           "and ends with the same bits; results of another base, level or options are not used")
           .by_default("none"),
       option("keep_every", &CalibrateOptions::keep_every,
-             "time between two writes of a fit's state to the store, 0: after each step; a "
-             "calibration that is killed loses so much, one that is stopped with Ctrl-C nothing")
+             "time between two writes of a fit's state to the store; 0: after each step. A killed "
+             "calibration loses this much work at most, one stopped with Ctrl-C none")
           .in(Dimension::time));
 }
 
@@ -313,23 +321,23 @@ struct SimplifyOptions {
 constexpr auto option_rows(const SimplifyOptions*) {
   return std::tuple(
       option("levels", &SimplifyOptions::levels,
-             "levels besides the base, each merged from the one before"),
+             "number of levels besides the base; each is merged from the previous one"),
       option("keep", &SimplifyOptions::keep,
-             "nodes of each level over those of the base, falling, met exactly; as many levels as "
-             "there are numbers")
-          .by_default("as the grouping makes; straight from the base 0.45, 0.2, ..."),
+             "nodes of each level / nodes of the base, decreasing; the levels have exactly these "
+             "numbers of nodes, one level per number")
+          .by_default("set by the grouping; 0.45, 0.2, ... if straight"),
       nested(&SimplifyOptions::grouping),
       option("straight", &SimplifyOptions::straight,
-             "each level is merged straight from the base, whatever the one before merged")
-          .by_default("false; true of groupings that always are"),
+             "merge each level directly from the base instead of from the previous level")
+          .by_default("false; true for groupings that always do so"),
       option("mass", &SimplifyOptions::mass, "distribution of a group's mass"),
       option("guards", &SimplifyOptions::guards,
              "fuse nodes that would coincide or be floppy; false: the raw merge"),
       record_option("guard", &SimplifyOptions::guard, "Guard",
-                    "when a node counts as coincident or floppy", "the limits of Guard"),
+                    "limits at which nodes count as coincident or floppy", "those of Guard"),
       option("calibrate", &SimplifyOptions::calibrate, "calibration of the levels after merging"),
       record_option("calibration", &SimplifyOptions::calibration, "Calibration",
-                    "targets of calibrate = \"modes\"", "that of Calibration"));
+                    "targets of calibrate = \"modes\"", "those of Calibration"));
 }
 
 }  // namespace springlod::lod

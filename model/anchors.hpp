@@ -19,8 +19,8 @@ std::vector<std::uint8_t> anchor_flags(const MassSpringModel& model,
 template <class S>
 constexpr NodesOption<S> anchored_option(std::vector<std::uint32_t> S::*member) {
   return nodes_option("anchored", member,
-                      "nodes that are held where they are: their numbers, or a function of a Node "
-                      "that returns true for them",
+                      "nodes that are held in place: their numbers, or a function of a Node that "
+                      "returns true for them",
                       "none");
 }
 

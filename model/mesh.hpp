@@ -28,7 +28,7 @@ struct TriangleMesh {
 };
 
 Box3 bounds(const TriangleMesh& mesh);
-/// Volume enclosed by one part, by the divergence theorem [m3]; negative if the part is inside out.
+/// Volume enclosed by one part, by the divergence theorem [m3]; negative if it faces inwards.
 double signed_volume(const TriangleMesh& mesh, const MeshPart& part);
 double surface_area(const TriangleMesh& mesh);
 

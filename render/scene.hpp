@@ -20,7 +20,7 @@ namespace springlod::render {
 enum class SpringColour { material, strain };
 
 inline constexpr Choice<SpringColour> kSpringColours[] = {
-    {SpringColour::material, "material", "of its nodes"},
+    {SpringColour::material, "material", "material of its nodes"},
     {SpringColour::strain, "strain", "red where stretched, blue where compressed"}};
 constexpr ChoiceTable<Choice<SpringColour>> choices(SpringColour) {
   return {"spring_colour", kSpringColours};
@@ -31,10 +31,10 @@ constexpr ChoiceTable<Choice<SpringColour>> choices(SpringColour) {
 enum class NodeColour { material, young, density, mass };
 
 inline constexpr Choice<NodeColour> kNodeColours[] = {
-    {NodeColour::material, "material", "its colour"},
-    {NodeColour::young, "young", "Young's modulus, as s.estimate has it"},
-    {NodeColour::density, "density", "as s.estimate has it"},
-    {NodeColour::mass, "mass", "of the node"}};
+    {NodeColour::material, "material", "colour of the node's material"},
+    {NodeColour::young, "young", "Young's modulus of the node, as in s.estimate"},
+    {NodeColour::density, "density", "density of the node, as in s.estimate"},
+    {NodeColour::mass, "mass", "mass of the node"}};
 constexpr ChoiceTable<Choice<NodeColour>> choices(NodeColour) {
   return {"node_colour", kNodeColours};
 }
@@ -42,8 +42,8 @@ constexpr ChoiceTable<Choice<NodeColour>> choices(NodeColour) {
 enum class NodeSize { even, mass };
 
 inline constexpr Choice<NodeSize> kNodeSizes[] = {
-    {NodeSize::even, "even", "one radius"},
-    {NodeSize::mass, "mass", "volumes in proportion to the masses"}};
+    {NodeSize::even, "even", "equal radii"},
+    {NodeSize::mass, "mass", "volumes proportional to the masses"}};
 constexpr ChoiceTable<Choice<NodeSize>> choices(NodeSize) {
   return {"node_size", kNodeSizes};
 }
@@ -152,7 +152,7 @@ constexpr auto option_rows(const DrawStyle*) {
       option("surface_opacity", &DrawStyle::surface_opacity,
              "opacity of the surface; below 1 the springs inside are visible"),
       option("bold_inner_nodes", &DrawStyle::bold_inner_nodes,
-             "draw nodes off the border in bold red"));
+             "draw nodes that are not border nodes in bold red"));
 }
 
 /// Colour in which a material is drawn: its own, or a palette colour if it has the default grey, so

@@ -18,7 +18,7 @@ enum class CameraMode { fixed, follow };
 
 inline constexpr Choice<CameraMode> kCameraModes[] = {
     {CameraMode::fixed, "fixed",
-     "one view of all panels, so that one sees how far apart the bodies are"},
+     "the same view in all panels, which shows how far apart the bodies are"},
     {CameraMode::follow, "follow", "each panel keeps its body in the middle"}};
 constexpr ChoiceTable<Choice<CameraMode>> choices(CameraMode) {
   return {"camera", kCameraModes};
@@ -41,17 +41,18 @@ struct AnimateOptions {
 };
 constexpr auto option_rows(const AnimateOptions*) {
   using Options = AnimateOptions;
-  return std::tuple(option("width", &Options::width, "pixels of one panel"),
-                    option("height", &Options::height, "pixels of one panel"),
-                    option("frame_rate", &Options::frame_rate, "frames per second of the video"),
-                    option("slow", &Options::slow, "4: four times slower than life"),
-                    option("frames", &Options::frames, "pictures at most").by_default("all"),
-                    option("camera", &Options::camera, "whether the camera follows the body"),
-                    option("azimuth", &Options::azimuth,
-                           "where the camera stands, in degrees about the vertical from x"),
-                    option("elevation", &Options::elevation, "elevation of the camera, in degrees"),
-                    option("avoid_walls", &Options::avoid_walls,
-                           "mirror the azimuth where a wall would stand before the action"));
+  return std::tuple(
+      option("width", &Options::width, "width of a panel in pixels"),
+      option("height", &Options::height, "height of a panel in pixels"),
+      option("frame_rate", &Options::frame_rate, "frames per second of the video"),
+      option("slow", &Options::slow, "slow motion; 4: four times slower than real time"),
+      option("frames", &Options::frames, "maximum number of frames").by_default("all"),
+      option("camera", &Options::camera, "whether the camera follows the body"),
+      option("azimuth", &Options::azimuth,
+             "azimuth of the camera about the vertical, from x, in degrees"),
+      option("elevation", &Options::elevation, "elevation of the camera, in degrees"),
+      option("avoid_walls", &Options::avoid_walls,
+             "mirror the azimuth if a wall would hide the motion"));
 }
 
 struct Animation {

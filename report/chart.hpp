@@ -45,7 +45,7 @@ inline constexpr Choice<ChartSymbol> kChartSymbols[] = {
     {ChartSymbol::diamond, "diamond", ""},
     {ChartSymbol::triangle_down, "triangle_down", ""},
     {ChartSymbol::pentagon, "pentagon", ""},
-    {ChartSymbol::ring, "ring", "goes around other points"},
+    {ChartSymbol::ring, "ring", "larger ring that marks other points"},
     {ChartSymbol::none, "none", ""}};
 constexpr ChoiceTable<Choice<ChartSymbol>> choices(ChartSymbol) {
   return {"symbol", kChartSymbols};
@@ -74,7 +74,7 @@ struct ChartSeries {
 constexpr auto option_rows(const ChartSeries*) {
   return std::tuple(option("name", &ChartSeries::name, "name in the legend"),
                     option("joined", &ChartSeries::joined, "whether a line joins the points"),
-                    option("dashed", &ChartSeries::dashed, "whether that line is dashed"),
+                    option("dashed", &ChartSeries::dashed, "whether the line is dashed"),
                     option("colour", &ChartSeries::colour, "colour of points and line")
                         .by_default("a different one for each series"),
                     option("symbol", &ChartSeries::symbol, "symbol of the points")
@@ -102,7 +102,7 @@ constexpr auto option_rows(const ChartOptions*) {
           .by_default("true for a comparison, else false"),
       option("log_y", &ChartOptions::log_y, "whether the vertical axis is logarithmic"),
       option("y_from", &ChartOptions::y_from,
-             "lower end of a logarithmic axis; points not above it are drawn there, hollow"),
+             "lower end of a logarithmic y axis; lower points are drawn there, hollow"),
       option("width", &ChartOptions::width, "width in pixels"),
       option("height", &ChartOptions::height, "height in pixels"));
 }

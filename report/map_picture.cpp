@@ -322,8 +322,8 @@ class Picture {
     for (std::size_t i = 0; i < kTexts.size(); ++i)
       sheet_.write(kLeft + decade * static_cast<double>(i), top + kHigh + 13, kTexts[i], "center",
                    kFont * 0.8);
-    sheet_.write((kLeft + x) / 2, top + kHigh + 34, "error against a fine run of the same model",
-                 "center", kFont * 0.85, kSoftInk);
+    sheet_.write((kLeft + x) / 2, top + kHigh + 34, "error against a reference run", "center",
+                 kFont * 0.85, kSoftInk);
 
     const double text = 8;
     const double next_row = 26;
@@ -339,7 +339,7 @@ class Picture {
     sheet_.write(x + kBox + text, top + kHigh / 2, "predicted explicit limit", "left",
                  kFont * 0.85);
     sheet_.write(x, top + next_row + kHigh / 2,
-                 "~ energy off by 10 %   o off its design   ! not converged   x inside out", "left",
+                 "~ energy drift   o off design   ! not converged   x springs inverted", "left",
                  kFont * 0.85);
   }
 

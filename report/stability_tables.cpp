@@ -6,14 +6,12 @@ namespace springlod::report {
 std::string stability_columns_help() {
   return "level, nodes, springs, integrator, iterations (at most; 0: explicit), ratio (of Young's "
          "moduli, stiff over soft), step [s], limit (predicted for the integrator; of symplectic "
-         "Euler for implicit ones) [s], step_over_limit, stable (1: the run came to its end with "
-         "less "
-         "than twice its energy), verdict, diverged_at [s], node (that diverged or is loose; "
-         "from 1), "
-         "energy_drift (of the scheme, over the energy at the start), error (rms distance from "
-         "the reference run over its rms displacement), cost (spring updates per simulated "
-         "second), "
-         "unconverged_steps; values that do not apply are empty strings";
+         "Euler for implicit ones) [s], step_over_limit, stable (1: the run was completed with "
+         "less than twice its initial energy), verdict, diverged_at [s], node (that diverged or "
+         "moves in a mechanism; from 1), energy_drift (of the scheme, over the energy at the "
+         "start), error (rms distance from the reference run over its rms displacement), cost "
+         "(spring updates per simulated second), unconverged_steps; values that do not apply are "
+         "empty strings";
 }
 
 Table stability_table(const sim::StabilityMap& map) {
@@ -41,9 +39,8 @@ std::string stability_bodies_columns_help() {
   return "level, ratio, nodes, springs, limit (of symplectic Euler) [s], limited_by (springs or "
          "damping), period (of the base's slowest mode) [s], duration (of each run) [s], "
          "frequency_error (mean relative error of the six lowest frequencies against the base at "
-         "the same ratio), reference_error (error of the reference run itself), "
-         "loose_nodes "
-         "(how many)";
+         "the same ratio), reference_error (error of the reference run itself), loose_nodes "
+         "(number of nodes in mechanisms)";
 }
 
 Table stability_bodies_table(const sim::StabilityMap& map) {

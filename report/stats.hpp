@@ -69,8 +69,8 @@ enum class SeedDesign {
 };
 
 inline constexpr Choice<SeedDesign> kSeedDesigns[] = {
-    {SeedDesign::crossed, "crossed", "the same seeds in every start: one chain a seed"},
-    {SeedDesign::nested, "nested", "other seeds in every start"}};
+    {SeedDesign::crossed, "crossed", "the same seeds in every start: one chain per seed"},
+    {SeedDesign::nested, "nested", "different seeds in every start"}};
 constexpr ChoiceTable<Choice<SeedDesign>> choices(SeedDesign) {
   return {"seeds", kSeedDesigns};
 }
@@ -208,7 +208,7 @@ enum class MeanTest {
 
 inline constexpr Choice<MeanTest> kMeanTests[] = {
     {MeanTest::student, "student", "Student's t"},
-    {MeanTest::bootstrap, "bootstrap", "for values far from normal"}};
+    {MeanTest::bootstrap, "bootstrap", "BCa bootstrap, for values far from normal"}};
 constexpr ChoiceTable<Choice<MeanTest>> choices(MeanTest) {
   return {"test", kMeanTests};
 }
@@ -231,7 +231,7 @@ constexpr auto option_rows(const SampleComparisonOptions*) {
           .by_default("no test"),
       option("spread", &SampleComparisonOptions::spread,
              "standard deviation of the base, if known from a larger sample")
-          .by_default("that of the base, as an estimate"),
+          .by_default("estimated from the base"),
       option("test", &SampleComparisonOptions::test, "test of the means"));
 }
 
@@ -293,8 +293,9 @@ constexpr auto option_rows(const NoiseFloorOptions*) {
       option("quantile", &NoiseFloorOptions::part,
              "fraction of the distances that lie below the floor"),
       option("resamples", &NoiseFloorOptions::resamples,
-             "distances drawn; samples of exactly `size` values are measured pair by pair instead"),
-      option("seed", &NoiseFloorOptions::seed, "seed of the drawing"));
+             "number of distances drawn; for samples of exactly `size` values, the distances of "
+             "all pairs instead"),
+      option("seed", &NoiseFloorOptions::seed, "seed of the random draws"));
 }
 
 /// Distribution of distances between samples of the base.

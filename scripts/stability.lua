@@ -141,7 +141,7 @@ print(("\n%d points: %s"):format(#rows, table.concat(counts, ", ")))
 s.say("wrote " .. args.out)
 local first = rows[1]
 if (map.verdicts.mechanism or 0) == #rows then
-  command.fail("nothing could be run: level %d is a mechanism (node %d is loose). s.zero_modes "
-    .. "lists the loose nodes; guards, the corners lattice or smaller cells prevent them",
+  command.fail("nothing could be run: level %d has a mechanism at node %d. s.zero_modes lists the "
+    .. "nodes of mechanisms; guards, the corners lattice or smaller cells prevent them",
     first.level, first.node)
 end

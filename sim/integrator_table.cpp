@@ -53,7 +53,7 @@ constexpr IntegratorChoice kIntegrators[] = {
      make<Leapfrog>,
      {.stable_step = verlet_stable_step, .heading = {"velocity", "Verlet"}}},
     {{Integrator::runge_kutta_4, "runge_kutta_4",
-      "explicit, classical; four force evaluations a step"},
+      "explicit, classical; four force evaluations per step"},
      make<RungeKutta>,
      {.stable_step = runge_kutta_stable_step, .heading = {"Runge-Kutta", "4"}}},
     {{Integrator::backward_euler_cg, "backward_euler_cg",

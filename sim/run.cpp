@@ -34,8 +34,8 @@ void validate(const RunOptions& options) {
   if (!(options.sleep >= 0 && options.sleep < 1))
     throw InputError(fmt::format("run: sleep = {} must lie in [0, 1); 0: never", options.sleep));
   if (!(std::isfinite(options.frame_rate) && options.frame_rate >= 0))
-    throw InputError(
-        fmt::format("run: frame_rate = {} must be 0 or more frames a second", options.frame_rate));
+    throw InputError(fmt::format("run: frame_rate = {} must be 0 or more frames per second",
+                                 options.frame_rate));
 }
 
 double default_step(const RunOptions& options, double predicted, double duration) {
@@ -100,7 +100,7 @@ double measured_distance(const Scenario& scenario, const Vec3& first_center,
       std::find_if(scenario.obstacles.begin(), scenario.obstacles.end(),
                    [&](const Obstacle& o) { return o.name == scenario.measure_from; });
   if (obstacle == scenario.obstacles.end())
-    throw InputError(fmt::format("scenario: measure_from = \"{}\" is the name of no obstacle",
+    throw InputError(fmt::format("scenario: measure_from = \"{}\" is not the name of an obstacle",
                                  scenario.measure_from));
   return surface_distance(*obstacle, final_center).distance;
 }

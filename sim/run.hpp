@@ -56,14 +56,15 @@ constexpr auto option_rows(const RunOptions*) {
       option("precision", &RunOptions::precision, "floating-point precision of symplectic_euler"),
       option("layout", &RunOptions::layout, "memory layout of the springs for symplectic_euler"),
       option("sleep", &RunOptions::sleep,
-             "a body that touches something sleeps, at no cost, once its mean speed stays below "
-             "this part of that of a fall through its own size; 0: never"),
+             "a body in contact sleeps, at no cost, once the mean speed of its nodes stays below "
+             "this fraction of the speed after a fall through its own size; 0: never"),
       option("frame_rate", &RunOptions::frame_rate,
              "frames stored per simulated second; 0: only the first and the last"),
       option("ledger", &RunOptions::ledger, "record the energy ledger"));
 }
 
-inline constexpr const char* kThreadsHelp = "0: all cores; never changes a result";
+inline constexpr const char* kThreadsHelp =
+    "number of threads; 0: all cores; never changes a result";
 
 /// Two nodes of a spring that moved past each other: the spring inverted between two checks of the
 /// body, relative to the rotation of the whole body.
@@ -96,7 +97,7 @@ struct Trajectory {
   std::vector<LedgerEntry> ledger;      ///< one per frame; empty if not requested
   std::optional<double> first_contact;  ///< [s]
   std::optional<double> asleep_since;   ///< [s]; from then on it was not advanced
-  /// The first inverted springs: from then on, the body is inside out at that place.
+  /// The first inverted spring: from then on, the deformation near it is not physical.
   std::optional<Crossing> first_crossing;
   State final;
 };

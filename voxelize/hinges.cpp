@@ -93,7 +93,7 @@ struct AddedCell {
   std::uint16_t material = 0;
 };
 
-// One cell for each hinge; hinges next to a cell chosen before are skipped.
+// One cell for each hinge; hinges next to a cell that was already chosen are skipped.
 std::vector<AddedCell> choose_cells(const MaterialGrid& grid, const CornerNodes& nodes,
                                     const std::vector<Site>& sites) {
   const IndexLookup lookup(grid.cells);

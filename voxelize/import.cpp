@@ -236,7 +236,7 @@ class MeshBuilder {
     const aiMesh& mesh = *placed.mesh;
     std::vector<std::uint32_t> welded(mesh.mNumVertices);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) welded[v] = vertex(placed, v);
-    // A reflection turns faces inside out.
+    // A reflection reverses the orientation of faces.
     const bool mirrored = placed.to_world.linear().determinant() < 0;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];

@@ -40,9 +40,9 @@ enum class HingePolicy {
 };
 
 inline constexpr Choice<HingePolicy> kHingePolicies[] = {
-    {HingePolicy::report, "report", "leave them and report them"},
+    {HingePolicy::report, "report", "keep and report them"},
     {HingePolicy::fill, "fill", "fill a neighbouring cell"},
-    {HingePolicy::separate, "separate", "double the shared nodes, so that the cells come apart"}};
+    {HingePolicy::separate, "separate", "duplicate the shared nodes, which disconnects the cells"}};
 constexpr ChoiceTable<Choice<HingePolicy>> choices(HingePolicy) {
   return {"hinges", kHingePolicies};
 }
@@ -58,7 +58,7 @@ struct LatticeOptions {
 };
 constexpr auto option_rows(const LatticeOptions*) {
   return std::tuple(
-      option("style", &LatticeOptions::style, "where the nodes sit"),
+      option("style", &LatticeOptions::style, "position of the nodes"),
       option("hinges", &LatticeOptions::hinges,
              "treatment of places where cells touch only along an edge or at a corner"));
 }

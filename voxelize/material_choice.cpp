@@ -41,7 +41,7 @@ std::uint16_t MaterialChoice::of_part(const MeshPart& part) {
   for (const std::string& key : {part.name, part.material}) {
     const auto at = by_key_.find(key);
     if (at == by_key_.end()) continue;
-    asked_.insert(key);
+    used_keys_.insert(key);
     return number_of(at->second);
   }
   return number_of(fallback_);
@@ -55,7 +55,7 @@ std::uint16_t MaterialChoice::of_name(const std::string& name) {
   std::string known;
   for (const auto& [key, material] : by_key_) {
     if (key == name || material.name == name) {
-      asked_.insert(key);
+      used_keys_.insert(key);
       return number_of(material);
     }
     known += fmt::format("\"{}\", ", key);
@@ -71,7 +71,7 @@ std::uint16_t MaterialChoice::of_name(const std::string& name) {
 std::vector<std::string> MaterialChoice::unused() const {
   std::vector<std::string> keys;
   for (const auto& [key, material] : by_key_)
-    if (!asked_.contains(key)) keys.push_back(key);
+    if (!used_keys_.contains(key)) keys.push_back(key);
   return keys;
 }
 

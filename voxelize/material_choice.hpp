@@ -36,7 +36,7 @@ class MaterialChoice {
   Material fallback_;
   std::optional<Material> core_;
   std::vector<Material> list_;
-  std::set<std::string> asked_;
+  std::set<std::string> used_keys_;
 };
 
 }  // namespace springlod::voxelize

@@ -133,7 +133,7 @@ class Search {
     const std::vector<std::uint32_t> order = inward_order();
     for (int round = 0; round < kMostRounds; ++round) {
       std::size_t changed = 0;
-      for (const std::uint32_t n : order) changed += ask_neighbours(n) ? 1 : 0;
+      for (const std::uint32_t n : order) changed += update_from_neighbours(n) ? 1 : 0;
       if (changed == 0) return;
     }
   }
@@ -180,7 +180,7 @@ class Search {
     found_[n] = {q.cast<float>(), label};
   }
 
-  bool ask_neighbours(std::uint32_t n) {
+  bool update_from_neighbours(std::uint32_t n) {
     const Eigen::Vector3f p = center(n);
     bool changed = false;
     for (std::size_t i = 0; i < 26; ++i) {

@@ -27,7 +27,7 @@ constexpr double kMostNodes = 1e8;
 std::uint32_t node_count(const MaterialGrid& grid, const RandomOptions& options) {
   if (!(options.ends >= kLeastRandomEnds) || !(options.ends < 1000))
     throw InputError(
-        fmt::format("random: ends = {} must be {} or more, so that no node is loose (18 is usual)",
+        fmt::format("random: ends = {} must be {} or more, so that no node is floppy (18 is usual)",
                     options.ends, kLeastRandomEnds));
   double nodes = options.nodes.value_or(0);
   if (!options.nodes) {

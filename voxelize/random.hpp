@@ -27,21 +27,21 @@ struct RandomOptions {
   Progress* progress = nullptr;
 };
 inline constexpr const char* kEndsHelp =
-    "ends of springs a node on average, at least 14; every node of a random model has 14";
+    "mean number of spring ends per node, at least 14; every node has at least 14";
 inline constexpr const char* kPlacesHelp =
     "seed of the random positions; the same seed gives the same bits";
 constexpr auto option_rows(const RandomOptions*) {
   return std::tuple(
       option("nodes", &RandomOptions::nodes, "number of nodes, at least 15")
-          .by_default("as spacing tells"),
-      option("spacing", &RandomOptions::spacing, "edge of the cube that a node stands for")
+          .by_default("from spacing"),
+      option("spacing", &RandomOptions::spacing, "edge of the cube that a node represents")
           .in(Dimension::length)
           .by_default("the grid's cell"),
       option("ends", &RandomOptions::ends, kEndsHelp),
       option("seed", &RandomOptions::seed, kPlacesHelp),
       option("rescale", &RandomOptions::rescale,
-             "one factor for all springs from a solved stretch test, so that the model shows its "
-             "E; false: k by eq. 2 of the paper alone"));
+             "scale all springs by one factor from a stretch test, so that the model has its "
+             "material's Young's modulus; false: stiffnesses by eq. 2 of the paper"));
 }
 
 /// A random model and the measured moduli of its network, taken with one material for all springs:

@@ -18,7 +18,7 @@ enum class RefillStyle { lattice, random };
 
 inline constexpr Choice<RefillStyle> kRefillStyles[] = {
     {RefillStyle::lattice, "lattice", "nodes of a lattice of larger cells"},
-    {RefillStyle::random, "random", "nodes at random places, joined as s.random joins them"}};
+    {RefillStyle::random, "random", "nodes at random positions, connected as in s.random"}};
 constexpr ChoiceTable<Choice<RefillStyle>> choices(RefillStyle) {
   return {"refill", kRefillStyles};
 }
@@ -36,7 +36,7 @@ struct RefillOptions {
 constexpr auto option_rows(const RefillOptions*) {
   return std::tuple(option("style", &RefillOptions::style, "structure of the levels"),
                     option("lattice", &RefillOptions::lattice,
-                           "where the nodes of a lattice sit, as in s.lattice"),
+                           "position of the nodes of a lattice, as in s.lattice"),
                     option("ends", &RefillOptions::ends, kEndsHelp),
                     option("seed", &RefillOptions::seed, kPlacesHelp));
 }

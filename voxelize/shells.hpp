@@ -13,7 +13,7 @@ struct Shells {
   std::vector<Triangle> outer;   ///< of the shells that enclose material
   std::vector<Triangle> cavity;  ///< of the shells that enclose a cavity
   double volume = 0;             ///< outer shells minus cavities [m3] >= 0
-  bool turned = false;           ///< an outer shell was inside out
+  bool turned = false;           ///< an outer shell faced inwards
 };
 
 /// The shells of each solid. A shell that faces inwards while the solid as a whole faces outwards

@@ -165,7 +165,7 @@ class Voxelizer {
   void fill_solid(std::size_t s, const Shells& shells, Field field) {
     const SolidReport& solid = solids_[s];
     if (shells.turned)
-      warn(fmt::format("part \"{}\" was inside out; its triangles were reversed", solid.part));
+      warn(fmt::format("part \"{}\" faced inwards; its triangles were reversed", solid.part));
     if (solid.nonmanifold_edges > 0)
       warn(
           fmt::format("part \"{}\" has {} non-manifold or inconsistently oriented edges; check the "

@@ -21,7 +21,7 @@ constexpr double kSolved = 1e-12;
 
 void check(const ElasticBody& body, const StaticLoad& load) {
   if (load.force.size() != body.node_count)
-    throw InputError(fmt::format("static load {}: {} forces for {} nodes; give one a node",
+    throw InputError(fmt::format("static load {}: {} forces for {} nodes; give one per node",
                                  load.name, load.force.size(), body.node_count));
   for (std::size_t i = 0; i < load.force.size(); ++i)
     if (!load.force[i].allFinite())
@@ -41,11 +41,11 @@ void check_held(const ElasticComponent& component, const StaticLoad& load,
   const Eigen::VectorXd motion = (component.zero_modes * free).cwiseQuotient(component.root_mass);
   Eigen::Index farthest = 0;
   motion.reshaped(3, motion.size() / 3).colwise().norm().maxCoeff(&farthest);
-  throw InputError(fmt::format(
-      "static load {}: it acts on a motion that neither springs nor anchors resist; node {} moves "
-      "most; anchor more nodes: three that do not lie in a line hold a solid component, and "
-      "zero_modes lists the loose nodes",
-      load.name, script_number(component.nodes[static_cast<std::size_t>(farthest)])));
+  throw InputError(
+      fmt::format("static load {}: it acts on a motion that neither springs nor anchors resist; "
+                  "node {} moves most; anchor more nodes: three that do not lie in a line hold a "
+                  "solid component, and zero_modes lists the nodes of mechanisms",
+                  load.name, script_number(component.nodes[static_cast<std::size_t>(farthest)])));
 }
 
 /// Solves D y = force by conjugate gradients, preconditioned with the shifted factor. `direction`:

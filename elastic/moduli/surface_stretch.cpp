@@ -75,8 +75,9 @@ SurfaceStretchResult surface_stretch(const MassSpringModel& model,
                                  surface.size(), model.rest.size()));
   const Components components = connected_components(model);
   const BalancedSolver::Matrix stiffness = stiffness_matrix(model);
-  const BalancedSolver solver(stiffness, {.name = "surface stretch",
-                                          .advice = "zero_modes tells whether the model is solid"});
+  const BalancedSolver solver(
+      stiffness,
+      {.name = "surface stretch", .advice = "zero_modes lists the mechanisms of the model"});
   const double volume = mass_properties(model).volume;
   double stretch = 0;      // sum of longitudinal strain / stress: 3 / E
   double contraction = 0;  // 6 nu / E

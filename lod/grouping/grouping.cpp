@@ -21,14 +21,14 @@ constexpr GroupingChoice kGroupings[] = {
     {{Grouping::standard, "standard", "nearest neighbours first, nodes in random order"},
      standard_groups},
     {{Grouping::priority_soft, "priority",
-      "short springs between nodes of like material first: key L (1 + 4 g L), g the relative "
-      "change "
-      "of E and density per length"},
+      "short springs between nodes of similar material first: key L (1 + 4 g L), where g is the "
+      "relative change of E and density per length"},
      priority_groups},
-    {{Grouping::priority_hard, "priority_hard", "g alone first, length second"},
+    {{Grouping::priority_hard, "priority_hard",
+      "like priority, but sorted by g first and by length second"},
      hard_priority_groups},
     {{Grouping::compact, "compact",
-      "round groups of about one size within one material, straight from the base"},
+      "round groups of about equal size within one material, straight from the base"},
      compact_groups,
      {.from_base = true}},
     {{Grouping::metis, "metis", "graph partitions that cut few springs, straight from the base"},

@@ -23,18 +23,18 @@ struct CertifyOptions {
 };
 constexpr auto option_rows(const CertifyOptions*) {
   return std::tuple(
-      option("modes", &CertifyOptions::modes, "lowest frequencies to compare"),
+      option("modes", &CertifyOptions::modes, "number of lowest frequencies to compare"),
       option("held_out_loads", &CertifyOptions::held_out_loads,
-             "pinches, and as many pushes, on patches of the surface; calibration is fitted to "
-             "neither"),
-      option("seed", &CertifyOptions::seed, "seed of their positions"),
+             "number of pinches, and of pushes, on patches of the surface; calibration is fitted "
+             "to neither"),
+      option("seed", &CertifyOptions::seed, "seed of the positions of the held-out loads"),
       nodes_option("within", &CertifyOptions::within,
                    "nodes of the base whose surface the held-out loads act on, such as a region "
                    "given to calibration",
                    "anywhere"),
       option("tolerance", &CertifyOptions::tolerance,
-             "mean error of the ten lowest frequencies that a level may have; levels outside "
-             "tolerance are reported")
+             "tolerance of the mean error of the ten lowest frequencies; levels outside tolerance "
+             "are reported")
           .by_default("0.002 sqrt(N0 / N)"),
       anchored_option(&CertifyOptions::anchored));
 }

@@ -68,12 +68,12 @@ struct MergeLogOptions {
 constexpr auto option_rows(const MergeLogOptions*) {
   using Options = MergeLogOptions;
   return std::tuple(
-      option("modes", &Options::modes, "lowest modes of each level; 0: none"),
+      option("modes", &Options::modes, "number of lowest modes of each level; 0: none"),
       option("local_loads", &Options::local_loads,
-             "pinches, and as many pushes, on patches of the surface; 0: none"),
-      option("seed", &Options::seed, "seed of their positions, as in certify"),
+             "number of pinches, and of pushes, on patches of the surface; 0: none"),
+      option("seed", &Options::seed, "seed of the positions of the local loads, as in certify"),
       option("from_base", &Options::from_base,
-             "each step counts from the base, also where a level was merged from the one before"),
+             "compare each level with the base, even if it was merged from the previous level"),
       anchored_option(&Options::anchored));
 }
 

@@ -49,12 +49,12 @@ void describe_certify(Api& api) {
   api.add(FunctionEntry{
       .name = "certify",
       .group = "Levels of detail",
-      .summary = "Measures every level beside the base: moduli, frequencies, loads, masses, step "
-                 "and cost. s.info returns the certificates and s.save stores them.",
+      .summary = "Compares every level with the base: moduli, frequencies, loads, masses, step and "
+                 "cost. s.info returns the certificates and s.save stores them.",
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels and their base"}},
       .options = parameters_of<lod::CertifyOptions>(),
       .returns = "LodChain with a certificate for each level",
-      .errors = "Hundreds of loose nodes in a large part; anchors that do not resist a load.",
+      .errors = "Hundreds of mechanisms in a large component; anchors that do not resist a load.",
       .example = "local chain = s.certify(s.simplify(base))\n"
                  "print(s.info(chain).levels[2].certificate.f1_10_error)",
       .call = certify_binding});

@@ -37,16 +37,16 @@ void warn(Console& console, const std::vector<sim::RunSummary>& runs) {
     first = std::min(first, *run.first_crossing);
   }
   if (unconverged > 0)
-    console.say(fmt::format(
-        "compare: in {} of {} runs the solver stopped short of its tolerance in some steps; "
-        "use more iterations, a greater tolerance or a smaller step",
-        unconverged, runs.size()));
+    console.say(
+        fmt::format("compare: in {} of {} runs the solver did not reach its tolerance in some "
+                    "steps; use more iterations, a greater tolerance or a smaller step",
+                    unconverged, runs.size()));
   if (crossed > 0)
-    console.say(fmt::format(
-        "compare: in {} of {} runs nodes went past each other, the first by t = {:.4g} s: "
-        "the body is inside out there; use a stiffer material, a slower impact or a "
-        "finer model",
-        crossed, runs.size(), first));
+    console.say(
+        fmt::format("compare: in {} of {} runs springs were inverted, the first by t = {:.4g} s "
+                    "(nodes crossed); "
+                    "use a stiffer material, a slower impact or a finer model",
+                    crossed, runs.size(), first));
 }
 
 int compare_binding(Call& call) {
@@ -177,7 +177,7 @@ std::vector<Parameter> ensemble_parameters() {
       {.name = "first",
        .type = "integer",
        .fallback = fmt::format("{}", usual.first_start + 1),
-       .help = "number of the first start: others than those of another ensemble"});
+       .help = "number of the first start, to add other starts to an earlier ensemble"});
   parameters.push_back(contact_parameter());
   return parameters;
 }
@@ -205,10 +205,10 @@ void describe_compare(Api& api) {
       .arguments = {{.name = "model", .type = "Model", .help = "a model or a level of a chain"},
                     scenario_parameter()},
       .options = ensemble_parameters(),
-      .returns = "list of tables, one a start: start (its number), distance [m], simulated [s], "
+      .returns = "list of tables, one per start: start (its number), distance [m], simulated [s], "
                  "spring_updates, ledger_error, unconverged_steps, first_crossing (time of the "
-                 "first crossing [s], or nil). Starts of one seed and number are the same for "
-                 "every level: pairs",
+                 "first crossing [s], or nil). Starts of equal seed and number are the same for "
+                 "every level, so samples are paired",
       .errors = "As for run.",
       .example = "local distances = {}\n"
                  "for i, run in ipairs(s.ensemble(chain[1], scene, {starts = 24})) do\n"

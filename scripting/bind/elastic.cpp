@@ -1,5 +1,5 @@
-// Elasticity of mass-spring models: measured moduli, zero modes, modes and static loads, of free
-// and of anchored bodies.
+// Elasticity of mass-spring models: measured moduli, zero modes, modes and static loads of free and
+// anchored bodies.
 
 #include <string>
 #include <utility>
@@ -137,12 +137,12 @@ void describe_measurements(Api& api, const Parameter& model) {
   api.add(FunctionEntry{
       .name = "stretch",
       .group = kGroup,
-      .summary = "Stretch test: the Young's modulus and Poisson's ratio that a bar shows.",
+      .summary = "Measures Young's modulus and Poisson's ratio of a bar by a stretch test.",
       .arguments = {model},
       .options = {{.name = "axis",
                    .type = "one of",
                    .fallback = "\"z\"",
-                   .help = "along which the end planes are pulled apart",
+                   .help = "axis along which the end planes are pulled apart",
                    .choices = words_of(kAxes)},
                   {.name = "cross_section",
                    .type = "number",
@@ -184,9 +184,9 @@ void describe_modes(Api& api, const Parameter& model) {
       .returns = "list of tables, lowest first: frequency [Hz], residual (bound of the relative "
                  "error of its square), shape (for each node {x, y, z}; sum of mass times square "
                  "= 1; zero where anchored)",
-      .errors = "count 0, an accuracy outside 1e-12..0.1, hundreds of loose nodes in a large part, "
-                "an anchored node that the model does not have. Zero modes that anchors leave are "
-                "reported and omitted.",
+      .errors = "count 0, an accuracy outside 1e-12..0.1, hundreds of mechanisms in a large "
+                "component, an anchored node that the model does not have. Zero modes that anchors "
+                "leave are reported and omitted.",
       .example = "for _, mode in ipairs(s.modes(base, {count = 5})) do print(mode.frequency) end\n"
                  "local clamped = s.modes(base, {anchored = function(node) return node.x < 0.001 "
                  "end})",
@@ -195,8 +195,9 @@ void describe_modes(Api& api, const Parameter& model) {
 
 void describe_statics(Api& api, const Parameter& model) {
   const std::string solution =
-      "compliance [J] (forces times displacements), residual (what iterating on would change), "
-      "displacement (for each node {x, y, z} [m]; without rigid motion if nothing is anchored)";
+      "compliance [J] (forces times displacements), residual (last change by the iteration / "
+      "displacement), displacement (for each node {x, y, z} [m]; without rigid motion if nothing "
+      "is anchored)";
   api.add(FunctionEntry{
       .name = "static_loads",
       .group = kGroup,
@@ -205,7 +206,7 @@ void describe_statics(Api& api, const Parameter& model) {
       .arguments = {model},
       .options = {anchored_parameter()},
       .returns = "list of tables: name, force (for each node {x, y, z} [N]), " + solution,
-      .errors = "Hundreds of loose nodes in a large part; anchors that do not resist a load.",
+      .errors = "Hundreds of mechanisms in a large component; anchors that do not resist a load.",
       .example = "for _, load in ipairs(s.static_loads(base)) do print(load.name, "
                  "load.compliance) end",
       .call = static_loads_binding});
@@ -220,8 +221,8 @@ void describe_statics(Api& api, const Parameter& model) {
                            "function of a Node that returns {x, y, z} or nothing"},
                   anchored_parameter()},
       .returns = "table: " + solution,
-      .errors = "No force given; anchors that leave free what the forces move. Without anchors, "
-                "inertia relief balances the net force and torque.",
+      .errors = "No force given; forces along motions that the anchors leave free. Without "
+                "anchors, inertia relief balances the net force and torque.",
       .example = "local bent = s.deflect(base, {\n"
                  "  anchored = function(node) return node.x < 0.001 end,\n"
                  "  force = {[base.node_count] = {0, 0, -1}}})\n"

@@ -1,4 +1,4 @@
-// Files as a whole: written, and told apart by their content.
+// Whole files: writing text, and hashing content.
 
 #include "base/file.hpp"
 
@@ -36,11 +36,12 @@ void describe_files(Api& api) {
   api.add(FunctionEntry{
       .name = "save_text",
       .group = kGroup,
-      .summary = "Writes text as a file; an older file stays whole until the new one is.",
+      .summary =
+          "Writes text to a file. An existing file is replaced only when the new one is complete.",
       .arguments = {{.name = "path",
                      .type = "string",
-                     .help = "file to write; missing folders are made"},
-                    {.name = "text", .type = "string", .help = "all of the content"}},
+                     .help = "file to write; missing folders are created"},
+                    {.name = "text", .type = "string", .help = "content of the file"}},
       .returns = "nothing",
       .errors = "The file cannot be written.",
       .example = "s.save_text(\"out/info.json\", s.json(s.info(chain)))",

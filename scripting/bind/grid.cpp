@@ -197,29 +197,30 @@ void describe_grid(Api& api) {
   api.add(FunctionEntry{
       .name = "grid",
       .group = kGroup,
-      .summary = "Fills a grid cell by cell, without a mesh: bodies by formula.",
-      .options = {{.name = "cell",
-                   .type = "quantity",
-                   .dimension = Dimension::length,
-                   .help = "edge of a cell"},
-                  {.name = "size", .type = "{nx, ny, nz}", .help = "cells along each axis"},
-                  {.name = "origin",
-                   .type = "{x, y, z} in m",
-                   .dimension = Dimension::length,
-                   .fallback = "{0, 0, 0}",
-                   .help = "lowest corner of the first cell"},
-                  {.name = "materials", .type = "table part = Material", .help = "by name"},
-                  {.name = "fill",
-                   .type = "function(x, y, z) -> name",
-                   .help =
-                       "called for each cell with its centre [m]; returns the name of one of the "
-                       "materials, or nothing for an empty cell"},
-                  {.name = "surface",
-                   .type = "Mesh",
-                   .fallback = "none",
-                   .help = "drawn in place of the cells, and moved by the nodes near to it"}},
+      .summary =
+          "Makes a grid without a mesh, from a function that returns the material of each cell.",
+      .options =
+          {{.name = "cell",
+            .type = "quantity",
+            .dimension = Dimension::length,
+            .help = "edge of a cell"},
+           {.name = "size", .type = "{nx, ny, nz}", .help = "cells along each axis"},
+           {.name = "origin",
+            .type = "{x, y, z} in m",
+            .dimension = Dimension::length,
+            .fallback = "{0, 0, 0}",
+            .help = "lowest corner of the first cell"},
+           {.name = "materials", .type = "table part = Material", .help = "materials by name"},
+           {.name = "fill",
+            .type = "function(x, y, z) -> name",
+            .help = "called for each cell with its centre [m]; returns the name of one of the "
+                    "materials, or nothing for an empty cell"},
+           {.name = "surface",
+            .type = "Mesh",
+            .fallback = "none",
+            .help = "surface drawn instead of the cells; it follows the nodes near it"}},
       .returns = "Grid",
-      .errors = "No cell filled; a name that materials does not hold.",
+      .errors = "No cell is filled; a name is not in materials.",
       .example = "local bar = s.grid{cell = \"10 cm\", size = {4, 4, 20},\n"
                  "  materials = {stiff = {young = \"1 MPa\"}, soft = {young = \"0.1 MPa\"}},\n"
                  "  fill = function(x, y, z) return z < 1 and \"stiff\" or \"soft\" end}",
@@ -234,14 +235,15 @@ void describe_grid(Api& api) {
       .errors = "The file cannot be written.",
       .example = "s.save_vdb(\"out/dumbbell.vdb\", grid)",
       .call = save_vdb_binding});
-  api.add(FunctionEntry{.name = "load_vdb",
-                        .group = kGroup,
-                        .summary = "Reads a grid that save_vdb wrote.",
-                        .arguments = {{.name = "path", .type = "string", .help = "file to read"}},
-                        .returns = "Grid: without a mesh",
-                        .errors = "No such file, not a .vdb file, or none of springlod's.",
-                        .example = "local grid = s.load_vdb(\"out/dumbbell.vdb\")",
-                        .call = load_vdb_binding});
+  api.add(
+      FunctionEntry{.name = "load_vdb",
+                    .group = kGroup,
+                    .summary = "Reads a grid that save_vdb wrote.",
+                    .arguments = {{.name = "path", .type = "string", .help = "file to read"}},
+                    .returns = "Grid: without a mesh",
+                    .errors = "No such file, not a .vdb file, or one that save_vdb did not write.",
+                    .example = "local grid = s.load_vdb(\"out/dumbbell.vdb\")",
+                    .call = load_vdb_binding});
 }
 
 }  // namespace springlod::scripting

@@ -102,7 +102,8 @@ void describe_chain(Api& api) {
                     });
   type.field("coarsest", "integer", "number of the coarsest level",
              [](const LodAsset& asset) { return asset.chain.levels.size() - 1; });
-  type.table_field("provenance", "table of strings", "where it came from",
+  type.table_field("provenance", "table of strings",
+                   "origin: version, script, parameters, seed and hashes",
                    [](lua_State* L, const LodAsset& asset) {
                      begin_table(L);
                      for (const auto& [key, entry] : asset.provenance.entries)
@@ -130,7 +131,7 @@ void describe_chain(Api& api) {
                               .type = "list of integers or function",
                               .help = "nodes of the base: their numbers, or a function of a Node "
                                       "that returns true for them"}},
-               .returns = "list of integers, rising",
+               .returns = "list of integers, ascending",
                .errors = "A node that the base does not have.",
                .example =
                    "local held = chain:carried(1, function(node) return node.x < 0.001 end)\n"
@@ -170,8 +171,8 @@ void describe_lod(Api& api) {
       .arguments = {{.name = "model", .type = "Model", .help = "the base: level 0"}},
       .options = simplify_options(),
       .returns = "LodChain",
-      .errors = "A level that cannot get any coarser; groups by hand that overlap or do not hang "
-                "together.",
+      .errors =
+          "A level that cannot become coarser; given groups that overlap or are not connected.",
       .example = "local chain = s.simplify(base, {levels = 2, grouping = \"priority\", border = "
                  "\"weak\", seed = 1})\n"
                  "local soft_first = s.simplify(base, {grouping = function(a, b)\n"

@@ -1,4 +1,4 @@
-// Which merges cost which error.
+// The merge log: contributions of merges to the errors of a level.
 
 #include "lod/quality/merge_log.hpp"
 
@@ -84,16 +84,15 @@ int merge_log_binding(Call& call) {
 void describe_records(Api& api) {
   api.add(RecordEntry{
       .name = "MergeStep",
-      .summary = "Changes caused by the making of one level: an entry of merge_log. Errors and "
-                 "changes are "
-                 "natural logarithms of level over base: 0.01 is 1 %.",
+      .summary = "Changes caused by the merges of one level: an entry of merge_log. Errors and "
+                 "changes are natural logarithms of level over base: 0.01 is 1 %.",
       .fields =
-          {result_field("from", "integer", "the level that was merged; 0 if not the one before"),
+          {result_field("from", "integer", "level that was merged: the previous one or 0"),
            result_field("level", "integer", "the resulting level"),
            result_field(
                "frequency_error", "number",
-               "mean |error| of the level's lowest frequencies, each against what the base "
-               "makes of the same motion; above f1_10_error where the base has no such motion"),
+               "mean |error| of the level's lowest frequencies, each relative to the base's "
+               "response to the same mode; above f1_10_error where the base has no such mode"),
            result_field("smooth_load_error", "number", "mean |error| of the smooth loads"),
            result_field("local_load_error", "number", "mean |error| of pinches and pushes"),
            result_field(
@@ -101,23 +100,25 @@ void describe_records(Api& api) {
                "quantities compared: name, kind (mode, smooth, local), change (in this step; of ln "
                "frequency, for loads of ln compliance), error (since the base)"),
            result_field("merges", "list of MergeEntry",
-                        "the nodes of the level, the costliest first")},
+                        "nodes of the level, those with the largest contribution first")},
       .example = "s.merge_log(chain)[1].merges[1].position"});
   api.add(RecordEntry{
       .name = "MergeEntry",
       .summary = "Contribution of one merge to the errors of a MergeStep.",
       .fields = {result_field("node", "integer", "node of the level that results from it"),
                  result_field("pieces", "integer",
-                              "nodes that became it; 1: it was not merged in this step"),
-                 result_field("base_nodes", "integer", "nodes of the base in it"),
-                 result_field("position", "{x, y, z}", "[m]"),
-                 result_field("material", "string", "that of most of its volume"),
-                 result_field("border", "boolean", "whether it lies on the surface"),
+                              "number of nodes merged into it; 1: not merged in this step"),
+                 result_field("base_nodes", "integer", "number of base nodes in its group"),
+                 result_field("position", "{x, y, z}", "position of the node [m]"),
+                 result_field("material", "string", "material of most of its volume"),
+                 result_field("border", "boolean", "whether the node lies on the surface"),
                  result_field("frequencies", "number",
                               "contribution to the mean |error| of the frequencies; below 0: the "
-                              "merge compensates others"),
-                 result_field("smooth_loads", "number", "likewise, of the smooth loads"),
-                 result_field("local_loads", "number", "likewise, of pinches and pushes"),
+                              "merge reduced the error"),
+                 result_field("smooth_loads", "number",
+                              "contribution to the mean |error| of the smooth loads"),
+                 result_field("local_loads", "number",
+                              "contribution to the mean |error| of pinches and pushes"),
                  result_field("change", "list of numbers",
                               "contribution to the change of each quantity in this step; the "
                               "contributions of all merges sum to the change")},
@@ -135,9 +136,9 @@ void describe_merge_log(Api& api) {
                  "and of static loads relative to the base, as sums over the nodes.",
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels and their base"}},
       .options = parameters_of<lod::MergeLogOptions>(),
-      .returns = "list of MergeStep, one a level but the base",
-      .errors = "A chain that is a base alone; a level without springs; hundreds of loose nodes in "
-                "a large part.",
+      .returns = "list of MergeStep, one per level except the base",
+      .errors = "A chain without coarser levels; a level without springs; hundreds of mechanisms "
+                "in a large component.",
       .example = "local step = s.merge_log(chain)[1]\n"
                  "for i = 1, 5 do\n"
                  "  local merge = step.merges[i]\n"

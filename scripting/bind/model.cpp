@@ -181,7 +181,9 @@ FunctionEntry element_method(const char* name, const char* what, const char* rec
                              int (*binding)(Call&)) {
   return {.name = name,
           .summary = fmt::format("One {}, as a table.", what),
-          .arguments = {{.name = "number", .type = "integer", .help = "counted from 1"}},
+          .arguments = {{.name = "number",
+                         .type = "integer",
+                         .help = fmt::format("number of the {}, from 1", what)}},
           .returns = fmt::format("{}: with its number", record),
           .call = binding};
 }
@@ -202,11 +204,11 @@ void describe_model_type(Api& api) {
              [](const ModelValue& value) { return value.model->node_count(); });
   type.field("spring_count", "integer", "number of springs, each counted once",
              [](const ModelValue& value) { return value.model->spring_count(); });
-  type.field("end_count", "integer", "ends of springs: the S of the paper",
+  type.field("end_count", "integer", "number of spring ends: S of the paper",
              [](const ModelValue& value) { return value.model->end_count(); });
   type.field("border_count", "integer", "number of border nodes",
              [](const ModelValue& value) { return border_count(*value.model); });
-  type.field("part_count", "integer", "number of connected parts",
+  type.field("part_count", "integer", "number of connected components",
              [](const ModelValue& value) { return connected_components(*value.model).count; });
   type.field("mass", "number", "total mass [kg]",
              [](const ModelValue& value) { return mass_properties(*value.model).mass; });
@@ -214,7 +216,7 @@ void describe_model_type(Api& api) {
              [](const ModelValue& value) { return mass_properties(*value.model).volume; });
   type.field("center", "{x, y, z}", "centre of mass [m]",
              [](const ModelValue& value) { return mass_properties(*value.model).center; });
-  type.field("inertia", "3 x 3 table", "about the centre of mass [kg m2]",
+  type.field("inertia", "3 x 3 table", "inertia tensor about the centre of mass [kg m2]",
              [](const ModelValue& value) { return mass_properties(*value.model).inertia; });
   type.table_field("bounds", "table",
                    "box around the nodes: low and high, each {x, y, z}, and its diagonal [m]",
@@ -224,12 +226,12 @@ void describe_model_type(Api& api) {
   type.table_field(
       "materials", "list of Material", "materials of the nodes",
       [](lua_State* L, const ModelValue& value) { push_materials(L, value.model->materials); });
-  type.field("level", "integer", "level in its chain; 0 for a model of its own",
+  type.field("level", "integer", "level in its chain; 0 for a model without a chain",
              [](const ModelValue& value) { return value.level; });
   type.field("made_by", "string", "method by which it was made",
              [](const ModelValue& value) { return value.made_by; });
   type.table_field(
-      "provenance", "table of strings", "where it came from",
+      "provenance", "table of strings", "origin: version, script, parameters, seed and hashes",
       [](lua_State* L, const ModelValue& value) { push_provenance(L, value.provenance); });
   type.method(element_method("node", "node", "Node", node_method));
   type.method(element_method("spring", "spring", "Spring", spring_method));
@@ -242,7 +244,7 @@ void describe_material(Api& api) {
   const Material usual;
   api.add(RecordEntry{
       .name = "Material",
-      .summary = "An elastic material; springs alone give it Poisson's ratio 1/4.",
+      .summary = "An elastic material. Its Poisson's ratio is that of spring networks, about 1/4.",
       .fields =
           {{.name = "name", .type = "string", .fallback = "its key", .help = "name in reports"},
            {.name = "young",
@@ -278,7 +280,8 @@ void describe_estimates(Api& api) {
       .arguments = {model},
       .returns = "table: nodes, mass [kg], volume [m3], density [kg/m3], young, shear, bulk [Pa]; "
                  "materials, a list of the same with name; node_young and node_density, lists",
-      .errors = "None for a valid model. An upper bound: s.stretch measures.",
+      .errors = "None for a valid model. The moduli are upper bounds; s.stretch measures the "
+                "actual ones.",
       .example = "print(s.estimate(base).materials[1].young)",
       .call = estimate_binding});
   api.add(FunctionEntry{.name = "stable_step",
@@ -302,14 +305,15 @@ void describe_assets(Api& api) {
       .errors = "The file cannot be written.",
       .example = "s.save(\"out/dumbbell.glb\", chain)",
       .call = save_binding});
-  api.add(FunctionEntry{.name = "load",
-                        .group = kFiles,
-                        .summary = "Reads an asset back, bit for bit.",
-                        .arguments = {{.name = "path", .type = "string", .help = "a .glb of save"}},
-                        .returns = "LodChain",
-                        .errors = "No such file, no springlod asset, a damaged or newer one.",
-                        .example = "local chain = s.load(\"out/dumbbell.glb\")",
-                        .call = load_binding});
+  api.add(FunctionEntry{
+      .name = "load",
+      .group = kFiles,
+      .summary = "Reads an asset back, bit for bit.",
+      .arguments = {{.name = "path", .type = "string", .help = "NAME.glb that save wrote"}},
+      .returns = "LodChain",
+      .errors = "No such file, not a springlod asset, a damaged asset, or one of a newer version.",
+      .example = "local chain = s.load(\"out/dumbbell.glb\")",
+      .call = load_binding});
   api.add(FunctionEntry{
       .name = "info",
       .group = kFiles,
@@ -318,7 +322,7 @@ void describe_assets(Api& api) {
       .returns =
           "table: levels (a list of level, nodes, springs, ends, border_nodes, mass, "
           "center_of_mass, inertia, stable_dt, made_by, materials, certificate), provenance, "
-          "surface_triangles; a level that was measured beside the base has a Certificate",
+          "surface_triangles; a level that was compared with the base has a Certificate",
       .errors = "None for a valid chain.",
       .example = "print(s.json(s.info(chain)))",
       .call = info_binding});
@@ -342,7 +346,7 @@ void describe_model(Api& api) {
                                 {.name = "materials",
                                  .type = "list of Material",
                                  .fallback = "one, named default",
-                                 .help = "materials that the nodes name"}},
+                                 .help = "materials that the nodes refer to by name"}},
                     .returns = "Model",
                     .errors = "A node or spring that is not valid; the message names it.",
                     .example = "local chain = s.model{\n"

@@ -112,8 +112,8 @@ std::vector<Parameter> refill_parameters() {
   parameters.insert(parameters.begin(),
                     {.name = "nodes",
                      .type = "integer or list of integers",
-                     .help = "number of nodes of level 1, 2, ...; a lattice has the nearest number "
-                             "that it can have"});
+                     .help = "number of nodes of level 1, 2, ...; a lattice has the nearest "
+                             "possible number"});
   return parameters;
 }
 
@@ -123,11 +123,11 @@ void describe_random(Api& api) {
   api.add(FunctionEntry{
       .name = "random",
       .group = "From mesh to model",
-      .summary = "Builds a model of randomly placed nodes in a grid, any number of them.",
+      .summary = "Builds a model of any number of randomly placed nodes in a grid.",
       .arguments = {{.name = "grid", .type = "Grid", .help = "filled cells"}},
       .options = session_parameters<voxelize::RandomOptions>(),
-      .returns = "Model: with the mesh's surface bound to its nodes; what was measured of it is in "
-                 "its provenance",
+      .returns = "Model: with the mesh's surface bound to its nodes; its provenance has the "
+                 "measured moduli",
       .errors = "An empty grid, fewer than 15 nodes or 14 ends, more nodes than there is room for.",
       .example = "local base = s.random(grid, {nodes = 1000, seed = 1})",
       .call = random_binding});
@@ -137,9 +137,12 @@ void describe_refill(Api& api) {
   api.add(FunctionEntry{
       .name = "refill",
       .group = "Levels of detail",
-      .summary = "Global rescaling: a chain whose coarser levels are made anew in the same volume.",
+      .summary =
+          "Global rescaling: makes a chain whose coarser levels are new models of the same volume.",
       .arguments = {{.name = "model", .type = "Model", .help = "the base: level 0"},
-                    {.name = "grid", .type = "Grid", .help = "the volume it was made on"}},
+                    {.name = "grid",
+                     .type = "Grid",
+                     .help = "the grid from which the base was made"}},
       .options = refill_parameters(),
       .returns = "LodChain: each base node belongs to the nearest node of a level",
       .errors = "A level that would be no coarser than the one before.",

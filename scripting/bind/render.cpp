@@ -37,7 +37,7 @@ std::vector<double> numbers_of(TableReader& reader, const char* name) {
   lua_State* L = reader.lua();
   const int table = reader.raw(name);
   if (table == 0) return {};
-  if (!lua_istable(L, table)) reader.refuse(name, "a list of numbers, one a node");
+  if (!lua_istable(L, table)) reader.refuse(name, "a list of numbers, one per node");
   std::vector<double> numbers;
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, table)); ++i) {
     lua_rawgeti(L, table, i);
@@ -46,7 +46,7 @@ std::vector<double> numbers_of(TableReader& reader, const char* name) {
     lua_pop(L, 1);
   }
   lua_pop(L, 1);
-  if (numbers.empty()) reader.refuse(name, "a list of numbers, one a node; it is empty");
+  if (numbers.empty()) reader.refuse(name, "a list of numbers, one per node; it is empty");
   return numbers;
 }
 
@@ -204,7 +204,7 @@ int render_binding(Call& call) {
   return 0;
 }
 
-/// Of a single panel, or of all.
+/// Options of a single panel or of all panels.
 std::vector<Parameter> panel_parameters() {
   std::vector<Parameter> parameters{
       {.name = "frame",
@@ -215,7 +215,7 @@ std::vector<Parameter> panel_parameters() {
        .type = "quantity",
        .dimension = Dimension::time,
        .fallback = "none",
-       .help = "instant of a trajectory, in place of a frame"},
+       .help = "time in a trajectory, instead of a frame"},
       {.name = "node_values",
        .type = "list of numbers",
        .fallback = "none",
@@ -232,15 +232,15 @@ std::vector<Parameter> render_parameters() {
       {.name = "width",
        .type = "integer",
        .fallback = fmt::format("{}", usual.width),
-       .help = "pixels of one panel"},
+       .help = "width of a panel in pixels"},
       {.name = "height",
        .type = "integer",
        .fallback = fmt::format("{}", usual.height),
-       .help = "pixels of one panel"},
+       .help = "height of a panel in pixels"},
       {.name = "columns",
        .type = "integer",
        .fallback = "all in one row",
-       .help = "panels in a row"},
+       .help = "number of panels in a row"},
       {.name = "camera",
        .type = "one of",
        .fallback = "\"follow\"",
@@ -249,7 +249,7 @@ std::vector<Parameter> render_parameters() {
       {.name = "azimuth",
        .type = "number",
        .fallback = fmt::format("{}", usual.azimuth),
-       .help = "where the camera stands, in degrees about the vertical from x"},
+       .help = "azimuth of the camera about the vertical, from x, in degrees"},
       {.name = "elevation",
        .type = "number",
        .fallback = fmt::format("{}", usual.elevation),
@@ -261,7 +261,7 @@ std::vector<Parameter> render_parameters() {
       {.name = "title",
        .type = "string",
        .fallback = "none",
-       .help = "above all panels; lines after the first are smaller"},
+       .help = "title above all panels; lines after the first are smaller"},
       {.name = "footer", .type = "string", .fallback = "none", .help = "line across the bottom"}};
   const std::vector<Parameter> of_panels = panel_parameters();
   parameters.insert(parameters.end(), of_panels.begin(), of_panels.end());
@@ -278,8 +278,8 @@ void describe_panel(Api& api) {
     fields.push_back(std::move(parameter));
   }
   api.add(RecordEntry{.name = "Panel",
-                      .summary = "A panel of s.render: {subject} with these keys besides, which go "
-                                 "before the options of the picture.",
+                      .summary = "A panel of s.render: {subject} with these additional keys, which "
+                                 "override the options of the picture.",
                       .fields = std::move(fields),
                       .example = "{run, time = \"0.3 s\", title = \"at the wall\"}"});
 }
@@ -298,7 +298,7 @@ void describe_render(Api& api) {
                      .help = "subject to draw; a list gives panels, row by row"}},
       .options = render_parameters(),
       .returns = "nothing",
-      .errors = "A size beyond the largest picture; node_values that are not one a node; a time "
+      .errors = "A size beyond the largest picture; node_values that are not one per node; a time "
                 "outside the run; the file cannot be written.",
       .example = "s.render(\"out/levels.png\", {chain[0], chain[1], chain[2]},\n"
                  "  {springs = true, surface_opacity = 0.3, titles = {\"base\", \"LOD-1\", "

@@ -111,8 +111,8 @@ void describe_film(Api& api) {
   api.add(FunctionEntry{
       .name = "animate",
       .group = kGroup,
-      .summary = "Draws base and levels side by side on one clock as frame_0000.png ...",
-      .arguments = {{.name = "folder", .type = "string", .help = "where the frames go"},
+      .summary = "Draws base and levels side by side, synchronized, as frame_0000.png ...",
+      .arguments = {{.name = "folder", .type = "string", .help = "folder for the frames"},
                     {.name = "comparison", .type = "Comparison", .help = "result of compare"}},
       .options = animate_parameters(),
       .returns = "integer: number of frames",
@@ -125,12 +125,14 @@ void describe_film(Api& api) {
       .summary =
           "Encodes frames as .mp4 or .gif with ffmpeg; prints the command if ffmpeg is missing.",
       .arguments = {{.name = "path", .type = "string", .help = "NAME.mp4 or NAME.gif to write"},
-                    {.name = "folder", .type = "string", .help = "where animate put the frames"}},
+                    {.name = "folder",
+                     .type = "string",
+                     .help = "folder with the frames of animate"}},
       .options = {{.name = "frame_rate",
                    .type = "number",
                    .fallback = fmt::format("{}", report::AnimateOptions{}.frame_rate),
-                   .help = "pictures a second"}},
-      .returns = "boolean, string: whether it was made, the command that makes it",
+                   .help = "frames per second"}},
+      .returns = "whether the video was made, the command that makes it",
       .errors = "ffmpeg fails; another ending than .mp4 or .gif.",
       .example = "s.video(\"out/comparison.mp4\", \"out/frames\")",
       .call = video_binding});
@@ -156,16 +158,16 @@ void describe_tables(Api& api) {
       .example = "local rows, columns = runs:table()\n"
                  "s.csv(\"out/table.csv\", rows, {columns = columns})",
       .call = csv_binding});
-  api.add(
-      FunctionEntry{.name = "format_table",
-                    .group = kGroup,
-                    .summary = "Lays rows out as text for a terminal, numbers with four digits.",
-                    .arguments = {rows},
-                    .options = options,
-                    .returns = "string",
-                    .errors = "Rows of different lengths.",
-                    .example = "print(s.format_table(rows, {columns = {\"label\", \"nodes\"}}))",
-                    .call = format_table_binding});
+  api.add(FunctionEntry{
+      .name = "format_table",
+      .group = kGroup,
+      .summary = "Formats rows as a text table for a terminal. Numbers have four digits.",
+      .arguments = {rows},
+      .options = options,
+      .returns = "string",
+      .errors = "Rows of different lengths.",
+      .example = "print(s.format_table(rows, {columns = {\"label\", \"nodes\"}}))",
+      .call = format_table_binding});
 }
 
 }  // namespace
@@ -182,11 +184,11 @@ void describe_report(Api& api) {
       .arguments = {{.name = "path", .type = "string", .help = "NAME.svg or NAME.png to write"},
                     {.name = "data",
                      .type = "Comparison, StabilityMap or list of Series",
-                     .help = "a comparison gives one point a level, a map a panel for each level "
-                             "and integrator (of the options it takes the title)"}},
+                     .help = "data to draw: one point per level of a comparison, or one panel per "
+                             "level and integrator of a map (which uses only the option title)"}},
       .options = chart_parameters(),
-      .returns = "boolean, string: whether it was drawn (gnuplot may be missing), the command that "
-                 "draws it",
+      .returns = "boolean, string: whether the chart was drawn (gnuplot may be missing), the "
+                 "command that draws it",
       .errors = "No points; another ending than .svg or .png.",
       .example = "s.chart(\"out/cost-error.svg\", runs)\n"
                  "s.chart(\"out/line.svg\", {{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}})",

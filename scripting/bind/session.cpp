@@ -176,7 +176,7 @@ void describe_constants(Api& api) {
   api.add(ConstantEntry{{.name = "choices",
                          .type = "table",
                          .help = "words that options take: s.choices.border lists those of border, "
-                                 "s.choices.border.weak.help says what one means"},
+                                 "s.choices.border.weak.help describes one"},
                         push_choices});
   api.add(ConstantEntry{{.name = "samples",
                          .type = "string",
@@ -193,27 +193,28 @@ void describe_session(Api& api) {
   api.add(FunctionEntry{
       .name = "help",
       .group = kGroup,
-      .summary = "Explains a function, a type of value or a table on stdout; a global too.",
+      .summary =
+          "Prints help on a function, a value type or a table. Also available as the global help.",
       .arguments = {{.name = "topic",
                      .type = "function, value or string",
                      .fallback = "an overview",
                      .help = "topic to explain: s.simplify, a value, \"Mesh\", \"Model:node\""}},
       .returns = "nothing",
-      .errors = "No help on such a name; the message names the nearest.",
+      .errors = "There is no help on that name; the message has the nearest one.",
       .example = "help(s.simplify)",
       .call = help});
   api.add(FunctionEntry{
       .name = "say",
       .group = kGroup,
       .summary = "Writes a message line to stderr; silent with -q. Use print for results.",
-      .arguments = {{.name = "text", .type = "string", .help = "the line"}},
+      .arguments = {{.name = "text", .type = "string", .help = "text of the line"}},
       .returns = "nothing",
       .errors = "The argument is not text.",
       .example = "s.say(\"half way\")",
       .call = say});
   api.add(FunctionEntry{.name = "inspect",
                         .group = kGroup,
-                        .summary = "Shows any Lua value as text, tables with sorted keys.",
+                        .summary = "Formats any Lua value as text, with the keys of tables sorted.",
                         .arguments = {{.name = "value", .type = "any", .help = "value to show"}},
                         .returns = "string",
                         .errors = "None.",
@@ -222,31 +223,33 @@ void describe_session(Api& api) {
   api.add(FunctionEntry{
       .name = "json",
       .group = kGroup,
-      .summary = "Writes tables, numbers, text and booleans as JSON, keys sorted.",
+      .summary = "Formats tables, numbers, text and booleans as JSON with sorted keys.",
       .arguments = {{.name = "value",
                      .type = "any",
                      .help = "plain Lua data; an empty table is []"}},
       .options = {{.name = "indent",
                    .type = "integer",
                    .fallback = "2",
-                   .help = "blanks a level; -1: all on one line"}},
+                   .help = "spaces per level of nesting; -1: all on one line"}},
       .returns = "string",
-      .errors = "Functions and values of springlod have no JSON form: read their fields first.",
+      .errors = "A function or a springlod value, which has no JSON form; read its fields first.",
       .example = "print(s.json(s.info(chain)))",
       .call = json});
-  api.add(FunctionEntry{
-      .name = "quantity",
-      .group = kGroup,
-      .summary = "Reads text with a unit, such as \"5 mm\", as a number in SI units.",
-      .arguments = {{.name = "text", .type = "string or number", .help = "a bare number is SI"},
-                    {.name = "dimension",
-                     .type = "one of",
-                     .help = "physical dimension",
-                     .choices = words_of<Dimension>()}},
-      .returns = "number",
-      .errors = "A unit of another dimension; the message lists the right ones.",
-      .example = "local cell = s.quantity(\"5 mm\", \"length\")",
-      .call = quantity});
+  api.add(
+      FunctionEntry{.name = "quantity",
+                    .group = kGroup,
+                    .summary = "Reads text with a unit, such as \"5 mm\", as a number in SI units.",
+                    .arguments = {{.name = "text",
+                                   .type = "string or number",
+                                   .help = "text with a unit; a number is in SI units"},
+                                  {.name = "dimension",
+                                   .type = "one of",
+                                   .help = "physical dimension",
+                                   .choices = words_of<Dimension>()}},
+                    .returns = "number",
+                    .errors = "A unit of another dimension; the message lists the right ones.",
+                    .example = "local cell = s.quantity(\"5 mm\", \"length\")",
+                    .call = quantity});
   api.add(FunctionEntry{
       .name = "files",
       .group = kGroup,
@@ -255,7 +258,7 @@ void describe_session(Api& api) {
       .options = {{.name = "endings",
                    .type = "list of strings",
                    .fallback = "all files",
-                   .help = "small letters with the dot: {\".obj\", \".stl\"}"}},
+                   .help = "endings in lower case with the dot: {\".obj\", \".stl\"}"}},
       .returns = "list of strings: paths",
       .errors = "Not a folder.",
       .example =
@@ -263,7 +266,7 @@ void describe_session(Api& api) {
       .call = files});
   api.add(FunctionEntry{.name = "is_folder",
                         .group = kGroup,
-                        .summary = "Tells whether a path is a folder.",
+                        .summary = "Returns whether a path is a folder.",
                         .arguments = {{.name = "path", .type = "string", .help = "any path"}},
                         .returns = "boolean",
                         .errors = "The argument is not text.",
@@ -271,7 +274,7 @@ void describe_session(Api& api) {
                         .call = is_folder});
   api.add(FunctionEntry{.name = "api_markdown",
                         .group = kGroup,
-                        .summary = "This documentation as Markdown: what docs/api.md holds.",
+                        .summary = "Returns this documentation as Markdown, as in docs/api.md.",
                         .returns = "string",
                         .errors = "None.",
                         .example = "print(require(\"springlod\").api_markdown())",

@@ -27,12 +27,12 @@ constexpr const char* kGroup = "Simulation";
 void warn(Console& console, const sim::Trajectory& run) {
   if (run.unconverged_steps > 0)
     console.say(
-        fmt::format("run: in {} of {} steps the solver stopped short of its tolerance; use more "
+        fmt::format("run: in {} of {} steps the solver did not reach its tolerance; use more "
                     "iterations, a greater tolerance or a smaller step",
                     run.unconverged_steps, run.steps));
   if (run.first_crossing)
     console.say(fmt::format(
-        "run: nodes {} and {} went past each other by t = {:.4g} s: the body is inside out there; "
+        "run: the spring of nodes {} and {} was inverted by t = {:.4g} s (its nodes crossed); "
         "use a stiffer material, a slower impact or a finer model",
         script_number(run.first_crossing->a), script_number(run.first_crossing->b),
         run.first_crossing->time));
@@ -125,25 +125,24 @@ void describe_trajectory(Api& api) {
     type.field(name, "number", help,
                [get](const TrajectoryValue& value) { return get(value.trajectory); });
   };
-  number("step", "time step, as at rest [s]", [](const sim::Trajectory& t) { return t.step; });
-  number("shortest_step", "time step where springs were strained hardest [s]",
+  number("step", "time step of the body at rest [s]",
+         [](const sim::Trajectory& t) { return t.step; });
+  number("shortest_step", "shortest time step, while springs were strongly strained [s]",
          [](const sim::Trajectory& t) { return t.shortest_step; });
   number("predicted_step", "predicted stable step, contacts included [s]",
          [](const sim::Trajectory& t) { return t.predicted_step; });
   number("simulated", "simulated time [s]", [](const sim::Trajectory& t) { return t.simulated; });
   number("wall_seconds", "measured wall time; not reproducible [s]",
          [](const sim::Trajectory& t) { return t.wall_seconds; });
-  number("planning_seconds",
-         "the part of them that went into finding the step and laying out the springs [s]",
+  number("planning_seconds", "part of wall_seconds before the first step [s]",
          [](const sim::Trajectory& t) { return t.planning_seconds; });
   type.field("steps", "integer", "number of steps",
              [](const TrajectoryValue& value) { return value.trajectory.steps; });
   type.field("unconverged_steps", "integer",
-             "steps that the solver of backward Euler ended short of its tolerance",
+             "steps in which the solver of backward Euler did not reach its tolerance",
              [](const TrajectoryValue& value) { return value.trajectory.unconverged_steps; });
   type.field("spring_updates", "integer",
-             "steps times springs: the cost that does not depend on "
-             "the machine",
+             "spring evaluations in all steps: a cost that does not depend on the machine",
              [](const TrajectoryValue& value) { return value.trajectory.spring_updates; });
   type.field("frame_count", "integer", "number of frames",
              [](const TrajectoryValue& value) { return value.trajectory.frames.size(); });
@@ -156,8 +155,7 @@ void describe_trajectory(Api& api) {
                      push_optional(L, value.trajectory.asleep_since);
                    });
   type.table_field("first_crossing", "table",
-                   "the first two nodes of a spring that went past each other: a, b (from 1), time "
-                   "[s]; or nil",
+                   "first crossing: nodes a and b of the spring (from 1) and time [s]; or nil",
                    push_crossing);
   type.table_field("ledger", "list of tables",
                    "energies of each frame [J]: time, kinetic, elastic, gravity, contact, "
@@ -165,11 +163,12 @@ void describe_trajectory(Api& api) {
                    push_ledger);
   type.table_field("final", "State", "last state: time [s], x and v, lists of {x, y, z} by node",
                    push_final);
-  type.method({.name = "frame",
-               .summary = "One frame; the same as trajectory[number].",
-               .arguments = {{.name = "number", .type = "integer", .help = "counted from 1"}},
-               .returns = "table: time [s], x (list of {x, y, z} by node) [m]",
-               .call = frame_method});
+  type.method(
+      {.name = "frame",
+       .summary = "One frame; the same as trajectory[number].",
+       .arguments = {{.name = "number", .type = "integer", .help = "number of the frame, from 1"}},
+       .returns = "table: time [s], x (list of {x, y, z} by node) [m]",
+       .call = frame_method});
   type.elements(
       [](const TrajectoryValue& value) {
         return static_cast<long long>(value.trajectory.frames.size());

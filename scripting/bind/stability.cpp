@@ -53,7 +53,7 @@ void describe_map(Api& api) {
         return fmt::format("StabilityMap: {} points, {} of them stable; stiff part: {}",
                            map.points.size(), stable, map.stiff_part);
       });
-  type.field("stiff_part", "string", "part that the ratio makes stiff: a material, or one half",
+  type.field("stiff_part", "string", "stiff part of the body: a material, or one half",
              [](const sim::StabilityMap& map) { return map.stiff_part; });
   type.table_field("verdicts", "table", "number of points of each verdict that occurs",
                    push_verdicts);
@@ -65,7 +65,7 @@ void describe_map(Api& api) {
                }});
   type.method(
       {.name = "bodies",
-       .summary = "What the points of each level and ratio share.",
+       .summary = "Data common to the points of each level and ratio.",
        .returns = "list of tables, list of their keys: " + report::stability_bodies_columns_help(),
        .call = [](Call& call) {
          return give_table(call, report::stability_bodies_table(*call.self<sim::StabilityMap>()));

@@ -65,12 +65,13 @@ report::StartSample sample_argument(Call& call, int argument, const std::string&
   bool by_seeds = false;
   Lists lists = lists_at(call, argument, name, by_seeds);
   if (!by_seeds) return {std::move(lists[0])};
-  if (lists[0].empty()) throw InputError(name + "[1] is empty; give every start one value a seed");
+  if (lists[0].empty())
+    throw InputError(name + "[1] is empty; give every start one value per seed");
   report::StartSample sample{{}, static_cast<std::uint32_t>(lists[0].size())};
   for (std::size_t i = 0; i < lists.size(); ++i) {
     if (lists[i].size() != lists[0].size())
       throw InputError(fmt::format(
-          "{0}[{1}] and {0}[1] differ in length, {2} and {3}; give every start one value a seed",
+          "{0}[{1}] and {0}[1] differ in length, {2} and {3}; give every start one value per seed",
           name, i + 1, lists[i].size(), lists[0].size()));
     sample.values.insert(sample.values.end(), lists[i].begin(), lists[i].end());
   }
@@ -172,11 +173,11 @@ int judge_method(Call& call) {
 }
 
 Parameter sample_parameter(const char* name, const char* help) {
-  return {.name = name,
-          .type = "list of numbers",
-          .help = std::string(help) +
-                  "; with several simplification seeds a list a start, of one "
-                  "number a seed"};
+  return {
+      .name = name,
+      .type = "list of numbers",
+      .help = std::string(help) +
+              "; with several simplification seeds, one list per start with one number per seed"};
 }
 
 /// The options that statistics_binding reads.
@@ -193,8 +194,9 @@ void describe_samples(Api& api) {
   api.add(FunctionEntry{
       .name = "mean",
       .group = kGroup,
-      .summary = "Mean of a list of numbers. s.statistics adds an interval, from five values on.",
-      .arguments = {{.name = "sample", .type = "list of numbers", .help = "one number or more"}},
+      .summary =
+          "Mean of a list of numbers. For five values or more, s.statistics adds an interval.",
+      .arguments = {{.name = "sample", .type = "list of numbers", .help = "at least one number"}},
       .returns = "number",
       .errors = "An empty list; a value that is not finite.",
       .example = "print(s.mean{7.1, 8.4, 6.9})",
@@ -203,7 +205,7 @@ void describe_samples(Api& api) {
       .name = "statistics",
       .group = kGroup,
       .summary = "Mean, spread and quartiles of a sample, with intervals.",
-      .arguments = {sample_parameter("sample", "one value a start")},
+      .arguments = {sample_parameter("sample", "one value per start")},
       .options = statistics_parameters(),
       .returns = "table: count, mean, mean_low, mean_high, deviation, deviation_low, "
                  "deviation_high, minimum, lower_quartile, median, upper_quartile, maximum",
@@ -216,7 +218,7 @@ void describe_samples(Api& api) {
       .group = kGroup,
       .summary =
           "Distances between two samples, and an equivalence test of their means with a margin.",
-      .arguments = {sample_parameter("base", "one value a start"),
+      .arguments = {sample_parameter("base", "one value per start"),
                     sample_parameter(
                         "other",
                         "sample to compare with base; may have another size unless paired")},
@@ -242,39 +244,40 @@ void describe_noise_floor(Api& api) {
             floor.base_size, floor.other_size,
             floor.with_replacement ? ", drawn with replacement" : "");
       });
-  type.field("level", "number", "the base is nearer to itself than this in `quantile` of all cases",
+  type.field("level", "number",
+             "noise floor: this `quantile` of the distances between samples of the base",
              [](const report::NoiseFloor& floor) { return floor.level; });
   type.field("distance", "string", "\"wasserstein\" or \"energy\"",
              [](const report::NoiseFloor& floor) { return to_string(floor.distance); });
-  type.field("quantile", "number", "part of the distances below the level",
+  type.field("quantile", "number", "fraction of the distances below the level",
              [](const report::NoiseFloor& floor) { return floor.part; });
-  type.field("size", "integer", "values on the base's side",
+  type.field("size", "integer", "size of the base's sample",
              [](const report::NoiseFloor& floor) { return floor.base_size; });
-  type.field("other_size", "integer", "values on the other side",
+  type.field("other_size", "integer", "size of the other sample",
              [](const report::NoiseFloor& floor) { return floor.other_size; });
-  type.field("distances", "list of numbers", "all of them, in rising order",
+  type.field("distances", "list of numbers", "all distances, ascending",
              [](const report::NoiseFloor& floor) { return floor.distances; });
   type.field("with_replacement", "boolean",
              "whether the only source was too small to draw without replacement",
              [](const report::NoiseFloor& floor) { return floor.with_replacement; });
-  type.method(
-      {.name = "judge",
-       .summary = "Tests whether the distance of two samples is within the noise floor.",
-       .arguments = {{.name = "base",
-                      .type = "list of numbers",
-                      .help = "sample with the size of the floor"},
-                     {.name = "other",
-                      .type = "list of numbers",
-                      .help = "sample with the other_size of the floor"}},
-       .returns = "table: inside (boolean), distance, p (how often the base is as far from itself)",
-       .errors = "Samples of other sizes than the floor's.",
-       .call = judge_method});
+  type.method({.name = "judge",
+               .summary = "Tests whether the distance of two samples is within the noise floor.",
+               .arguments = {{.name = "base",
+                              .type = "list of numbers",
+                              .help = "sample with the size of the floor"},
+                             {.name = "other",
+                              .type = "list of numbers",
+                              .help = "sample with the other_size of the floor"}},
+               .returns = "table: inside (boolean), distance, p (fraction of distances between "
+                          "samples of the base that are at least as large)",
+               .errors = "Samples of other sizes than the floor's.",
+               .call = judge_method});
   api.add(type.build());
   api.add(FunctionEntry{
       .name = "noise_floor",
       .group = kGroup,
-      .summary =
-          "Noise floor: distances of the base from itself, to compare a level's distance with.",
+      .summary = "Noise floor: distances between samples of the base, for comparison with a "
+                 "level's distance.",
       .arguments = {{.name = "sources",
                      .type = "list of numbers",
                      .help = "a large sample of the base, or a list of samples: other starts, half "

@@ -15,7 +15,7 @@ struct Contact {
   std::uint32_t obstacle = 0;       ///< number in the scenario
   std::uint32_t point = 0;          ///< number in ContactPoints
   double depth = 0;                 ///< d [m] > 0
-  double stiffness = 0;             ///< k = ContactPoints::stiffness, of a node kappa A [N/m]
+  double stiffness = 0;             ///< k = ContactPoints::stiffness; kappa A for a node [N/m]
   double normal_force = 0;          ///< k (d + damping * rate of d), cut off at 0 [N]
   double damping_force = 0;         ///< damping component of normal_force, normal_force - k d [N]
   double damping = 0;               ///< contact damping time [s]
@@ -27,7 +27,7 @@ struct Contact {
   /// [N/m]; 0: friction acts on the point directly.
   double stick_stiffness = 0;
   double stick_damping = 0;     ///< damping time of the stick spring [s]
-  Vec3 stretch = Vec3::Zero();  ///< of the stick spring; its force on the point is opposite [m]
+  Vec3 stretch = Vec3::Zero();  ///< stretch of the stick spring; its force is opposite [m]
   double stick_gain = 0;        ///< energy that the stick spring stored in this step [J]
   double stick_energy() const { return 0.5 * stick_stiffness * stretch.squaredNorm(); }  ///< [J]
 

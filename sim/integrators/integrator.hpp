@@ -73,9 +73,9 @@ constexpr auto option_rows(const SolverOptions*) {
   return std::tuple(
       option("iterations", &SolverOptions::iterations,
              "iterations per step of the implicit schemes")
-          .by_default("20 of Newton, 1 sweep of xpbd, 10 of projective_dynamics"),
+          .by_default("20 for backward Euler, 1 for xpbd, 10 for projective_dynamics"),
       option("tolerance", &SolverOptions::tolerance,
-             "part of the forces at which backward Euler stops iterating"),
+             "relative residual of the forces at which backward Euler stops iterating"),
       option("linear_iterations", &SolverOptions::linear_iterations,
              "largest number of conjugate-gradient iterations in one Newton iteration")
           .by_default("twice the unknowns"));

@@ -21,7 +21,7 @@ class StopCriterion {
 /// Rest criterion: whether a body in contact has come to rest (eq. 63 of docs/method.md).
 class RestCriterion {
  public:
-  /// `part`: of the speed of a fall through its own size, see RunOptions; 0: never.
+  /// `part`: RunOptions::sleep, a fraction of the speed after a fall through its size; 0: never.
   RestCriterion(const MassSpringModel& model, const Scenario& scenario, double part);
   bool check(const Stepper& body);
 

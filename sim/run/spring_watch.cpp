@@ -14,7 +14,7 @@ void SpringCheck::check(State state) {
   const Mat3 turn = angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix()
                               : Mat3(Mat3::Identity());
   bool crossed = first_crossing_.has_value();
-  double most = 1;  // of l^2 / L^2
+  double most = 1;  // largest l^2 / L^2
   double least = 1;
   for (std::uint32_t s = 0; s < model_->spring_count(); ++s) {
     const std::uint32_t a = model_->a[s];

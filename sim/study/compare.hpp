@@ -28,7 +28,7 @@ struct CompareOptions {
 };
 constexpr auto option_rows(const CompareOptions*) {
   return std::tuple(
-      option("starts", &CompareOptions::starts, "starts, the same for every level"),
+      option("starts", &CompareOptions::starts, "number of starts, the same for every level"),
       option("jitter", &CompareOptions::jitter,
              "relative random change of speed and height of each start after the first"),
       option("seed", &CompareOptions::seed, "seed of the jitter"),

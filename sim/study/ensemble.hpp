@@ -49,7 +49,7 @@ struct EnsembleOptions {
 };
 constexpr auto option_rows(const EnsembleOptions*) {
   return std::tuple(
-      option("starts", &EnsembleOptions::starts, "starts, the same for every level"),
+      option("starts", &EnsembleOptions::starts, "number of starts, the same for every level"),
       option("jitter", &EnsembleOptions::jitter,
              "relative random change of speed and height of each start after the first"),
       option("seed", &EnsembleOptions::seed, "seed of the jitter"),

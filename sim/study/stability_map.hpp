@@ -18,7 +18,7 @@ enum class Verdict {
   drifting,     ///< the scheme itself gained or lost more than kDrifting of the energy
   off_design,   ///< the level no longer represents the body: the error of its frequencies is above
                 ///< kOffDesign
-  crossed,      ///< springs crossed: the body is inside out somewhere
+  crossed,      ///< springs were inverted: their nodes moved past each other
   unconverged,  ///< the solver of backward Euler stopped before it reached its tolerance
   runaway,      ///< the energy rose by kRunaway: the state is finite but meaningless
   diverged,     ///< non-finite state or growing energy
@@ -27,13 +27,13 @@ enum class Verdict {
 
 inline constexpr Choice<Verdict> kVerdicts[] = {
     {Verdict::stable, "stable", "none of the others"},
-    {Verdict::inaccurate, "inaccurate", "its mean distance from a fine run is over a tenth"},
-    {Verdict::drifting, "drifting", "the scheme gained or lost over a tenth of the energy"},
-    {Verdict::off_design, "off_design",
-     "the level's frequencies are over a quarter off the base's"},
-    {Verdict::crossed, "crossed", "springs crossed"},
-    {Verdict::unconverged, "unconverged", "the solver stopped short of its tolerance"},
-    {Verdict::runaway, "runaway", "the energy more than doubled, in finite numbers"},
+    {Verdict::inaccurate, "inaccurate",
+     "the mean distance from the reference run is over 10 % of its displacement"},
+    {Verdict::drifting, "drifting", "the scheme gained or lost over 10 % of the energy"},
+    {Verdict::off_design, "off_design", "the mean error of the level's frequencies is over 25 %"},
+    {Verdict::crossed, "crossed", "springs were inverted"},
+    {Verdict::unconverged, "unconverged", "the solver did not reach its tolerance"},
+    {Verdict::runaway, "runaway", "the energy more than doubled, although the state stayed finite"},
     {Verdict::diverged, "diverged", "non-finite state"},
     {Verdict::mechanism, "mechanism", "nodes move without resistance: not run"}};
 constexpr ChoiceTable<Choice<Verdict>> choices(Verdict) {
@@ -82,18 +82,21 @@ struct StabilityOptions {
 constexpr auto option_rows(const StabilityOptions*) {
   using Options = StabilityOptions;
   return std::tuple(
-      option("levels", &Options::levels, "0 is the base").by_default("all"),
-      option("ratios", &Options::ratios,
-             "Young's modulus of the stiff part over that of the softest material, which stays; of "
-             "one material, the half beyond the center of mass is made stiff"),
+      option("levels", &Options::levels, "levels to map; 0 is the base").by_default("all"),
+      option(
+          "ratios", &Options::ratios,
+          "Young's modulus of the stiff part / that of the softest material, which is unchanged; "
+          "the stiff part of a body of one material is the half beyond the centre of mass"),
       option("remake_levels", &Options::remake_levels,
-             "false: only the base follows the ratio, levels stay as they were made"),
+             "change the levels with the ratio, as if merged again from the base; false: only the "
+             "base"),
       option("damping", &Options::damping,
-             "whether springs keep theirs; without it every loss of energy is the scheme's own"),
-      option("integrators", &Options::integrators, "as for run").by_default("all"),
+             "whether springs keep their damping; without it, every energy loss is numerical"),
+      option("integrators", &Options::integrators, "integrators to map, as for run")
+          .by_default("all"),
       option("iterations", &Options::iterations,
              "iterations per step of xpbd and projective_dynamics; each number is run")
-          .by_default("the default of each"),
+          .by_default("the default of each integrator"),
       option("steps", &Options::steps, "step lengths for explicit integrators / predicted limit"),
       option("implicit_steps", &Options::implicit_steps,
              "step lengths for backward Euler / period of the slowest mode"),
@@ -108,7 +111,8 @@ constexpr auto option_rows(const StabilityOptions*) {
       option("duration", &Options::duration, "length of each run")
           .in(Dimension::time)
           .by_default("from periods"),
-      option("threads", &Options::threads, "0: all cores; never changes a result"),
+      option("threads", &Options::threads,
+             "number of threads; 0: all cores; never changes a result"),
       option("seed", &Options::seed, "seed of the search for frequencies"));
 }
 

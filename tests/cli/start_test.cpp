@@ -77,8 +77,8 @@ TEST_CASE("a start that does not fit the model is refused with its position") {
   CHECK(ran.exit_code == 0);
   CHECK_THAT(ran.out, !Contains("true"));
   for (const char* message :
-       {"run: start.x must be a list of 30 points {x, y, z}, one a node, got 1\n",
-        "run: start.v must be a list of 30 points {x, y, z}, one a node, got a number",
+       {"run: start.x must be a list of 30 points {x, y, z}, one per node, got 1\n",
+        "run: start.v must be a list of 30 points {x, y, z}, one per node, got a number",
         "run: start.x[2] must be a list of three numbers", "run: start.v[2][3] must be finite",
         "run: start.v[2][3]: \"5 kg\"", "unknown option 'place'", "run: start: expected a table"})
     CHECK_THAT(ran.out, Contains(message));

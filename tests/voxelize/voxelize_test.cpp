@@ -254,7 +254,7 @@ TEST_CASE("An inverted sphere is reversed with a warning") {
   const VoxelizedMesh turned = voxelize(mesh, {});
   CHECK(turned.grid.cells.size() == cells);
   REQUIRE(turned.report.warnings.size() == 1);
-  CHECK_THAT(turned.report.warnings[0], Contains("\"ball\" was inside out"));
+  CHECK_THAT(turned.report.warnings[0], Contains("\"ball\" faced inwards"));
 }
 
 TEST_CASE("A cavity stays empty, and its wall counts for the depth") {

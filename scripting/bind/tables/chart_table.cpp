@@ -22,7 +22,7 @@ constexpr ChoiceTable<Choice<ErrorKind>> choices(ErrorKind) {
   return {"error", kErrorKinds};
 }
 
-// Sides of a chart [px]: room for its letters; what programs that show pictures take.
+// Limits of a chart's sides [px]: its text must fit, and other programs must be able to show it.
 constexpr double kLeastChart = 300;
 constexpr double kLargestChart = 8000;
 
@@ -166,7 +166,7 @@ std::vector<Parameter> chart_parameters() {
   parameters.push_back({.name = "error",
                         .type = "one of",
                         .fallback = "\"surface\"",
-                        .help = "error of a comparison that is shown",
+                        .help = "error shown for a comparison",
                         .choices = words_of<ErrorKind>()});
   return parameters;
 }
@@ -179,7 +179,7 @@ void describe_series(Api& api) {
   std::vector<Parameter> fields = parameters_of<report::ChartSeries>();
   fields.push_back({.name = "points",
                     .type = "list of Point",
-                    .help = "{x, y} each; none: the series appears only in the legend"});
+                    .help = "points {x, y}; if empty, the series appears only in the legend"});
   api.add(RecordEntry{.name = "Series",
                       .summary = "A line of points of a chart.",
                       .fields = std::move(fields),
@@ -194,7 +194,7 @@ report::Table table_from_rows(Call& call, int index, TableReader& reader) {
   const auto count = static_cast<lua_Integer>(lua_rawlen(L, index));
   for (lua_Integer i = 1; i <= count; ++i) {
     if (lua_rawgeti(L, index, i) != LUA_TTABLE)
-      throw InputError(fmt::format("{}: row {} is no table", reader.owner(), i));
+      throw InputError(fmt::format("{}: row {} is not a table", reader.owner(), i));
     const int row = lua_gettop(L);
     if (table.columns.empty()) table.columns = sorted_keys(L, row);
     const bool list = lua_rawlen(L, row) > 0;

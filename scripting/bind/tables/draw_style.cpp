@@ -67,14 +67,14 @@ std::vector<Parameter> style_parameters(const render::DrawStyle& usual) {
   std::vector<Parameter> parameters = parameters_of(usual);
   parameters.push_back({.name = "value_range",
                         .type = "{low, high}",
-                        .fallback = "least and largest of all panels",
+                        .fallback = "smallest and largest value of all panels",
                         .help = "values at the ends of the colour bar, in SI units"});
   parameters.push_back(
       {.name = "cut",
        .type = "{nx, ny, nz, offset}",
        .fallback = "none",
        .help = "hides the nodes with n . x < offset at rest, and their springs, to show the "
-               "inside; {0, 1, 0, 0} keeps y >= 0. The surface stays whole"});
+               "inside; {0, 1, 0, 0} keeps y >= 0. The surface is not cut"});
   return parameters;
 }
 

@@ -169,8 +169,9 @@ void read_grouping(TableReader& reader, lod::SimplifyOptions& options) {
 void extend_grouping_parameter(Parameter& grouping) {
   grouping.type = "function, list of lists of node numbers, or one of";
   grouping.help +=
-      "; a function of one node gives its priority, of two nodes the cost of merging them; lists "
-      "name the groups of level 1 by hand, lists of such lists those of level 1, 2, ...";
+      ". A function of one node returns its priority, a function of two nodes the cost of merging "
+      "them. A list of lists has the groups of level 1; a list of such lists has those of level 1, "
+      "2, ...";
 }
 
 std::vector<Parameter> grouping_function_parameters() {

@@ -46,7 +46,7 @@ void require_one_value_a_node(const PanelOptions& options, const ModelValue* mod
     throw InputError("render: node_values need nodes, but a Mesh has none; draw a model");
   if (options.node_values.size() != model->model->node_count())
     throw InputError(
-        fmt::format("render: node_values must be one number a node: {} numbers for a "
+        fmt::format("render: node_values must be one number per node: {} numbers for a "
                     "model of {} nodes",
                     options.node_values.size(), model->model->node_count()));
   if (options.style.node_colour != render::NodeColour::material)
@@ -158,7 +158,7 @@ render::Panel Picture::panel(const render::Camera& camera) const {
   body.style = options_.style;
   if (mesh_) {
     body.surface = &mesh_->mesh;
-    body.style.surface = true;  // all that a mesh has
+    body.style.surface = true;  // a mesh has only its surface
     body.style.nodes = false;
     body.style.springs = false;
     body.style.bold_inner_nodes = false;
@@ -171,7 +171,7 @@ render::Panel Picture::panel(const render::Camera& camera) const {
       body.surface_positions = &surface_positions_;
       body.part_colours = part_colours(*model_->surface, model_->model->materials);
     } else {
-      // Without a surface the model itself is all there is to see.
+      // Without a surface, the model itself is drawn.
       body.style.nodes = true;
       body.style.springs = true;
     }

@@ -125,22 +125,24 @@ void describe_obstacles(Api& api) {
                                   .type = "quantity",
                                   .dimension = Dimension::angle,
                                   .fallback = "0",
-                                  .help = "right-handed about the axis"}},
+                                  .help = "angle, right-handed about the axis"}},
                       .example = "turn = {axis = {0, 1, 0}, angle = \"30 deg\"}"});
-  api.add(RecordEntry{
-      .name = "Box",
-      .summary = "A solid box.",
-      .fields = {{.name = "center",
-                  .type = "{x, y, z}",
-                  .dimension = Dimension::length,
-                  .fallback = "{0, 0, 0}",
-                  .help = "centre of the box"},
-                 {.name = "size",
-                  .type = "{x, y, z}",
-                  .dimension = Dimension::length,
-                  .help = "whole edges along its axes"},
-                 {.name = "turn", .type = "Turn", .fallback = "none", .help = "about its middle"}},
-      .example = "box = {center = {2.5, 0, 1}, size = {1, 4, 2}}"});
+  api.add(RecordEntry{.name = "Box",
+                      .summary = "A solid box.",
+                      .fields = {{.name = "center",
+                                  .type = "{x, y, z}",
+                                  .dimension = Dimension::length,
+                                  .fallback = "{0, 0, 0}",
+                                  .help = "centre of the box"},
+                                 {.name = "size",
+                                  .type = "{x, y, z}",
+                                  .dimension = Dimension::length,
+                                  .help = "full edge lengths along its axes"},
+                                 {.name = "turn",
+                                  .type = "Turn",
+                                  .fallback = "none",
+                                  .help = "rotation about its centre"}},
+                      .example = "box = {center = {2.5, 0, 1}, size = {1, 4, 2}}"});
   api.add(RecordEntry{
       .name = "Obstacle",
       .summary = "A fixed obstacle: penalty contact with Coulomb friction.",
@@ -178,7 +180,7 @@ void describe_throw(Api& api) {
       .fields = {{.name = "position",
                   .type = "{x, y, z}",
                   .dimension = Dimension::length,
-                  .fallback = "where the model has it",
+                  .fallback = "the position in the model",
                   .help = "position of the centre of mass"},
                  {.name = "velocity",
                   .type = "{x, y, z}",
@@ -190,7 +192,10 @@ void describe_throw(Api& api) {
                   .dimension = Dimension::angular_velocity,
                   .fallback = "{0, 0, 0}",
                   .help = "angular velocity about the centre of mass"},
-                 {.name = "turn", .type = "Turn", .fallback = "none", .help = "before moving"}},
+                 {.name = "turn",
+                  .type = "Turn",
+                  .fallback = "none",
+                  .help = "rotation about the centre of mass"}},
       .example =
           "throw = {position = {0, 0, 2}, velocity = {\"10 m/s\", 0, 0}, spin = {0, 6, 0}}"});
   api.add(RecordEntry{.name = "Stop",
@@ -248,10 +253,11 @@ void describe_scenario(Api& api) {
         return fmt::format("Scenario {}: {} s, {} obstacle{}", scenario.name, scenario.duration,
                            scenario.obstacles.size(), scenario.obstacles.size() == 1 ? "" : "s");
       });
-  type.field("name", "string", "its name", [](const sim::Scenario& value) { return value.name; });
-  type.field("duration", "number", "simulated time at most [s]",
+  type.field("name", "string", "name of the scenario",
+             [](const sim::Scenario& value) { return value.name; });
+  type.field("duration", "number", "maximum simulated time [s]",
              [](const sim::Scenario& value) { return value.duration; });
-  type.field("gravity", "{x, y, z}", "[m/s2]",
+  type.field("gravity", "{x, y, z}", "gravity [m/s2]",
              [](const sim::Scenario& value) { return value.gravity; });
   type.field("obstacle_count", "integer", "number of obstacles",
              [](const sim::Scenario& value) { return value.obstacles.size(); });
@@ -275,21 +281,24 @@ void describe_scenario(Api& api) {
             .help = "floor, walls, boxes"},
            {.name = "throw",
             .type = "Throw",
-            .fallback = "at rest where the model has it",
+            .fallback = "at rest at the position in the model",
             .help = "start position and velocities"},
            {.name = "duration",
             .type = "quantity",
             .dimension = Dimension::time,
             .fallback = fmt::format("{}", sim::Scenario{}.duration),
-            .help = "simulated time at most"},
-           {.name = "stop", .type = "Stop", .fallback = "none", .help = "ends a run early"},
+            .help = "maximum simulated time"},
+           {.name = "stop",
+            .type = "Stop",
+            .fallback = "none",
+            .help = "condition that ends a run early"},
            {.name = "measure_from",
             .type = "string",
             .fallback = "the horizontal displacement from the start",
             .help = "name of the obstacle from whose surface the distance at the end is "
                     "measured"}},
       .returns = "Scenario",
-      .errors = "A value out of range; measure_from that names no obstacle.",
+      .errors = "A value out of range; measure_from is not the name of an obstacle.",
       .example = "local scene = s.scenario{gravity = {0, 0, -9.81}, duration = 3,\n"
                  "  throw = {velocity = {30, 0, 0}},\n"
                  "  obstacles = {{plane = {0, 0, 1, 0}, friction = 0.5}}}",

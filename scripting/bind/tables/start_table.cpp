@@ -12,7 +12,7 @@ namespace springlod::scripting {
 
 namespace {
 
-// One {x, y, z} a node.
+// One {x, y, z} per node.
 void read_points(TableReader& state, const char* name, Dimension dimension,
                  std::vector<Vec3>& points) {
   const int list = state.raw(name);
@@ -21,7 +21,7 @@ void read_points(TableReader& state, const char* name, Dimension dimension,
   const std::size_t count = lua_istable(L, list) ? lua_rawlen(L, list) : 0;
   if (count != points.size())
     throw InputError(
-        fmt::format("{}.{} must be a list of {} points {{x, y, z}}, one a node, got {}",
+        fmt::format("{}.{} must be a list of {} points {{x, y, z}}, one per node, got {}",
                     state.owner(), name, points.size(),
                     lua_istable(L, list) ? fmt::format("{}", count) : describe_type_at(L, list)));
   for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +62,7 @@ void describe_start(Api& api) {
       .fields = {{.name = "x",
                   .type = "list of {x, y, z}",
                   .dimension = Dimension::length,
-                  .fallback = "where the model has them",
+                  .fallback = "the positions in the model",
                   .help = "positions by node"},
                  {.name = "v",
                   .type = "list of {x, y, z}",

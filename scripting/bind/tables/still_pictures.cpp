@@ -7,7 +7,7 @@ namespace springlod::scripting {
 
 namespace {
 
-// Of a panel whose context is kept: at some 50 bytes a pixel, 200 MB.
+// Largest panel whose context is kept [px]: 200 MB at about 50 bytes per pixel.
 constexpr std::uint64_t kMostPixels = 4'000'000;
 
 }  // namespace
