@@ -132,7 +132,7 @@ void describe_film(Api& api) {
                    .type = "number",
                    .fallback = fmt::format("{}", report::AnimateOptions{}.frame_rate),
                    .help = "frames per second"}},
-      .returns = "whether the video was made, the command that makes it",
+      .returns = "boolean, string: whether the video was made, and the command that makes it",
       .errors = "ffmpeg fails; another ending than .mp4 or .gif.",
       .example = "s.video(\"out/comparison.mp4\", \"out/frames\")",
       .call = video_binding});
