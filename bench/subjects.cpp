@@ -79,7 +79,7 @@ const Subject& Subjects::subject(Shape shape, Size size) {
   if (is_new) {
     subject.model = shape == Shape::lattice ? lattice(size) : merged(size);
     lay_on_floor(subject.model);
-    subject.step = kSafety * stable_step(elastic::frequency_bound(subject.model),
+    subject.step = kSafety * elastic::stable_step(elastic::frequency_bound(subject.model),
                                          elastic::largest_damping_time(subject.model));
   }
   return subject;

@@ -35,6 +35,17 @@ void BlockContacts::apply(const Step& step) {
   if (numbers_.empty()) return;
   find_contacts(step);
   add_friction(step);
+  note_first(step);
+}
+
+void BlockContacts::add_friction(const Step& step) {
+  for (Contact& c : contacts_) {
+    const Place at = place(c.point);
+    const double mass = points().mass(c.point);
+    const Vec3 kicked = step.kicked.velocity + body().v(at) + step.kick / mass * body().force(at);
+    apply_friction(c, mass, step.length, kicked);
+    body().add_force(at, mass / step.kick * c.slip_change);
+  }
 }
 
 void BlockContacts::find_contacts(const Step& step) {
@@ -62,7 +73,8 @@ void BlockContacts::find_contact(const Step& step, std::size_t obstacle, std::ui
   if (checked_at != step.number && checked_at != step.number + 1)
     finder().take_sides(obstacle, number, x - step.length * v);
   checked_at = step.number + 1;
-  add_contact(obstacle, number, {x, v});
+  if (const Contact* contact = add_contact(obstacle, number, {x, v}))
+    body().add_force(at, contact->normal_force * contact->normal);
 }
 
 void BlockContacts::end_drift(std::uint64_t n, const MovingFrame& before, const MovingFrame& after,
@@ -86,11 +98,6 @@ Vec3 BlockContacts::velocity_before_kick(std::size_t contact) const {
 
 Vec3 BlockContacts::velocity_after_kick(std::size_t contact) const {
   return velocity(now()[contact], kicked_frame_velocity_);
-}
-
-Vec3 BlockContacts::kicked_velocity(const Contact& contact, const Step& step) const {
-  return velocity(contact, step.kicked.velocity) +
-         step.kick / points().mass(contact.point) * body().force(place(contact.point));
 }
 
 }  // namespace springlod::sim

@@ -25,11 +25,11 @@ class BlockContacts final : public FastContacts {
  private:
   Vec3 velocity_before_kick(std::size_t contact) const override;
   Vec3 velocity_after_kick(std::size_t contact) const override;
-  Vec3 kicked_velocity(const Contact& contact, const Step& step) const override;
   Vec3 velocity(const Contact& contact, const Vec3& of_frame) const;
 
   void find_contacts(const Step& step);
   void find_contact(const Step& step, std::size_t obstacle, std::uint32_t index);
+  void add_friction(const Step& step);
 
   Place place(std::uint32_t point) const { return body().place(points().number(point)); }
 

@@ -4,26 +4,6 @@
 
 namespace springlod::sim {
 
-bool FastContacts::add_contact(std::size_t obstacle, std::uint32_t point, const Motion& motion) {
-  const std::optional<Contact> contact = finder().find_one(obstacle, point, motion.x, motion.v);
-  if (!contact) return false;
-  contacts_.push_back(*contact);
-  for (const ContactPoints::Share& share : points().shares(point))
-    body().add_force(body().place(share.node),
-                     share.weight * contact->normal_force * contact->normal);
-  return true;
-}
-
-void FastContacts::add_friction(const Step& step) {
-  if (!first_step_ && !contacts_.empty()) first_step_ = step.number;
-  for (Contact& c : contacts_) {
-    const double mass = points().mass(c.point);
-    apply_friction(c, mass, step.length, kicked_velocity(c, step));
-    for (const ContactPoints::Share& share : points().shares(c.point))
-      body().add_force(body().place(share.node), share.weight * mass / step.kick * c.slip_change);
-  }
-}
-
 void FastContacts::check_wall(const Passage& passage) {
   if (walls().goes_through(passage.wall, passage.number, passage.from, passage.to) && !passage_)
     passage_ = passage;

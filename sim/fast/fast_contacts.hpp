@@ -73,11 +73,17 @@ class FastContacts {
   ContactFinder& finder() const { return *shared_.finder; }
   TunnelCheck& walls() const { return *shared_.walls; }
 
-  /// Adds the contact of a point with an obstacle and its normal force, if there is one. Returns
-  /// whether there is.
-  bool add_contact(std::size_t obstacle, std::uint32_t point, const Motion& motion);
-  /// Adds the friction forces of all contacts, and notes the first step with a contact.
-  void add_friction(const Step& step);
+  /// Adds the contact of a point with an obstacle to now(), if there is one, and returns it.
+  const Contact* add_contact(std::size_t obstacle, std::uint32_t point, const Motion& motion) {
+    const std::optional<Contact> contact = finder().find_one(obstacle, point, motion.x, motion.v);
+    if (!contact) return nullptr;
+    contacts_.push_back(*contact);
+    return &contacts_.back();
+  }
+  /// Notes the first step with a contact.
+  void note_first(const Step& step) {
+    if (!first_step_ && !contacts_.empty()) first_step_ = step.number;
+  }
   /// Checks whether one of `points` tunnelled through a wall in the drift to step `number`, in a
   /// step of `length` [s]. `swept`: bounds of their paths in world axes [m]. `motion_of(point)`:
   /// position at the end, velocity of the drift.
@@ -99,8 +105,6 @@ class FastContacts {
   /// Velocity of the point of contact number `contact` now [m/s].
   virtual Vec3 velocity_before_kick(std::size_t contact) const = 0;
   virtual Vec3 velocity_after_kick(std::size_t contact) const = 0;
-  /// Its velocity after a kick with the current forces [m/s].
-  virtual Vec3 kicked_velocity(const Contact& contact, const Step& step) const = 0;
 
   /// Stores the first passage through a wall.
   void check_wall(const Passage& passage);

@@ -48,6 +48,7 @@ void SkinContacts::apply(const Step& step) {
     for (std::size_t o = 0; o < obstacles().size(); ++o) find_contacts(step, o);
   keep_stick_springs(contacts_before_, contacts_);
   add_friction(step);
+  note_first(step);
   after_kick_.clear();
   for (const Contact& c : contacts_) after_kick_.push_back(kicked_velocity(c, step));
 }
@@ -93,8 +94,22 @@ void SkinContacts::find_contacts(const Step& step, std::size_t obstacle) {
     if (afresh || (!again && travel_before_ < view.due[p]))
       finder().take_sides(obstacle, p, now.x - step.length * now.v);
     view.due[p] = travel_;
-    if (!add_contact(obstacle, p, now))
+    if (const Contact* contact = add_contact(obstacle, p, now)) {
+      for (const ContactPoints::Share& share : points().shares(p))
+        body().add_force(body().place(share.node),
+                         share.weight * contact->normal_force * contact->normal);
+    } else {
       view.due[p] += std::max(0.0, surface_distance(thing, now.x).distance) / points().reach(p);
+    }
+  }
+}
+
+void SkinContacts::add_friction(const Step& step) {
+  for (Contact& c : contacts_) {
+    const double mass = points().mass(c.point);
+    apply_friction(c, mass, step.length, kicked_velocity(c, step));
+    for (const ContactPoints::Share& share : points().shares(c.point))
+      body().add_force(body().place(share.node), share.weight * mass / step.kick * c.slip_change);
   }
 }
 

@@ -28,7 +28,7 @@ class SkinContacts final : public FastContacts {
 
   Vec3 velocity_before_kick(std::size_t contact) const override;
   Vec3 velocity_after_kick(std::size_t contact) const override { return after_kick_[contact]; }
-  Vec3 kicked_velocity(const Contact& contact, const Step& step) const override;
+  Vec3 kicked_velocity(const Contact& contact, const Step& step) const;
 
   /// Position and velocity before the kick.
   Motion motion(std::uint32_t point) const;
@@ -37,6 +37,7 @@ class SkinContacts final : public FastContacts {
   bool near_anything(const Box3& region) const;
   void arrive(const Step& step, bool near, const Box3& swept);
   void find_contacts(const Step& step, std::size_t obstacle);
+  void add_friction(const Step& step);
 
   const MassSpringModel* model_;
   std::vector<std::uint32_t> numbers_;  // numbers of all points
