@@ -94,8 +94,8 @@ void float_attribute(GLuint index, GLint count, std::size_t stride, std::size_t 
   glEnableVertexAttribArray(index);
   glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE,
                         static_cast<GLsizei>(stride * sizeof(float)),
-                        // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes an offset as a
-                        // pointer
+                        // OpenGL takes an offset as a pointer.
+                        // NOLINTNEXTLINE(performance-no-int-to-ptr)
                         reinterpret_cast<const void*>(offset * sizeof(float)));
   glVertexAttribDivisor(index, per_instance ? 1 : 0);
 }

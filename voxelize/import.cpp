@@ -34,14 +34,10 @@ struct Format {
   std::string_view ending;
   std::string_view name;
 };
-constexpr std::array<Format, 8> kFormats{{{".obj", "OBJ"},
-                                          {".stl", "STL"},
-                                          {".ply", "PLY"},
-                                          {".glb", "glTF"},
-                                          {".gltf", "glTF"},
-                                          {".fbx", "FBX"},
-                                          {".off", "OFF"},
-                                          {".dae", "Collada"}}};
+constexpr Format kFormats[] = {
+    {".obj", "OBJ"},   {".stl", "STL"}, {".ply", "PLY"}, {".glb", "glTF"},
+    {".gltf", "glTF"}, {".fbx", "FBX"}, {".off", "OFF"}, {".dae", "Collada"},
+};
 
 std::string known_formats() {
   return fmt::format("{}", fmt::join(mesh_endings(), ", "));

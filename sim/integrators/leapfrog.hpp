@@ -16,8 +16,7 @@ namespace springlod::sim {
 /// Both integrators are this scheme; they differ in the velocity w_n that the damping force uses:
 /// - symplectic_euler: w_n = v-, the old velocity. Damping is first order in dt; the limit is
 ///   dt = -beta + sqrt(beta^2 + 4/omega^2).
-/// - velocity_verlet: w_n = v- + (v- - v--) / 2, the velocity extrapolated to x_n. Damping is
-/// second
+/// - velocity_verlet: w_n = v- + (v- - v--) / 2, extrapolated to x_n. Damping is second
 ///   order; the limit is that of twice the damping time, dt = -2 beta + sqrt(4 beta^2 + 4/omega^2)
 ///   (the root z = -1 of z^3 + (W + 3d/2 - 2) z^2 + (1 - 2d) z + d/2 with W = omega^2 dt^2,
 ///   d = beta omega^2 dt; the Jury conditions for the other roots are weaker).
