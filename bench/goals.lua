@@ -1,4 +1,4 @@
--- The performance goals as rows {goal, asked, measured, met}. A goal whose benchmarks are missing
+-- The performance goals as rows {goal, limit, measured, met}. A goal whose benchmarks are missing
 -- is reported as not measured.
 
 local goals = {}
@@ -10,8 +10,8 @@ end
 -- Returns the list of rows and functions that append to it; `at_most` and `at_least` compare.
 local function list()
   local rows = {}
-  local function add(goal, value, asked, is_met, unit)
-    rows[#rows + 1] = {goal, asked, number(value) .. (value and unit or ""),
+  local function add(goal, value, limit, is_met, unit)
+    rows[#rows + 1] = {goal, limit, number(value) .. (value and unit or ""),
                        value and (is_met and "yes" or "no") or ""}
   end
   return rows, {

@@ -123,8 +123,8 @@ local function draw(by_name)
   if #lines == 0 then return end
   -- The script and data of the chart stay in the folder of the raw measurements.
   command.chart(args.measured .. "/ns-per-spring", lines, {
-    title = "A step of a body on a floor: time a spring, one thread", x_label = "nodes",
-    y_label = "ns a spring", log_x = true, log_y = true})
+    title = "A step of a body on a floor: time per spring, one thread", x_label = "nodes",
+    y_label = "ns per spring", log_x = true, log_y = true})
   for _, ending in ipairs{".svg", ".png"} do
     local drawn = args.measured .. "/ns-per-spring" .. ending
     if io.open(drawn) then
@@ -234,7 +234,7 @@ local function write_page(rows, by_name, context)
   local page = file:read("a")
   file:close()
   page = fill(page, "machine", machine_text(by_name, context))
-  page = fill(page, "goals", table_text(goals.rows(by_name), {"goal", "asked", "measured", "met"}))
+  page = fill(page, "goals", table_text(goals.rows(by_name), {"goal", "limit", "measured", "met"}))
   page = fill(page, "kernels", table_text(kernel_rows(by_name), {
     "body", "nodes", "kernel", "vectors", "ns per spring", "/ naive", "vector instructions",
     "vector bound [ns]", "bytes", "memory bound [ns]"}))
@@ -254,6 +254,6 @@ add_bounds(rows, by_name, kernel_vectors.count(args.programs .. "/bench_step"))
 write_csv(rows, context)
 draw(by_name)
 write_page(rows, by_name, context)
-print(s.format_table(goals.rows(by_name), {columns = {"goal", "asked", "measured", "met"}}))
+print(s.format_table(goals.rows(by_name), {columns = {"goal", "limit", "measured", "met"}}))
 s.say(("wrote %s/results.csv, %s/ns-per-spring.svg and .png, %s"):format(args.out, args.out,
                                                                          args.page))
