@@ -80,7 +80,7 @@ const Subject& Subjects::subject(Shape shape, Size size) {
     subject.model = shape == Shape::lattice ? lattice(size) : merged(size);
     lay_on_floor(subject.model);
     subject.step = kSafety * elastic::stable_step(elastic::frequency_bound(subject.model),
-                                         elastic::largest_damping_time(subject.model));
+                                                  elastic::largest_damping_time(subject.model));
   }
   return subject;
 }
