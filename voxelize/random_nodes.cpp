@@ -20,8 +20,8 @@ namespace {
 // cube or a square of one spacing.
 constexpr double kInnerDisk = 0.90;
 constexpr double kOuterDisk = 0.83;
-// Rounds of Lloyd's relaxation. E of a periodic network with 18 ends rises from 0.84 of eq. 2
-// without any to 0.92 after 5 and 0.927 after 20, and no further (docs/choices.md).
+// Rounds of Lloyd's relaxation. E of a periodic network with 18 ends rises by a tenth
+// within 20 and no further, most of it within 5 (docs/choices.md).
 constexpr int kRelaxations = 20;
 // Bisections of the spacing; the error of the count is then about one node.
 constexpr int kHalvings = 12;

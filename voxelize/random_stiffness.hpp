@@ -12,7 +12,7 @@ namespace springlod::voxelize {
 /// sum of the contributions of its two ends.
 ///
 /// Inside the body nearly all k are equal. A surface node has about half a volume, but springs all
-/// around; one k for all would make the surface too stiff (1000 nodes in a cube: E 12 % too large).
+/// around; one k for all would make the surface too stiff (1000 nodes in a cube: E 13 % too large).
 ///
 /// The weights w = 1 + u A u, with u the direction of a spring, make sum k L^2 u u^T of a node
 /// isotropic. With w = 1 it is not isotropic at the surface, where all springs lie along it or on

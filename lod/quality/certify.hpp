@@ -26,7 +26,7 @@ constexpr auto option_rows(const CertifyOptions*) {
       option("modes", &CertifyOptions::modes, "number of lowest frequencies to compare"),
       option("held_out_loads", &CertifyOptions::held_out_loads,
              "number of pinches, and of pushes, on patches of the surface; calibration is fitted "
-             "to neither"),
+             "to neither (but to pushes on its `regions`)"),
       option("seed", &CertifyOptions::seed, "seed of the positions of the held-out loads"),
       nodes_option("within", &CertifyOptions::within,
                    "nodes of the base whose surface the held-out loads act on, such as a region "

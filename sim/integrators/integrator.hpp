@@ -62,8 +62,8 @@ struct SolverOptions {
   /// Largest number of Newton iterations (backward Euler), sweeps over all springs (XPBD),
   /// local-global iterations (projective dynamics); 0: those of the integrator's row.
   std::uint32_t iterations = 0;
-  /// Backward Euler stops when the residual forces are at most this fraction of those at the start
-  /// of the step [1].
+  /// Backward Euler stops when the residual forces are at most this fraction of the acting forces
+  /// [1]: of the larger of the first residual and m (|v| / dt + |g|).
   double tolerance = 1e-6;
   /// Largest number of conjugate gradient iterations in one Newton iteration; 0: twice the number
   /// of unknowns.
