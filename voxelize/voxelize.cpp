@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include "base/error.hpp"
 #include "voxelize/depth.hpp"
@@ -132,21 +133,22 @@ class Voxelizer {
       control.stop();
       return 0;
     };
+    // Kept here, because a pipeline that ends with an exception leaks what its filters hand on.
+    std::vector<Field> fields(shells.size());
     const auto make_field = [&](std::size_t s) {
-      return std::pair(s, field_of(shells[s], positions));
+      fields[s] = field_of(shells[s], positions);
+      return s;
     };
-    const auto claim = [&](std::pair<std::size_t, Field> made) {
-      fill_solid(made.first, shells[made.first], std::move(made.second));
+    const auto claim = [&](std::size_t s) {
+      fill_solid(s, shells[s], std::move(fields[s]));
       task.advance();
     };
     using tbb::filter_mode;
     tbb::parallel_pipeline(
         static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()),
         tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, choose) &
-            tbb::make_filter<std::size_t, std::pair<std::size_t, Field>>(filter_mode::parallel,
-                                                                         make_field) &
-            tbb::make_filter<std::pair<std::size_t, Field>, void>(filter_mode::serial_in_order,
-                                                                  claim));
+            tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, make_field) &
+            tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, claim));
   }
 
   std::vector<Vec3> positions_in_cells() const {
@@ -156,9 +158,15 @@ class Voxelizer {
     return positions;
   }
 
+  // OpenVDB leaks memory if its tasks are cancelled. In a context of their own, they end normally
+  // after an interrupt or the failure of another part.
   Field field_of(const Shells& shells, const std::vector<Vec3>& positions) const {
-    Field field = level_set(positions, shells.outer, frame_);
-    if (!shells.cavity.empty()) subtract(*field, *level_set(positions, shells.cavity, frame_));
+    Field field;
+    tbb::task_group_context own(tbb::task_group_context::isolated);
+    tbb::task_group(own).run_and_wait([&] {
+      field = level_set(positions, shells.outer, frame_);
+      if (!shells.cavity.empty()) subtract(*field, *level_set(positions, shells.cavity, frame_));
+    });
     return field;
   }
 
