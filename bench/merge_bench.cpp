@@ -97,8 +97,8 @@ constexpr double kLeft = 0.43;
 void meshoptimizer_simplify(benchmark::State& state) {
   constexpr float kAnyError = 1;  // relative to the extent: only the count limits simplification
   const HeightField field = height_field(1015);
-  const auto target =
-      3 * static_cast<std::size_t>(kLeft * static_cast<double>(field.indices.size() / 3));
+  const std::size_t triangles = field.indices.size() / 3;
+  const auto target = 3 * static_cast<std::size_t>(kLeft * static_cast<double>(triangles));
   std::vector<unsigned> simplified(field.indices.size());
   std::size_t left = 0;
   for (auto _ : state)

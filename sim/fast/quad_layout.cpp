@@ -123,12 +123,12 @@ class Laying {
     const auto index_of = [&](std::uint32_t rank) {
       return block_of_[rank] == number ? rank - first : halo.at(rank);
     };
-    std::uint32_t quads = 0;
+    std::size_t quads = 0;
     for (std::uint32_t i = 0; i < block.own; ++i) {
       block.node.push_back(order_.point[first + i]);
       block.inverse_mass.push_back(static_cast<Real>(1 / model_.mass[block.node.back()]));
       const std::vector<HalfSpring>& own = springs[first + i];
-      for (std::uint32_t s = 0; s < own.size(); ++s) {
+      for (std::size_t s = 0; s < own.size(); ++s) {
         if (s % kQuad == 0) begin_quad(quads++, i, block);
         add_spring((quads - 1) * kQuad + s % kQuad, index_of(own[s].other), own[s].spring, block);
       }
@@ -137,7 +137,7 @@ class Laying {
   }
 
   /// A pair of quads that consist of gaps, to be filled with springs.
-  void begin_quad(std::uint32_t quad, std::uint32_t own, QuadBlock<Real>& block) const {
+  void begin_quad(std::size_t quad, std::uint32_t own, QuadBlock<Real>& block) const {
     if (quad % 2 == 0) {
       QuadPair<Real>& pair = block.pairs.emplace_back();
       std::fill(std::begin(pair.other), std::end(pair.other), scaled(block.nowhere()));
@@ -145,9 +145,9 @@ class Laying {
     }
     block.pairs.back().own[quad % 2] = scaled(own);
   }
-  void add_spring(std::uint32_t place, std::uint32_t other, std::uint32_t spring,
+  void add_spring(std::size_t place, std::uint32_t other, std::uint32_t spring,
                   QuadBlock<Real>& block) const {
-    const std::uint32_t lane = place % (2 * kQuad);
+    const std::size_t lane = place % (2 * kQuad);
     QuadPair<Real>& pair = block.pairs[place / (2 * kQuad)];
     const double k = model_.stiffness[spring];
     pair.other[lane] = scaled(other);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,7 +11,7 @@
 namespace springlod::sim {
 
 /// Springs in one vector operation; all share one node.
-inline constexpr std::uint32_t kQuad = 4;
+inline constexpr std::size_t kQuad = 4;
 
 /// Two quads: the data of eight springs that a step reads, as one stream through memory.
 template <class Real>
