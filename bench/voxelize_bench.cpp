@@ -151,20 +151,22 @@ void against_bare_call(benchmark::State& state, const TriangleMesh& mesh) {
   state.counters["cpu_ratio"] = ours.cpu / of_bare.cpu;
 }
 
-void voxelize_sphere_1M(benchmark::State& state) {
+void voxelize_sphere(benchmark::State& state) {
   against_bare_call(state, sphere_mesh(kAround, kAcross + 1));
 }
-void voxelize_torus_1M(benchmark::State& state) {
+void voxelize_torus(benchmark::State& state) {
   against_bare_call(state, torus_mesh(1, 0.4, kAround, kAcross));
 }
-BENCHMARK(voxelize_sphere_1M)
+BENCHMARK(voxelize_sphere)
+    ->Name("voxelize_sphere_1M")
     ->ArgName("threads")
     ->Arg(1)
     ->Arg(0)
     ->Iterations(3)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(voxelize_torus_1M)
+BENCHMARK(voxelize_torus)
+    ->Name("voxelize_torus_1M")
     ->ArgName("threads")
     ->Arg(1)
     ->Arg(0)

@@ -9,7 +9,7 @@ namespace springlod::elastic {
 
 struct BalancedSolverOptions {
   std::string name;         ///< of the test, for messages
-  std::string advice = "";  ///< what to do if it does not converge, for messages
+  std::string advice = {};  ///< what to do if it does not converge, for messages
   double tolerance = 1e-7;  ///< relative residual
   Eigen::Index most_steps = 20000;
 };

@@ -43,8 +43,10 @@ std::vector<std::vector<std::string>> commands_of(const fs::path& page) {
   bool inside = false;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("```")) inside = line == "```sh";
-    for (std::string more; inside && line.ends_with("\\") && std::getline(lines, more);)
-      line = line.substr(0, line.size() - 1) + more;
+    for (std::string more; inside && line.ends_with("\\") && std::getline(lines, more);) {
+      line.pop_back();
+      line += more;
+    }
     std::istringstream words(line);
     std::string program;
     words >> program;

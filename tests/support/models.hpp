@@ -59,7 +59,7 @@ inline MassSpringModel random_model(std::uint64_t seed, int n = 5) {
     for (int y = 0; y < n; ++y)
       for (int x = 0; x < n; ++x) {
         const Vec3 jitter(uniform(random), uniform(random), uniform(random));
-        rest.push_back(Vec3(x, y, z) + 0.3 * jitter);
+        rest.emplace_back(Vec3(x, y, z) + 0.3 * jitter);
         mass.push_back(0.5 + uniform(random));
       }
   std::vector<TableSpring> springs;

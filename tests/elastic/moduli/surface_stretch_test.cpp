@@ -22,7 +22,7 @@ MassSpringModel unit_cell() {
 
 std::vector<Vec3> corner_areas(const MassSpringModel& model) {
   std::vector<Vec3> areas;
-  for (const Vec3& p : model.rest) areas.push_back((2 * p - Vec3::Ones()) / 4);
+  for (const Vec3& p : model.rest) areas.emplace_back((2 * p - Vec3::Ones()) / 4);
   return areas;
 }
 
