@@ -111,7 +111,7 @@ TEST_CASE("Interpolation from a level to the base is exact for affine motions") 
     const LodChain chain = simplify(base, {.levels = 2});
     for (std::uint32_t n = 0; n < 3; ++n) {
       std::vector<Vec3> moved;
-      for (const Vec3& x : chain.levels[n].model.rest) moved.push_back(f * x + shift);
+      for (const Vec3& x : chain.levels[n].model.rest) moved.emplace_back(f * x + shift);
       const std::vector<Vec3> carried = interpolate(base_from_level(chain, n), moved);
       double worst = 0;
       for (std::uint32_t i = 0; i < base.node_count(); ++i)

@@ -58,8 +58,8 @@ TEST_CASE("Bound points follow every affine motion of the nodes exactly") {
   const Mat3 turn = Eigen::AngleAxisd(2.1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (const Mat3& matrix : {map, turn}) {
     std::vector<Vec3> moved, expected;
-    for (const Vec3& x : m.rest) moved.push_back(matrix * x + Vec3(1, -2, 3));
-    for (const Vec3& p : points) expected.push_back(matrix * p + Vec3(1, -2, 3));
+    for (const Vec3& x : m.rest) moved.emplace_back(matrix * x + Vec3(1, -2, 3));
+    for (const Vec3& p : points) expected.emplace_back(matrix * p + Vec3(1, -2, 3));
     CHECK(largest_distance(interpolate(b, moved), expected) < 1e-11);
   }
 }

@@ -102,7 +102,7 @@ inline std::vector<Vec3> bent(const std::vector<Vec3>& points, double curvature,
   for (const Vec3& p : points) {
     const double angle = p.x() * curvature;
     const double r = 1 / curvature - p.z();
-    out.push_back(Vec3(r * std::sin(angle), p.y(), 1 / curvature - r * std::cos(angle)) + move);
+    out.emplace_back(Vec3(r * std::sin(angle), p.y(), 1 / curvature - r * std::cos(angle)) + move);
   }
   return out;
 }

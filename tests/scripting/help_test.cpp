@@ -16,7 +16,6 @@
 using namespace springlod;
 using namespace springlod::scripting;
 using Catch::Matchers::Contains;
-using Catch::Matchers::StartsWith;
 
 namespace {
 

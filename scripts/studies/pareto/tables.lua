@@ -55,7 +55,7 @@ local function save_timings(path, variants)
   local columns = {"variant", "label"}
   interval_columns(columns, "cost", " [s/s]")
   interval_columns(columns, "cost / base", "")
-  for _, name in ipairs{"spring updates a simulated second", "step [s]", "repeats"} do
+  for _, name in ipairs{"spring updates per simulated second", "step [s]", "repeats"} do
     columns[#columns + 1] = name
   end
   local rows = {}
