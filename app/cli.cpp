@@ -171,7 +171,6 @@ std::optional<Leave> parse_rest(const std::vector<std::string>& rest,
   });
   if (known == commands.end()) return unknown_command(rest.front(), commands);
   line.action = CommandLine::Action::command;
-  line.command = known->name;
   line.script = known->script.string();
   return parse_back(arguments, false, line);
 }

@@ -16,8 +16,7 @@ struct CommandLine {
   scripting::Settings settings;
   bool prompt_after = false;           ///< -i
   std::string code;                    ///< of -e
-  std::string script;                  ///< of run
-  std::string command;                 ///< a stock command
+  std::string script;                  ///< of run or of a stock command
   std::vector<std::string> arguments;  ///< for the script or command
 };
 

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "app/cli.hpp"
-#include "base/error.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/paths.hpp"

@@ -1,6 +1,5 @@
 #include "bench/bullet_bench.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <numeric>
 

@@ -1,6 +1,5 @@
 #include "bench/naive_step.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace springlod::bench {

@@ -1,8 +1,6 @@
 #include "elastic/elastic_body.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>

@@ -1,6 +1,5 @@
 #include "elastic/rigid_clusters.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "render/node_values.hpp"
 #include "render/strain_colour.hpp"
 
@@ -40,7 +41,7 @@ Eigen::Vector3f relative(const Vec3& p, const Vec3& origin) {
 }
 
 Colour material_colour(const MassSpringModel& model, std::uint32_t node) {
-  return drawn_colour(model, model.material[node]);
+  return drawn_colour(model.materials, model.material[node]);
 }
 
 bool is_cut_away(const DrawnBody& body, std::uint32_t node) {
@@ -63,9 +64,9 @@ double drawn_length(const MassSpringModel& model) {
 
 }  // namespace
 
-Colour drawn_colour(const MassSpringModel& model, std::uint32_t material) {
-  const Colour& own = model.materials[material].colour;
-  return own == Colour{} ? palette_colour(material) : own;
+Colour drawn_colour(const std::vector<Material>& materials, std::uint32_t number) {
+  const Colour& own = materials[number].colour;
+  return own == Colour{} ? palette_colour(number) : own;
 }
 
 std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSurface& surface,
@@ -157,7 +158,7 @@ TriangleMesh box_mesh(const DrawnBox& box) {
 std::vector<Vec3> outline(const DrawnBody& body) {
   std::vector<Vec3> points;
   if (body.style.surface && body.surface != nullptr) points = surface_positions(body);
-  const bool balls = body.style.nodes || body.style.bold_inner_nodes;
+  const bool balls = draws_balls(body.style);
   if (body.model == nullptr || !(balls || body.style.springs)) return points;
   const Vec3 origin = node_positions(body).empty() ? Vec3(Vec3::Zero()) : node_positions(body)[0];
   for (const NodeInstance& node : node_instances(body, origin)) {
@@ -173,7 +174,7 @@ std::vector<Vec3> outline(const DrawnBody& body) {
 Box3 drawn_bounds(const DrawnBody& body) {
   Box3 box;
   if (body.style.surface && body.surface != nullptr) box.extend(bounds(surface_positions(body)));
-  if (body.model != nullptr && (body.style.nodes || body.style.springs))
+  if (body.model != nullptr && (draws_balls(body.style) || body.style.springs))
     box.extend(bounds(node_positions(body)));
   return box;
 }
@@ -182,7 +183,8 @@ void validate(const DrawnBody& body) {
   const auto require_finite = [](const std::vector<Vec3>& points, const char* what) {
     for (std::size_t i = 0; i < points.size(); ++i)
       if (!points[i].allFinite())
-        throw InputError(fmt::format("drawing: the position of {} {} is not finite", what, i));
+        throw InputError(
+            fmt::format("drawing: the position of {} {} is not finite", what, script_number(i)));
   };
   const DrawStyle& style = body.style;
   if (!(style.surface_opacity >= 0 && style.surface_opacity <= 1))
@@ -203,7 +205,7 @@ void validate(const DrawnBody& body) {
     if (!body.node_colours.empty() && body.node_colours.size() != x.size())
       throw InputError(fmt::format("drawing: {} node colours for a model of {} nodes",
                                    body.node_colours.size(), x.size()));
-  } else if (style.nodes || style.springs || style.bold_inner_nodes) {
+  } else if (draws_balls(style) || style.springs) {
     throw InputError("drawing: the style shows nodes or springs, but the body has no model");
   }
   if (body.surface != nullptr) {

@@ -6,23 +6,18 @@ asm(R"(
 .balign 16
 springlod_font_begin:
 .incbin ")" SPRINGLOD_FONT R"("
-springlod_font_end:
 .byte 0
 .popsection
 )");
 
 extern "C" {
 extern const unsigned char springlod_font_begin[];
-extern const unsigned char springlod_font_end[];
 }
 
 namespace springlod::render {
 
 const unsigned char* font_file() {
   return springlod_font_begin;
-}
-std::size_t font_file_size() {
-  return static_cast<std::size_t>(springlod_font_end - springlod_font_begin);
 }
 
 }  // namespace springlod::render

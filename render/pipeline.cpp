@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <map>
 #include <string_view>
-#include <utility>
 
 #include "base/file.hpp"
 #include "render/camera.hpp"
@@ -158,8 +157,7 @@ struct Pipeline::Impl {
     }
     slot.springs.set(style.springs ? spring_instances(body, origin)
                                    : std::vector<SpringInstance>{});
-    slot.nodes.set(style.nodes || style.bold_inner_nodes ? node_instances(body, origin)
-                                                         : std::vector<NodeInstance>{});
+    slot.nodes.set(draws_balls(style) ? node_instances(body, origin) : std::vector<NodeInstance>{});
     const Box3 box = drawn_bounds(body);
     slot.distance = box.isEmpty() ? 0 : (box.center() - camera.eye).norm();
   }
@@ -244,7 +242,6 @@ struct Pipeline::Impl {
     set(plane, "plane_center", patch.center);
     set(plane, "plane_u", patch.u);
     set(plane, "plane_v", patch.v);
-    set(plane, "plane_normal", patch.normal);
     set(plane, "plane_reach", patch.reach);
     set(plane, "plane_colour",
         patch.upright ? Vec3f(0.885F, 0.90F, 0.92F) : Vec3f(0.935F, 0.938F, 0.942F));

@@ -130,6 +130,10 @@ struct DrawStyle {
   /// inside. The surface is not cut.
   std::optional<DrawnPlane> cut;
 };
+/// True if nodes are drawn.
+inline bool draws_balls(const DrawStyle& style) {
+  return style.nodes || style.bold_inner_nodes;
+}
 /// Scripts write `cut` as a list, which the binding reads.
 constexpr auto option_rows(const DrawStyle*) {
   return std::tuple(
@@ -157,7 +161,7 @@ constexpr auto option_rows(const DrawStyle*) {
 
 /// Colour in which a material is drawn: its own, or a palette colour if it has the default grey, so
 /// that materials can be distinguished.
-Colour drawn_colour(const MassSpringModel& model, std::uint32_t material);
+Colour drawn_colour(const std::vector<Material>& materials, std::uint32_t number);
 
 /// One body in one panel at one instant. Its pointers do not own; the caller keeps the data alive.
 struct DrawnBody {

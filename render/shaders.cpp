@@ -279,7 +279,6 @@ void main() {
 }
 )",
           kHeader + kLighting + R"(
-uniform vec3 plane_normal;
 uniform vec3 plane_colour;
 uniform float plane_alpha;
 uniform float grid_spacing;

@@ -93,7 +93,7 @@ std::vector<Colour> part_colours(const LodAsset& asset) {
         for (std::uint32_t e = binding.start[v]; e < binding.start[v + 1]; ++e)
           share[base.material[binding.node[e]]] += std::abs(binding.weight[e]);
     const auto most = std::max_element(share.begin(), share.end()) - share.begin();
-    colours.push_back(render::drawn_colour(base, static_cast<std::uint32_t>(most)));
+    colours.push_back(render::drawn_colour(base.materials, static_cast<std::uint32_t>(most)));
   }
   return colours;
 }

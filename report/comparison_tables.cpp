@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "report/stats.hpp"
 #include "report/tables.hpp"
 

@@ -41,6 +41,11 @@ constexpr int kMechanismPattern = 2;  // gnuplot fill pattern: crossed lines
 // Half height of a cell without neighbours, as a factor of the step.
 constexpr double kLoneCell = 1.4;
 
+// The step axis ends at most this factor above the largest step, even if the limit is higher [1].
+constexpr double kLimitRoom = 10;
+// Factor between the end of the axis and what is drawn [1].
+constexpr double kMargin = 1.1;
+
 struct Scheme {
   sim::Integrator integrator;
   std::uint32_t iterations;
@@ -228,14 +233,17 @@ class Picture {
 
   void find_steps() {
     low_ = high_ = map_.points.front().step;
+    double highest_limit = 0;
     for (const Scheme& scheme : schemes_)
       for (const sim::StabilityBody& body : map_.bodies)
         for (const Cell& cell : cells_of(scheme, body.level, body.ratio)) {
           low_ = std::min({low_, cell.low, cell.point->limit});
-          high_ = std::max({high_, cell.high, std::min(cell.point->limit, 10 * high_)});
+          high_ = std::max(high_, cell.high);
+          highest_limit = std::max(highest_limit, cell.point->limit);
         }
-    low_ /= 1.1;
-    high_ *= 1.1;
+    high_ = std::max(high_, std::min(highest_limit, kLimitRoom * high_));
+    low_ /= kMargin;
+    high_ *= kMargin;
   }
 
   void draw_panel(std::size_t row, std::size_t column) {
@@ -355,8 +363,7 @@ class Picture {
 
 }  // namespace
 
-Drawing draw_map(const sim::StabilityMap& map, const MapPictureOptions& options,
-                 const fs::path& path) {
+Drawing draw_map(const sim::StabilityMap& map, const std::string& title, const fs::path& path) {
   require_picture_name(path);
   if (map.points.empty()) throw InputError("chart: the stability map has no points to draw");
   Picture picture(map, gnuplot_font_unit(path));
@@ -365,7 +372,7 @@ Drawing draw_map(const sim::StabilityMap& map, const MapPictureOptions& options,
       "set margins 0,0,0,0\nset xrange [0:{0}]\nset yrange [{1}:0]\nunset border\nunset tics\n"
       "unset key\n",
       picture.width(), picture.height());
-  script += picture.draw(options.title);
+  script += picture.draw(title);
   // gnuplot draws the objects with the next plot: a dummy point outside the sheet.
   script += "plot '-' using 1:2 with points notitle\n-1 -1\ne\n";
   return draw_with_gnuplot(script, path);

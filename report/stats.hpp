@@ -37,9 +37,10 @@ double quantile(std::vector<double> sample, double part);
 double sorted_quantile(const std::vector<double>& rising, double part);
 
 /// Glass's delta [1]: mean of `other` minus mean of `base`, divided by the standard deviation of
-/// `base`. If all values of the base are equal, it is infinite, or 0 for equal means. Needs at
-/// least two values in `base`.
-double difference_over_spread(const std::vector<double>& base, const std::vector<double>& other);
+/// `base`, or by `spread` if given. If all values of the base are equal, it is infinite, or 0 for
+/// equal means. Needs at least two values in `base`.
+double difference_over_spread(const std::vector<double>& base, const std::vector<double>& other,
+                              std::optional<double> spread = {});
 
 /// 1-Wasserstein (earth mover's) distance of two samples: the integral of |F - G| of their
 /// empirical distribution functions, exact for any sizes. It is the mean displacement of values
@@ -86,11 +87,14 @@ void require_pairs(const StartSample& base, const StartSample& other);
 
 // Resampling (bootstrap.cpp).
 
+constexpr std::uint32_t kFewestResamples = 100;
+constexpr std::uint32_t kMostResamples = 1'000'000;  // 8 MB of results
+
 struct BootstrapOptions {
   /// Start i of both samples is the same start: both values are drawn together.
   bool paired = false;
   SeedDesign design = SeedDesign::crossed;
-  std::uint32_t resamples = 2000;  ///< 100 .. 1e6
+  std::uint32_t resamples = 2000;  ///< kFewestResamples .. kMostResamples
   std::uint64_t seed = 1;
   Progress* progress = nullptr;
 };
@@ -277,8 +281,9 @@ struct NoiseFloorOptions {
   std::uint32_t base_size = 0;
   std::uint32_t other_size = 0;  ///< 0: as base_size
   SampleDistance distance = SampleDistance::wasserstein;
-  double part = 0.95;              ///< order of the quantile
-  std::uint32_t resamples = 2000;  ///< distances drawn; 100 .. 1e6
+  double part = 0.95;  ///< order of the quantile
+  /// Distances drawn, kFewestResamples to kMostResamples.
+  std::uint32_t resamples = 2000;
   std::uint64_t seed = 1;
   Progress* progress = nullptr;
 };

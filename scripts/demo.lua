@@ -1,18 +1,23 @@
 -- Run the whole workflow on a sample, from a mesh to tables, charts and a video.
 --
---   springlod run scripts/demo.lua -- [FOLDER [STARTS [FRAMES]]]
---
 -- The sample is the second body of the paper, two stiff rods and a rubber joint: mesh -> cells ->
 -- model -> levels -> a throw at a wall -> table, chart, video. ./dev demo runs this script.
 
 local s = require "springlod"
+local command = require "lib.command"
 local paper_numbers = require "studies.paper.numbers"
 local paper_variants = require "studies.paper.variants"
 
-local folder = arg[1] or "out/demo"
+local parser = command.parser("demo", "Run the whole workflow on a sample: mesh, cells, model, "
+  .. "levels, runs, table, chart and video.")
+parser:argument("folder", "folder to write to"):args("?"):default("out/demo")
+parser:argument("starts", "starts of each level (one is not enough: bouncing is chaotic)"):args("?")
+  :convert(command.whole("starts", 1)):default("8")
+parser:argument("frames", "frames of the video"):args("?")
+  :convert(command.whole("frames", 1)):default("60")
+local args = parser:parse()
+local folder, starts, frame_count = args.folder, args.starts, args.frames
 local samples = s.samples
-local starts = tonumber(arg[2]) or 8 -- one run is not enough: bouncing is chaotic
-local frame_count = tonumber(arg[3]) or 60
 
 -- 1. From the mesh to the model, with nodes at the cell centers as in the paper.
 local mesh = s.import(samples .. "/dumbbell.obj", {unit = "dm", up = "z"})

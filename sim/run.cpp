@@ -38,6 +38,18 @@ void validate(const RunOptions& options) {
                                  options.frame_rate));
 }
 
+void require_step_count(double duration, double step) {
+  constexpr double kMost = 1e15;  // more would take years
+  if (step > duration)
+    throw InputError(
+        fmt::format("run: step = {:g} s is longer than the duration of {:g} s; take a shorter step",
+                    step, duration));
+  if (duration / step > kMost)
+    throw InputError(fmt::format(
+        "run: step = {:g} s makes {:.2g} steps of the duration of {:g} s; take a longer step", step,
+        duration / step, duration));
+}
+
 double default_step(const RunOptions& options, double predicted, double duration) {
   double longest = std::min(options.safety * predicted, kLongestStep * duration);
   if (is_implicit(options.integrator)) longest = std::min(longest, kImplicitStep);
@@ -87,6 +99,7 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Sta
   trajectory.predicted_step = plan.limit->step;
   trajectory.step =
       options.step.value_or(default_step(options, plan.limit->step, scenario.duration));
+  require_step_count(scenario.duration, trajectory.step);
   integrate(model, scenario, start, options, plan, trajectory);
   trajectory.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

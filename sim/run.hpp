@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -79,7 +78,7 @@ struct Frame {
   std::vector<Vec3> x;  ///< [m]
 };
 
-/// One run of one model: deterministic, single-threaded.
+/// One run of one model: deterministic for any number of threads.
 struct Trajectory {
   double step = 0;            ///< at rest [s]
   double shortest_step = 0;   ///< while springs were strongly strained [s]

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -83,7 +84,7 @@ void validate(const Scenario& scenario) {
           "a finite number of seconds above 0");
   validate(scenario.start);
   for (std::size_t i = 0; i < scenario.obstacles.size(); ++i)
-    validate(scenario.obstacles[i], fmt::format("obstacles[{}]", i));
+    validate(scenario.obstacles[i], fmt::format("obstacles[{}]", script_number(i)));
   if (scenario.stop) {
     require(std::isfinite(scenario.stop->speed) && scenario.stop->speed > 0, "stop.speed",
             "a finite number of m/s above 0");

@@ -33,8 +33,8 @@ struct MaterialGrid {
       distance;  ///< of the whole solid; null for grids from tables
 };
 
-/// Throws InputError for cells that are not sorted or not unique, and for a material number out of
-/// range.
+/// Throws InputError for a cell size or origin that makes no sense, cells that are not sorted or
+/// not unique, depths that are not one per cell, and materials that are missing or wrong.
 void validate(const MaterialGrid& grid);
 
 /// A user's function of position and depth. Returns the name of a material, or "" to keep the
@@ -64,7 +64,7 @@ struct VoxelizeOptions {
 };
 
 struct VoxelizeReport {
-  double cell = 0;
+  double cell = 0;                    ///< [m]
   bool cell_chosen = false;           ///< true if options.cell was not given
   std::vector<std::string> warnings;  ///< such as volume errors, unused materials
   double mesh_volume = 0;             ///< sum over the parts [m3]

@@ -21,14 +21,17 @@ namespace {
 
 /// Samples for each node: the error of Lloyd's centroids is then below a tenth of the spacing.
 constexpr double kSamplesPerNode = 48;
+/// Limit of the mean number of springs at a node: more reach through the whole of most bodies.
+constexpr double kMostEnds = 1000;
 /// Limit of the number of nodes: more do not fit into memory with their samples.
 constexpr double kMostNodes = 1e8;
 
 std::uint32_t node_count(const MaterialGrid& grid, const RandomOptions& options) {
-  if (!(options.ends >= kLeastRandomEnds) || !(options.ends < 1000))
-    throw InputError(
-        fmt::format("random: ends = {} must be {} or more, so that no node is floppy (18 is usual)",
-                    options.ends, kLeastRandomEnds));
+  if (!(options.ends >= kLeastRandomEnds) || !(options.ends < kMostEnds))
+    throw InputError(fmt::format(
+        "random: ends = {} must be {} or more, so that no node is floppy, and below {} (18 is "
+        "usual)",
+        options.ends, kLeastRandomEnds, kMostEnds));
   double nodes = options.nodes.value_or(0);
   if (!options.nodes) {
     const double spacing = options.spacing.value_or(grid.cell);

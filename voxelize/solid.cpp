@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <span>
 #include <tuple>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
+#include "base/disjoint_sets.hpp"
 #include "voxelize/weld.hpp"
 
 namespace springlod::voxelize {
@@ -124,23 +124,14 @@ std::vector<std::uint32_t> solids_by_name(const TriangleMesh& mesh) {
 bool join_open_solids(const std::vector<FaultyEdge>& faulty,
                       std::vector<std::uint32_t>& solid_of_part) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> first_at;
-  std::vector<std::uint32_t> root(solid_of_part.size());
-  std::iota(root.begin(), root.end(), 0U);
-  const auto find = [&](std::uint32_t s) {
-    while (root[s] != s) s = root[s] = root[root[s]];
-    return s;
-  };
+  DisjointSets solids(static_cast<std::uint32_t>(solid_of_part.size()));
   bool joined = false;
   for (const FaultyEdge& edge : faulty) {
     if (edge.count != 1) continue;
     const auto [at, is_first] = first_at.try_emplace({edge.low, edge.high}, edge.solid);
-    if (is_first || find(at->second) == find(edge.solid)) continue;
-    const std::uint32_t l = find(at->second);
-    const std::uint32_t r = find(edge.solid);
-    root[std::max(l, r)] = std::min(l, r);
-    joined = true;
+    if (!is_first && solids.unite(at->second, edge.solid)) joined = true;
   }
-  for (std::uint32_t& solid : solid_of_part) solid = find(solid);
+  for (std::uint32_t& solid : solid_of_part) solid = solids.lowest(solid);
   return joined;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>

@@ -17,8 +17,6 @@ namespace {
 // The jackknife leaves out single values up to this number, otherwise as many blocks: the mean
 // acceleration is the same, and the cost is not quadratic in the sample size.
 constexpr std::size_t kMostBlocks = 500;
-constexpr std::uint32_t kFewestResamples = 100;
-constexpr std::uint32_t kMostResamples = 1000000;  // 8 MB of results
 
 // An infinite or undefined argument gives an infinite or undefined result, and no exception.
 using boost::math::policies::domain_error;

@@ -138,7 +138,7 @@ Equivalence bootstrap_equivalence(const StartSample& base, const StartSample& ot
   result.difference = mean(other.values) - mean(base.values);
   result.spread = spread_of(base.values, options);
   const auto in_spreads = [&](const std::vector<double>& b, const std::vector<double>& o) {
-    return options.spread ? (mean(o) - mean(b)) / *options.spread : difference_over_spread(b, o);
+    return difference_over_spread(b, o, options.spread);
   };
   const Bootstrap distribution = bootstrap(base, other, in_spreads, resampling);
   result.p_lower = confidence_below(distribution, -options.margin);

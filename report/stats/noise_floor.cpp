@@ -12,23 +12,18 @@ namespace springlod::report {
 
 namespace {
 
-constexpr std::size_t kLeastValues = 5;  // same as for the bootstrap
 // With fewer distances the 95 % quantile would be the maximum.
 constexpr std::size_t kLeastPairs = 20;
-constexpr std::uint32_t kFewestResamples = 100;
-constexpr std::uint32_t kMostResamples = 1000000;
 
 using Sources = std::vector<std::vector<double>>;
 
 void validate(const Sources& sources, const NoiseFloorOptions& options) {
   if (sources.empty()) throw InputError("noise floor: no samples of the base; give at least one");
   for (std::size_t i = 0; i < sources.size(); ++i)
-    require_sample(sources[i], kLeastValues, fmt::format("source {}", i + 1));
+    require_sample(sources[i], kLeastStarts, fmt::format("source {}", i + 1));
   if (!(options.part > 0 && options.part < 1))
-    throw InputError(
-        fmt::format("noise floor: part is {}, must be between 0 and 1, such as "
-                    "0.95",
-                    options.part));
+    throw InputError(fmt::format(
+        "noise floor: quantile is {}, must be between 0 and 1, such as 0.95", options.part));
   if (options.resamples < kFewestResamples || options.resamples > kMostResamples)
     throw InputError(fmt::format("noise floor: resamples is {}, must be {} to {}",
                                  options.resamples, kFewestResamples, kMostResamples));

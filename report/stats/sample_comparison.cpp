@@ -1,11 +1,30 @@
+#include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
 #include "report/stats.hpp"
 
 namespace springlod::report {
 
+namespace {
+
+void validate(const SampleComparisonOptions& options) {
+  if (!(options.confidence > 0.5 && options.confidence < 1))
+    throw InputError(fmt::format(
+        "comparison of samples: confidence is {}, must be above 0.5 and below 1, such as 0.95",
+        options.confidence));
+  if (options.spread && !(*options.spread > 0 && std::isfinite(*options.spread)))
+    throw InputError(
+        fmt::format("comparison of samples: spread is {}, must be above 0", *options.spread));
+}
+
+}  // namespace
+
 SampleComparison compare_samples(const StartSample& base, const StartSample& other,
                                  const SampleComparisonOptions& options) {
+  validate(options);
   const auto measured = [&](const TwoSampleStatistic& statistic, IntervalMethod method) {
     const Bootstrap result = bootstrap(base, other, statistic, options.resampling);
     return Measured{result.estimate, interval(result, options.confidence, method)};
@@ -16,8 +35,7 @@ SampleComparison compare_samples(const StartSample& base, const StartSample& oth
                                IntervalMethod::bca);
   result.difference_over_spread = measured(
       [&](const Values& b, const Values& o) {
-        return options.spread ? (mean(o) - mean(b)) / *options.spread
-                              : report::difference_over_spread(b, o);
+        return report::difference_over_spread(b, o, options.spread);
       },
       IntervalMethod::bca);
   result.wasserstein = measured(wasserstein_distance, IntervalMethod::percentile);

@@ -83,12 +83,13 @@ double quantile(std::vector<double> sample, double part) {
   return sorted_quantile(sample, part);
 }
 
-double difference_over_spread(const std::vector<double>& base, const std::vector<double>& other) {
+double difference_over_spread(const std::vector<double>& base, const std::vector<double>& other,
+                              std::optional<double> spread) {
   require_sample(base, 2, "base");
   require_sample(other, 1, "other");
   const double difference = mean(other) - mean(base);
-  const double spread = standard_deviation(base);
-  if (spread > 0) return difference / spread;
+  const double unit = spread ? *spread : standard_deviation(base);
+  if (unit > 0) return difference / unit;
   return difference == 0 ? 0 : std::copysign(std::numeric_limits<double>::infinity(), difference);
 }
 

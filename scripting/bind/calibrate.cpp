@@ -1,10 +1,6 @@
 // Calibration and certification of the levels of a chain.
 
 #include <string>
-#include <utility>
-
-#include <fmt/format.h>
-#include <lua.hpp>
 
 #include "lod/options.hpp"
 #include "lod/quality/certify.hpp"

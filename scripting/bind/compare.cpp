@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 #include <lua.hpp>
@@ -153,7 +152,7 @@ void describe_comparison(Api& api) {
                .returns = "list of tables, list of their keys: level, label, start, distance [m], "
                           "surface_error [m], shape_error [m], energy_difference, simulated [s], "
                           "spring_updates, ledger_error, unconverged_steps, first_crossing (time "
-                          "of the first crossing [s], or nothing)",
+                          "of the first crossing [s], or \"\")",
                .call = starts_method});
   type.method({.name = "timings",
                .summary = "Measured wall times; not reproducible.",

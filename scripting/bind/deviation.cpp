@@ -2,9 +2,6 @@
 
 #include "sim/study/deviation.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include <fmt/format.h>
 #include <lua.hpp>
 

@@ -2,7 +2,6 @@
 // anchored bodies.
 
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 #include <lua.hpp>

@@ -2,14 +2,11 @@
 
 #include "voxelize/grid.hpp"
 
-#include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 #include <lua.hpp>

@@ -1,12 +1,8 @@
 // Simplifying a model into a chain of levels, and reading the chain.
 
-#include <algorithm>
-#include <utility>
-
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "base/error.hpp"
 #include "lod/build.hpp"
 #include "scripting/bind/tables/grouping_script.hpp"
 #include "scripting/bind/tables/node_choice.hpp"

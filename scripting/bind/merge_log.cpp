@@ -6,7 +6,6 @@
 #include <numeric>
 #include <vector>
 
-#include <fmt/format.h>
 #include <lua.hpp>
 
 #include "scripting/bind/tables/options.hpp"

@@ -1,12 +1,10 @@
 // Mass-spring models: read, built from tables, estimated; chains saved, loaded and described.
 
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "base/error.hpp"
 #include "base/units.hpp"
 #include "elastic/moduli.hpp"
 #include "elastic/stable_step.hpp"

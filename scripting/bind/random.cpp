@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "base/error.hpp"
 #include "lod/refill.hpp"
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/values.hpp"

@@ -1,11 +1,7 @@
 // Animations, videos, charts and tables.
 
-#include <utility>
-
 #include <fmt/format.h>
-#include <lua.hpp>
 
-#include "base/error.hpp"
 #include "report/animate.hpp"
 #include "report/chart.hpp"
 #include "report/csv.hpp"
@@ -62,11 +58,9 @@ int chart_binding(Call& call) {
   report::ChartOptions options;
   TableReader reader = call.options(3);
   if (const auto map = call.try_value<sim::StabilityMap>(2)) {
-    report::MapPictureOptions picture;
     read_chart_options(call, reader, options);
     reader.finish();
-    picture.title = options.title;
-    return give_drawn(call, report::draw_map(*map, picture, call.path(1)));
+    return give_drawn(call, report::draw_map(*map, options.title, call.path(1)));
   }
   const auto comparison = call.try_value<ComparisonValue>(2);
   std::vector<report::ChartSeries> series;

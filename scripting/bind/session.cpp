@@ -105,11 +105,28 @@ int is_folder(Call& call) {
 
 ordered_json to_json(lua_State* L, int index, int depth);
 
+/// Throws InputError if the table has more than the entries 1 .. length.
+void require_list(lua_State* L, int table, lua_Integer length) {
+  lua_pushnil(L);
+  while (lua_next(L, table) != 0) {
+    lua_pop(L, 1);
+    const bool entry =
+        lua_isinteger(L, -1) != 0 && lua_tointeger(L, -1) >= 1 && lua_tointeger(L, -1) <= length;
+    if (entry) continue;
+    lua_pushvalue(L, -1);  // lua_tostring would change a number that lua_next needs
+    throw InputError(fmt::format(
+        "json: a table has the list entries 1 to {} and the key '{}'; JSON has either lists or "
+        "keys, so write them as two tables",
+        length, luaL_tolstring(L, -1, nullptr)));
+  }
+}
+
 ordered_json table_to_json(lua_State* L, int table, int depth) {
   if (depth > kJsonDepth) throw InputError("json: the tables are nested too deeply");
   luaL_checkstack(L, 8, "json");
   const auto length = static_cast<lua_Integer>(lua_rawlen(L, table));
   if (length > 0) {
+    require_list(L, table, length);
     ordered_json list = ordered_json::array();
     for (lua_Integer i = 1; i <= length; ++i) {
       lua_rawgeti(L, table, i);
@@ -144,8 +161,11 @@ ordered_json to_json(lua_State* L, int index, int depth) {
       if (lua_isinteger(L, index) != 0) return lua_tointeger(L, index);
       if (!std::isfinite(lua_tonumber(L, index))) return nullptr;  // JSON has no infinity
       return lua_tonumber(L, index);
-    case LUA_TSTRING:
-      return lua_tostring(L, index);
+    case LUA_TSTRING: {
+      std::size_t length = 0;
+      const char* text = lua_tolstring(L, index, &length);
+      return std::string(text, length);
+    }
     case LUA_TTABLE:
       return table_to_json(L, index, depth);
     default:

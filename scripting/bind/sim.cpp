@@ -1,12 +1,8 @@
 // Running one model under a scenario.
 
-#include <algorithm>
-#include <utility>
-
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "base/error.hpp"
 #include "base/script_number.hpp"
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/run_options.hpp"

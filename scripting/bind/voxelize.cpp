@@ -1,6 +1,5 @@
 // Meshes, their voxelizing, and the lattices built on grids.
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>

@@ -144,7 +144,7 @@ class Api {
   std::deque<ConstantEntry> constants_;
 };
 
-/// Defects of the descriptions (no summary, a parameter without help, an unknown type ...), one
+/// Defects of the descriptions (no summary, a parameter without help ...), one
 /// line each; empty if the documentation is complete.
 std::vector<std::string> undocumented(const Api& api);
 

@@ -1,7 +1,6 @@
 #include "scripting/engine/call.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -169,12 +168,6 @@ void TableReader::read(std::string_view name, double& into) {
   lua_pop(lua_, 1);
 }
 
-void TableReader::read(std::string_view name, float& into) {
-  double value = into;
-  read(name, value);
-  into = static_cast<float>(value);
-}
-
 void TableReader::read(std::string_view name, std::string& into) {
   if (!get(name)) return;
   if (lua_type(lua_, -1) != LUA_TSTRING) refuse(name, "text, got " + shown(lua_, -1));
@@ -318,7 +311,7 @@ Call::Call(lua_State* L, const FunctionEntry& entry)
   const int most = static_cast<int>(entry.arguments.size()) + (entry.options.empty() ? 0 : 1);
   if (count_ > most)
     throw InputError(fmt::format("{} takes {} argument{}, got {}; try help(\"{}\")", display_name(),
-                                 most, most == 1 ? "" : "s", count_, entry.name));
+                                 most, most == 1 ? "" : "s", count_, display_name()));
   lua_settop(L, index(most));  // fills omitted arguments with nil, before a binding pushes values
 }
 
@@ -349,11 +342,6 @@ void Call::refuse_self() const {
 std::string Call::text(int number) const {
   if (lua_type(lua_, index(number)) != LUA_TSTRING) refuse(number, "text");
   return text_at(lua_, index(number));
-}
-
-double Call::number(int number) const {
-  if (lua_type(lua_, index(number)) != LUA_TNUMBER) refuse(number, "a number");
-  return lua_tonumber(lua_, index(number));
 }
 
 long long Call::integer(int number, long long least, long long most) const {

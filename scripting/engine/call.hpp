@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,7 +31,6 @@ class TableReader {
   // Each overload leaves `into` unchanged if the option is not given.
   void read(std::string_view name, bool& into);
   void read(std::string_view name, double& into);  ///< a number, or text with a unit
-  void read(std::string_view name, float& into);
   void read(std::string_view name, std::string& into);
   void read(std::string_view name, Vec3& into);
   void read(std::string_view name, Colour& into);
@@ -135,7 +133,6 @@ class Call {
   }
   std::string text(int number) const;
   std::filesystem::path path(int number) const { return text(number); }
-  double number(int number) const;
   /// An integer in [least, most]; throws InputError otherwise.
   long long integer(int number, long long least, long long most) const;
   /// The optional table of options at argument `number`.

@@ -6,7 +6,6 @@
 
 #include <lua.hpp>
 
-#include "scripting/engine/help.hpp"
 #include "scripting/engine/repl.hpp"
 #include "scripting/engine/value.hpp"
 

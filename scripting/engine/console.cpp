@@ -86,10 +86,6 @@ void Console::say(std::string_view text) {
   put(fmt::format("{}\n", text));
 }
 
-void Console::say_more(std::string_view text) {
-  if (verbosity_ == Verbosity::verbose) say(text);
-}
-
 void Console::begin(std::string_view task, std::uint64_t total) {
   const std::lock_guard lock(mutex_);
   if (!running_.empty()) running_.back().done += pending_.exchange(0);

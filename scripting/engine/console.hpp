@@ -23,8 +23,6 @@ class Console : public Progress {
 
   /// Prints a message; not if quiet.
   void say(std::string_view text) override;
-  /// Prints a message only if verbose.
-  void say_more(std::string_view text);
   bool verbose() const { return verbosity_ == Verbosity::verbose; }
 
   void begin(std::string_view task, std::uint64_t total) override;

@@ -119,6 +119,18 @@ std::string markdown(const TypeEntry& type) {
   return text;
 }
 
+/// All names that help() knows.
+std::vector<std::string> help_topics(const Api& api) {
+  std::vector<std::string> names;
+  for (const FunctionEntry& entry : api.functions()) names.push_back(entry.name);
+  for (const TypeEntry& type : api.types()) names.push_back(type.name);
+  for (const RecordEntry& record : api.records()) names.push_back(record.name);
+  for (const TypeEntry& type : api.types())
+    for (const FunctionEntry& method : type.methods) names.push_back(type.name + ":" + method.name);
+  for (const auto& [table, words] : api.choices()) names.push_back("choices." + table);
+  return names;
+}
+
 }  // namespace
 
 std::string type_and_default(const Parameter& parameter) {
@@ -206,17 +218,6 @@ std::string help_for(const RecordEntry& record) {
   if (!record.example.empty()) text += "\nExample\n" + indented(record.example, 2);
   text.pop_back();
   return text;
-}
-
-std::vector<std::string> help_topics(const Api& api) {
-  std::vector<std::string> names;
-  for (const FunctionEntry& entry : api.functions()) names.push_back(entry.name);
-  for (const TypeEntry& type : api.types()) names.push_back(type.name);
-  for (const RecordEntry& record : api.records()) names.push_back(record.name);
-  for (const TypeEntry& type : api.types())
-    for (const FunctionEntry& method : type.methods) names.push_back(type.name + ":" + method.name);
-  for (const auto& [table, words] : api.choices()) names.push_back("choices." + table);
-  return names;
 }
 
 std::string help_for(const Api& api, const std::string& name) {

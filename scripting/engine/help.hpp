@@ -31,7 +31,4 @@ std::string signature(const FunctionEntry& entry);
 /// "quantity in m, default 1"; also for records.
 std::string type_and_default(const Parameter& parameter);
 
-/// Names that completion at the prompt offers, such as "s.", "voxelize", "help".
-std::vector<std::string> help_topics(const Api& api);
-
 }  // namespace springlod::scripting

@@ -7,7 +7,6 @@
 #include <cwchar>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <system_error>
 
@@ -65,7 +64,6 @@ class LineEditor {
   Input read(const char* prompt, std::string& line) {
     prompt_ = prompt;
     int count = 0;
-    errno = 0;
     // By default libedit prepares the terminal after it prints the prompt; a Ctrl-D in between
     // would be lost.
     el_set(edit_, EL_PREP_TERM, 1);

@@ -1,6 +1,7 @@
 #include "scripting/engine/script_error.hpp"
 
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 
@@ -85,6 +86,9 @@ std::shared_ptr<const ErrorValue> current_error(lua_State* L) {
   } catch (const std::bad_alloc&) {
     error->kind = "memory";
     error->message = "out of memory; take larger cells or fewer levels, frames or starts";
+  } catch (const std::filesystem::filesystem_error& e) {
+    error->kind = "io";
+    error->message = e.what();
   } catch (const std::exception& e) {
     error->kind = "internal";
     error->message = fmt::format("internal error: {}; please report it", e.what());

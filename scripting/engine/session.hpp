@@ -2,12 +2,10 @@
 
 #include <any>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
 #include <typeindex>
-#include <vector>
 
 #include "scripting/engine/console.hpp"
 

@@ -67,14 +67,27 @@ int open_module(lua_State* L) {
   return 1;
 }
 
+/// The text of the error value on top of the stack. Its __tostring may itself fail.
+std::string text_of_error(lua_State* L) {
+  lua_pushcfunction(L, [](lua_State* state) {
+    luaL_tolstring(state, 1, nullptr);
+    return 1;
+  });
+  lua_pushvalue(L, -2);
+  std::string text = lua_pcall(L, 1, 1, 0) == LUA_OK ? lua_tostring(L, -1)
+                                                     : "(an error value that cannot be shown)";
+  lua_pop(L, 1);
+  return text;
+}
+
 Outcome failed(lua_State* L, bool with_traceback) {
   Outcome outcome;
   outcome.done = false;
   const auto error =
       std::static_pointer_cast<const ErrorValue>(boxed_at(L, -1, &kValueName<ErrorValue>));
   outcome.interrupted = error && error->kind == "interrupted";
-  outcome.message = luaL_tolstring(L, -1, nullptr);
-  lua_pop(L, 2);
+  outcome.message = text_of_error(L);
+  lua_pop(L, 1);
   if (with_traceback) {
     lua_getfield(L, LUA_REGISTRYINDEX, kTraceback);
     if (lua_isstring(L, -1) != 0) outcome.traceback = lua_tostring(L, -1);

@@ -74,10 +74,6 @@ function command.quantities(option, dimension)
   return function(text) return list(text, command.quantity(option, dimension)) end
 end
 
-function command.words(text)
-  return list(text, function(word) return word end)
-end
-
 -- Words that must be in `known`.
 function command.words_of(option, known)
   local is_known = {}
@@ -126,6 +122,15 @@ function command.load_table(path)
     error(("%s must return a table, got a %s"):format(path, type(value)), 0)
   end
   return value
+end
+
+-- A converter: the path of a Lua file as the table that it returns.
+function command.table_file(option)
+  return function(path)
+    local ok, value = command.try(command.load_table, path)
+    if ok then return value end
+    return nil, option .. ": " .. value
+  end
 end
 
 -- Writes s.chart to stem.svg and stem.png.

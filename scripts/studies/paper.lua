@@ -32,9 +32,9 @@ parser:option("--speeds", "speeds of the rods in the paper's unit (default: its 
 parser:option("--speed-scale", "one unit of speed of the paper [m/s]")
   :convert(command.number("--speed-scale", 0)):default("0.26")
 parser:option("--ball-materials", "Lua file that returns materials core and shell")
-  :argname("<file.lua>")
+  :argname("<file.lua>"):convert(command.table_file("--ball-materials"))
 parser:option("--rods-materials", "Lua file that returns materials rod and rubber")
-  :argname("<file.lua>")
+  :argname("<file.lua>"):convert(command.table_file("--rods-materials"))
 parser:flag("--calibrated", "add calibrated levels with 45 % and 20 % of the nodes: LOD-fit-b (the "
   .. "paper's groups), LOD-fit-compact-b, and LOD-fit-compact-s and -sp, whose contact is on the "
   .. "surface of the base; the runs of a folder without them are reused")
@@ -51,8 +51,7 @@ local settings = {
   speeds = args.speeds or (args.quick and {30} or paper_numbers.speeds),
   variants = args.variants
     or (args.calibrated and paper_variants.labels() or paper_variants.paper_labels()),
-  ball_materials = args.ball_materials and command.load_table(args.ball_materials),
-  rods_materials = args.rods_materials and command.load_table(args.rods_materials),
+  ball_materials = args.ball_materials, rods_materials = args.rods_materials,
 }
 
 -- Everything that a run depends on.

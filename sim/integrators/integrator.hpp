@@ -48,7 +48,7 @@ struct IntegratorChoice : Choice<Integrator> {
   } traits;
 };
 ChoiceTable<IntegratorChoice> choices(Integrator);
-/// The options of an integrator that scripts can set.
+/// What scripts can read about an integrator.
 constexpr auto choice_traits(const IntegratorChoice& row) {
   return std::array{std::pair("implicit", row.traits.stable_step == nullptr),
                     std::pair("swept", row.traits.swept), std::pair("fast", row.traits.fast)};

@@ -2,8 +2,6 @@
 
 #include <Eigen/QR>
 
-#include "sim/run.hpp"
-
 namespace springlod::sim {
 
 Vec3 angular_velocity(const MassSpringModel& model, const State& state) {

@@ -1,6 +1,7 @@
 #include "sim/study/compare.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <future>
@@ -17,6 +18,9 @@
 
 namespace springlod::sim {
 namespace {
+
+// Interval in which a level that waits for its base looks whether the comparison has been stopped.
+constexpr std::chrono::milliseconds kPatience{10};
 
 // Tolerance by which a frame at the end of the window may seem to be later [s].
 constexpr double kRounding = 1e-9;
@@ -147,6 +151,9 @@ class Comparing {
     Trajectory trajectory = run_level(level, start, stopped);
     std::vector<Frame> base_frames = bring_back(level, trajectory.frames);
     const auto base_run = slots_[start].base;  // a copy: several threads must not share one future
+    // If another run failed, the base's may never start.
+    while (base_run.wait_for(kPatience) != std::future_status::ready)
+      if (stopped()) throw InterruptedError();
     const std::shared_ptr<BaseRun>& base = base_run.get();
     const Errors errors =
         mean_errors(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);

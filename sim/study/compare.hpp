@@ -58,9 +58,8 @@ struct LevelRuns {
   std::string label;  ///< "base", "LOD-hb-1"
   std::uint32_t level = 0;
   std::vector<StartResult> starts;
-  /// Trajectory of the first start, mapped to level 0 (N0 positions per frame).
-  Trajectory first;
-  std::vector<Frame> base_frames;
+  Trajectory first;                ///< of the first start
+  std::vector<Frame> base_frames;  ///< its frames, mapped to level 0 (N0 positions each)
 };
 
 struct Comparison {

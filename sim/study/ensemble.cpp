@@ -1,6 +1,5 @@
 #include "sim/study/ensemble.hpp"
 
-#include <cmath>
 #include <functional>
 
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "model/mass_spring.hpp"
 
 namespace springlod::sim {

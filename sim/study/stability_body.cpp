@@ -4,9 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <numeric>
-
-#include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "elastic/modes.hpp"

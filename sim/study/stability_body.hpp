@@ -23,7 +23,7 @@ RescaledChain rescaled_chain(const LodChain& chain, double ratio, const Stabilit
 
 /// A level at one ratio, with the reference for its test runs.
 struct Specimen {
-  std::shared_ptr<const RescaledChain> at_ratio;
+  std::shared_ptr<const RescaledChain> at_ratio;  ///< whose level it is
   State start;
   Scenario scene;  ///< neither gravity nor obstacles
   std::vector<Frame> reference;

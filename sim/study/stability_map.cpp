@@ -170,7 +170,7 @@ class Mapping {
     point.limit =
         is_implicit(point.integrator)
             ? body.limit
-            : predicted_step(model_of(body), specimens_[point.body].scene, point.integrator);
+            : predicted_step(model_of(point), specimens_[point.body].scene, point.integrator);
     for (const double step : steps_of(point, body, options_)) {
       point.step = step;
       map_.points.push_back(point);
@@ -200,14 +200,14 @@ class Mapping {
                                  .frame_rate = kSamples / body.duration,
                                  .progress = &progress};
     Scenario scene = specimen.scene;
-    if (!is_implicit(point.integrator))
-      scene.duration = std::max(scene.duration, kLeastSteps * point.step);
+    const double least_steps = is_implicit(point.integrator) ? 1 : kLeastSteps;
+    scene.duration = std::max(scene.duration, least_steps * point.step);
     try {
-      const Trajectory found = run(model_of(body), scene, specimen.start, run_options);
+      const Trajectory found = run(model_of(point), scene, specimen.start, run_options);
       point.finished = true;
       point.energy_drift = worst_drift(found.ledger);
       point.stable = point.energy_drift < kRunaway;
-      point.error = specimen.error(model_of(body), found.frames);
+      point.error = specimen.error(model_of(point), found.frames);
       point.cost = static_cast<double>(found.spring_updates) / found.simulated;
       point.unconverged_steps = found.unconverged_steps;
       point.wall_seconds = found.wall_seconds;
@@ -220,9 +220,9 @@ class Mapping {
     }
   }
 
-  const MassSpringModel& model_of(const StabilityBody& body) const {
-    const auto ratio = std::find(ratios_.begin(), ratios_.end(), body.ratio) - ratios_.begin();
-    return at_ratio_[static_cast<std::size_t>(ratio)]->chain.levels[body.level].model;
+  const MassSpringModel& model_of(const StabilityPoint& point) const {
+    const LodChain& chain = specimens_[point.body].at_ratio->chain;
+    return chain.levels[map_.bodies[point.body].level].model;
   }
 
   const LodChain& chain_;

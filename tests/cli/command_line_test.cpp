@@ -53,7 +53,8 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
 }
 
 TEST_CASE("every command has help") {
-  for (const char* command : {"convert", "info", "compare", "mergelog", "pareto", "stability"}) {
+  for (const char* command :
+       {"convert", "info", "compare", "demo", "mergelog", "pareto", "stability"}) {
     const Ran ran = springlod_run({command, "--help"});
     CAPTURE(command);
     CHECK(ran.exit_code == 0);

@@ -3,6 +3,7 @@
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using springlod::test::obj_of_boxes;
 using springlod::test::Ran;
 using springlod::test::spit;
@@ -259,7 +260,12 @@ TEST_CASE("JSON has sorted keys; values without JSON form are refused") {
     print(s.json({b = {1, 2.5, true}, a = "x\"y", c = {}, d = 1/0}, {indent = -1}))
     local loop = {}
     loop.loop = loop
-    print((pcall(s.json, loop)), (pcall(s.json, print)), (pcall(s.json, {[1.5] = 2}))))");
-  CHECK(ran.out ==
-        "{\"a\":\"x\\\"y\",\"b\":[1,2.5,true],\"c\":[],\"d\":null}\nfalse\tfalse\tfalse\n");
+    print((pcall(s.json, loop)), (pcall(s.json, print)), (pcall(s.json, {[1.5] = 2})))
+    print(s.json("a\0b", {indent = -1}))
+    print(select(2, pcall(s.json, {1, 2, depth = 3})))
+    print(select(2, pcall(s.json, {1, 2, [4] = 3}))))");
+  CHECK_THAT(ran.out, StartsWith("{\"a\":\"x\\\"y\",\"b\":[1,2.5,true],\"c\":[],\"d\":null}\n"
+                                 "false\tfalse\tfalse\n\"a\\u0000b\"\n"));
+  CHECK_THAT(ran.out, Contains("the list entries 1 to 2 and the key 'depth'"));
+  CHECK_THAT(ran.out, Contains("the list entries 1 to 2 and the key '4'"));
 }

@@ -81,7 +81,7 @@ TEST_CASE("stability reports invalid options and assets in one line") {
     CHECK_THAT(ran.err, Contains(reason) && !Contains("traceback"));
   };
   refused({"--levels", "7"}, 1, "levels: 7 is not there; the chain has 0 to 1");
-  refused({"--integrators", "verlet"}, 1, "velocity_verlet");
+  refused({"--integrators", "verlet"}, 2, "velocity_verlet");
   refused({"--ratios", "1,-3"}, 2, "'-3' must be a number above 0");
   refused({"--absolute-steps", "1kg"}, 2, "--absolute-steps");
   refused({"--periods", "none"}, 2, "--periods");

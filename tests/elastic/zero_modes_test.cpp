@@ -1,7 +1,6 @@
 #include "elastic/zero_modes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>

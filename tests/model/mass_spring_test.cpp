@@ -1,6 +1,5 @@
 #include "model/mass_spring.hpp"
 
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>

@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "base/error.hpp"
 #include "model/material.hpp"
 #include "tests/support/assets.hpp"
 

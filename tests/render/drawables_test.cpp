@@ -65,9 +65,9 @@ TEST_CASE("springs blend the materials of their ends") {
 TEST_CASE("materials with the default grey are drawn in different colours") {
   MassSpringModel model = bar();
   for (Material& m : model.materials) m.colour = Colour{};
-  CHECK_FALSE(drawn_colour(model, 0) == drawn_colour(model, 1));
+  CHECK_FALSE(drawn_colour(model.materials, 0) == drawn_colour(model.materials, 1));
   model.materials[1].colour = {0.1F, 0.2F, 0.3F};
-  CHECK(drawn_colour(model, 1) == Colour{0.1F, 0.2F, 0.3F});
+  CHECK(drawn_colour(model.materials, 1) == Colour{0.1F, 0.2F, 0.3F});
 }
 
 TEST_CASE("bold inner nodes are larger and red, border nodes smaller") {

@@ -1,7 +1,5 @@
 #include "report/animate.hpp"
 
-#include <cmath>
-
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"

@@ -1,6 +1,5 @@
 #include "report/chart.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 

@@ -2,7 +2,6 @@
 
 #include "scripting/engine/call.hpp"
 
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -140,9 +139,9 @@ TEST_CASE("Arguments are checked by number and type, and errors name them") {
   lua_State* L = state.lua();
   FunctionEntry entry{
       .name = "grow", .arguments = {{.name = "size"}, {.name = "name"}}, .call = [](Call& call) {
-        const double size = call.number(1);
+        const long long size = call.integer(1, 0, 9);
         const std::string name = call.text(2);
-        return call.give(size + 1, name + "!", call.integer(1, 0, 9), call.has(2));
+        return call.give(size + 1, name + "!", size, call.has(2));
       }};
   push_function(L, entry);
   CHECK(entry_of_function(L, -1) == &entry);
@@ -161,11 +160,13 @@ TEST_CASE("Arguments are checked by number and type, and errors name them") {
     CHECK_FALSE(outcome.done);
     return outcome.message;
   };
-  CHECK_THAT(refused("grow('a', 'x')"),
-             Contains("bad argument 1 (size) of grow: expected a number, got \"a\""));
+  CHECK_THAT(
+      refused("grow('a', 'x')"),
+      Contains("bad argument 1 (size) of grow: expected a whole number of 0 to 9, got \"a\""));
   CHECK_THAT(refused("grow(2)"), Contains("bad argument 2 (name) of grow: expected text"));
   CHECK_THAT(refused("grow(20, 'x')"), Contains("a whole number of 0 to 9"));
-  CHECK_THAT(refused("grow(1, 'x', 3)"), Contains("grow takes 2 arguments, got 3"));
+  CHECK_THAT(refused("grow(1, 'x', 3)"),
+             Contains("grow takes 2 arguments, got 3; try help(\"grow\")"));
 }
 
 TEST_CASE("Script errors have the kind of their cause") {

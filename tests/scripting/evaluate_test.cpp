@@ -66,6 +66,9 @@ TEST_CASE("A failed chunk reports the line of the error, and the next one runs")
   const Reply unprintable =
       evaluate(state, "setmetatable({}, {__tostring = function() error('mute') end})");
   CHECK_THAT(unprintable.error, Contains("mute"));
+  const Reply unprintable_error =
+      evaluate(state, "error(setmetatable({}, {__tostring = function() error('mute') end}))");
+  CHECK_THAT(unprintable_error.error, Contains("cannot be shown"));
   CHECK(lua_gettop(state.lua()) == height);
   CHECK(evaluate(state, "found = found + 1").error.empty());
   CHECK(found(state) == "2");

@@ -130,6 +130,9 @@ TEST_CASE("The distance is measured from the named obstacle or along the ground"
 TEST_CASE("Wrong run options are refused by name") {
   const auto model = test::ball();
   CHECK_THROWS_WITH(run(model, {}, {.step = -1.0}), Catch::Contains("step"));
+  CHECK_THROWS_WITH(run(model, {}, {.step = 1e-30}), Catch::Contains("take a longer step"));
+  CHECK_THROWS_WITH(run(model, {}, {.integrator = Integrator::backward_euler_cg, .step = 3}),
+                    Catch::Contains("longer than the duration"));
   CHECK_THROWS_WITH(run(model, {}, {.safety = 1.5}), Catch::Contains("safety"));
   CHECK_THROWS_WITH(run(model, {}, {.frame_rate = -1}), Catch::Contains("frame_rate"));
   Scenario scene;

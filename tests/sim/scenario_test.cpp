@@ -50,12 +50,12 @@ TEST_CASE("A scenario is refused with the name of its field") {
   CHECK_THAT(refusal(s), Catch::Contains("stop.speed"));
   s = test::rods_scene();
   s.obstacles[1].friction = -0.1;
-  CHECK_THAT(refusal(s), Catch::Contains("obstacles[1].friction"));
+  CHECK_THAT(refusal(s), Catch::Contains("obstacles[2].friction"));
   s = test::rods_scene();
   s.obstacles[0].shape = Plane{Vec3(0, 0, 2), 0};
-  CHECK_THAT(refusal(s), Catch::Contains("obstacles[0].normal"));
+  CHECK_THAT(refusal(s), Catch::Contains("obstacles[1].normal"));
   s = with_box({.half_size = Vec3(1, 0, 1)});
-  CHECK_THAT(refusal(s), Catch::Contains("obstacles[1].half_size"));
+  CHECK_THAT(refusal(s), Catch::Contains("obstacles[2].half_size"));
   s = test::rods_scene();
   s.measure_from = "ceiling";
   CHECK_THAT(refusal(s), Catch::Contains("measure_from") && Catch::Contains("ceiling"));

@@ -1,7 +1,5 @@
 #include "voxelize/import.hpp"
 
-#include <fstream>
-
 #include <assimp/Exporter.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>

@@ -1,6 +1,5 @@
 #include "voxelize/random.hpp"
 
-#include <cmath>
 #include <numeric>
 
 #include <catch2/catch.hpp>

@@ -138,11 +138,6 @@ report::ChartOptions cost_error_chart(const ComparisonValue& comparison) {
 std::vector<report::ChartSeries> series_from_table(Call& call, int index) {
   lua_State* L = call.lua();
   if (!lua_istable(L, index)) call.refuse(2, "a Comparison or a list of Series");
-  if (lua_getfield(L, index, "series") == LUA_TTABLE) {
-    index = lua_gettop(L);
-  } else {
-    lua_pop(L, 1);
-  }
   std::vector<report::ChartSeries> series;
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, index)); ++i) {
     lua_rawgeti(L, index, i);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
-#include "base/error.hpp"
 #include "scripting/bind/tables/options.hpp"
 
 namespace springlod::scripting {

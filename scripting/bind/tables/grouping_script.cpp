@@ -1,6 +1,5 @@
 #include "scripting/bind/tables/grouping_script.hpp"
 
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>

@@ -63,10 +63,10 @@ std::vector<Colour> part_colours(const TriangleMesh& surface,
   bool found = false;
   for (std::size_t i = 0; i < surface.parts.size(); ++i) {
     colours.push_back(palette_colour(i));
-    for (const Material& material : materials) {
-      if (material.name != surface.parts[i].name && material.name != surface.parts[i].material)
-        continue;
-      colours.back() = material.colour;
+    for (std::uint32_t m = 0; m < materials.size(); ++m) {
+      const std::string& name = materials[m].name;
+      if (name != surface.parts[i].name && name != surface.parts[i].material) continue;
+      colours.back() = render::drawn_colour(materials, m);
       found = true;
     }
   }

@@ -33,7 +33,7 @@ class Picture {
   double heading_share(int panel_height) const;
   /// Fraction used by its colour bars.
   double scales_share(int panel_height) const;
-  /// Bounding box that the camera must show.
+  /// Points that the camera must show [m].
   std::vector<Vec3> points() const;
   /// Valid for the lifetime of this object.
   render::Panel panel(const render::Camera& camera) const;

@@ -1,7 +1,5 @@
 #include "scripting/bind/tables/scenario_table.hpp"
 
-#include <utility>
-
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <lua.hpp>

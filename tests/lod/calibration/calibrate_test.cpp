@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "base/error.hpp"
 #include "elastic/stable_step.hpp"
 #include "lod/build.hpp"
 #include "lod/calibration/elastic_fit.hpp"

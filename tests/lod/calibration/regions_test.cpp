@@ -1,7 +1,6 @@
 // Targets of a calibration beside those of the whole body: regions of the surface, and weights.
 
 #include <algorithm>
-#include <cmath>
 
 #include <catch2/catch.hpp>
 

@@ -1,13 +1,10 @@
 #include "lod/grouping/grouping.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <catch2/catch.hpp>
 
-#include "base/error.hpp"
 #include "lod/build.hpp"
 #include "lod/merging/merge.hpp"
 #include "tests/support/bodies.hpp"

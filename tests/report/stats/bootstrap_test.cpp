@@ -153,7 +153,10 @@ TEST_CASE("samples that cannot be resampled are refused") {
                     Contains("do not form a table"));
   CHECK_THROWS_WITH(bootstrap(five, mean, {.resamples = 3}), Contains("resamples"));
   const StartSample flat{{2, 2, 2, 2, 2}};
-  CHECK_THROWS_WITH(bootstrap(flat, five, difference_over_spread), Contains("no spread"));
+  CHECK_THROWS_WITH(
+      bootstrap(flat, five,
+                [](const auto& b, const auto& o) { return difference_over_spread(b, o); }),
+      Contains("no spread"));
   CHECK_THROWS_AS(interval(bootstrap(five, mean), 1), InputError);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(bootstrap(five, {{1, 2, 3, 4, nan}}, difference), Contains("value 5"));

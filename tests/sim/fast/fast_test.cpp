@@ -1,7 +1,6 @@
 // Fast layouts compared with the plain kernel.
 
 #include <memory>
-#include <random>
 
 #include <catch2/catch.hpp>
 #include <hwy/targets.h>

@@ -3,7 +3,6 @@
 
 #include "sim/fast/step_team.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <thread>
 #include <vector>

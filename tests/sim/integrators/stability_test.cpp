@@ -86,9 +86,9 @@ TEST_CASE("The contact's stiffness counts in the predicted step") {
 TEST_CASE("A step far beyond the limit is caught before or as numbers stop being finite") {
   const auto model = test::ball();
   const double factor = GENERATE(3.0, 30.0, 3e4, 1e12);
-  const auto scene = stir(1e15);
-  const double step = factor * predicted_step(model, scene);
-  CHECK_THROWS_AS(run(model, scene, {.step = step, .frame_rate = 0}), UnstableError);
+  const double step = factor * predicted_step(model, stir(1));
+  CHECK_THROWS_AS(run(model, stir(kManySteps * step), {.step = step, .frame_rate = 0}),
+                  UnstableError);
 }
 
 TEST_CASE("A body at rest, thrown straight up or dropped raises no alarm") {

@@ -1,6 +1,5 @@
 // Runs that must fail: each failure is detected and reported with its cause.
 #include <algorithm>
-#include <cmath>
 
 #include <catch2/catch.hpp>
 

@@ -184,7 +184,7 @@ TEST_CASE("The best rigid fit finds a rotation and distinguishes a mirror image 
 TEST_CASE("The error of the first run that failed reaches the caller with level and start") {
   CompareOptions options;
   options.starts = 4;
-  options.run.step = 1.0;
+  options.run.step = 0.1;
   options.threads = GENERATE(1U, 2U);
   try {
     compare(test::small_chain(), small_scene(), options);

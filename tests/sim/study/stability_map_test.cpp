@@ -1,7 +1,6 @@
 #include "sim/study/stability_map.hpp"
 
 #include <cmath>
-#include <map>
 
 #include <catch2/catch.hpp>
 
