@@ -11,7 +11,7 @@ springlod_font_begin:
 )");
 
 extern "C" {
-extern const unsigned char springlod_font_begin[];
+extern const unsigned char springlod_font_begin[];  // NOLINT(readability-identifier-naming)
 }
 
 namespace springlod::render {

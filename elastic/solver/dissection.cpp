@@ -28,7 +28,7 @@ struct Cut {
 class Dissector {
  public:
   Dissector(const std::vector<Vec3>& points, const NodeGraph& graph)
-      : points_(points), graph_(graph), side_(points.size(), kOutside) {}
+      : points_(points), graph_(graph), side_(points.size(), Side::outside) {}
 
   Dissection run() {
     Nodes all(points_.size());
@@ -38,7 +38,7 @@ class Dissector {
   }
 
  private:
-  enum Side : std::uint8_t { kOutside, kLow, kHigh };
+  enum class Side : std::uint8_t { outside, low, high };
 
   /// Returns the roots of the trees it made: several if the region is disconnected.
   std::vector<std::uint32_t> cut_up(Nodes nodes) {
@@ -87,14 +87,15 @@ class Dissector {
   }
 
   void mark_sides(const Nodes& nodes, Eigen::Index axis, double place) {
-    for (const std::uint32_t i : nodes) side_[i] = points_[i][axis] < place ? kLow : kHigh;
+    for (const std::uint32_t i : nodes)
+      side_[i] = points_[i][axis] < place ? Side::low : Side::high;
   }
   void unmark(const Nodes& nodes) {
-    for (const std::uint32_t i : nodes) side_[i] = kOutside;
+    for (const std::uint32_t i : nodes) side_[i] = Side::outside;
   }
   /// Whether a node of the region is coupled to its other side.
   bool crosses(std::uint32_t i) const {
-    const Side other = side_[i] == kLow ? kHigh : kLow;
+    const Side other = side_[i] == Side::low ? Side::high : Side::low;
     for (std::uint32_t e = graph_.start[i]; e < graph_.start[i + 1]; ++e)
       if (side_[graph_.neighbour[e]] == other) return true;
     return false;
@@ -104,8 +105,8 @@ class Dissector {
     mark_sides(nodes, axis, place);
     std::size_t low = 0, low_crossing = 0, high_crossing = 0;
     for (const std::uint32_t i : nodes) {
-      if (side_[i] == kLow) ++low;
-      if (crosses(i)) ++(side_[i] == kLow ? low_crossing : high_crossing);
+      if (side_[i] == Side::low) ++low;
+      if (crosses(i)) ++(side_[i] == Side::low ? low_crossing : high_crossing);
     }
     unmark(nodes);
     if (low == 0) return std::nullopt;
@@ -125,11 +126,11 @@ class Dissector {
     std::array<Nodes, 3> sets;
     auto& [low, high, separator] = sets;
     for (const std::uint32_t i : nodes) {
-      const bool from_here = (side_[i] == kLow) == cut.from_low;
+      const bool from_here = (side_[i] == Side::low) == cut.from_low;
       if (from_here && crosses(i))
         separator.push_back(i);
       else
-        (side_[i] == kLow ? low : high).push_back(i);
+        (side_[i] == Side::low ? low : high).push_back(i);
     }
     unmark(nodes);
     return sets;

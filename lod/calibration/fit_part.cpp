@@ -59,7 +59,6 @@ class PartFit {
           const FitOptions& options, const FitProgress& progress)
       : start_(level),
         targets_(targets),
-        options_(options),
         progress_(progress),
         steps_(fit_steps(options, level.node_count())),
         tolerance_(frequency_tolerance(options.tolerance, targets.nodes, level.node_count())),
@@ -253,7 +252,6 @@ class PartFit {
 
   const MassSpringModel& start_;
   const ElasticTargets& targets_;
-  const FitOptions& options_;
   const FitProgress& progress_;
   std::uint32_t steps_;
   double tolerance_, least_frequency_, constraint_weight_;

@@ -282,7 +282,7 @@ TEST_CASE("invalid input is refused with a reason") {
   std::vector<Vec3> wrong = scene.x;
   wrong[7].x() = NAN;
   panel.bodies[0].node_positions = &wrong;
-  CHECK_THROWS_WITH(renderer.draw({panel}), Catch::Contains("node 7"));
+  CHECK_THROWS_WITH(renderer.draw({panel}), Catch::Contains("node 8"));
   wrong.pop_back();
   CHECK_THROWS_WITH(renderer.draw({panel}), Catch::Contains("280 positions"));
   panel.bodies = {scene.body()};
