@@ -12,7 +12,9 @@ namespace springlod::inline base {
 /// file is removed and `path` is unchanged. Throws IoError.
 void write_aside(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path&)>& write);
+/// Writes through write_aside; throws IoError.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
+/// All bytes. Throws IoError, also for a folder.
 std::string read_file(const std::filesystem::path& path);
 
 /// 64-bit xxh3 hash as 16 hexadecimal digits.

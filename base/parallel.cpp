@@ -5,6 +5,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -66,7 +67,11 @@ void run_jobs(
   const std::uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
   const std::uint64_t workers = std::min<std::uint64_t>(count, threads > 0 ? threads : cores);
   std::vector<std::thread> others;
-  for (std::uint64_t t = 1; t < workers; ++t) others.emplace_back(work);
+  try {
+    for (std::uint64_t t = 1; t < workers; ++t) others.emplace_back(work);
+  } catch (const std::system_error&) {
+    // The system has no more threads: fewer do the same jobs.
+  }
   work();
   for (std::thread& thread : others) thread.join();
   failure.rethrow();

@@ -61,10 +61,12 @@ std::string read_all(int descriptor) {
   }
 }
 
-int wait_for(pid_t child) {
+int wait_for(pid_t child, const fs::path& program) {
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (::waitpid(child, &status, 0) < 0)
+    if (errno != EINTR)
+      throw IoError(fmt::format("cannot wait for {}: {}", program.string(),
+                                std::generic_category().message(errno)));
   constexpr int kKilledBySignal = 128;  // a shell's convention
   return WIFEXITED(status) ? WEXITSTATUS(status) : kKilledBySignal + WTERMSIG(status);
 }
@@ -112,7 +114,7 @@ ProgramResult run_program(const fs::path& program, const std::vector<std::string
   writing.close();  // otherwise reading the child's stderr would never reach its end
   ProgramResult result;
   result.errors = read_all(reading.number());
-  result.exit_code = wait_for(child);
+  result.exit_code = wait_for(child, program);
   return result;
 }
 

@@ -16,7 +16,8 @@ struct ProgramResult {
 };
 
 /// Runs a program without a shell, in `folder` (empty: the current one), and waits for it. Its
-/// stdin is empty and its stdout is discarded. Throws IoError if it cannot be started.
+/// stdin is empty and its stdout is discarded. Throws IoError if it cannot be started or waited
+/// for.
 ProgramResult run_program(const std::filesystem::path& program,
                           const std::vector<std::string>& arguments,
                           const std::filesystem::path& folder = {});

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
@@ -18,8 +19,6 @@ struct Unit {
   double in_si;
 };
 
-constexpr double kPi = 3.14159265358979323846;
-
 // The SI unit is the first entry.
 constexpr std::array kLength{Unit{"m", 1},     Unit{"nm", 1e-9},   Unit{"um", 1e-6},
                              Unit{"mm", 1e-3}, Unit{"cm", 1e-2},   Unit{"dm", 1e-1},
@@ -32,9 +31,9 @@ constexpr std::array kDensity{Unit{"kg/m3", 1}, Unit{"kg/m^3", 1}, Unit{"g/cm3",
 constexpr std::array kVelocity{Unit{"m/s", 1}, Unit{"cm/s", 1e-2}, Unit{"mm/s", 1e-3},
                                Unit{"km/h", 1 / 3.6}};
 constexpr std::array kAcceleration{Unit{"m/s2", 1}, Unit{"m/s^2", 1}};
-constexpr std::array kAngle{Unit{"rad", 1}, Unit{"deg", kPi / 180}};
-constexpr std::array kAngularVelocity{Unit{"rad/s", 1}, Unit{"deg/s", kPi / 180},
-                                      Unit{"rpm", kPi / 30}};
+constexpr std::array kAngle{Unit{"rad", 1}, Unit{"deg", std::numbers::pi / 180}};
+constexpr std::array kAngularVelocity{Unit{"rad/s", 1}, Unit{"deg/s", std::numbers::pi / 180},
+                                      Unit{"rpm", std::numbers::pi / 30}};
 
 std::span<const Unit> units_of(Dimension dimension) {
   switch (dimension) {

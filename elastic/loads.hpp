@@ -40,6 +40,9 @@ struct StaticOptions {
   /// further improvement. Above 0, one solution with the factors usually suffices, and `residual`
   /// is then 0.
   double relative_tolerance = 0;
+  /// Balance motions that the anchors leave free by inertia, as for a free body, instead of
+  /// throwing InputError.
+  bool balance_free_motions = false;
 };
 
 /// Nine smooth loads: "stretch x", "stretch y", "stretch z", "shear yz", "shear xz", "shear xy",
@@ -77,7 +80,8 @@ struct LocalLoadOptions {
 /// Two patches, pulled apart: "patches 1", ... Every other pair is close together (at most two
 /// radii), the others are anywhere. About half of the pairs are pulled along the line between their
 /// centres, the others in a random direction. Returns fewer loads, or none, if the surface has no
-/// room for two patches.
+/// room for two patches, and fewer on surfaces of more than about 25,000 border nodes, where random
+/// draws seldom find two that are close together.
 std::vector<StaticLoad> patch_pairs(const MassSpringModel& model, const LocalLoadOptions& options);
 
 /// A patch and the one opposite along the surface normal, pressed together: "pinch 1", ... The
@@ -88,9 +92,9 @@ std::vector<StaticLoad> pinches(const MassSpringModel& model, const LocalLoadOpt
 /// balance it; see solve_static.
 std::vector<StaticLoad> pushes(const MassSpringModel& model, const LocalLoadOptions& options);
 
-// Loads on each material region alone (region_loads.cpp).
+// Loads on each material region alone (piece_loads.cpp).
 
-struct RegionLoadOptions {
+struct PieceLoadOptions {
   std::size_t most_regions = 6;  ///< the largest are taken
   std::size_t least_nodes = 20;  ///< in a region; smaller ones have hardly any stiffness alone
 };
@@ -99,7 +103,7 @@ struct RegionLoadOptions {
 /// surface: "stretch x of rod at node 0", ... They measure the stiffness of the region by itself;
 /// loads on the whole body hardly depend on stiff regions that soft ones connect. Returns none if
 /// the body is one region.
-std::vector<StaticLoad> region_loads(const MassSpringModel& model,
-                                     const RegionLoadOptions& options = {});
+std::vector<StaticLoad> piece_loads(const MassSpringModel& model,
+                                    const PieceLoadOptions& options = {});
 
 }  // namespace springlod::elastic

@@ -23,7 +23,6 @@ std::string summary_of(const SimplifyOptions& options) {
   const GroupingOptions& g = options.grouping;
   std::string grouping = to_string(g.grouping);
   if (options.groups) grouping = "groups of the script";
-  if (g.pair_cost || g.node_priority) grouping = "function of the script";
   return fmt::format("{}, border {}, seed {}{}{}", grouping, to_string(g.border), g.seed,
                      options.mass == MassRule::proximity ? ", mass by proximity" : "",
                      options.guards ? "" : ", no guards");
@@ -37,7 +36,7 @@ bool straight_from_base(const SimplifyOptions& options) {
 /// Requested number of nodes of a level; 0: the grouping determines it.
 std::uint32_t wanted_nodes(std::uint32_t base_nodes, const SimplifyOptions& options,
                            std::uint32_t level) {
-  if (options.keep.empty() && !straight_from_base(options)) return 0;
+  if (options.groups || (options.keep.empty() && !straight_from_base(options))) return 0;
   constexpr double kUsual = 0.45;  // average fraction that groups of 2 or 3 nodes leave
   const double part = options.keep.empty() ? std::pow(kUsual, level) : options.keep[level - 1];
   return std::max(1U, static_cast<std::uint32_t>(std::lround(part * base_nodes)));
@@ -110,8 +109,14 @@ Step next_step(const Level& finer, const SimplifyOptions& options, std::uint32_t
 }
 
 void require_coarser(const Level& finer, const Groups& groups, const SimplifyOptions& options,
-                     std::uint32_t level) {
-  if (groups.count < finer.model.node_count()) return;
+                     std::uint32_t level, std::uint32_t wanted) {
+  const std::uint32_t before = finer.model.node_count();
+  if (groups.count < before) return;
+  if (wanted >= before)
+    throw InputError(fmt::format(
+        "simplify: keep asks for {} nodes in level {}, and level {} has {} nodes; use a smaller "
+        "fraction or fewer levels",
+        wanted, level, level - 1, before));
   throw InputError(fmt::format(
       "simplify: level {} is the coarsest possible one, because no two of its {} nodes can merge; "
       "use levels = {}{}",
@@ -124,7 +129,7 @@ Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uin
   const std::uint32_t wanted =
       wanted_nodes(chain.levels.front().model.node_count(), options, level);
   Step step = next_step(finer, options, level, wanted);
-  require_coarser(chain.levels.back(), step.groups, options, level);
+  require_coarser(chain.levels.back(), step.groups, options, level, wanted);
   return {merge(finer.model, step.groups, std::move(step.links)),
           compose(finer.of_base, step.groups),
           (options.made_by.empty() ? summary_of(options) : options.made_by) +
@@ -145,7 +150,9 @@ void check(const SimplifyOptions& options) {
     throw InputError(fmt::format("simplify: keep is for {} levels, but levels = {}; leave one out",
                                  options.keep.size(), options.levels));
   if (options.groups && !options.keep.empty())
-    throw InputError("simplify: keep and groups both determine the number of nodes; leave one out");
+    throw InputError(
+        "simplify: keep cannot be met by the groups of a script (a list or function as grouping, "
+        "node_priority, pair_cost); leave keep out");
   const GroupingChoice& grouping = choice_of(options.grouping.grouping);
   if (!options.groups && !grouping.traits.follows_border &&
       options.grouping.border != BorderRule::none)

@@ -1,11 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
 
-#include "base/progress.hpp"
 #include "lod/options.hpp"
 #include "model/chain.hpp"
 

@@ -171,10 +171,10 @@ constexpr ChoiceTable<Choice<TargetKinds>> choices(TargetKinds) {
 }
 
 struct TargetOptions {
-  /// The loads are smooth_loads, region_loads, and loads on patches and regions.
+  /// The loads are smooth_loads, piece_loads, and loads on patches and regions.
   TargetKinds kinds = TargetKinds::both;
   std::uint32_t modes = 20;
-  double piece_weight = 0.3;  ///< of each of region_loads, relative to a smooth load [1]
+  double piece_weight = 0.3;  ///< of each of piece_loads, relative to a smooth load [1]
   /// Number of patch pairs on the surface, see patch_pairs; empty: see patch_count. Without them a
   /// fit increases the error of loads that are not fitted.
   std::optional<std::uint32_t> patches = {};
@@ -184,8 +184,9 @@ struct TargetOptions {
   double mode_weight = 1, load_weight = 1;
   std::uint64_t seed = 1;                    ///< of the patches
   std::vector<std::uint32_t> anchored = {};  ///< base nodes that are held fixed
-  std::uint32_t threads = 1;                 ///< at most two are used; results do not depend on it
-  Progress* progress = nullptr;              ///< may be null
+  // calibrate() sets these two to its own.
+  std::uint32_t threads = 1;     ///< at most two are used; results do not depend on it
+  Progress* progress = nullptr;  ///< may be null
 };
 constexpr auto option_rows(const TargetOptions*) {
   return std::tuple(
@@ -222,7 +223,8 @@ struct FitOptions {
   /// With KeptMoments::pieces stiff regions cannot take mass from the others. More accurate in
   /// impacts; shorter stable time step.
   KeptMoments moments = KeptMoments::body;
-  std::uint32_t threads = 1;  ///< at most two are used; results do not depend on it
+  /// At most two are used; results do not depend on it. calibrate() sets it to its own.
+  std::uint32_t threads = 1;
 };
 constexpr auto option_rows(const FitOptions*) {
   return std::tuple(

@@ -44,20 +44,23 @@ Binding identity_binding(std::uint32_t count) {
 
 }  // namespace
 
+Binding fine_from_coarse(const MassSpringModel& fine, const MassSpringModel& coarse,
+                         const Groups& groups) {
+  const SpringRows springs(coarse);
+  Binding binding;
+  for (std::uint32_t i = 0; i < fine.node_count(); ++i)
+    append_bound_point(binding, fine.rest[i], coarse,
+                       nearest_neighbourhood(coarse, springs, groups.of[i], fine.rest[i]));
+  return binding;
+}
+
 Binding base_from_level(const LodChain& chain, std::uint32_t level) {
   if (level >= chain.levels.size())
     throw InputError(fmt::format("transfer: there is no level {}; use a level from 0 to {}", level,
                                  chain.levels.size() - 1));
   const MassSpringModel& base = chain.levels[0].model;
   if (level == 0) return identity_binding(base.node_count());
-  const MassSpringModel& coarse = chain.levels[level].model;
-  const Groups& groups = chain.levels[level].of_base;
-  const SpringRows springs(coarse);
-  Binding binding;
-  for (std::uint32_t i = 0; i < base.node_count(); ++i)
-    append_bound_point(binding, base.rest[i], coarse,
-                       nearest_neighbourhood(coarse, springs, groups.of[i], base.rest[i]));
-  return binding;
+  return fine_from_coarse(base, chain.levels[level].model, chain.levels[level].of_base);
 }
 
 }  // namespace springlod::lod

@@ -205,13 +205,8 @@ void append_bound_point(Binding& binding, const Vec3& point, const MassSpringMod
   append_weights(binding, point, model, by_distance(point, model, nodes));
 }
 
-Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& model,
-                    const BindOptions& options) {
+Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& model) {
   if (model.rest.empty()) throw InputError("binding: the model has no nodes to bind points to");
-  if (options.nodes_per_point < 4)
-    throw InputError(
-        fmt::format("binding: {} nodes per point are too few; give 4 or more (8 is the default)",
-                    options.nodes_per_point));
   const NodeCloud cloud{model.rest};
   const NodeTree tree(3, cloud);
   const SpringRows springs(model);
@@ -225,7 +220,7 @@ Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& mode
     tree.knnSearch(point.data(), 1, &nearest, &distance2);
     const auto around = two_springs_around(nearest, springs, mark);
     const auto candidates = by_distance(point, model, around);
-    append_weights(binding, point, model, choose(candidates, options.nodes_per_point, model));
+    append_weights(binding, point, model, choose(candidates, kNodesPerPoint, model));
   }
   return binding;
 }

@@ -25,18 +25,14 @@ struct Binding {
 /// `node_count`.
 void validate(const Binding& binding, std::uint32_t node_count);
 
-struct BindOptions {
-  /// Maximum number of nodes per point: 8 as in a cell of the lattice; affine motions need at least
-  /// 4.
-  std::uint32_t nodes_per_point = 8;
-};
+/// Largest number of nodes per point: as in a cell of the lattice. Affine motions need at least 4.
+inline constexpr std::uint32_t kNodesPerPoint = 8;
 
 /// Binds each point to its nearest node and the nearest of the neighbours up to two springs away.
 /// Therefore, a point is never bound to a part of the body that is close to it but not connected.
 /// If these nodes are coplanar, the farthest are replaced by nearby nodes outside the plane, if
-/// there are any. Throws InputError for a model without nodes or fewer than 4 nodes per point.
-Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& model,
-                    const BindOptions& options = {});
+/// there are any. Throws InputError for a model without nodes.
+Binding bind_points(const std::vector<Vec3>& points, const MassSpringModel& model);
 
 /// Appends a row with the moving-least-squares weights of first order of one point (Lancaster &
 /// Salkauskas 1981; docs/method.md, eq. 26): the w that minimise sum w_j^2 / phi_j with sum w_j = 1
@@ -51,7 +47,8 @@ void append_bound_point(Binding& binding, const Vec3& point, const MassSpringMod
                         const std::vector<std::uint32_t>& nodes);
 
 /// The map `outer` after `inner`: `outer` maps the points of `inner`, which maps nodes. The entries
-/// of a row are in ascending order of node.
+/// of a row are in ascending order of node. Throws InputError if `inner` has other points than
+/// `outer` maps.
 Binding compose(const Binding& outer, const Binding& inner);
 
 /// Positions (or velocities) of the P points, interpolated from N node values.

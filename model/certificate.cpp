@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -25,7 +26,7 @@ void validate(const Certificate& c) {
                  fmt::format("a modulus of material {}", m.material));
   for (std::size_t i = 0; i < c.frequencies.size(); ++i) {
     const Certificate::Frequency& f = c.frequencies[i];
-    const std::string owner = fmt::format("frequency {} (counted from 1)", i + 1);
+    const std::string owner = fmt::format("frequency {}", script_number(i));
     check_finite({f.level, f.base, f.mac}, owner);
     if (f.base <= 0)
       throw InputError(

@@ -52,10 +52,11 @@ struct Certificate {
 void validate(const Certificate& certificate);
 
 /// Mean |error| of the frequencies first .. last-1, counted from 0; missing frequencies are
-/// skipped.
+/// skipped; 0 without any.
 double mean_frequency_error(const Certificate& certificate, std::uint32_t first,
                             std::uint32_t last);
-/// Mean |error| of the loads that were, or were not, held out of the calibration.
+/// Mean |error| of the loads that were, or were not, held out of the calibration; 0
+/// without any.
 double mean_load_error(const Certificate& certificate, bool held_out);
 
 }  // namespace springlod::inline model

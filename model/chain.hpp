@@ -22,7 +22,8 @@ struct Groups {
 
 /// The identity map.
 Groups identity_groups(std::uint32_t node_count);
-/// The map `coarser` after `finer`.
+/// The map `coarser` after `finer`. Throws InputError if `coarser` maps other nodes than `finer`
+/// makes.
 Groups compose(const Groups& finer, const Groups& coarser);
 /// The coarse nodes that the fine `nodes` were merged into, ascending, each once. Therefore, a
 /// group is anchored if any of its nodes is. Throws InputError for a node that is not in the map.

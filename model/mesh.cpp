@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 
 namespace springlod::inline model {
 
@@ -35,12 +36,13 @@ double surface_area(const TriangleMesh& mesh) {
 void validate(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     if (!mesh.positions[i].allFinite())
-      throw InputError(fmt::format("mesh: vertex {} is not finite; repair the mesh", i));
+      throw InputError(
+          fmt::format("mesh: vertex {} is not finite; repair the mesh", script_number(i)));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t v : mesh.triangles[t])
       if (v >= mesh.positions.size())
         throw InputError(fmt::format("mesh: triangle {} refers to vertex {}, but there are only {}",
-                                     t, v, mesh.positions.size()));
+                                     script_number(t), script_number(v), mesh.positions.size()));
   std::size_t next = 0;
   for (const MeshPart& part : mesh.parts) {
     if (part.first_triangle != next)

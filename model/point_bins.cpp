@@ -21,12 +21,13 @@ PointBins::PointBins(const std::vector<Vec3>& points, const Box3& box, double bi
   const auto bins = [&](double edge) {
     double total = 1;
     for (int d = 0; d < 3; ++d) {
-      count_[d] = std::max(1, static_cast<int>(std::min(extent[d] / edge, 1e6)));
+      count_[d] = std::max(1, static_cast<int>(std::min(extent[d] / edge, kMostSteps)));
       total *= count_[d];
     }
     return total;
   };
-  while (bins(bin) > most) bin *= 1.25;
+  constexpr double kLarger = 1.25;  // in 10 steps to a tenth of the bins
+  while (bins(bin) > most) bin *= kLarger;
   for (int d = 0; d < 3; ++d) size_[d] = extent[d] / count_[d];
 
   const std::size_t total = number({count_[0] - 1, count_[1] - 1, count_[2] - 1}) + 1;

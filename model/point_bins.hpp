@@ -56,8 +56,10 @@ class PointBins {
   }
 
  private:
+  static constexpr double kMostSteps = 1e6;  // bins along an axis: far below the range of int
+
   int steps(int d, double radius) const {
-    return static_cast<int>(std::min(radius / size_[d], 1e6)) + 1;
+    return static_cast<int>(std::min(radius / size_[d], kMostSteps)) + 1;
   }
   std::array<int, 3> bin_of(const Vec3& place) const;
   Vec3 shortest(Vec3 offset) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -19,8 +20,6 @@ namespace springlod::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kPi = 3.14159265358979323846;
 
 void require_matching(const LodAsset& asset, const sim::Comparison& comparison) {
   if (comparison.levels.empty()) throw InputError("animation: the comparison has no runs");
@@ -174,7 +173,7 @@ double facing(const sim::Obstacle& obstacle, double azimuth) {
   const Vec3 across(plane->normal.x(), plane->normal.y(), 0);
   constexpr double kWall = 0.7;  // cosine; floors and ramps never hide the motion
   if (across.norm() < kWall * plane->normal.norm()) return 1;
-  const double angle = azimuth * kPi / 180;
+  const double angle = azimuth * std::numbers::pi / 180;
   return across.normalized().dot(Vec3(std::cos(angle), std::sin(angle), 0));
 }
 

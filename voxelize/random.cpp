@@ -10,7 +10,6 @@
 
 #include "base/error.hpp"
 #include "elastic/moduli.hpp"
-#include "elastic/stiffness.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/random_nodes.hpp"
 #include "voxelize/random_springs.hpp"

@@ -169,8 +169,8 @@ std::vector<StaticSolution> solve_static(const ElasticBody& body,
   const auto count = static_cast<Eigen::Index>(loads.size());
   Sizes sizes{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
   for (const ElasticComponent& component : body.components)
-    solve_component(component, !body.anchored.empty(), loads, options.relative_tolerance, solutions,
-                    sizes);
+    solve_component(component, !body.anchored.empty() && !options.balance_free_motions, loads,
+                    options.relative_tolerance, solutions, sizes);
   for (Eigen::Index c = 0; c < count; ++c)
     if (sizes.solution[c] > 0)
       solutions[static_cast<std::size_t>(c)].residual =

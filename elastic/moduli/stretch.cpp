@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 #include "elastic/moduli/balanced_solver.hpp"
 #include "elastic/stiffness.hpp"
 

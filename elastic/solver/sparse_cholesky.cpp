@@ -63,7 +63,6 @@ class SparseCholesky::Builder {
     const Dissection::Supernode& supernode = supernodes_[p];
     Front& front = factor_.fronts_.emplace_back();
     front.first = 3 * static_cast<Eigen::Index>(supernode.begin);
-    front.parent = supernode.parent;
     if (supernode.parent != Dissection::kNoParent) children_[supernode.parent].push_back(p);
 
     std::vector<std::uint32_t>& rows = front.rows;
@@ -151,12 +150,6 @@ class SparseCholesky::Builder {
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& matrix,
                                const std::vector<Vec3>& points, Progress* progress) {
   positive_ = Builder(*this, matrix, points).run(progress);
-}
-
-std::size_t SparseCholesky::stored() const {
-  std::size_t sum = 0;
-  for (const Front& front : fronts_) sum += static_cast<std::size_t>(front.block.size());
-  return sum;
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& b) const {

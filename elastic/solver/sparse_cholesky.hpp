@@ -31,8 +31,6 @@ class SparseCholesky {
   bool positive() const { return positive_; }
   /// x = A^-1 b for each column of b (3N rows).
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
-  /// Number of stored values in L, including zeros within its dense blocks.
-  std::size_t stored() const;
 
  private:
   /// Columns of one supernode: a dense block, first its own rows, then those of its ancestors.
@@ -40,7 +38,6 @@ class SparseCholesky {
     Eigen::Index first = 0;  // its first unknown, in the order of elimination
     std::vector<std::uint32_t>
         rows;  // nodes of its ancestors, by their place in the order; ascending
-    std::uint32_t parent = Dissection::kNoParent;
     Eigen::MatrixXd block;
     Eigen::Index width() const { return block.cols(); }
     Eigen::Index below() const { return block.rows() - block.cols(); }

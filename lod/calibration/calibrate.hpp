@@ -1,10 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <vector>
 
-#include "base/progress.hpp"
 #include "lod/options.hpp"
 #include "model/chain.hpp"
 

@@ -84,7 +84,7 @@ std::vector<std::pair<std::size_t, std::size_t>> ElasticFit::mode_pairs() const 
 }
 
 ElasticResiduals ElasticFit::residuals(const MassSpringModel& level) const {
-  const elastic::ElasticBody body = held_body(level, anchored_);
+  const elastic::ElasticBody body = elastic::elastic_body(level, {.anchored = anchored_});
   const auto of_modes = static_cast<Eigen::Index>(mode_pairs().size());
   const Eigen::Index rows = of_modes + static_cast<Eigen::Index>(loads_.size());
   ElasticResiduals all;
@@ -125,8 +125,8 @@ void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticB
 
 void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticBody& body,
                            Eigen::Index first, ElasticResiduals& all) const {
-  const std::vector<elastic::StaticSolution> solved =
-      elastic::solve_static(body, loads_, {.relative_tolerance = kLoadBalance});
+  const std::vector<elastic::StaticSolution> solved = elastic::solve_static(
+      body, loads_, {.relative_tolerance = kLoadBalance, .balance_free_motions = true});
   const auto k = as_vector(level.stiffness).array();
   const auto m = as_vector(level.mass).array();
   for (std::size_t l = 0; l < loads_.size(); ++l) {

@@ -68,22 +68,14 @@ std::vector<double> compliances(const elastic::ElasticBody& body,
     const std::size_t last = std::min(targets.size(), first + kTogether);
     std::vector<elastic::StaticLoad> loads;
     for (std::size_t l = first; l < last; ++l) loads.push_back(targets[l].load);
-    for (const elastic::StaticSolution& solution :
-         elastic::solve_static(body, loads, {.relative_tolerance = kLoadBalance}))
+    for (const elastic::StaticSolution& solution : elastic::solve_static(
+             body, loads, {.relative_tolerance = kLoadBalance, .balance_free_motions = true}))
       all.push_back(solution.compliance);
   }
   return all;
 }
 
 }  // namespace
-
-elastic::ElasticBody held_body(const MassSpringModel& model,
-                               const std::vector<std::uint32_t>& anchored, Progress* progress) {
-  elastic::ElasticBody body =
-      elastic::elastic_body(model, {.anchored = anchored, .progress = progress});
-  body.anchored.clear();  // without anchors solve_static balances free motions by inertia
-  return body;
-}
 
 elastic::StaticLoad summed_over_groups(const Groups& of_base, const elastic::StaticLoad& load) {
   elastic::StaticLoad coarse{load.name, std::vector<Vec3>(of_base.count, Vec3::Zero())};
@@ -120,7 +112,7 @@ std::vector<LoadTarget> target_loads(const MassSpringModel& base, const TargetOp
   };
   if (options.kinds != TargetKinds::modes) {
     add(LoadKind::smooth, 1, elastic::smooth_loads(base));
-    add(LoadKind::piece, options.piece_weight, elastic::region_loads(base));
+    add(LoadKind::piece, options.piece_weight, elastic::piece_loads(base));
   }
   const std::uint32_t patches = patch_count(options, base.node_count());
   if (patches > 0 && border_count(base) > 0)
@@ -134,7 +126,8 @@ std::vector<LoadTarget> target_loads(const MassSpringModel& base, const TargetOp
 
 BaseMeasurements measure_base(const MassSpringModel& base, const TargetOptions& options,
                               const std::vector<LoadTarget>& loads) {
-  const elastic::ElasticBody body = held_body(base, options.anchored, options.progress);
+  const elastic::ElasticBody body =
+      elastic::elastic_body(base, {.anchored = options.anchored, .progress = options.progress});
   BaseMeasurements measured;
   run_jobs(2, options.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
     const std::uint32_t modes = mode_count(options);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -15,7 +14,7 @@ namespace springlod::lod {
 /// Kinds of static loads. Each kind has its own weight and tolerance.
 enum class LoadKind {
   smooth,  ///< on the whole body: smooth_loads
-  piece,   ///< on one material region: region_loads
+  piece,   ///< on one material region: piece_loads
   patch,   ///< on patches anywhere on the surface: patch_pairs
   region,  ///< within a TargetRegion of the surface: patch_pairs and pushes
 };
@@ -70,12 +69,6 @@ BaseMeasurements measure_base(const MassSpringModel& base, const TargetOptions& 
                               const std::vector<LoadTarget>& loads);
 ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& options,
                             std::vector<LoadTarget> loads, const BaseMeasurements& measured);
-
-/// The linearized body held at the anchored nodes. Rigid motions that the anchors leave free are
-/// balanced by inertia as for a free body; they are no error.
-elastic::ElasticBody held_body(const MassSpringModel& model,
-                               const std::vector<std::uint32_t>& anchored,
-                               Progress* progress = nullptr);
 
 /// Nodes of the region that loads can act on: border nodes that are not anchored.
 std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const TargetRegion& region,

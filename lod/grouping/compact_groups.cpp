@@ -72,6 +72,7 @@ class CompactKind {
   }
 
   void relax(std::uint32_t passes) {
+    if (center_.size() == 1) return;
     for (std::uint32_t pass = 0; pass < passes; ++pass) {
       find_centers();
       if (!assign()) break;
@@ -157,19 +158,19 @@ class CompactKind {
 
 Groups compact_groups(const MassSpringModel& model, const CompactOptions& options) {
   Groups groups{std::vector<std::uint32_t>(model.node_count()), 0};
-  std::uint32_t wanted = options.count;
   if (options.border == BorderRule::strong)
     for (std::uint32_t i = 0; i < model.node_count(); ++i)
       if (model.border[i] != 0) groups.of[i] = groups.count++;
-  if (wanted < groups.count)
-    throw InputError(
-        fmt::format("compact grouping: {} groups are fewer than the {} border nodes, which stay "
-                    "single with border = \"strong\"; use more groups or border = \"weak\"",
-                    wanted, groups.count));
-  wanted -= groups.count;
   const std::vector<Nodes> kinds = kinds_of(model, options.border);
+  const std::size_t least = groups.count + kinds.size();
+  if (options.count < least || options.count > model.node_count())
+    throw InputError(fmt::format(
+        "compact grouping: {} groups are impossible for {} nodes: {} border nodes stay single "
+        "(border = \"strong\"), and the others are of {} kinds (components, materials, weak "
+        "borders), which cannot share groups; use {} to {}",
+        options.count, model.node_count(), groups.count, kinds.size(), least, model.node_count()));
   const std::vector<std::uint32_t> share =
-      graded_shares(frequencies_of(model, kinds), wanted, options.grading);
+      graded_shares(frequencies_of(model, kinds), options.count - groups.count, options.grading);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     CompactKind kind(model, kinds[k], share[k], split_mix(options.seed) + k);
     kind.relax(options.passes);

@@ -66,6 +66,7 @@ std::vector<std::uint32_t> graded_shares(const std::vector<NodeKind>& kinds, std
         count, all, kinds.size(), kinds.size(), all));
   if (!(grading >= 0 && grading <= 1))
     throw InputError(fmt::format("compact grouping: grading = {} must be from 0 to 1", grading));
+  if (kinds.empty()) return {};
   const std::vector<double> exact = exact_shares(kinds, count, static_cast<double>(all), grading);
   // Largest remainders first.
   std::vector<std::uint32_t> share;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
 #include "base/script_number.hpp"
 #include "lod/grouping/compact_groups.hpp"
@@ -38,21 +39,18 @@ constexpr GroupingChoice kGroupings[] = {
 
 constexpr std::uint32_t kUngrouped = std::numeric_limits<std::uint32_t>::max();
 
-void require_joined(const SpringRows& springs, const std::vector<std::uint32_t>& set,
-                    const std::vector<std::uint32_t>& leader) {
-  std::vector<std::uint32_t> reached{set[0]};
-  for (std::size_t next = 0; next < reached.size(); ++next) {
-    const std::uint32_t i = reached[next];
-    springs.for_each(i, [&](std::uint32_t j, std::uint32_t) {
-      if (leader[j] == leader[i] && std::find(reached.begin(), reached.end(), j) == reached.end())
-        reached.push_back(j);
-    });
-  }
-  if (reached.size() < set.size())
-    throw InputError(fmt::format(
-        "groups: the group of node {} is not connected by springs, so merging it would join "
-        "separate bodies; split it",
-        script_number(set[0])));
+/// Throws InputError for a group that springs do not connect. `leader`: first node of each node's
+/// group.
+void require_joined(const MassSpringModel& model, const std::vector<std::uint32_t>& leader) {
+  DisjointSets joined(model.node_count());
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+    if (leader[model.a[s]] == leader[model.b[s]]) joined.unite(model.a[s], model.b[s]);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    if (joined.lowest(i) != joined.lowest(leader[i]))
+      throw InputError(fmt::format(
+          "groups: the group of node {} is not connected by springs, so merging it would join "
+          "separate bodies; split it",
+          script_number(leader[i])));
 }
 
 }  // namespace
@@ -92,9 +90,7 @@ Groups groups_from_sets(const MassSpringModel& model,
   }
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     if (leader[i] == kUngrouped) leader[i] = i;
-  const SpringRows springs(model);
-  for (const std::vector<std::uint32_t>& set : sets)
-    if (!set.empty()) require_joined(springs, set, leader);
+  require_joined(model, leader);
   return groups_from_leaders(leader);
 }
 

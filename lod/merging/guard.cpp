@@ -181,7 +181,6 @@ class Guard {
       taken[a] = taken[b] = true;
       fused += clusters.unite(a, b) ? 1 : 0;
     }
-    result_.fused_coincident += fused;
     return apply(clusters, fused);
   }
 
@@ -198,7 +197,6 @@ class Guard {
       taken[g] = taken[p] = true;
       fused += clusters.unite(g, p) ? 1 : 0;
     }
-    result_.fused_floppy += fused;
     return apply(clusters, fused);
   }
 

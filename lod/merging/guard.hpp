@@ -12,9 +12,7 @@ namespace springlod::lod {
 
 struct GuardedGroups {
   Groups groups;
-  Relinking links;                     ///< relinking of the fine springs by `groups`
-  std::uint32_t fused_coincident = 0;  ///< number of fusions of near centroids
-  std::uint32_t fused_floppy = 0;      ///< number of fusions of floppy nodes
+  Relinking links;  ///< relinking of the fine springs by `groups`
 };
 
 /// Fuses groups until the merged model has neither coincident centroids nor floppy nodes

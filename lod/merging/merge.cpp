@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "lod/merging/relink.hpp"
 
 namespace springlod::lod {
@@ -71,7 +72,7 @@ void set_rest_lengths(const MassSpringModel& fine, const std::vector<std::uint32
       throw InputError(fmt::format(
           "merge: groups {} and {} are joined and have the same centre of mass, so their spring "
           "would be infinitely stiff; use guards = true, which fuses them",
-          a, b));
+          script_number(a), script_number(b)));
   }
   for (std::uint32_t s = 0; s < fine.spring_count(); ++s) {
     const std::uint32_t p = into[s];

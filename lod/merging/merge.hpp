@@ -1,7 +1,6 @@
 #pragma once
 
 #include "lod/merging/relink.hpp"
-#include "lod/options.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 

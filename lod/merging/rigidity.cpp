@@ -19,7 +19,7 @@ bool Rigidity::surely_at_least(double ratio) const {
   const double trace = xx_ + yy_ + zz_;
   const double det =
       xx_ * (yy_ * zz_ - zy_ * zy_) - yx_ * (yx_ * zz_ - zy_ * zx_) + zx_ * (yx_ * zy_ - yy_ * zx_);
-  return det > (ratio / 2 + kRoundingMargin) * (trace * trace * trace);
+  return det > (ratio / 4 + kRoundingMargin) * (trace * trace * trace);
 }
 
 bool Rigidity::at_least(double ratio) const {

@@ -41,10 +41,10 @@ struct Measured {
 Measured measure(const MassSpringModel& model, const std::vector<elastic::StaticLoad>& loads,
                  std::size_t smooth, const std::vector<std::uint32_t>& anchored,
                  std::uint32_t modes) {
-  const elastic::ElasticBody body = held_body(model, anchored);
+  const elastic::ElasticBody body = elastic::elastic_body(model, {.anchored = anchored});
   Measured measured;
   measured.modes = elastic::lowest_modes(body, {.count = modes}).modes;
-  measured.solutions = elastic::solve_static(body, loads);
+  measured.solutions = elastic::solve_static(body, loads, {.balance_free_motions = true});
   measured.moduli = elastic::measured_moduli(
       model, {measured.solutions.begin(),
               measured.solutions.begin() + static_cast<std::ptrdiff_t>(smooth)});
@@ -149,7 +149,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
            [&](std::uint64_t job, const std::function<bool()>& stopped) {
              Level& level = chain.levels[job + 1];
              if (stopped()) throw InterruptedError();
-             if (level.model.spring_count() == 0) return;  // no elasticity to measure
+             if (level.model.spring_count() == 0) return task.advance();  // no elasticity
              std::vector<elastic::StaticLoad> summed;
              for (const elastic::StaticLoad& load : loads.all)
                summed.push_back(summed_over_groups(level.of_base, load));

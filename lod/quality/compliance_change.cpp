@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/script_number.hpp"
 #include "elastic/stiffness.hpp"
 #include "lod/quality/group_means.hpp"
 #include "lod/transfer.hpp"
@@ -11,9 +12,7 @@ namespace springlod::lod {
 namespace {
 
 Binding make_binding(const MergedPair& pair) {
-  const LodChain chain{
-      {{pair.fine, identity_groups(pair.fine.node_count()), ""}, {pair.coarse, pair.groups, ""}}};
-  return base_from_level(chain, 1);
+  return fine_from_coarse(pair.fine, pair.coarse, pair.groups);
 }
 
 /// Contribution of one spring to x.Ky [J].
@@ -85,7 +84,7 @@ std::vector<std::vector<double>> compliance_changes(const MergedPair& pair,
       throw InputError(fmt::format(
           "compliance change: load {} has displacements of {} and {} nodes; the models have {} and "
           "{} nodes",
-          load, fine[load].size(), coarse[load].size(), pair.fine.node_count(),
+          script_number(load), fine[load].size(), coarse[load].size(), pair.fine.node_count(),
           pair.coarse.node_count()));
     changes.push_back(contributions.of(fine[load], coarse[load]));
   }

@@ -47,7 +47,8 @@ Questions loads_of(const MassSpringModel& base, const elastic::ElasticBody& body
   // The loads of certify.
   ComparedLoads loads = compared_loads(base, {.count = options.local_loads, .seed = options.seed});
   Questions kept;
-  const std::vector<elastic::StaticSolution> solved = elastic::solve_static(body, loads.all);
+  const std::vector<elastic::StaticSolution> solved =
+      elastic::solve_static(body, loads.all, {.balance_free_motions = true});
   for (std::size_t l = 0; l < loads.all.size(); ++l) {
     if (!(solved[l].compliance > 0)) continue;
     kept.answers.push_back(
@@ -90,7 +91,8 @@ Answers answer(const MassSpringModel& base, const Level& level, const elastic::E
   }
   for (const elastic::StaticLoad& load : questions.loads)
     loads.push_back(summed_over_groups(level.of_base, load));
-  for (elastic::StaticSolution& solution : elastic::solve_static(body, loads)) {
+  for (elastic::StaticSolution& solution :
+       elastic::solve_static(body, loads, {.balance_free_motions = true})) {
     answers.compliance.push_back(solution.compliance);
     answers.displacement.push_back(std::move(solution.displacement));
   }
@@ -157,7 +159,8 @@ class Log {
     };
     bodies_.resize(levels.size());
     jobs(levels.size(), [&](std::uint32_t n) {
-      bodies_[n] = held_body(levels[n].model, mapped_nodes(levels[n].of_base, options_.anchored));
+      bodies_[n] = elastic::elastic_body(
+          levels[n].model, {.anchored = mapped_nodes(levels[n].of_base, options_.anchored)});
     });
     loads_ = loads_of(levels.front().model, bodies_.front(), options_);
     MergeLog log;

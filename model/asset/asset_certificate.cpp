@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -21,6 +21,8 @@ using Byte4 = std::array<std::uint8_t, 4>;
 
 /// Distance between levels along x, in widths of the base.
 constexpr double kGap = 1.25;
+// Least width that counts for it, as a fraction of the size [1].
+constexpr double kLeastWidth = 0.1;
 
 /// The sRGB transfer function. Colours here are display values; glTF needs linear ones.
 double linear(float srgb) {
@@ -56,7 +58,7 @@ class Display {
     append("nodes", {{"name", "z up"}, {"rotation", {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}}});
     const Box3 box = bounds(asset.surface).merged(bounds(asset.chain.levels[0].model.rest));
     // A model without width in x also needs space between its levels.
-    const double step = kGap * std::max(box.sizes().x(), 0.1 * box.sizes().norm());
+    const double step = kGap * std::max(box.sizes().x(), kLeastWidth * box.sizes().norm());
     double shift = 0;
     if (!asset.surface.triangles.empty()) {
       add_node("surface", surface_primitives(asset), shift);

@@ -2,7 +2,6 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
-#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

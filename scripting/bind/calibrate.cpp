@@ -50,7 +50,7 @@ void describe_certify(Api& api) {
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels and their base"}},
       .options = parameters_of<lod::CertifyOptions>(),
       .returns = "LodChain with a certificate for each level",
-      .errors = "Hundreds of mechanisms in a large component; anchors that do not resist a load.",
+      .errors = "Hundreds of mechanisms in a large component.",
       .example = "local chain = s.certify(s.simplify(base))\n"
                  "print(s.info(chain).levels[2].certificate.f1_10_error)",
       .call = certify_binding});

@@ -8,7 +8,7 @@
 
 #include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
-#include "elastic/stiffness.hpp"
+#include "elastic/moduli.hpp"
 #include "elastic/zero_modes.hpp"
 #include "scripting/bind/tables/node_choice.hpp"
 #include "scripting/bind/tables/options.hpp"

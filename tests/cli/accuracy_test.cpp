@@ -55,7 +55,7 @@ TEST_CASE("calibration refuses invalid options with a reason") {
   CHECK_THAT(refusal("keep = {0.5}, levels = 2"), Contains("leave one out"));
   CHECK_THAT(refusal("calibrate = 'modes', mass = 'proximity'"), Contains("leave out mass"));
   CHECK_THAT(refusal("keep = {0.5}, grouping = {{1, 2}}"),
-             Contains("keep and groups both determine"));
+             Contains("keep cannot be met by the groups of a script"));
   CHECK_THAT(refusal("grouping = 'compact', grading = 2"), Contains("must be from 0 to 1"));
   CHECK_THAT(refusal("grouping = 'metis', border = 'weak'"), Contains("has no border rules"));
   CHECK_THAT(refusal("calibrate = 'modes', calibration = {target = 'modes'}"), Contains("targets"));

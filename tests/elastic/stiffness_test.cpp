@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/moduli.hpp"
 #include "tests/support/lattices.hpp"
 
 namespace springlod::elastic {

@@ -98,6 +98,7 @@ TEST_CASE("Groups of a script are used unchanged, except by the guards") {
   options.groups = [](const MassSpringModel& fine, const Groups&, std::uint32_t) {
     return groups_from_sets(fine, {{0, 1}});
   };
+  options.straight = GENERATE(false, true);
   const LodChain chain = simplify(base, options);
   CHECK(chain.levels[1].model.node_count() == 63);
   CHECK(chain.levels[1].of_base.of[0] == chain.levels[1].of_base.of[1]);

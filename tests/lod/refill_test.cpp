@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
-#include "elastic/stiffness.hpp"
+#include "elastic/moduli.hpp"
 #include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
 #include "voxelize/refill.hpp"

@@ -64,17 +64,15 @@ TEST_CASE("Bound points follow every affine motion of the nodes exactly") {
   }
 }
 
-TEST_CASE("The weights of a bound point add up to 1, over at most the requested number of nodes") {
+TEST_CASE("The weights of a bound point add up to 1, over at most eight nodes") {
   const MassSpringModel m = uneven_lattice();
-  BindOptions options;
-  options.nodes_per_point = GENERATE(4U, 8U, 12U);
   const auto points = points_in(Box3(Vec3(-0.5, -0.5, -0.5), Vec3(4.5, 3.5, 5.5)), 500);
-  const Binding b = bind_points(points, m, options);
+  const Binding b = bind_points(points, m);
   for (std::uint32_t p = 0; p < b.point_count(); ++p) {
     double sum = 0;
     for (std::uint32_t e = b.start[p]; e < b.start[p + 1]; ++e) sum += b.weight[e];
     CHECK(sum == Approx(1).epsilon(1e-13));
-    CHECK(b.start[p + 1] - b.start[p] <= options.nodes_per_point);
+    CHECK(b.start[p + 1] - b.start[p] <= kNodesPerPoint);
   }
 }
 
@@ -183,11 +181,8 @@ TEST_CASE("A composed binding equals its two bindings in sequence") {
   CHECK_THROWS_AS(compose(outer, bind_points({Vec3::Zero()}, coarse)), InputError);
 }
 
-TEST_CASE("Binding rejects a model without nodes and too few nodes per point") {
+TEST_CASE("Binding rejects a model without nodes") {
   CHECK_THROWS_AS(bind_points({Vec3::Zero()}, MassSpringModel{}), InputError);
-  BindOptions options;
-  options.nodes_per_point = 3;
-  CHECK_THROWS_AS(bind_points({Vec3::Zero()}, box_lattice(2, 2, 2), options), InputError);
 }
 
 }  // namespace

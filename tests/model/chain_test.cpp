@@ -65,7 +65,7 @@ TEST_CASE("An invalid asset is rejected with the number of the level") {
   }
   SECTION("a surface triangle out of range") {
     asset.surface.triangles[3][1] = 8;
-    CHECK_THROWS_WITH(validate(asset), Contains("triangle 3"));
+    CHECK_THROWS_WITH(validate(asset), Contains("triangle 4"));
   }
 }
 

@@ -32,11 +32,11 @@ TEST_CASE("An invalid mesh is rejected with the number of the vertex, triangle o
   CHECK_NOTHROW(validate(box));
   SECTION("vertex") {
     box.positions[5].x() = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_WITH(validate(box), Contains("vertex 5"));
+    CHECK_THROWS_WITH(validate(box), Contains("vertex 6"));
   }
   SECTION("triangle") {
     box.triangles[7][2] = 8;
-    CHECK_THROWS_WITH(validate(box), Contains("triangle 7") && Contains("vertex 8"));
+    CHECK_THROWS_WITH(validate(box), Contains("triangle 8") && Contains("vertex 9"));
   }
   SECTION("parts that leave a gap") {
     box.parts[1].first_triangle = 5;

@@ -71,7 +71,7 @@ MassSpringModel ball() {
   for (int z = -kReach; z <= kReach; ++z)
     for (int y = -kReach; y <= kReach; ++y)
       for (int x = -kReach; x <= kReach; ++x)
-        near.push_back({(Vec3(x, y, z) - center).norm(), {x, y, z}});
+        near.emplace_back((Vec3(x, y, z) - center).norm(), voxelize::CellIndex{x, y, z});
   std::sort(near.begin(), near.end());
   std::vector<Cell> cells;
   for (std::size_t i = 0; i < kNodes; ++i)

@@ -61,7 +61,7 @@ TEST_CASE("A ball of the 281 lattice points nearest to its centre has 3856 ends"
   for (int z = -6; z <= 6; ++z)
     for (int y = -6; y <= 6; ++y)
       for (int x = -6; x <= 6; ++x)
-        points.push_back({(Vec3(x, y, z) - center).norm(), CellIndex{x, y, z}});
+        points.emplace_back((Vec3(x, y, z) - center).norm(), CellIndex{x, y, z});
   std::sort(points.begin(), points.end());
   std::vector<CellIndex> cells;
   for (std::size_t i = 0; i < 281; ++i) cells.push_back(points[i].second);

@@ -1,10 +1,11 @@
 // Moduli of lattice bars in a stretch test, and their mechanisms (docs/method.md, eqs. 1, 4 and 5).
 
+#include "elastic/moduli.hpp"
+
 #include <vector>
 
 #include <catch2/catch.hpp>
 
-#include "elastic/stiffness.hpp"
 #include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
 #include "voxelize/lattice.hpp"

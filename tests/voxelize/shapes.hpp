@@ -52,9 +52,9 @@ inline void add_sphere(TriangleMesh& mesh, std::string name, const Vec3& center,
     for (std::uint32_t s = 0; s < sectors; ++s) {
       const double theta = std::numbers::pi * r / rings;
       const double phi = 2 * std::numbers::pi * s / sectors;
-      positions.push_back(center + radius * Vec3(std::sin(theta) * std::cos(phi),
-                                                 std::sin(theta) * std::sin(phi),
-                                                 -std::cos(theta)));
+      positions.emplace_back(center + radius * Vec3(std::sin(theta) * std::cos(phi),
+                                                    std::sin(theta) * std::sin(phi),
+                                                    -std::cos(theta)));
     }
   for (std::uint32_t s = 0; s < sectors; ++s) {
     triangles.push_back({0, at(1, s + 1), at(1, s)});

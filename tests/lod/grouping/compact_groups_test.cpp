@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 
 #include <catch2/catch.hpp>
 
@@ -53,6 +54,21 @@ TEST_CASE("Compact groups are reproducible and depend on the seed") {
   const Groups first = compact_groups(base, {.count = 100, .seed = 5});
   CHECK(first.of == compact_groups(base, {.count = 100, .seed = 5}).of);
   CHECK(first.of != compact_groups(base, {.count = 100, .seed = 6}).of);
+}
+
+TEST_CASE("Compact groups of a model with few inner nodes, or none") {
+  MassSpringModel base = block(3, 3, 3);
+  base.border.assign(base.node_count(), 1);
+  const CompactOptions single{.count = base.node_count(), .border = BorderRule::strong};
+  CHECK(compact_groups(base, single).count == base.node_count());
+  base.border[0] = 0;
+  for (const BorderRule border : {BorderRule::weak, BorderRule::strong}) {
+    const Groups groups = compact_groups(base, {.count = base.node_count(), .border = border});
+    validate(groups);
+    CHECK(groups.count == base.node_count());
+  }
+  CHECK_THROWS_WITH(compact_groups(base, {.count = 2, .border = BorderRule::strong}),
+                    Catch::Contains("use " + std::to_string(base.node_count()) + " to "));
 }
 
 TEST_CASE("Compact groups of stiff rods and a soft joint do not cross the joint") {

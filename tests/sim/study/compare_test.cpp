@@ -172,10 +172,10 @@ TEST_CASE("The best rigid fit finds a rotation and distinguishes a mirror image 
   std::vector<Vec3> bumped;
   std::vector<Vec3> p = model.rest;
   p[0] += Vec3(0.1, 0.2, 0.3);  // so that the body has no mirror plane
-  for (const Vec3& x : p) moved.push_back(turn * x + Vec3(5, 6, 7));
+  for (const Vec3& x : p) moved.emplace_back(turn * x + Vec3(5, 6, 7));
   CHECK(rms_distance(p, moved, model.mass) > 1);
   CHECK(rms_distance_after_fit(p, moved, model.mass) < 1e-9);
-  for (const Vec3& x : p) bumped.push_back({-x.x(), x.y(), x.z()});
+  for (const Vec3& x : p) bumped.emplace_back(-x.x(), x.y(), x.z());
   CHECK(rms_distance_after_fit(p, bumped, model.mass) > 1e-3);
   CHECK(rms_distance({Vec3(0, 0, 0), Vec3(1, 0, 0)}, {Vec3(0, 0, 0), Vec3(1, 2, 0)}, {3, 1}) ==
         Approx(1));

@@ -48,12 +48,12 @@ MassSpringModel striped_bar() {
 }  // namespace
 
 TEST_CASE("A body of one material region has no region loads") {
-  CHECK(region_loads(block(4, 4, 4)).empty());
+  CHECK(piece_loads(block(4, 4, 4)).empty());
 }
 
 TEST_CASE("Each material region is loaded separately") {
   const MassSpringModel bar = striped_bar();
-  const std::vector<StaticLoad> loads = region_loads(bar);
+  const std::vector<StaticLoad> loads = piece_loads(bar);
   REQUIRE(loads.size() == 27);  // nine on each of two rods and the rubber between
   CHECK(loads[0].name.rfind("stretch x of ", 0) == 0);
   for (const StaticLoad& load : loads) {
@@ -71,9 +71,9 @@ TEST_CASE("Each material region is loaded separately") {
 
 TEST_CASE("The largest regions at the surface are loaded, and no small ones") {
   MassSpringModel bar = striped_bar();
-  CHECK(region_loads(bar, {.most_regions = 2}).size() == 18);
-  CHECK(region_loads(bar, {.least_nodes = 65}).empty());
+  CHECK(piece_loads(bar, {.most_regions = 2}).size() == 18);
+  CHECK(piece_loads(bar, {.least_nodes = 65}).empty());
   for (std::uint32_t i = 0; i < bar.node_count(); ++i)
     if (bar.material[i] == 1) bar.border[i] = 0;
-  CHECK(region_loads(bar).size() == 18);
+  CHECK(piece_loads(bar).size() == 18);
 }

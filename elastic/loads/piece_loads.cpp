@@ -19,8 +19,7 @@ bool reaches_surface(const MassSpringModel& model, const Nodes& region) {
 
 }  // namespace
 
-std::vector<StaticLoad> region_loads(const MassSpringModel& model,
-                                     const RegionLoadOptions& options) {
+std::vector<StaticLoad> piece_loads(const MassSpringModel& model, const PieceLoadOptions& options) {
   std::vector<Nodes> regions = material_regions(model);
   if (regions.size() == 1) return {};
   std::erase_if(regions, [&](const Nodes& region) {
@@ -31,8 +30,9 @@ std::vector<StaticLoad> region_loads(const MassSpringModel& model,
   regions.resize(std::min(regions.size(), options.most_regions));
 
   std::vector<StaticLoad> loads;
+  MassSpringModel alone;  // what smooth_loads reads: they are forces per volume
+  alone.rest = model.rest;
   for (const Nodes& region : regions) {
-    MassSpringModel alone = model;  // smooth loads are forces per volume
     alone.volume.assign(model.node_count(), 0);
     for (const std::uint32_t i : region) alone.volume[i] = model.volume[i];
     const std::uint32_t first = region.front();
