@@ -75,7 +75,7 @@ MassSpringModel ball() {
   std::sort(near.begin(), near.end());
   std::vector<Cell> cells;
   for (std::size_t i = 0; i < kNodes; ++i)
-    cells.push_back({near[i].second, static_cast<std::uint16_t>(near[i].first < kCore ? 0 : 1)});
+    cells.emplace_back(near[i].second, static_cast<std::uint16_t>(near[i].first < kCore ? 0 : 1));
   return centers_lattice(grid_of(
       cells, kCell, {material("core", 1e6, 1000, 0.004), material("shell", 1e5, 200, 0.004)}));
 }
