@@ -10,10 +10,10 @@ local paper_variants = require "studies.paper.variants"
 
 local parser = command.parser("demo", "Run the whole workflow on a sample: mesh, cells, model, "
   .. "levels, runs, table, chart and video.")
-parser:argument("folder", "folder to write to"):args("?"):default("out/demo")
-parser:argument("starts", "starts of each level (one is not enough: bouncing is chaotic)"):args("?")
+parser:argument("folder", "folder to write to"):default("out/demo")
+parser:argument("starts", "starts of each level (one is not enough: bouncing is chaotic)")
   :convert(command.whole("starts", 1)):default("8")
-parser:argument("frames", "frames of the video"):args("?")
+parser:argument("frames", "frames of the video")
   :convert(command.whole("frames", 1)):default("60")
 local args = parser:parse()
 local folder, starts, frame_count = args.folder, args.starts, args.frames

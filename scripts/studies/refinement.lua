@@ -7,7 +7,7 @@ local parser = command.parser("refinement", "Measure the convergence of cantilev
   .. "section, length 20 heights) with decreasing cell size: tip deflection and first three "
   .. "bending frequencies compared with Timoshenko's beam. Writes table.csv, orders.csv, "
   .. "timoshenko.csv, chart.svg and chart.png.")
-parser:argument("folder", "folder to write to"):args("?"):default("out/refinement")
+parser:argument("folder", "folder to write to"):default("out/refinement")
 parser:option("--finest", "cells across the finest bar; 16 takes a minute and 3 GB of memory")
   :convert(command.whole("--finest", 3)):default("16")
 parser:flag("--quick", "the same as --finest 4; takes seconds")

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -61,6 +62,14 @@ Ran with_bar(const std::string& script) {
 }
 
 }  // namespace
+
+TEST_CASE("refinement without a folder writes to out/refinement") {
+  const TemporaryFolder current;
+  const Ran ran = springlod_run({"-q", "refinement", "--finest", "3"}, "", current.path());
+  CAPTURE(ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK(std::filesystem::exists(current / "out/refinement/table.csv"));
+}
 
 TEST_CASE("refinement --quick: errors decrease with the cell size, with order 2 for corners") {
   const TemporaryFolder out;
