@@ -12,9 +12,9 @@ namespace springlod::lod {
 Binding fine_from_coarse(const MassSpringModel& fine, const MassSpringModel& coarse,
                          const Groups& groups);
 
-/// The same from the nodes of level `level` to the base nodes. The map is linear,
-/// so it holds for positions and velocities; it is the identity for level 0. Throws InputError for
-/// a level that the chain does not have.
+/// The same from the nodes of level `level` to the base nodes. The map is linear, so it holds for
+/// positions and velocities; it is the identity for level 0. Throws InputError for a level that the
+/// chain does not have.
 Binding base_from_level(const LodChain& chain, std::uint32_t level);
 
 }  // namespace springlod::lod

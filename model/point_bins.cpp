@@ -26,7 +26,7 @@ PointBins::PointBins(const std::vector<Vec3>& points, const Box3& box, double bi
     }
     return total;
   };
-  constexpr double kLarger = 1.25;  // in 10 steps to a tenth of the bins
+  constexpr double kLarger = 1.25;  // about half as many bins
   while (bins(bin) > most) bin *= kLarger;
   for (int d = 0; d < 3; ++d) size_[d] = extent[d] / count_[d];
 

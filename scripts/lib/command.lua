@@ -8,7 +8,8 @@ local command = {}
 
 local epilog = "Also: --seed N, --threads N, -q/--quiet and -v/--verbose, as for every command."
 
--- A parser for `springlod NAME`.
+-- A parser for `springlod NAME`. A positional argument may be left out if it has a default; with
+-- args("?") as well, argparse would ignore the default.
 function command.parser(name, summary)
   local parser = argparse("springlod " .. name, summary, epilog)
     :usage_max_width(88):help_max_width(88)

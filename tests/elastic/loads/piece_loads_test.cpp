@@ -47,7 +47,7 @@ MassSpringModel striped_bar() {
 
 }  // namespace
 
-TEST_CASE("A body of one material region has no region loads") {
+TEST_CASE("A body of one material region has no piece loads") {
   CHECK(piece_loads(block(4, 4, 4)).empty());
 }
 
