@@ -50,7 +50,7 @@ Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyO
   Groups groups = grouping.make({finer.model, springs, wanted, options.grouping});
   if (grouping.traits.from_base) return groups;
   while (wanted > 0 && groups.count > wanted) {
-    const MassSpringModel merged = merge(finer.model, groups);
+    const MassSpringModel merged = merge_springs(finer.model, groups, relink(springs, groups));
     Groups more = group_nodes(merged, options.grouping);
     if (more.count == merged.node_count()) break;
     groups = compose(groups, more);

@@ -29,6 +29,11 @@ std::vector<ModelComponent> split_components(const MassSpringModel& model,
     component.model.stiffness.push_back(model.stiffness[s]);
     component.model.damping.push_back(model.damping[s]);
   }
+  for (const Corner& corner : model.corners) {
+    Corner& kept = all[components.of_node[corner.node[0]]].model.corners.emplace_back(corner);
+    // Nodes keep their order, so the corners stay in the standard form and sorted.
+    for (std::uint32_t& node : kept.node) node = place[node];
+  }
   for (ModelComponent& component : all) component.model.materials = model.materials;
   return all;
 }

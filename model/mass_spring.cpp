@@ -66,6 +66,7 @@ void validate(const MassSpringModel& model) {
   require_sizes(model);
   validate_nodes(model);
   validate_springs(model);
+  validate_corners(model);
 }
 
 State rest_state(const MassSpringModel& model) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/corners.hpp"
 #include "model/material.hpp"
 #include "model/vec.hpp"
 
@@ -27,14 +28,20 @@ struct MassSpringModel {
   std::vector<double> stiffness;    ///< k [N/m] > 0
   std::vector<double> damping;      ///< c [N s/m] >= 0
 
+  /// Corners of cells, which keep the sign of their volume; sorted by their nodes. In models built
+  /// here, no four nodes have two corners. Empty: nothing resists an inversion. validate_corners
+  /// states the rules.
+  std::vector<Corner> corners;
+
   std::vector<Material> materials;  ///< at least one
 
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(rest.size()); }
   std::uint32_t spring_count() const { return static_cast<std::uint32_t>(a.size()); }
   std::uint32_t end_count() const { return 2 * spring_count(); }
+  std::uint32_t corner_count() const { return static_cast<std::uint32_t>(corners.size()); }
 };
 
-/// Throws InputError with the first node or spring that breaks a rule stated above.
+/// Throws InputError with the first node, spring or corner that breaks a rule stated above.
 void validate(const MassSpringModel& model);
 
 /// Positions [m] and velocities [m/s] of the N nodes at time t [s].

@@ -23,6 +23,8 @@ parser:option("--lattice", "place nodes at cell corners or cell centers")
   :choices(s.choices.lattice):default("corners")
 parser:option("--hinges", "treatment of cells that touch only along an edge or at a corner")
   :choices(s.choices.hinges):default("report")
+parser:flag("--no-volumes", "build the model from springs alone; by default, the corners of its cells "
+  .. "keep the signs of their volumes, so that soft bodies do not turn inside out")
 parser:option("--levels", "number of coarser levels (default: 2, or one per --keep value)")
   :convert(command.whole("--levels", 0))
 parser:option("--grouping", "how nodes are grouped for merging")
@@ -70,7 +72,9 @@ end
 local function convert(path, asset, materials)
   local mesh = s.import(path, {unit = args.unit, up = args.up})
   local grid = s.voxelize(mesh, {cell = args.cell, materials = materials})
-  local base = s.lattice(grid, {style = args.lattice, hinges = args.hinges})
+  local base = s.lattice(grid, {
+    style = args.lattice, hinges = args.hinges, volumes = not args.no_volumes,
+  })
   local store = store_of(asset)
   local chain = s.simplify(base, {
     levels = args.levels or not args.keep and 2 or nil, keep = args.keep,
@@ -85,13 +89,14 @@ end
 local function level_rows(chain)
   local rows = {}
   for i, level in ipairs(chain.levels) do
-    rows[i] = {i - 1, level.node_count, level.spring_count, level.end_count, level.border_count,
-               ("%.4g"):format(s.stable_step(level))}
+    rows[i] = {i - 1, level.node_count, level.spring_count, level.end_count, level.corner_count,
+               level.border_count, ("%.4g"):format(s.stable_step(level))}
   end
   return rows
 end
 
-local level_columns = {"level", "nodes", "springs", "ends", "border", "stable step [s]"}
+local level_columns = {"level", "nodes", "springs", "ends", "corners", "border",
+                       "stable step [s]"}
 
 local function node_counts(chain)
   local counts = {}

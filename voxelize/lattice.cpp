@@ -1,7 +1,9 @@
 #include "voxelize/lattice.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -40,6 +42,23 @@ void add_node(MassSpringModel& model, const Vec3& rest, double mass, double volu
   model.contact_area.push_back(area);
   model.border.push_back(border ? 1 : 0);
   model.material.push_back(material);
+}
+
+// Adds the corner of `node` in an octant. `neighbours` are its neighbours along x, y and z, each on
+// the octant's side.
+void add_corner(MassSpringModel& model, std::uint32_t node, unsigned octant,
+                std::array<std::uint32_t, 3> neighbours, double young) {
+  // An odd number of negative sides makes the three directions left-handed.
+  if (std::popcount(octant) % 2 == 0) std::swap(neighbours[1], neighbours[2]);
+  std::rotate(neighbours.begin(), std::min_element(neighbours.begin(), neighbours.end()),
+              neighbours.end());
+  model.corners.push_back({{node, neighbours[0], neighbours[1], neighbours[2]}, young});
+}
+
+// Sorts the corners of the node that was added last, from `first` on.
+void sort_corners(MassSpringModel& model, std::size_t first) {
+  std::sort(model.corners.begin() + static_cast<std::ptrdiff_t>(first), model.corners.end(),
+            [](const Corner& l, const Corner& r) { return l.node < r.node; });
 }
 
 void add_spring(MassSpringModel& model, std::uint32_t a, std::uint32_t b, double k, double c) {
@@ -107,7 +126,21 @@ void gather_springs(const MaterialGrid& grid, const CornerNodes& nodes, std::uin
             [](const SpringSum& l, const SpringSum& r) { return l.to < r.to; });
 }
 
-MassSpringModel corners_model(const MaterialGrid& grid, const CornerNodes& nodes) {
+void add_cell_corners(const MaterialGrid& grid, const CornerNodes& nodes, std::uint32_t node,
+                      MassSpringModel& model) {
+  const std::size_t first = model.corners.size();
+  for (unsigned o = 0; o < 8; ++o) {
+    const std::uint32_t cell = nodes.around[node][o];
+    if (cell == kNoIndex) continue;
+    const std::array<std::uint32_t, 8>& of_cell = nodes.of_cell[cell];
+    const unsigned here = 7 - o;
+    add_corner(model, node, o, {of_cell[here ^ 1U], of_cell[here ^ 2U], of_cell[here ^ 4U]},
+               grid.materials[grid.material[cell]].young);
+  }
+  sort_corners(model, first);
+}
+
+MassSpringModel corners_model(const MaterialGrid& grid, const CornerNodes& nodes, bool volumes) {
   MassSpringModel model;
   model.materials = grid.materials;
   const auto count = static_cast<std::uint32_t>(nodes.at.size());
@@ -117,6 +150,9 @@ MassSpringModel corners_model(const MaterialGrid& grid, const CornerNodes& nodes
     gather_springs(grid, nodes, node, sums);
     for (const SpringSum& sum : sums) add_spring(model, node, sum.to, sum.k, sum.c);
   }
+  if (!volumes) return model;
+  model.corners.reserve(8 * grid.cells.size());
+  for (std::uint32_t node = 0; node < count; ++node) add_cell_corners(grid, nodes, node, model);
   return model;
 }
 
@@ -163,7 +199,37 @@ SpringConstants series(const Material& m1, const Material& m2, double cell) {
   return {k, k * (m1.damping * k2 + m2.damping * k1) / (k1 + k2)};
 }
 
-MassSpringModel centers_model(const MaterialGrid& grid) {
+double harmonic_mean_young(const MassSpringModel& model,
+                           const std::array<std::uint32_t, 4>& nodes) {
+  const double first = model.materials[model.material[nodes[0]]].young;
+  double compliance = 0;  // relative to that of the first, so that equal moduli give exactly theirs
+  for (const std::uint32_t n : nodes)
+    compliance += first / model.materials[model.material[n]].young / 4;
+  return first / compliance;
+}
+
+void add_center_corners(const MaterialGrid& grid, const IndexLookup& lookup, std::uint32_t node,
+                        MassSpringModel& model) {
+  // Neighbours on the negative and on the positive side of each axis.
+  std::array<std::array<std::uint32_t, 2>, 3> beside{};
+  for (unsigned axis = 0; axis < 3; ++axis)
+    for (const int side : {0, 1}) {
+      CellIndex at = grid.cells[node];
+      at[axis] += 2 * side - 1;
+      beside[axis][static_cast<unsigned>(side)] = lookup.find(at);
+    }
+  const std::size_t first = model.corners.size();
+  for (unsigned o = 0; o < 8; ++o) {
+    const std::uint32_t x = beside[0][o & 1U];
+    const std::uint32_t y = beside[1][o >> 1U & 1U];
+    const std::uint32_t z = beside[2][o >> 2U];
+    if (x == kNoIndex || y == kNoIndex || z == kNoIndex) continue;
+    add_corner(model, node, o, {x, y, z}, harmonic_mean_young(model, {node, x, y, z}));
+  }
+  sort_corners(model, first);
+}
+
+MassSpringModel centers_model(const MaterialGrid& grid, bool volumes) {
   MassSpringModel model;
   model.materials = grid.materials;
   const IndexLookup lookup(grid.cells);
@@ -198,6 +264,9 @@ MassSpringModel centers_model(const MaterialGrid& grid) {
               : series(here, grid.materials[grid.material[other]], grid.cell);
       add_spring(model, n, other, spring.k, spring.c);
     }
+  if (volumes)
+    for (std::uint32_t n = 0; n < model.node_count(); ++n)
+      add_center_corners(grid, lookup, n, model);
   return model;
 }
 
@@ -211,16 +280,17 @@ void require_buildable(const MaterialGrid& grid) {
         fmt::format("lattice: {} cells are too many; use larger cells", grid.cells.size()));
 }
 
-LatticeModel build_corners(MaterialGrid grid, HingePolicy policy) {
+LatticeModel build_corners(MaterialGrid grid, const LatticeOptions& options) {
   LatticeModel lattice;
   CornerNodes nodes = corner_nodes(grid.cells);
   lattice.hinges = find_hinges(grid, nodes);
-  if (!lattice.hinges.empty() && policy == HingePolicy::fill) {
+  if (!lattice.hinges.empty() && options.hinges == HingePolicy::fill) {
     lattice.filled_cells = fill_hinges(grid);
     nodes = corner_nodes(grid.cells);
   }
-  if (!lattice.hinges.empty() && policy == HingePolicy::separate) nodes = separate_clusters(nodes);
-  lattice.model = corners_model(grid, nodes);
+  if (!lattice.hinges.empty() && options.hinges == HingePolicy::separate)
+    nodes = separate_clusters(nodes);
+  lattice.model = corners_model(grid, nodes, options.volumes);
   return lattice;
 }
 
@@ -230,9 +300,9 @@ LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& optio
   require_buildable(grid);
   LatticeModel lattice;
   if (options.style == LatticeStyle::corners)
-    lattice = build_corners(grid, options.hinges);
+    lattice = build_corners(grid, options);
   else
-    lattice.model = centers_model(grid);
+    lattice.model = centers_model(grid, options.volumes);
   validate(lattice.model);
   lattice.components = connected_components(lattice.model).count;
   return lattice;

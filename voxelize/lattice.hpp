@@ -54,12 +54,20 @@ struct Hinge {
 struct LatticeOptions {
   LatticeStyle style = LatticeStyle::corners;
   HingePolicy hinges = HingePolicy::report;
+  /// Whether the model gets corners (model/corners.hpp): `corners`: the eight corners of each cell,
+  /// with its E; `centers`: each node with a neighbour along each axis, for each such choice of
+  /// three neighbours, with the harmonic mean of E at the four nodes.
+  bool volumes = true;
 };
+inline constexpr const char* kVolumesHelp =
+    "give the model the corners of its cells, whose volumes keep their signs, so that soft bodies "
+    "do not turn inside out; false: springs only, as in the paper";
 constexpr auto option_rows(const LatticeOptions*) {
   return std::tuple(
       option("style", &LatticeOptions::style, "position of the nodes"),
       option("hinges", &LatticeOptions::hinges,
-             "treatment of places where cells touch only along an edge or at a corner"));
+             "treatment of places where cells touch only along an edge or at a corner"),
+      option("volumes", &LatticeOptions::volumes, kVolumesHelp));
 }
 
 struct LatticeModel {

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "elastic/moduli.hpp"
 #include "model/point_bins.hpp"
+#include "voxelize/random_corners.hpp"
 #include "voxelize/random_nodes.hpp"
 #include "voxelize/random_springs.hpp"
 #include "voxelize/random_stiffness.hpp"
@@ -217,6 +218,7 @@ RandomModel build_random(const MaterialGrid& grid, const RandomOptions& options)
   if (options.rescale) random.rescaled = 1 / measured.young;
   random.young = measured.young * random.rescaled;
   apply_materials(random.rescaled, model);
+  if (options.volumes) model.corners = choose_corners(model);
   return random;
 }
 

@@ -7,6 +7,7 @@
 #include "base/progress.hpp"
 #include "model/mass_spring.hpp"
 #include "voxelize/grid.hpp"
+#include "voxelize/lattice.hpp"
 
 namespace springlod::voxelize {
 
@@ -24,6 +25,8 @@ struct RandomOptions {
   std::uint64_t seed = 1;
   /// Scale all springs by one factor, measured by a stretch test.
   bool rescale = true;
+  /// Whether the model gets corners (choose_corners of voxelize/random_corners.hpp).
+  bool volumes = true;
   Progress* progress = nullptr;
 };
 inline constexpr const char* kEndsHelp =
@@ -41,7 +44,8 @@ constexpr auto option_rows(const RandomOptions*) {
       option("seed", &RandomOptions::seed, kPlacesHelp),
       option("rescale", &RandomOptions::rescale,
              "scale all springs by one factor from a stretch test, so that the model has its "
-             "material's Young's modulus; false: stiffnesses by eq. 2 of the paper"));
+             "material's Young's modulus; false: stiffnesses by eq. 2 of the paper"),
+      option("volumes", &RandomOptions::volumes, kVolumesHelp));
 }
 
 /// A random model and the measured moduli of its network, taken with one material for all springs:

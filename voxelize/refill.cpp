@@ -98,12 +98,13 @@ Level refilled_level(const MaterialGrid& grid, std::uint32_t nodes, const Refill
     level.model = build_random(grid, {.nodes = nodes,
                                       .ends = options.ends,
                                       .seed = options.seed,
+                                      .volumes = options.volumes,
                                       .progress = options.progress})
                       .model;
     level.made_by =
         fmt::format("refill random, {} nodes, {} ends, seed {}", nodes, options.ends, options.seed);
   } else {
-    level.model = lattice_of_about(grid, nodes, options.lattice);
+    level.model = lattice_of_about(grid, nodes, options.lattice, options.volumes);
     level.made_by = fmt::format("refill {}, {} nodes of {} wanted", to_string(options.lattice),
                                 level.model.node_count(), nodes);
   }
@@ -112,8 +113,8 @@ Level refilled_level(const MaterialGrid& grid, std::uint32_t nodes, const Refill
 
 }  // namespace
 
-MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes,
-                                 LatticeStyle style) {
+MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes, LatticeStyle style,
+                                 bool volumes) {
   validate(grid);
   if (grid.cells.empty() || nodes == 0)
     throw InputError("refill: the grid must have filled cells, and a level at least one node");
@@ -135,7 +136,8 @@ MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes,
   if (best.cells.empty())
     throw InputError(fmt::format(
         "refill: a lattice of about {} nodes has no cell in the body; use more nodes", nodes));
-  MassSpringModel model = build_lattice(best, {.style = style, .hinges = HingePolicy::fill}).model;
+  MassSpringModel model =
+      build_lattice(best, {.style = style, .hinges = HingePolicy::fill, .volumes = volumes}).model;
   fit(model, target);
   return model;
 }

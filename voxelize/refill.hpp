@@ -31,6 +31,7 @@ struct RefillOptions {
   LatticeStyle lattice = LatticeStyle::corners;
   double ends = 18;        ///< mean number of spring ends at a node (random)
   std::uint64_t seed = 1;  ///< of a random model
+  bool volumes = true;     ///< whether the levels get corners, as in the builders
   Progress* progress = nullptr;
 };
 constexpr auto option_rows(const RefillOptions*) {
@@ -38,7 +39,8 @@ constexpr auto option_rows(const RefillOptions*) {
                     option("lattice", &RefillOptions::lattice,
                            "position of the nodes of a lattice, as in s.lattice"),
                     option("ends", &RefillOptions::ends, kEndsHelp),
-                    option("seed", &RefillOptions::seed, kPlacesHelp));
+                    option("seed", &RefillOptions::seed, kPlacesHelp),
+                    option("volumes", &RefillOptions::volumes, kVolumesHelp));
 }
 
 /// New models of the volume of `grid`, one of about each wanted number of nodes: the levels of a
@@ -51,7 +53,8 @@ constexpr auto option_rows(const RefillOptions*) {
 /// build_random throw.
 std::vector<Level> refill_levels(const MaterialGrid& grid, const RefillOptions& options);
 
-/// The lattice whose number of nodes is closest to `nodes`.
-MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes, LatticeStyle style);
+/// The lattice whose number of nodes is closest to `nodes`; `volumes` as in LatticeOptions.
+MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes, LatticeStyle style,
+                                 bool volumes = true);
 
 }  // namespace springlod::voxelize

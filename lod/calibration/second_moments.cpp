@@ -74,6 +74,7 @@ void restore_second_moments(const MassSpringModel& base, const Groups& of_base,
     level.damping[s] *= factor;
     level.rest_length[s] = length;
   }
+  settle_corners(level.corners, level.rest);
 }
 
 }  // namespace springlod::lod

@@ -13,7 +13,7 @@ Mat3 second_moments(const MassSpringModel& model);
 /// 15 % of a sphere's at 20 % of the nodes. This is the linear map that restores the moments with
 /// the smallest displacement of the masses (optimal transport between two ellipsoids). k L and c L
 /// of every spring are conserved as in a merge. A component that is flat along an axis (a sheet, a
-/// rope) stays flat.
+/// rope) stays flat. Corners that the map makes too flat are removed.
 void restore_second_moments(const MassSpringModel& base, const Groups& of_base,
                             MassSpringModel& level);
 

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "lod/merging/merge_corners.hpp"
 #include "lod/merging/relink.hpp"
 
 namespace springlod::lod {
@@ -104,6 +105,12 @@ MassSpringModel merge(const MassSpringModel& fine, const Groups& groups) {
 }
 
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links) {
+  MassSpringModel coarse = merge_springs(fine, groups, std::move(links));
+  coarse.corners = merge_corners(fine.corners, groups, coarse.rest);
+  return coarse;
+}
+
+MassSpringModel merge_springs(const MassSpringModel& fine, const Groups& groups, Relinking links) {
   assert(groups.of.size() == fine.node_count());
   assert(links.into.size() == fine.spring_count());
   assert(links.a.size() == links.b.size());

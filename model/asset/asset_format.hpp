@@ -17,7 +17,9 @@ static_assert(std::endian::native == std::endian::little,
               "arrays are copied from memory, and glTF is little-endian");
 
 inline constexpr const char* kExtension = "SPRINGLOD_lod_chain";
-inline constexpr int kVersion = 1;
+inline constexpr int kVersion = 2;
+/// The first version whose levels have corners.
+inline constexpr int kVersionWithCorners = 2;
 
 /// xxh3-64 over the double-precision arrays in the order of writing, each preceded by its length in
 /// bytes, and over the extension's JSON (keys sorted, no white space, without the checksum itself).

@@ -33,6 +33,7 @@ class ExactReader {
       for (const json& entry : extension.at("provenance"))
         asset.provenance.entries.emplace_back(entry.at(0).get<std::string>(),
                                               entry.at(1).get<std::string>());
+    has_corners_ = extension.at("version").get<std::int64_t>() >= asset_format::kVersionWithCorners;
     for (const json& level : extension.at("levels"))
       asset.chain.levels.push_back(read_level(level, asset.chain.levels.size()));
     if (extension.contains("surface")) read_surface(extension.at("surface"), asset);
@@ -75,6 +76,22 @@ class ExactReader {
             {colour.at(0).get<float>(), colour.at(1).get<float>(), colour.at(2).get<float>()}};
   }
 
+  std::vector<Corner> read_corners(const json& object) {
+    const auto nodes = take<std::array<std::uint32_t, 4>>(object, "cornerNodes");
+    const auto young = take<double>(object, "cornerYoung");
+    const auto number = take<std::uint32_t>(object, "cornerYoungNumber");
+    if (number.empty() ? young.size() > 1 || young.empty() != nodes.empty()
+                       : number.size() != nodes.size())
+      throw Damage("the moduli of its corners do not fit its corners");
+    std::vector<Corner> corners(nodes.size());
+    for (std::size_t c = 0; c < nodes.size(); ++c) {
+      const std::size_t at = number.empty() ? 0 : number[c];
+      if (at >= young.size()) throw Damage("a corner refers to a modulus that does not exist");
+      corners[c] = {nodes[c], young[at]};
+    }
+    return corners;
+  }
+
   Level read_level(const json& object, std::size_t number) {
     Level level;
     MassSpringModel& model = level.model;
@@ -96,6 +113,7 @@ class ExactReader {
     model.damping = take<double>(object, "damping");
     level.of_base.of = take<std::uint32_t>(object, "nodeOfBase");
     level.of_base.count = model.node_count();
+    if (has_corners_) model.corners = read_corners(object);
     if (object.contains("certificate"))
       level.certificate = read_certificate(object.at("certificate"),
                                            fmt::format("the certificate of level {}", number));
@@ -118,6 +136,7 @@ class ExactReader {
 
   const json& views_;
   std::string_view binary_;
+  bool has_corners_ = false;
   asset_format::Checksum checksum_;
 };
 

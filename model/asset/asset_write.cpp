@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -61,6 +62,32 @@ class ExactWriter {
             {"colour", {material.colour.r, material.colour.g, material.colour.b}}};
   }
 
+  /// The nodes of each corner, the different Young's moduli, and the modulus of each corner. A body
+  /// of few materials has few moduli; if there is only one, no number of it is written.
+  void put_corners(json& object, const std::vector<Corner>& corners) {
+    std::vector<std::uint32_t> nodes;
+    std::vector<double> young;
+    nodes.reserve(4 * corners.size());
+    young.reserve(corners.size());
+    for (const Corner& corner : corners) {
+      nodes.insert(nodes.end(), corner.node.begin(), corner.node.end());
+      young.push_back(corner.young);
+    }
+    std::sort(young.begin(), young.end());
+    young.erase(std::unique(young.begin(), young.end()), young.end());
+    std::vector<std::uint32_t> young_of;
+    if (young.size() > 1) {
+      young_of.reserve(corners.size());
+      for (const Corner& corner : corners)
+        young_of.push_back(static_cast<std::uint32_t>(
+            std::lower_bound(young.begin(), young.end(), corner.young) - young.begin()));
+    }
+    if (!corners.empty()) object["corners"] = corners.size();
+    put(object, "cornerNodes", nodes);
+    put(object, "cornerYoung", young);
+    put(object, "cornerYoungNumber", young_of);
+  }
+
   json describe(const Level& level) {
     const MassSpringModel& model = level.model;
     json object{{"nodes", model.node_count()},
@@ -85,6 +112,7 @@ class ExactWriter {
     put(object, "stiffness", model.stiffness);
     put(object, "damping", model.damping);
     put(object, "nodeOfBase", level.of_base.of);
+    put_corners(object, model.corners);
     if (level.certificate) object["certificate"] = certificate_json(*level.certificate);
     return object;
   }
@@ -108,12 +136,12 @@ class ExactWriter {
   asset_format::Checksum checksum_;
 };
 
-/// Estimated size of the buffer: 112 B per node and 32 B per spring, rounded up.
+/// Estimated size of the buffer: 112 B per node, 32 B per spring and 20 B per corner, rounded up.
 std::size_t expected_bytes(const LodAsset& asset) {
   std::size_t bytes = std::size_t{64} * 1024;
   for (const Level& level : asset.chain.levels)
-    bytes +=
-        128 * level.model.rest.size() + 32 * level.model.a.size() + 4 * level.of_base.of.size();
+    bytes += 128 * level.model.rest.size() + 32 * level.model.a.size() +
+             20 * level.model.corners.size() + 4 * level.of_base.of.size();
   return bytes + 64 * asset.surface.positions.size() + 12 * asset.surface.triangles.size() +
          12 * asset.surface_of_base.node.size();
 }

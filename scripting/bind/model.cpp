@@ -12,6 +12,7 @@
 #include "scripting/bind/tables/certificate_table.hpp"
 #include "scripting/bind/tables/model_table.hpp"
 #include "scripting/bind/tables/records.hpp"
+#include "scripting/bind/tables/start_table.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -50,6 +51,12 @@ int spring_method(Call& call) {
   return 1;
 }
 
+int corner_method(Call& call) {
+  const auto self = call.self<ModelValue>();
+  push_corner(call.lua(), *self->model, element(call, self->model->corner_count()));
+  return 1;
+}
+
 int nodes_method(Call& call) {
   const auto self = call.self<ModelValue>();
   begin_list(call.lua(), self->model->node_count());
@@ -68,6 +75,24 @@ int springs_method(Call& call) {
     end_list_entry(call.lua(), i + 1);
   }
   return 1;
+}
+
+int corners_method(Call& call) {
+  const auto self = call.self<ModelValue>();
+  begin_list(call.lua(), self->model->corner_count());
+  for (std::uint32_t i = 0; i < self->model->corner_count(); ++i) {
+    push_corner(call.lua(), *self->model, i);
+    end_list_entry(call.lua(), i + 1);
+  }
+  return 1;
+}
+
+int inverted_corners_method(Call& call) {
+  const auto self = call.self<ModelValue>();
+  const State state = state_at(call, call.index(1), "model:inverted_corners: state", *self->model);
+  std::vector<std::uint32_t> numbers = inverted_corners(self->model->corners, state.x);
+  for (std::uint32_t& number : numbers) ++number;
+  return call.give(numbers);
 }
 
 void push_estimate(lua_State* L, const elastic::Eq2Estimate& e) {
@@ -125,6 +150,7 @@ void push_level_info(lua_State* L, const Level& level, std::size_t number) {
   set_field(L, "nodes", model.node_count());
   set_field(L, "springs", model.spring_count());
   set_field(L, "ends", model.end_count());
+  set_field(L, "corners", model.corner_count());
   set_field(L, "border_nodes", border_count(model));
   set_field(L, "mass", properties.mass);
   set_field(L, "center_of_mass", properties.center);
@@ -170,9 +196,12 @@ std::string model_text(const ModelValue& value) {
   const MassProperties properties = mass_properties(model);
   std::string text = "Model: ";
   if (value.chain) text = fmt::format("Model, level {}: ", value.level);
-  return text + fmt::format("{} nodes ({} border), {}, {}", model.node_count(), border_count(model),
-                            spring_text(model.spring_count()),
-                            format_quantity(properties.mass, Dimension::mass));
+  text += fmt::format("{} nodes ({} border), {}", model.node_count(), border_count(model),
+                      spring_text(model.spring_count()));
+  if (model.corner_count() > 0)
+    text +=
+        fmt::format(", {} corner{}", model.corner_count(), model.corner_count() == 1 ? "" : "s");
+  return text + ", " + format_quantity(properties.mass, Dimension::mass);
 }
 
 FunctionEntry element_method(const char* name, const char* what, const char* record,
@@ -204,6 +233,12 @@ void describe_model_type(Api& api) {
              [](const ModelValue& value) { return value.model->spring_count(); });
   type.field("end_count", "integer", "number of spring ends: S of the paper",
              [](const ModelValue& value) { return value.model->end_count(); });
+  type.field("corner_count", "integer", "number of corners; 0 for a model built without volumes",
+             [](const ModelValue& value) { return value.model->corner_count(); });
+  type.field("safe_strain", "number",
+             "largest strain of springs for which no corner can be below 0.55 of its volume [1]; "
+             "infinite without corners",
+             [](const ModelValue& value) { return safe_strain(*value.model); });
   type.field("border_count", "integer", "number of border nodes",
              [](const ModelValue& value) { return border_count(*value.model); });
   type.field("part_count", "integer", "number of connected components",
@@ -233,8 +268,21 @@ void describe_model_type(Api& api) {
       [](lua_State* L, const ModelValue& value) { push_provenance(L, value.provenance); });
   type.method(element_method("node", "node", "Node", node_method));
   type.method(element_method("spring", "spring", "Spring", spring_method));
+  type.method(element_method("corner", "corner", "Corner", corner_method));
   type.method(list_method("nodes", "nodes", "Node", nodes_method));
   type.method(list_method("springs", "springs", "Spring", springs_method));
+  type.method(list_method("corners", "corners", "Corner", corners_method));
+  type.method(
+      {.name = "inverted_corners",
+       .summary = "The corners whose volume is 0 or negative in a state: there, the body is turned "
+                  "inside out.",
+       .arguments = {{.name = "state",
+                      .type = "State",
+                      .help = "positions of all nodes, such as trajectory.final or a frame"}},
+       .returns = "list of integers: the numbers of the corners, ascending",
+       .errors = "A state with another number of nodes.",
+       .example = "print(#chain[1]:inverted_corners(trajectory.final))",
+       .call = inverted_corners_method});
   api.add(type.build());
 }
 
@@ -318,7 +366,7 @@ void describe_assets(Api& api) {
       .summary = "The content of a chain as plain tables.",
       .arguments = {chain},
       .returns =
-          "table: levels (a list of level, nodes, springs, ends, border_nodes, mass, "
+          "table: levels (a list of level, nodes, springs, ends, corners, border_nodes, mass, "
           "center_of_mass, inertia, stable_dt, made_by, materials, certificate), provenance, "
           "surface_triangles; a level that was compared with the base has a Certificate",
       .errors = "None for a valid chain.",
@@ -335,18 +383,22 @@ void describe_model(Api& api) {
   api.add(
       FunctionEntry{.name = "model",
                     .group = kGroup,
-                    .summary = "Builds a model from plain tables of nodes and springs.",
+                    .summary = "Builds a model from plain tables of nodes, springs and corners.",
                     .options = {{.name = "nodes", .type = "list of Node", .help = "mass points"},
                                 {.name = "springs",
                                  .type = "list of Spring",
                                  .fallback = "none",
                                  .help = "springs between them, in any order"},
+                                {.name = "corners",
+                                 .type = "list of Corner",
+                                 .fallback = "none",
+                                 .help = "corners of cells, in any order"},
                                 {.name = "materials",
                                  .type = "list of Material",
                                  .fallback = "one, named default",
                                  .help = "materials that the nodes refer to by name"}},
                     .returns = "Model",
-                    .errors = "A node or spring that is not valid; the message names it.",
+                    .errors = "A node, spring or corner that is not valid; the message names it.",
                     .example = "local chain = s.model{\n"
                                "  nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 1}},\n"
                                "  springs = {{1, 2, k = 100}}}",

@@ -37,6 +37,7 @@ int random_binding(Call& call) {
   value->model = std::make_shared<const MassSpringModel>(std::move(random.model));
   value->provenance = grid->provenance;
   value->provenance.set("random", value->made_by);
+  if (!options.volumes) value->provenance.set("volumes", "false");
   value->provenance.set("rescaled", fmt::format("{:.6g}", random.rescaled));
   value->provenance.set("measured_young", fmt::format("{:.6g} of the materials'", random.young));
   value->provenance.set("measured_poisson", fmt::format("{:.6g}", random.poisson));

@@ -154,6 +154,7 @@ int lattice_binding(Call& call) {
   value->made_by = "lattice " + style;
   value->provenance = grid->provenance;
   value->provenance.set("lattice", style);
+  if (!options.volumes) value->provenance.set("volumes", "false");
   if (grid->mesh) {
     value->surface = std::shared_ptr<const TriangleMesh>(grid->mesh, &grid->mesh->mesh);
     value->surface_of_base =

@@ -135,6 +135,30 @@ void add_springs(MassSpringModel& model, std::vector<TableSpring>& springs) {
   }
 }
 
+Corner read_corner(Call& call, int table, const std::string& owner, const MassSpringModel& model) {
+  TableReader reader = call.record(table, "Corner", owner);
+  reader.has("number");
+  reader.has("volume");
+  std::vector<std::uint32_t> nodes;
+  reader.read("nodes", nodes);
+  Corner corner;
+  if (nodes.size() != corner.node.size())
+    reader.refuse("nodes", "a list of four node numbers: the corner's node, then its neighbours");
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes[n] < 1 || nodes[n] > model.node_count())
+      reader.refuse("nodes", fmt::format("node numbers of 1 to {}", model.node_count()));
+    corner.node[n] = nodes[n] - 1;
+  }
+  corner.young = model.materials[model.material[corner.node[0]]].young;
+  reader.read("young", corner.young);
+  reader.finish();
+  if (!orient(corner, model.rest))
+    reader.refuse("nodes", fmt::format("not as flat: its volume must be at least {} of the product "
+                                       "of its edges",
+                                       kFlatCorner));
+  return corner;
+}
+
 void read_material_list(Call& call, TableReader& options, MassSpringModel& model) {
   const int list = options.raw("materials");
   if (list == 0) {
@@ -163,6 +187,12 @@ MassSpringModel model_from_tables(Call& call, TableReader& options) {
       springs.push_back(read_spring(call, table, owner, model));
     });
   add_springs(model, springs);
+  if (const int list = options.raw("corners"))
+    each_entry(call, list, "corners", {}, [&](int table, const std::string& owner) {
+      model.corners.push_back(read_corner(call, table, owner, model));
+    });
+  std::sort(model.corners.begin(), model.corners.end(),
+            [](const Corner& l, const Corner& r) { return l.node < r.node; });
   validate(model);
   return model;
 }
@@ -188,6 +218,17 @@ void push_spring(lua_State* L, const MassSpringModel& model, std::uint32_t numbe
   set_field(L, "k", model.stiffness[number]);
   set_field(L, "c", model.damping[number]);
   set_field(L, "length", model.rest_length[number]);
+}
+
+void push_corner(lua_State* L, const MassSpringModel& model, std::uint32_t number) {
+  const Corner& corner = model.corners[number];
+  std::vector<std::uint32_t> nodes(corner.node.begin(), corner.node.end());
+  for (std::uint32_t& node : nodes) ++node;
+  begin_table(L);
+  set_field(L, "number", number + 1);
+  set_field(L, "nodes", nodes);
+  set_field(L, "young", corner.young);
+  set_field(L, "volume", corner_volume(corner, model.rest));
 }
 
 void describe_model_tables(Api& api) {
@@ -250,6 +291,30 @@ void describe_model_tables(Api& api) {
                   .fallback = "distance of its nodes",
                   .help = "rest length"}},
       .example = "{1, 2, k = 100}"});
+  api.add(RecordEntry{
+      .name = "Corner",
+      .summary = "A corner of a cell, whose volume keeps its sign: input of s.model and result of "
+                 "model:corner(i), which adds number and volume.",
+      .fields = {{.name = "number",
+                  .type = "integer",
+                  .fallback = "position in the list",
+                  .help = "number of the corner, from 1; ignored by s.model"},
+                 {.name = "nodes",
+                  .type = "list of integers",
+                  .help = "four node numbers: the corner's node, then its three neighbours, which "
+                          "springs join to it. s.model puts the neighbours in order"},
+                 {.name = "young",
+                  .type = "quantity",
+                  .dimension = Dimension::pressure,
+                  .fallback = "that of the first node's material",
+                  .help = "Young's modulus"},
+                 {.name = "volume",
+                  .type = "number",
+                  .fallback = "from the nodes",
+                  .help =
+                      "volume of the parallelepiped of its three edges at rest [m3]; ignored by "
+                      "s.model"}},
+      .example = "{nodes = {1, 2, 3, 4}}"});
 }
 
 }  // namespace springlod::scripting

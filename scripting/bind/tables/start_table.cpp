@@ -36,7 +36,11 @@ void read_points(TableReader& state, const char* name, Dimension dimension,
 std::optional<State> read_start(Call& call, TableReader& options, const MassSpringModel& model) {
   const int table = options.raw("start");
   if (table == 0) return std::nullopt;
-  TableReader reader = call.record(table, "State", options.owner() + ": start");
+  return state_at(call, table, options.owner() + ": start", model);
+}
+
+State state_at(Call& call, int index, const std::string& owner, const MassSpringModel& model) {
+  TableReader reader = call.record(index, "State", owner);
   State state{.x = model.rest, .v = std::vector<Vec3>(model.node_count(), Vec3::Zero()), .t = 0};
   reader.has("time");
   read_points(reader, "x", Dimension::length, state.x);

@@ -55,7 +55,8 @@ end
 local function solid_rods()
   local mesh = s.import(s.samples .. "/dumbbell.obj", {unit = "dm", up = "z"})
   local materials = dofile(s.samples .. "/dumbbell_materials.lua")
-  return s.lattice(s.voxelize(mesh, {cell = "10 cm", materials = materials}), {style = "centers"})
+  return s.lattice(s.voxelize(mesh, {cell = "10 cm", materials = materials}),
+    {style = "centers", volumes = false})
 end
 
 -- The bodies of the paper, built once for all figures.
@@ -75,7 +76,7 @@ local cut_open = {0, 1, 0, -0.01} -- hides the half in front of the middle, as s
 local function lattices(context)
   local bodies = context.bodies
   local chain = s.refill(bodies.cube, bodies.cube_grid,
-    {nodes = {125, 64, 27}, style = "lattice", lattice = "centers"})
+    {nodes = {125, 64, 27}, style = "lattice", lattice = "centers", volumes = false})
   local panels = {}
   for level = chain.coarsest, 0, -1 do
     local model = chain[level]

@@ -55,7 +55,7 @@ function paper_scenes.ball(options)
     origin = {corner, corner, corner}, materials = o.materials,
     fill = function(x, y, z) return material[key(nearest(x), nearest(y), nearest(z))] end,
   }
-  return s.lattice(grid, {style = "centers"}), grid
+  return s.lattice(grid, {style = "centers", volumes = false}), grid
 end
 
 -- Two stiff rods of `width` x `width` x `rod` cells, joined by `joint` cells of rubber.
@@ -72,7 +72,7 @@ function paper_scenes.rods(options)
       return math.abs(z) < o.joint * cell / 2 and "rubber" or "rod"
     end,
   }
-  return s.lattice(grid, {style = "centers"}), grid
+  return s.lattice(grid, {style = "centers", volumes = false}), grid
 end
 
 -- A block of one material with `size` nodes along the axes; default: the paper's cube.
@@ -87,7 +87,7 @@ function paper_scenes.block(options)
     cell = cell, size = o.size, origin = origin, materials = {body = o.material},
     fill = function() return "body" end,
   }
-  return s.lattice(grid, {style = "centers"}), grid
+  return s.lattice(grid, {style = "centers", volumes = false}), grid
 end
 
 -- Scenes: tables for s.scenario.

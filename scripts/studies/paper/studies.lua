@@ -220,7 +220,7 @@ local function simplification_methods(base, grid)
     list[#list + 1] = {name = "refilled " .. style, chain = function(seed)
       return s.refill(base, grid, {
         nodes = {counts[1].node_count, counts[2].node_count}, style = style, lattice = "centers",
-        seed = seed,
+        seed = seed, volumes = false,
       })
     end}
   end
@@ -288,7 +288,9 @@ function paper_studies.random_models(settings, store)
     for _, ends in ipairs{14, 18, 24} do
       local factors, ratios = {}, {}
       for seed = settings.seed, settings.seed + settings.simplifications - 1 do
-        local about = s.random(grid, {nodes = 1000, ends = ends, seed = seed}).provenance
+        local about = s.random(grid, {
+          nodes = 1000, ends = ends, seed = seed, volumes = false,
+        }).provenance
         table.insert(factors, tonumber(about.rescaled))
         table.insert(ratios, tonumber(about.measured_poisson))
       end

@@ -1,0 +1,192 @@
+#include "model/corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/script_number.hpp"
+#include "model/mass_spring.hpp"
+
+namespace springlod::inline model {
+namespace {
+
+// Relative tolerance of validation for kFlatCorner: a rigid motion or a scaling of the body changes
+// the shape of a corner by rounding.
+constexpr double kShapeRounding = 1e-9;
+
+struct Edges {
+  Vec3 first, second, third;
+};
+
+Edges edges_of(const Corner& corner, const std::vector<Vec3>& x) {
+  const Vec3& origin = x[corner.node[0]];
+  return {x[corner.node[1]] - origin, x[corner.node[2]] - origin, x[corner.node[3]] - origin};
+}
+
+double volume_of(const Edges& e) {
+  return e.first.dot(e.second.cross(e.third));
+}
+
+double product_of_lengths(const Edges& e) {
+  return e.first.norm() * e.second.norm() * e.third.norm();
+}
+
+bool by_nodes(const Corner& l, const Corner& r) {
+  return l.node < r.node;
+}
+
+/// The number of the spring between two nodes.
+class SpringLookup {
+ public:
+  static constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+  explicit SpringLookup(const MassSpringModel& model)
+      : model_(model), start_(model.node_count() + 1, 0) {
+    for (const std::uint32_t a : model.a) ++start_[a + 1];
+    for (std::uint32_t i = 0; i < model.node_count(); ++i) start_[i + 1] += start_[i];
+  }
+  std::uint32_t find(std::uint32_t i, std::uint32_t j) const {
+    const std::uint32_t low = std::min(i, j);
+    const auto end = model_.b.begin() + start_[low + 1];
+    const auto at = std::lower_bound(model_.b.begin() + start_[low], end, std::max(i, j));
+    if (at == end || *at != std::max(i, j)) return kNone;
+    return static_cast<std::uint32_t>(at - model_.b.begin());
+  }
+
+ private:
+  const MassSpringModel& model_;
+  std::vector<std::uint32_t> start_;
+};
+
+void validate_corner(const MassSpringModel& model, const SpringLookup& springs,
+                     std::uint32_t number) {
+  const Corner& corner = model.corners[number];
+  const auto& [n0, n1, n2, n3] = corner.node;
+  const auto fail = [&](const char* rule) {
+    throw InputError(fmt::format("model: corner {} ({} - {}, {}, {}): {}", script_number(number),
+                                 script_number(corner.node[0]), script_number(corner.node[1]),
+                                 script_number(corner.node[2]), script_number(corner.node[3]),
+                                 rule));
+  };
+  std::array<std::uint32_t, 4> sorted = corner.node;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.back() >= model.node_count()) fail("it refers to a node that does not exist");
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    fail("its four nodes must differ");
+  for (const std::uint32_t neighbour : {n1, n2, n3})
+    if (springs.find(n0, neighbour) == SpringLookup::kNone)
+      fail("no spring joins its node to one of the other three");
+  if (n1 > n2 || n1 > n3) fail("its lowest neighbour must come first");
+  if (number > 0 && !(model.corners[number - 1].node < corner.node))
+    fail("corners must be sorted by their nodes, none twice");
+  if (!(corner.young > 0) || !std::isfinite(corner.young))
+    fail("its Young's modulus must be above 0");
+  if (!(corner_volume(corner, model.rest) > 0)) fail("its volume at rest must be above 0");
+  if (!(corner_shape(corner, model.rest) >= (1 - kShapeRounding) * kFlatCorner))
+    fail("it is too flat at rest");
+}
+
+// ---------------------------------------------------------------- safe strain
+
+/// Squared lengths of the edges 01, 02, 03, 12, 13, 23 of a tetrahedron [m2].
+using SquaredLengths = std::array<double, 6>;
+constexpr std::array<std::array<unsigned, 2>, 6> kEdgeEnds{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+/// Square of the volume of the corner [m6]: the Gram determinant of the edges at node 0.
+double squared_volume(const SquaredLengths& d) {
+  const double g12 = (d[0] + d[1] - d[3]) / 2;
+  const double g13 = (d[0] + d[2] - d[4]) / 2;
+  const double g23 = (d[1] + d[2] - d[5]) / 2;
+  return d[0] * (d[1] * d[2] - g23 * g23) - g12 * (g12 * d[2] - g23 * g13) +
+         g13 * (g12 * g23 - d[1] * g13);
+}
+
+/// The least squared volume while each length changes by a factor between 1 - eps and 1 + eps. The
+/// squared volume is concave in each squared length, so its minimum is at one of the 64 vertices of
+/// the range.
+double least_squared_volume(const SquaredLengths& d, double eps) {
+  const std::array<double, 2> factor{(1 - eps) * (1 - eps), (1 + eps) * (1 + eps)};
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned vertex = 0; vertex < 64; ++vertex) {
+    SquaredLengths changed = d;
+    for (unsigned e = 0; e < 6; ++e) changed[e] *= factor[vertex >> e & 1U];
+    least = std::min(least, squared_volume(changed));
+  }
+  return least;
+}
+
+/// The largest eps up to `most` for which the least squared volume is at least `bound`.
+double largest_change(const SquaredLengths& d, double bound, double most) {
+  constexpr int kHalvings = 30;  // to 1e-9 of a length
+  if (least_squared_volume(d, most) >= bound) return most;
+  double safe = 0;
+  double unsafe = most;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (safe + unsafe) / 2;
+    (least_squared_volume(d, middle) >= bound ? safe : unsafe) = middle;
+  }
+  return safe;
+}
+
+}  // namespace
+
+double corner_volume(const Corner& corner, const std::vector<Vec3>& x) {
+  return volume_of(edges_of(corner, x));
+}
+
+double corner_shape(const Corner& corner, const std::vector<Vec3>& x) {
+  const Edges edges = edges_of(corner, x);
+  const double product = product_of_lengths(edges);
+  return product > 0 ? volume_of(edges) / product : 0;
+}
+
+std::vector<std::uint32_t> inverted_corners(const std::vector<Corner>& corners,
+                                            const std::vector<Vec3>& x) {
+  std::vector<std::uint32_t> inverted;
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    if (!(corner_volume(corners[c], x) > 0)) inverted.push_back(static_cast<std::uint32_t>(c));
+  return inverted;
+}
+
+bool orient(Corner& corner, const std::vector<Vec3>& rest) {
+  std::sort(corner.node.begin() + 1, corner.node.end());
+  const Edges edges = edges_of(corner, rest);
+  const double volume = volume_of(edges);
+  if (volume < 0) std::swap(corner.node[2], corner.node[3]);
+  return volume != 0 && std::abs(volume) >= kFlatCorner * product_of_lengths(edges);
+}
+
+void settle_corners(std::vector<Corner>& corners, const std::vector<Vec3>& rest) {
+  std::erase_if(corners, [&](Corner& corner) { return !orient(corner, rest); });
+  if (!std::is_sorted(corners.begin(), corners.end(), by_nodes))
+    std::sort(corners.begin(), corners.end(), by_nodes);
+}
+
+void validate_corners(const MassSpringModel& model) {
+  if (model.corners.empty()) return;
+  const SpringLookup springs(model);
+  for (std::uint32_t c = 0; c < model.corner_count(); ++c) validate_corner(model, springs, c);
+}
+
+double safe_strain(const MassSpringModel& model) {
+  if (model.corners.empty()) return std::numeric_limits<double>::infinity();
+  const SpringLookup springs(model);
+  double safe = 1;  // at which springs have no length
+  for (const Corner& corner : model.corners) {
+    SquaredLengths d{};
+    for (unsigned e = 0; e < 6; ++e) {
+      const std::uint32_t spring =
+          springs.find(corner.node[kEdgeEnds[e][0]], corner.node[kEdgeEnds[e][1]]);
+      if (spring == SpringLookup::kNone) return 0;
+      d[e] = model.rest_length[spring] * model.rest_length[spring];
+    }
+    const double watched = kCornerWatched * corner_volume(corner, model.rest);
+    safe = largest_change(d, watched * watched, safe);
+  }
+  return safe;
+}
+
+}  // namespace springlod::inline model
