@@ -156,7 +156,10 @@ bool orient(Corner& corner, const std::vector<Vec3>& rest) {
   const Edges edges = edges_of(corner, rest);
   const double volume = volume_of(edges);
   if (volume < 0) std::swap(corner.node[2], corner.node[3]);
-  return volume != 0 && std::abs(volume) >= kFlatCorner * product_of_lengths(edges);
+  // Squared, which saves the square roots of the lengths.
+  return volume != 0 && volume * volume >= kFlatCorner * kFlatCorner * edges.first.squaredNorm() *
+                                               edges.second.squaredNorm() *
+                                               edges.third.squaredNorm();
 }
 
 void settle_corners(std::vector<Corner>& corners, const std::vector<Vec3>& rest) {

@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "voxelize/cell_material.hpp"
 #include "voxelize/corner_nodes.hpp"
+#include "voxelize/corner_young.hpp"
 #include "voxelize/hinges.hpp"
 #include "voxelize/index_lookup.hpp"
 
@@ -199,15 +200,6 @@ SpringConstants series(const Material& m1, const Material& m2, double cell) {
   return {k, k * (m1.damping * k2 + m2.damping * k1) / (k1 + k2)};
 }
 
-double harmonic_mean_young(const MassSpringModel& model,
-                           const std::array<std::uint32_t, 4>& nodes) {
-  const double first = model.materials[model.material[nodes[0]]].young;
-  double compliance = 0;  // relative to that of the first, so that equal moduli give exactly theirs
-  for (const std::uint32_t n : nodes)
-    compliance += first / model.materials[model.material[n]].young / 4;
-  return first / compliance;
-}
-
 void add_center_corners(const MaterialGrid& grid, const IndexLookup& lookup, std::uint32_t node,
                         MassSpringModel& model) {
   // Neighbours on the negative and on the positive side of each axis.
@@ -224,7 +216,7 @@ void add_center_corners(const MaterialGrid& grid, const IndexLookup& lookup, std
     const std::uint32_t y = beside[1][o >> 1U & 1U];
     const std::uint32_t z = beside[2][o >> 2U];
     if (x == kNoIndex || y == kNoIndex || z == kNoIndex) continue;
-    add_corner(model, node, o, {x, y, z}, harmonic_mean_young(model, {node, x, y, z}));
+    add_corner(model, node, o, {x, y, z}, corner_young(model, {node, x, y, z}));
   }
   sort_corners(model, first);
 }

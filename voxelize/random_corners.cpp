@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/spring_rows.hpp"
+#include "voxelize/corner_young.hpp"
 
 namespace springlod::voxelize {
 namespace {
@@ -17,14 +18,6 @@ constexpr unsigned kOctants = 8;
 Vec3 diagonal(unsigned octant) {
   return {(octant & 1U) != 0 ? 1.0 : -1.0, (octant & 2U) != 0 ? 1.0 : -1.0,
           (octant & 4U) != 0 ? 1.0 : -1.0};
-}
-
-double harmonic_mean_young(const MassSpringModel& model, const Four& nodes) {
-  const double first = model.materials[model.material[nodes[0]]].young;
-  double compliance = 0;  // relative to that of the first, so that equal moduli give exactly theirs
-  for (const std::uint32_t n : nodes)
-    compliance += first / model.materials[model.material[n]].young / 4;
-  return first / compliance;
 }
 
 /// The best triple of neighbours for each octant of one node.
@@ -127,7 +120,7 @@ std::vector<Corner> choose_corners(const MassSpringModel& model) {
   std::vector<Corner> corners;
   for (std::uint32_t node = 0; node < model.node_count(); ++node) around.add_corners(node, corners);
   keep_once(corners);
-  for (Corner& corner : corners) corner.young = harmonic_mean_young(model, corner.node);
+  for (Corner& corner : corners) corner.young = corner_young(model, corner.node);
   return corners;
 }
 

@@ -14,12 +14,21 @@ namespace {
 
 /// A fine corner between four different groups, of which the apex is known.
 struct Candidate {
-  std::array<std::uint32_t, 3> groups;  // of its neighbours, ascending
+  std::uint64_t lower;  // the lowest group of its neighbours, then the next: 32 bits each
+  std::uint32_t highest;
   double young;
+
+  std::array<std::uint32_t, 3> groups() const {
+    return {static_cast<std::uint32_t>(lower >> 32U), static_cast<std::uint32_t>(lower), highest};
+  }
 };
 
 bool before(const Candidate& l, const Candidate& r) {
-  return l.groups < r.groups;
+  return l.lower != r.lower ? l.lower < r.lower : l.highest < r.highest;
+}
+
+bool same_groups(const Candidate& l, const Candidate& r) {
+  return l.lower == r.lower && l.highest == r.highest;
 }
 
 /// The first corner of each node, and the end: N + 1 numbers.
@@ -44,17 +53,19 @@ class Merger {
         groups_(groups),
         rest_(rest),
         first_(starts(fine, groups.of.size())),
-        row_start_(groups.count + 1, 0) {}
+        row_start_(groups.count + 1, 0),
+        marks_(groups.count, 0) {}
 
   std::vector<Corner> run() {
     const Members members(groups_);
+    // A level has about as many corners per node as the finer one.
+    merged_.reserve(fine_.size() * groups_.count / groups_.of.size());
     for (std::uint32_t apex = 0; apex < groups_.count; ++apex) {
       gather(apex, members.of(apex));
       std::sort(row_.begin(), row_.end(), before);
       add_row(apex);
       row_start_[apex + 1] = static_cast<std::uint32_t>(merged_.size());
     }
-    merged_.shrink_to_fit();
     return std::move(merged_);
   }
 
@@ -71,8 +82,9 @@ class Merger {
         const std::uint32_t b = groups_.of[fine_[c].node[2]];
         const std::uint32_t d = groups_.of[fine_[c].node[3]];
         const std::uint32_t low = std::min(a, b), high = std::max(a, b);
-        row_[count] = {{std::min(low, d), std::max(low, std::min(high, d)), std::max(high, d)},
-                       fine_[c].young};
+        const std::uint64_t lowest = std::min(low, d);
+        const std::uint32_t middle = std::max(low, std::min(high, d));
+        row_[count] = {lowest << 32U | middle, std::max(high, d), fine_[c].young};
         // No branch: it would be mispredicted often.
         const auto differ = static_cast<unsigned>(a != b) & static_cast<unsigned>(a != d) &
                             static_cast<unsigned>(b != d) & static_cast<unsigned>(a != apex) &
@@ -87,20 +99,30 @@ class Merger {
     const std::size_t row = merged_.size();
     for (std::size_t at = 0, next = 0; at < row_.size(); at = next) {
       double change = 0;  // of E; so the mean of equal numbers is exactly that number
-      for (next = at; next < row_.size() && row_[next].groups == row_[at].groups; ++next)
+      for (next = at; next < row_.size() && same_groups(row_[next], row_[at]); ++next)
         change += row_[next].young - row_[at].young;
-      const auto& [i, j, k] = row_[at].groups;
-      if (exists(i, apex, j, k) || exists(j, apex, i, k) || exists(k, apex, i, j)) continue;
+      const auto& [i, j, k] = row_[at].groups();
+      const std::uint64_t mark = mark_of(apex, i, j, k);
+      if (exists(i, mark, apex, j, k) || exists(j, mark, apex, i, k) || exists(k, mark, apex, i, j))
+        continue;
       Corner corner{{apex, i, j, k}, row_[at].young + change / static_cast<double>(next - at)};
-      if (orient(corner, rest_)) merged_.push_back(corner);
+      if (!orient(corner, rest_)) continue;
+      merged_.push_back(corner);
+      marks_[apex] |= mark;
     }
     std::sort(merged_.begin() + static_cast<std::ptrdiff_t>(row), merged_.end(),
               [](const Corner& l, const Corner& r) { return l.node < r.node; });
   }
 
+  // One of 64 bits, the same for the four nodes in any order. Most rows have few of them set.
+  static std::uint64_t mark_of(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    return std::uint64_t{1} << ((a + b + c + d) % 64U);
+  }
+
   // Whether the lower apex `other` has a corner of the same nodes; i < j.
-  bool exists(std::uint32_t other, std::uint32_t apex, std::uint32_t i, std::uint32_t j) const {
-    if (other > apex) return false;
+  bool exists(std::uint32_t other, std::uint64_t mark, std::uint32_t apex, std::uint32_t i,
+              std::uint32_t j) const {
+    if (other > apex || (marks_[other] & mark) == 0) return false;
     const std::uint32_t lowest = std::min(apex, i);
     const std::uint32_t p = std::max(apex, i);
     for (std::uint32_t c = row_start_[other]; c < row_start_[other + 1]; ++c)
@@ -115,6 +137,7 @@ class Merger {
   std::vector<Candidate> row_;
   std::vector<Corner> merged_;
   std::vector<std::uint32_t> row_start_;  // the first corner of each group in merged_
+  std::vector<std::uint64_t> marks_;      // of the corners of each group
 };
 
 }  // namespace

@@ -104,6 +104,7 @@ int refill_binding(Call& call) {
   }
   asset->provenance = base->provenance;
   asset->provenance.set("refill", asset->chain.levels.back().made_by);
+  if (!options.volumes) asset->provenance.set("refill_volumes", "false");
   return call.give(std::shared_ptr<const LodAsset>(asset));
 }
 

@@ -87,6 +87,55 @@ TEST_CASE("a script reads eq. 2 of the whole, of each material and of each node"
   CHECK(ran.out == "default\t1000000\t1000\n");
 }
 
+TEST_CASE("a script reads the corners of a model and leaves them out") {
+  const Ran ran = with_grid(R"(
+    local function count(model) return model.corner_count end
+    local base = s.lattice(grid)
+    assert(count(base) == 8 * grid.cell_count and #base:corners() == count(base))
+    local corner = base:corner(1)
+    assert(corner.number == 1 and #corner.nodes == 4 and corner.nodes[1] == 1)
+    assert(math.abs(corner.volume - 1e-3) < 1e-12 and corner.young == 1e6)
+    assert(base.safe_strain > 0.07 and base.safe_strain < 0.08)
+    local chain = s.simplify(base, {levels = 1})
+    assert(count(chain[1]) > chain[1].node_count)
+    assert(s.info(chain).levels[2].corners == count(chain[1]))
+    assert(count(s.lattice(grid, {volumes = false})) == 0)
+    assert(s.lattice(grid, {volumes = false}).provenance.volumes == "false")
+    assert(s.lattice(grid, {volumes = false}).safe_strain == math.huge)
+    assert(count(s.lattice(grid, {style = "centers"})) > 0)
+    assert(count(s.random(grid, {nodes = 200})) > 200)
+    assert(count(s.random(grid, {nodes = 200, volumes = false})) == 0)
+    assert(count(s.refill(base, grid, {nodes = {200}})[1]) > 0)
+    assert(count(s.refill(base, grid, {nodes = {200}, volumes = false})[1]) == 0)
+    print(base)
+    print(s.lattice(grid, {volumes = false})))");
+  CAPTURE(ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("ends, 2944 corners, ") && Contains("ends, 368 kg"));
+}
+
+TEST_CASE("a script finds the corners that a state turns over") {
+  const Ran ran = with_grid(R"(
+    local base = s.lattice(grid)
+    local x = {}
+    for i, node in ipairs(base:nodes()) do x[i] = {node.x, node.y, node.z} end
+    assert(#base:inverted_corners{x = x} == 0 and #base:inverted_corners{} == 0)
+    local away = base:node(1)
+    x[1] = {away.x + 0.15, away.y, away.z}
+    for _, number in ipairs(base:inverted_corners{x = x}) do
+      local nodes = base:corner(number).nodes
+      print(number, nodes[1])
+    end
+    print(pcall(base.inverted_corners, base, {x = {{0, 0, 0}}}))
+    local still = s.run(base, s.scenario{duration = 0.01})
+    print(#base:inverted_corners(still.final), #base:inverted_corners(still[1])))");
+  CAPTURE(ran.err, ran.out);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("1\t1\n"));
+  CHECK_THAT(ran.out, Contains("model:inverted_corners: state.x must be a list of"));
+  CHECK_THAT(ran.out, Contains("0\t0\n"));
+}
+
 TEST_CASE("a script fills a grid by a formula, and errors in it are reported") {
   const std::string bar =
       "{cell = '10 cm', size = {2, 2, 6}, origin = {0, 0, -0.3},"

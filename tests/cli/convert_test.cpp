@@ -57,8 +57,8 @@ TEST_CASE("convert writes an asset and prints its levels; info prints its conten
   const json& levels = parsed.at("levels");
   REQUIRE(levels.size() == 3);
   for (const json& level : levels)
-    for (const char* key : {"nodes", "springs", "ends", "border_nodes", "mass", "center_of_mass",
-                            "inertia", "stable_dt", "materials"})
+    for (const char* key : {"nodes", "springs", "ends", "corners", "border_nodes", "mass",
+                            "center_of_mass", "inertia", "stable_dt", "materials"})
       CHECK(level.contains(key));
   const json& base = levels.at(0);
   CHECK(base.at("nodes") == 12 * 4 * 4);
@@ -76,6 +76,31 @@ TEST_CASE("convert writes an asset and prints its levels; info prints its conten
   const Ran text = springlod_run({"info", asset});
   CHECK(text.exit_code == 0);
   CHECK_THAT(text.out, Contains("LodChain: 192 -> "));
+}
+
+TEST_CASE("convert gives the levels corners unless it is told to leave them out") {
+  const TemporaryFolder scratch;
+  spit(scratch / "bar.obj", small_dumbbell());
+  const auto corners = [&](std::vector<std::string> options) {
+    const std::string asset = (scratch / "bar.glb").string();
+    options.insert(options.begin(), {"convert", (scratch / "bar.obj").string(), "-o", asset,
+                                     "--cell", "1cm", "--unit", "cm"});
+    const Ran ran = springlod_run(options);
+    CAPTURE(ran.err);
+    REQUIRE(ran.exit_code == 0);
+    CHECK_THAT(ran.out, Contains("corners"));
+    CHECK_THAT(springlod_run({"info", asset}).out, Contains("corners"));
+    std::vector<int> counts;
+    const json info = json::parse(springlod_run({"info", asset, "--json"}).out);
+    for (const json& level : info.at("levels")) counts.push_back(level.at("corners").get<int>());
+    return counts;
+  };
+  const std::vector<int> with = corners({});
+  REQUIRE(with.size() == 3);
+  CHECK(with[0] == 8 * 12 * 4 * 4);
+  CHECK(with[1] > with[2]);
+  CHECK(with[2] > 0);
+  CHECK(corners({"--no-volumes"}) == std::vector<int>{0, 0, 0});
 }
 
 TEST_CASE("convert writes identical files for any number of threads") {

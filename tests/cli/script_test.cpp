@@ -155,6 +155,45 @@ TEST_CASE("a model from tables reads back node by node and spring by spring") {
         "true\ttrue\n");
 }
 
+TEST_CASE("a model from tables takes corners in any order, and names those it refuses") {
+  const std::string four = R"(
+    local function model(corners)
+      return s.model{
+        materials = {{name = "soft", young = 1e5}},
+        nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 1}, {0, 1, 0, mass = 1}, {0, 0, 1, mass = 1},
+                 {1, 1, 0.01, mass = 1}},
+        springs = {{1, 2, k = 1}, {1, 3, k = 1}, {1, 4, k = 1}, {2, 3, k = 1}, {2, 4, k = 1},
+                   {3, 4, k = 1}, {1, 5, k = 1}},
+        corners = corners}
+    end
+  )";
+  const Ran ran = run_lua(four + R"(
+    local m = model{{nodes = {1, 4, 3, 2}, young = "2 MPa"}}
+    print(s.inspect(m:corners()))
+    local again = s.model{materials = m.materials, nodes = m:nodes(), springs = m:springs(),
+                          corners = m:corners()}
+    print(s.inspect(again:corners()) == s.inspect(m:corners()))
+    print(model{{nodes = {1, 2, 3, 4}}}:corner(1).young))");
+  CAPTURE(ran.err);
+  CHECK(ran.out ==
+        "{{nodes = {1, 2, 3, 4}, number = 1, volume = 1.0, young = 2000000.0}}\n"
+        "true\n"
+        "100000.0\n");
+  const auto refused = [&](const std::string& corners, const std::string& message) {
+    CHECK_THAT(run_lua(four + "model{" + corners + "}").err, Contains(message));
+  };
+  refused("{nodes = {1, 2, 3}}", "model: corners[1]: nodes must be a list of four node numbers");
+  refused("{nodes = {1, 2, 3, 6}}", "model: corners[1]: nodes must be node numbers of 1 to 5");
+  refused("{nodes = {1, 2, 3, 5}}",
+          "model: corners[1]: nodes must be the nodes of a corner that is not flat");
+  refused("{nodes = {1, 2, 3, 3}}",
+          "model: corners[1]: nodes must be the nodes of a corner that is not flat");
+  refused("{nodes = {5, 2, 4, 1}}", "no spring joins");
+  refused("{nodes = {1, 2, 3, 4}, young = 0}", "modulus");
+  refused("{nodes = {1, 2, 3, 4}}, {nodes = {1, 3, 2, 4}}", "none twice");
+  refused("{node = {1, 2, 3, 4}}", "nodes");
+}
+
 TEST_CASE("groups can be given explicitly, by node priority and by pair cost") {
   const Ran ran = run_lua(R"(
     local nodes, springs = {}, {}

@@ -153,8 +153,8 @@ Corner read_corner(Call& call, int table, const std::string& owner, const MassSp
   reader.read("young", corner.young);
   reader.finish();
   if (!orient(corner, model.rest))
-    reader.refuse("nodes", fmt::format("not as flat: its volume must be at least {} of the product "
-                                       "of its edges",
+    reader.refuse("nodes", fmt::format("the nodes of a corner that is not flat: its volume must be "
+                                       "at least {} of the product of its three edges",
                                        kFlatCorner));
   return corner;
 }

@@ -49,6 +49,7 @@ void check_same(const LodAsset& a, const LodAsset& b) {
     CHECK(same_bits(p.model.rest_length, q.model.rest_length));
     CHECK(same_bits(p.model.stiffness, q.model.stiffness));
     CHECK(same_bits(p.model.damping, q.model.damping));
+    CHECK(p.model.corners == q.model.corners);
   }
   CHECK(same_bits(a.surface.positions, b.surface.positions));
   CHECK(same_bits(a.surface.triangles, b.surface.triangles));
@@ -108,6 +109,60 @@ TEST_CASE("The same asset gives the same bytes") {
   CHECK(bytes == read_file(folder / "c.glb"));
 }
 
+/// sample_asset with corners on two of its levels, of one modulus and of several.
+LodAsset asset_with_corners() {
+  LodAsset asset = sample_asset();
+  for (const std::size_t n : {std::size_t{0}, std::size_t{2}}) {
+    MassSpringModel& m = asset.chain.levels[n].model;
+    const std::uint32_t side = n == 0 ? 4 : 2;
+    const std::uint32_t layer = side * side;
+    for (std::uint32_t i = 0; i + layer + side + 1 < m.node_count(); i += layer)
+      m.corners.push_back({{i, i + 1, i + side, i + layer}, n == 0 ? 1e5 / (1 + i % 3) : 1e6 / 3});
+    REQUIRE(m.corners.size() > 1);
+  }
+  return asset;
+}
+
+TEST_CASE("Corners are restored with the same bits") {
+  const TemporaryFolder folder;
+  const LodAsset asset = asset_with_corners();
+  save_asset(asset, folder / "asset.glb");
+  check_same(load_asset(folder / "asset.glb"), asset);
+}
+
+TEST_CASE("Malformed corners are rejected") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  save_asset(asset_with_corners(), path);
+  const std::string bytes = read_file(path);
+  const auto refused = [&](const std::string& from, const std::string& to,
+                           const std::string& reason) {
+    INFO(from << " -> " << to);
+    overwrite(path, with_json(bytes, from, to));
+    CHECK_THROWS_AS(load_asset(path), IoError);
+    CHECK_THROWS_WITH(load_asset(path), Contains("damaged") && Contains(reason));
+  };
+  refused("\"cornerYoung\"", "\"c\"", "a modulus that does not exist");
+  refused("\"cornerYoungNumber\"", "\"c\"", "moduli of its corners");
+  refused("\"cornerNodes\"", "\"c\"", "moduli of its corners");
+  refused("\"cornerNodes\":", "\"cornerNodes\":0,\"c\":", "");
+  refused("\"corners\":4", "\"corners\":5", "checksum");
+}
+
+TEST_CASE("An asset of format version 1 is read as one without corners") {
+  // Written by version 0.1.0: four nodes, of which level 1 merges the first two.
+  const LodAsset asset =
+      load_asset(std::string(SPRINGLOD_SOURCE_DIR) + "/tests/golden/version_1.glb");
+  REQUIRE(asset.chain.levels.size() == 2);
+  CHECK(asset.chain.levels[0].model.mass == std::vector<double>{1, 2, 3, 4});
+  CHECK(asset.chain.levels[1].of_base.of == std::vector<std::uint32_t>{0, 0, 1, 2});
+  for (const Level& level : asset.chain.levels) CHECK(level.model.corners.empty());
+  // It is saved as version 2.
+  const TemporaryFolder folder;
+  save_asset(asset, folder / "asset.glb");
+  check_same(load_asset(folder / "asset.glb"), asset);
+}
+
 TEST_CASE("Names that are not UTF-8 are saved with invalid bytes replaced") {
   const TemporaryFolder folder;
   LodAsset asset = sample_asset();
@@ -139,8 +194,8 @@ TEST_CASE("A file that is not an asset is rejected with the reason") {
   const std::string bytes = read_file(path);
   overwrite(path, with_json(bytes, "\"extensions\":", "\"extras\":"));
   CHECK_THROWS_WITH(load_asset(path), Contains("no level-of-detail chain"));
-  overwrite(path, with_json(bytes, "\"version\":1", "\"version\":2"));
-  CHECK_THROWS_WITH(load_asset(path), Contains("version 2") && Contains("update"));
+  overwrite(path, with_json(bytes, "\"version\":2", "\"version\":3"));
+  CHECK_THROWS_WITH(load_asset(path), Contains("version 3") && Contains("update"));
   overwrite(path, with_json(bytes, "by hand", "by mind"));
   CHECK_THROWS_WITH(load_asset(path), Contains("damaged") && Contains("checksum"));
   CHECK_THROWS_AS(load_asset(path), IoError);
