@@ -23,8 +23,8 @@ parser:option("--lattice", "place nodes at cell corners or cell centers")
   :choices(s.choices.lattice):default("corners")
 parser:option("--hinges", "treatment of cells that touch only along an edge or at a corner")
   :choices(s.choices.hinges):default("report")
-parser:flag("--no-volumes", "build the model from springs alone; by default, the corners of its cells "
-  .. "keep the signs of their volumes, so that soft bodies do not turn inside out")
+parser:flag("--no-volumes", "build the model from springs alone; by default, the corners of its "
+  .. "cells keep the signs of their volumes, so that soft bodies do not turn inside out")
 parser:option("--levels", "number of coarser levels (default: 2, or one per --keep value)")
   :convert(command.whole("--levels", 0))
 parser:option("--grouping", "how nodes are grouped for merging")

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/prefetch.hpp"
 #include "lod/merging/members.hpp"
 
 namespace springlod::lod {
@@ -60,7 +61,11 @@ class Merger {
     const Members members(groups_);
     // A level has about as many corners per node as the finer one.
     merged_.reserve(fine_.size() * groups_.count / groups_.of.size());
+    constexpr std::uint32_t kAhead = 8;  // prefetch distance in groups
     for (std::uint32_t apex = 0; apex < groups_.count; ++apex) {
+      if (apex + kAhead < groups_.count)
+        for (const std::uint32_t i : members.of(apex + kAhead))
+          prefetch(fine_.data() + first_[i], fine_.data() + first_[i + 1]);
       gather(apex, members.of(apex));
       std::sort(row_.begin(), row_.end(), before);
       add_row(apex);
