@@ -16,7 +16,7 @@ MassSpringModel lattice_cube(int side) {
   voxelize::MaterialGrid grid;
   grid.cell = kCell;
   grid.origin = {0, 0, -0.1 * kCell};
-  grid.materials = {Material{.name = "block"}};
+  grid.materials = {Material{.name = "block", .damping = 0.0002}};
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) grid.cells.push_back({x, y, z});

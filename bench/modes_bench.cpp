@@ -15,8 +15,9 @@ using namespace springlod;
 MassSpringModel block(int nx, int ny, int nz) {
   voxelize::MaterialGrid grid;
   grid.cell = 0.01;
-  grid.materials = {Material{.name = "steel", .young = 1e7, .density = 2000},
-                    Material{.name = "rubber", .young = 2e5}, Material{.name = "wood"}};
+  grid.materials = {Material{.name = "steel", .young = 1e7, .density = 2000, .damping = 0.0002},
+                    Material{.name = "rubber", .young = 2e5, .damping = 0.0002},
+                    Material{.name = "wood", .damping = 0.0002}};
   for (int z = 0; z < nz; ++z)
     for (int y = 0; y < ny; ++y)
       for (int x = 0; x < nx; ++x) {

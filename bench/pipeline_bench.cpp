@@ -24,7 +24,7 @@ using namespace springlod;
 voxelize::MaterialGrid cube_grid(int side) {
   voxelize::MaterialGrid grid;
   grid.cell = 0.01;
-  grid.materials = {Material{.name = "block"}};
+  grid.materials = {Material{.name = "block", .damping = 0.0002}};
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) grid.cells.push_back({x, y, z});

@@ -20,9 +20,8 @@ struct Material {
   double young = 1e6;     ///< Young's modulus E [Pa] > 0
   double density = 1000;  ///< rho [kg/m3] > 0
   /// Damping time beta = c/k [s] >= 0. A mode of angular frequency w has the damping ratio beta w /
-  /// 2: with the default, 6 % at 100 Hz, a typical frequency of a soft body of the size of a hand.
-  /// Explicit integrators need shorter steps for larger values.
-  double damping = 0.0002;
+  /// 2. Explicit integrators need shorter steps for larger values.
+  double damping = 0;
   Colour colour{};
   bool operator==(const Material&) const = default;
 };

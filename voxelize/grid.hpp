@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/progress.hpp"
-#include "model/material.hpp"
+#include "model/material_input.hpp"
 #include "model/mesh.hpp"
 
 namespace springlod::voxelize {
@@ -37,6 +37,16 @@ struct MaterialGrid {
 /// not unique, depths that are not one per cell, and materials that are missing or wrong.
 void validate(const MaterialGrid& grid);
 
+/// Estimate of the lowest angular frequency of the free body [rad/s]: that of its slowest connected
+/// component, by lowest_frequency_estimate with the largest edge of the component's bounding box
+/// and the wave speed sqrt(1 / (<1/E> <rho>)), with averages over its cells: materials in series
+/// (Reuss 1929). Cells are connected if they share at least a corner. 0 for an empty grid.
+double lowest_frequency(const MaterialGrid& grid);
+
+/// Gives the grid its materials; damping ratios become times with lowest_frequency(grid). Throws
+/// InputError for a material out of range, and for a grid that is then not valid.
+void set_materials(MaterialGrid& grid, const std::vector<MaterialInput>& inputs);
+
 /// A user's function of position and depth. Returns the name of a material, or "" to keep the
 /// material of the cell.
 using PaintFunction =
@@ -47,15 +57,15 @@ struct VoxelizeOptions {
   std::optional<double> cell;
   /// Materials by the name of a part or, if there is none, by its material name in the file. Other
   /// parts take `fallback`.
-  std::map<std::string, Material> materials;
-  Material fallback{.name = "default"};
+  std::map<std::string, MaterialInput> materials;
+  MaterialInput fallback{{.name = "default"}};
   /// Parts in the order in which they claim cells: a cell within several parts goes to the first of
   /// them. Parts that are not listed follow in file order.
   std::vector<std::string> priority;
   /// Core and shell: cells deeper than `core_depth` [m] become `core`.
   struct CoreShell {
     double core_depth = 0;
-    Material core;
+    MaterialInput core;
   };
   std::optional<CoreShell> core_shell;
   PaintFunction paint;
@@ -79,7 +89,8 @@ struct VoxelizedMesh {
 /// Fills the cells whose centre is inside a solid or on its surface (solids of check_solid; OpenVDB
 /// meshToVolume). The grid is centred on the bounding box. A shell inside another one that faces
 /// inwards is a cavity and stays empty. In a solid of several materials each cell takes that of the
-/// nearest triangle. Depths are measured if `core_shell` or `paint` needs them.
+/// nearest triangle. Depths are measured if `core_shell` or `paint` needs them. Damping ratios
+/// become times (set_materials).
 ///
 /// Throws InputError: an open solid (the message has the part and a hole), a cell too large (no
 /// cell is filled) or too small (the message has the smallest possible one), coordinates that are

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/material_input.hpp"
 #include "model/mesh.hpp"
 #include "voxelize/grid.hpp"
 
@@ -23,19 +24,19 @@ class MaterialChoice {
   /// options. Throws InputError with the list of names.
   std::uint16_t of_name(const std::string& name);
 
-  const std::string& name(std::uint16_t number) const { return list_[number].name; }
+  const std::string& name(std::uint16_t number) const { return list_[number].material.name; }
   /// Keys of options.materials that were never used.
   std::vector<std::string> unused() const;
   /// The materials that occur in cells; renumbers the cells.
-  std::vector<Material> finish(std::vector<std::uint16_t>& material_of_cell) const;
+  std::vector<MaterialInput> finish(std::vector<std::uint16_t>& material_of_cell) const;
 
  private:
-  std::uint16_t number_of(const Material& material);
+  std::uint16_t number_of(const MaterialInput& input);
 
-  std::map<std::string, Material> by_key_;
-  Material fallback_;
-  std::optional<Material> core_;
-  std::vector<Material> list_;
+  std::map<std::string, MaterialInput> by_key_;
+  MaterialInput fallback_;
+  std::optional<MaterialInput> core_;
+  std::vector<MaterialInput> list_;
   std::set<std::string> used_keys_;
 };
 

@@ -300,7 +300,8 @@ class Voxelizer {
     for (const std::string& key : materials_.unused())
       warn(fmt::format("material \"{}\" is not used: no part or material of the file has this name",
                        key));
-    grid().materials = materials_.finish(grid().material);
+    const std::vector<MaterialInput> used = materials_.finish(grid().material);
+    set_materials(grid(), used);
     report().grid_volume = static_cast<double>(grid().cells.size()) * std::pow(frame_.cell, 3);
     return std::move(result_);
   }

@@ -107,9 +107,10 @@ int grid_binding(Call& call) {
   const int materials = reader.raw("materials");
   if (materials == 0) reader.refuse("materials", "given: a table name = Material");
   MaterialNumbers numbers;
-  for (const auto& [name, material] : read_materials(call, materials, "grid")) {
-    numbers[name] = static_cast<std::uint16_t>(grid.materials.size());
-    grid.materials.push_back(material);
+  std::vector<MaterialInput> inputs;
+  for (const auto& [name, input] : read_materials(call, materials, "grid")) {
+    numbers[name] = static_cast<std::uint16_t>(inputs.size());
+    inputs.push_back(input);
   }
   const int fill = reader.raw("fill");
   if (fill == 0 || !lua_isfunction(call.lua(), fill))
@@ -122,7 +123,7 @@ int grid_binding(Call& call) {
   }
   reader.finish();
   fill_cells(call.lua(), fill, size, numbers, grid);
-  validate(grid);
+  set_materials(grid, inputs);
   value->provenance.set("springlod", version());
   value->provenance.set("grid", "cells of a script");
   value->provenance.set("cell", fmt::format("{} m", grid.cell));

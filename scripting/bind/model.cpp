@@ -1,6 +1,8 @@
 // Mass-spring models: read, built from tables, estimated; chains saved, loaded and described.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <lua.hpp>
@@ -191,6 +193,21 @@ void push_bounds(lua_State* L, const ModelValue& value) {
             std::sqrt(size.x() * size.x() + size.y() * size.y() + size.z() * size.z()));
 }
 
+/// ", damping time 0.2 ms": of the springs, c / k; empty without springs.
+std::string damping_text(const MassSpringModel& model) {
+  if (model.spring_count() == 0) return "";
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    shortest = std::min(shortest, model.damping[s] / model.stiffness[s]);
+    longest = std::max(longest, model.damping[s] / model.stiffness[s]);
+  }
+  const std::string low = format_quantity(shortest, Dimension::time);
+  const std::string high = format_quantity(longest, Dimension::time);
+  return low == high ? fmt::format(", damping time {}", high)
+                     : fmt::format(", damping times {} to {}", low, high);
+}
+
 std::string model_text(const ModelValue& value) {
   const MassSpringModel& model = *value.model;
   const MassProperties properties = mass_properties(model);
@@ -201,7 +218,7 @@ std::string model_text(const ModelValue& value) {
   if (model.corner_count() > 0)
     text +=
         fmt::format(", {} corner{}", model.corner_count(), model.corner_count() == 1 ? "" : "s");
-  return text + ", " + format_quantity(properties.mass, Dimension::mass);
+  return text + ", " + format_quantity(properties.mass, Dimension::mass) + damping_text(model);
 }
 
 FunctionEntry element_method(const char* name, const char* what, const char* record,
@@ -287,7 +304,8 @@ void describe_model_type(Api& api) {
 }
 
 void describe_material(Api& api) {
-  const Material usual;
+  const MaterialInput input;
+  const Material& usual = input.material;
   api.add(RecordEntry{
       .name = "Material",
       .summary = "An elastic material. Its Poisson's ratio is that of spring networks, about 1/4.",
@@ -306,8 +324,13 @@ void describe_material(Api& api) {
            {.name = "damping",
             .type = "quantity",
             .dimension = Dimension::time,
-            .fallback = fmt::format("{}", usual.damping),
+            .fallback = "from damping_ratio",
             .help = "damping time c/k of its springs"},
+           {.name = "damping_ratio",
+            .type = "number",
+            .fallback = fmt::format("{}", *input.damping_ratio),
+            .help = "damping ratio of the body's slowest vibration, from which its damping time is "
+                    "computed when the body is built; 0 or more, below 1; instead of damping"},
            {.name = "colour",
             .type = "\"#rrggbb\" or {r, g, b}",
             .fallback = "grey",

@@ -94,7 +94,8 @@ int voxelize_binding(Call& call) {
   if (const int table = reader.raw("materials"))
     options.materials = read_materials(call, table, "voxelize");
   if (const int table = reader.raw("fallback"))
-    options.fallback = read_material(call, table, "voxelize: fallback", options.fallback.name);
+    options.fallback =
+        read_material(call, table, "voxelize: fallback", options.fallback.material.name);
   reader.read("priority", options.priority);
   read_core(call, reader, options);
   if (const int function = reader.raw("paint")) {
@@ -239,7 +240,8 @@ void describe_voxelize_function(Api& api) {
             .help = "materials by the name of a part or by its material name in the file"},
            {.name = "fallback",
             .type = "Material",
-            .fallback = "{young = 1e6, density = 1000, damping = 0.0002}",
+            .fallback = fmt::format("{{young = 1e6, density = 1000, damping_ratio = {}}}",
+                                    kUsualDampingRatio),
             .help = "material of parts that materials does not name"},
            {.name = "priority",
             .type = "list of strings",

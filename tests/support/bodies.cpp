@@ -52,7 +52,7 @@ MassSpringModel block(int nx, int ny, int nz, double cell, const Material& of,
 }
 
 MassSpringModel block(int nx, int ny, int nz, voxelize::LatticeStyle style) {
-  return block(nx, ny, nz, kCell, Material{.name = "block"}, style);
+  return block(nx, ny, nz, kCell, Material{.name = "block", .damping = 0.0002}, style);
 }
 
 MassSpringModel rods() {

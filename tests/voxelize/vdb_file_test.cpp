@@ -33,8 +33,8 @@ TEST_CASE("A voxelized mesh is restored from a .vdb file") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0.1, 0.2, 0.3}, 1);
   VoxelizeOptions options;
-  options.fallback = {"shell", 1.1e5, 333, 0.00123, {0.1F, 0.2F, 0.3F}};
-  options.core_shell = {0.3, {"core", 7.7e6, 1234.5, 0.004, {0.9F, 0.8F, 0.7F}}};
+  options.fallback = {{"shell", 1.1e5, 333, 0.00123, {0.1F, 0.2F, 0.3F}}, std::nullopt};
+  options.core_shell = {0.3, {{"core", 7.7e6, 1234.5, 0, {0.9F, 0.8F, 0.7F}}}};
   const MaterialGrid grid = voxelize::voxelize(mesh, options).grid;
   save_vdb(grid, folder / "made/ball.vdb");
   const MaterialGrid loaded = load_vdb(folder / "made/ball.vdb");

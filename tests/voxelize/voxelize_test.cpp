@@ -134,7 +134,7 @@ TEST_CASE(
   add_box(mesh, "one", {0, 0, 0}, {6, 4, 4});
   add_box(mesh, "two", {4, 0, 0}, {10, 4, 4});
   VoxelizeOptions options = with_cell(1);
-  options.materials = {{"one", {.name = "one"}}, {"two", {.name = "two"}}};
+  options.materials = {{"one", {{.name = "one"}}}, {"two", {{.name = "two"}}}};
   const MaterialGrid by_file = voxelize(mesh, options).grid;
   CHECK(by_file.cells.size() == 160);
   CHECK(count_of(by_file, "one") == 96);
@@ -153,10 +153,10 @@ TEST_CASE("A part's material is found by its name, then the file's material, the
   add_box(mesh, "b", {2, 0, 0}, {4, 2, 2}, "steel");
   add_box(mesh, "c", {4, 0, 0}, {6, 2, 2}, "wood");
   VoxelizeOptions options = with_cell(1);
-  options.materials = {{"a", {.name = "special"}},
-                       {"steel", {.name = "", .young = 2e11}},
-                       {"glass", {.name = "glass"}}};
-  options.fallback = {.name = "rest"};
+  options.materials = {{"a", {{.name = "special"}}},
+                       {"steel", {{.name = "", .young = 2e11}}},
+                       {"glass", {{.name = "glass"}}}};
+  options.fallback = {{.name = "rest"}};
   const VoxelizedMesh result = voxelize(mesh, options);
   CHECK(count_of(result.grid, "special") == 8);
   CHECK(count_of(result.grid, "steel") == 8);
@@ -172,9 +172,9 @@ TEST_CASE("Different materials of one name are rejected, equal ones are merged")
   add_box(mesh, "a", {0, 0, 0}, {2, 2, 2});
   add_box(mesh, "b", {2, 0, 0}, {4, 2, 2});
   VoxelizeOptions options = with_cell(1);
-  options.materials = {{"a", {.name = "same"}}, {"b", {.name = "same"}}};
+  options.materials = {{"a", {{.name = "same"}}}, {"b", {{.name = "same"}}}};
   CHECK(voxelize(mesh, options).grid.materials.size() == 1);
-  options.materials["b"].young = 5;
+  options.materials["b"].material.young = 5;
   CHECK_THROWS_AS(voxelize(mesh, options), InputError);
 }
 
@@ -186,7 +186,7 @@ TEST_CASE("In an object of two materials each cell has that of the nearest trian
   add_part(mesh, "box", corners, {all.begin(), all.end() - 2}, "red");
   add_part(mesh, "box", corners, {all.end() - 2, all.end()}, "blue");
   VoxelizeOptions options = with_cell(1);
-  options.materials = {{"red", {.name = "red"}}, {"blue", {.name = "blue"}}};
+  options.materials = {{"red", {{.name = "red"}}}, {"blue", {{.name = "blue"}}}};
   const MaterialGrid grid = voxelize(mesh, options).grid;
   REQUIRE(grid.cells.size() == 512);
   for (std::size_t n = 0; n < grid.cells.size(); ++n) {
@@ -202,8 +202,8 @@ TEST_CASE("Core and shell are distinguished by depth") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1, 96);
   VoxelizeOptions options = with_cell(0.05);
-  options.fallback = {.name = "shell"};
-  options.core_shell = {0.4, {.name = "core", .young = 1e7}};
+  options.fallback = {{.name = "shell"}};
+  options.core_shell = {0.4, {{.name = "core", .young = 1e7}}};
   const MaterialGrid grid = voxelize(mesh, options).grid;
   const double core = static_cast<double>(count_of(grid, "core")) * std::pow(0.05, 3);
   CHECK(core == Approx(ball_volume(0.6)).epsilon(0.03));
@@ -214,7 +214,7 @@ TEST_CASE("A paint function receives centre, depth and material of each cell and
   TriangleMesh mesh;
   add_box(mesh, "box", {0, 0, 0}, {4, 4, 4});
   VoxelizeOptions options = with_cell(1);
-  options.materials = {{"box", {.name = "plain"}}, {"top", {.name = "red"}}};
+  options.materials = {{"box", {{.name = "plain"}}}, {"top", {{.name = "red"}}}};
   std::vector<Vec3> seen;
   options.paint = [&](const Vec3& at, double depth, const std::string& material) {
     seen.push_back(at);
@@ -327,7 +327,7 @@ TEST_CASE("Depth is measured if a core or a paint function needs it, otherwise o
   const std::vector<float> depth = measure_depth(plain, mesh);
   REQUIRE(depth.size() == plain.cells.size());
 
-  options.core_shell = {0.3, {.name = "core"}};
+  options.core_shell = {0.3, {{.name = "core"}}};
   const MaterialGrid cored = voxelize(mesh, options).grid;
   CHECK(cored.depth == depth);
   for (std::size_t n = 0; n < depth.size(); ++n)
@@ -352,9 +352,9 @@ TEST_CASE("One thread and two give the same grid") {
   const auto run = [&](std::uint32_t threads) {
     VoxelizeOptions options = with_cell(0.03);
     options.threads = threads;
-    options.materials = {{"ball", {.name = "ball"}}, {"other", {.name = "other"}}};
+    options.materials = {{"ball", {{.name = "ball"}}}, {"other", {{.name = "other"}}}};
     options.priority = {"box 7", "ball"};
-    options.core_shell = {0.4, {.name = "core"}};
+    options.core_shell = {0.4, {{.name = "core"}}};
     return voxelize(mesh, options);
   };
   const VoxelizedMesh one = run(1);

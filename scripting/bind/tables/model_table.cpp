@@ -1,6 +1,9 @@
 #include "scripting/bind/tables/model_table.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -19,7 +22,7 @@ struct TableSpring {
   std::uint32_t b = 0;
   double length = 0;
   double stiffness = 0;
-  double damping = 0;
+  std::optional<double> damping;  // none: the damping time of a's material times the stiffness
 };
 
 std::uint32_t material_number(const MassSpringModel& model, const std::string& name,
@@ -97,7 +100,6 @@ TableSpring read_spring(Call& call, int table, const std::string& owner,
   if (spring.a > spring.b) std::swap(spring.a, spring.b);
   if (!reader.has("k")) reader.refuse("k", "given: the stiffness in N/m");
   reader.read("k", spring.stiffness);
-  spring.damping = model.materials[model.material[spring.a]].damping * spring.stiffness;
   reader.read("c", spring.damping);
   spring.length = (model.rest[spring.b] - model.rest[spring.a]).norm();
   reader.read("length", spring.length);
@@ -122,6 +124,17 @@ void each_entry(Call& call, int list, const char* what, const std::vector<const 
   }
 }
 
+// Wave speed from eq. 2 of the paper: sqrt(E / rho) without the volume, which cancels out.
+double lowest_frequency(const MassSpringModel& model, const std::vector<TableSpring>& springs) {
+  const double extent = bounds(model.rest).sizes().maxCoeff();
+  if (springs.empty() || !(extent > 0)) return 0;
+  double work = 0;
+  for (const TableSpring& spring : springs)
+    work += spring.stiffness * spring.length * spring.length;
+  const double mass = std::accumulate(model.mass.begin(), model.mass.end(), 0.0);
+  return lowest_frequency_estimate(std::sqrt(work / (6 * mass)), extent);
+}
+
 void add_springs(MassSpringModel& model, std::vector<TableSpring>& springs) {
   std::sort(springs.begin(), springs.end(), [](const TableSpring& p, const TableSpring& q) {
     return std::tie(p.a, p.b) < std::tie(q.a, q.b);
@@ -131,7 +144,8 @@ void add_springs(MassSpringModel& model, std::vector<TableSpring>& springs) {
     model.b.push_back(spring.b);
     model.rest_length.push_back(spring.length);
     model.stiffness.push_back(spring.stiffness);
-    model.damping.push_back(spring.damping);
+    model.damping.push_back(spring.damping.value_or(
+        model.materials[model.material[spring.a]].damping * spring.stiffness));
   }
 }
 
@@ -159,24 +173,30 @@ Corner read_corner(Call& call, int table, const std::string& owner, const MassSp
   return corner;
 }
 
-void read_material_list(Call& call, TableReader& options, MassSpringModel& model) {
+std::vector<MaterialInput> read_material_list(Call& call, TableReader& options) {
   const int list = options.raw("materials");
-  if (list == 0) {
-    model.materials.push_back({.name = "default"});
-    return;
-  }
+  if (list == 0) return {{.material = {.name = "default"}}};
+  std::vector<MaterialInput> inputs;
   each_entry(call, list, "materials", {}, [&](int table, const std::string& owner) {
-    model.materials.push_back(
-        read_material(call, table, owner, fmt::format("material_{}", model.materials.size() + 1)));
+    inputs.push_back(
+        read_material(call, table, owner, fmt::format("material_{}", inputs.size() + 1)));
   });
-  if (model.materials.empty()) options.refuse("materials", "a list of at least one Material");
+  if (inputs.empty()) options.refuse("materials", "a list of at least one Material");
+  return inputs;
+}
+
+std::vector<Material> all_resolved(const std::vector<MaterialInput>& inputs, double omega) {
+  std::vector<Material> materials;
+  for (const MaterialInput& input : inputs) materials.push_back(resolved(input, omega));
+  return materials;
 }
 
 }  // namespace
 
 MassSpringModel model_from_tables(Call& call, TableReader& options) {
   MassSpringModel model;
-  read_material_list(call, options, model);
+  const std::vector<MaterialInput> inputs = read_material_list(call, options);
+  model.materials = all_resolved(inputs, 0);  // nodes need names and densities
   const int nodes = options.raw("nodes");
   if (nodes == 0) options.refuse("nodes", "given: a list of {x, y, z, mass = ...}");
   each_entry(call, nodes, "nodes", {"x", "y", "z"},
@@ -186,6 +206,7 @@ MassSpringModel model_from_tables(Call& call, TableReader& options) {
     each_entry(call, list, "springs", {"a", "b"}, [&](int table, const std::string& owner) {
       springs.push_back(read_spring(call, table, owner, model));
     });
+  model.materials = all_resolved(inputs, lowest_frequency(model, springs));
   add_springs(model, springs);
   if (const int list = options.raw("corners"))
     each_entry(call, list, "corners", {}, [&](int table, const std::string& owner) {

@@ -7,22 +7,32 @@
 
 namespace springlod::scripting {
 
-Material read_material(Call& call, int index, const std::string& owner, const std::string& name) {
-  Material material;
+MaterialInput read_material(Call& call, int index, const std::string& owner,
+                            const std::string& name) {
+  MaterialInput input;
+  Material& material = input.material;
   material.name = name;
   TableReader reader = call.record(index, "Material", owner);
   reader.read("name", material.name);
   reader.read("young", material.young);
   reader.read("density", material.density);
   reader.read("damping", material.damping);
+  reader.read("damping_ratio", input.damping_ratio);
   reader.read("colour", material.colour);
   reader.finish();
-  validate(material);
-  return material;
+  if (reader.has("damping") && reader.has("damping_ratio"))
+    throw InputError(
+        fmt::format("{}: damping and damping_ratio are both given; give either damping (a time) or "
+                    "damping_ratio",
+                    owner));
+  if (reader.has("damping")) input.damping_ratio.reset();
+  validate(input);
+  return input;
 }
 
-std::map<std::string, Material> read_materials(Call& call, int table, const std::string& owner) {
-  std::map<std::string, Material> into;
+std::map<std::string, MaterialInput> read_materials(Call& call, int table,
+                                                    const std::string& owner) {
+  std::map<std::string, MaterialInput> into;
   lua_State* L = call.lua();
   if (!lua_istable(L, table))
     throw InputError(

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/disjoint_sets.hpp"
+#include "voxelize/grid.hpp"
+#include "voxelize/index_lookup.hpp"
+
+namespace springlod::voxelize {
+namespace {
+
+/// Sets of cells that share at least a corner.
+DisjointSets::Numbers components_of(const std::vector<CellIndex>& cells) {
+  DisjointSets sets(static_cast<std::uint32_t>(cells.size()));
+  const IndexLookup lookup(cells);
+  for (std::uint32_t n = 0; n < cells.size(); ++n)
+    for (std::int32_t z = -1; z <= 0; ++z)
+      for (std::int32_t y = -1; y <= 1; ++y)
+        for (std::int32_t x = -1; x <= 1; ++x) {
+          const CellIndex other{cells[n][0] + x, cells[n][1] + y, cells[n][2] + z};
+          if (!grid_order(other, cells[n])) continue;  // from its other end
+          if (const std::uint32_t found = lookup.find(other); found != kNoIndex)
+            sets.unite(n, found);
+        }
+  return sets.numbers();
+}
+
+/// Sums over the cells of a component.
+struct Component {
+  CellIndex low{};
+  CellIndex high{};
+  double cells = 0;
+  double compliance = 0;  // sum of 1/E [1/Pa]
+  double density = 0;     // sum [kg/m3]
+
+  void add(const CellIndex& cell, const Material& material) {
+    if (cells == 0) low = high = cell;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], cell[axis]);
+      high[axis] = std::max(high[axis], cell[axis]);
+    }
+    cells += 1;
+    compliance += 1 / material.young;
+    density += material.density;
+  }
+  double extent_in_cells() const {
+    std::int32_t most = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) most = std::max(most, high[axis] - low[axis]);
+    return most + 1.0;
+  }
+  /// Of the materials in series [m/s].
+  double wave_speed() const { return cells / std::sqrt(compliance * density); }
+};
+
+}  // namespace
+
+double lowest_frequency(const MaterialGrid& grid) {
+  if (grid.cells.empty()) return 0;
+  const DisjointSets::Numbers number = components_of(grid.cells);
+  std::vector<Component> components(number.count);
+  for (std::size_t n = 0; n < grid.cells.size(); ++n)
+    components[number.of[n]].add(grid.cells[n], grid.materials[grid.material[n]]);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Component& component : components)
+    lowest = std::min(lowest, lowest_frequency_estimate(component.wave_speed(),
+                                                        grid.cell * component.extent_in_cells()));
+  return lowest;
+}
+
+void set_materials(MaterialGrid& grid, const std::vector<MaterialInput>& inputs) {
+  grid.materials.clear();
+  for (const MaterialInput& input : inputs) {
+    validate(input);
+    grid.materials.push_back(resolved(input, 0));
+  }
+  validate(grid);
+  const double omega = lowest_frequency(grid);
+  for (std::size_t n = 0; n < inputs.size(); ++n) grid.materials[n] = resolved(inputs[n], omega);
+}
+
+}  // namespace springlod::voxelize
