@@ -41,7 +41,10 @@ double base_diagonal(const LodChain& chain) {
 }  // namespace
 
 std::string comparison_columns_help() {
-  return "level, label, nodes, springs, ends, step [s], spring_updates_per_second (of simulated "
+  return "level, label, nodes, springs, ends, step [s], undamped_step (stable step without "
+         "damping) "
+         "[s], limited_by (what determines the step, see Trajectory), spring_updates_per_second "
+         "(of simulated "
          "time), cost_ratio (base / level), surface_error [m], surface_error_percent and "
          "shape_error_percent (of the base's bounding diagonal), shape_error [m], distance [m], "
          "distance_spread [m] (standard deviation over the starts), energy_difference (largest, of "
@@ -57,6 +60,8 @@ Table comparison_table(const sim::Comparison& comparison, const LodChain& chain)
                    "springs",
                    "ends",
                    "step",
+                   "undamped_step",
+                   "limited_by",
                    "spring_updates_per_second",
                    "cost_ratio",
                    "surface_error",
@@ -82,9 +87,10 @@ Table comparison_table(const sim::Comparison& comparison, const LodChain& chain)
     const double simulated = mean_over(runs, [](const sim::StartResult& s) { return s.simulated; });
     table.rows.push_back({whole(runs.level), runs.label, whole(model.node_count()),
                           whole(model.spring_count()), whole(model.end_count()), runs.first.step,
-                          cost, cost_per_second(levels.front()) / cost, surface,
-                          100 * surface / diagonal, shape, 100 * shape / diagonal, distance,
-                          distance_spread(runs), energy, simulated, largest_ledger_error(runs)});
+                          runs.first.undamped_step, to_string(runs.first.limited_by), cost,
+                          cost_per_second(levels.front()) / cost, surface, 100 * surface / diagonal,
+                          shape, 100 * shape / diagonal, distance, distance_spread(runs), energy,
+                          simulated, largest_ledger_error(runs)});
   }
   return table;
 }

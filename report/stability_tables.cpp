@@ -49,8 +49,8 @@ Table stability_bodies_table(const sim::StabilityMap& map) {
                    "frequency_error", "reference_error", "loose_nodes"};
   for (const sim::StabilityBody& body : map.bodies)
     table.rows.push_back({whole(body.level), body.ratio, whole(body.nodes), whole(body.springs),
-                          body.limit, body.limited_by_damping ? "damping" : "springs", body.period,
-                          body.duration, body.frequency_error, body.reference_error,
+                          body.limit, to_string(body.limited_by), body.period, body.duration,
+                          body.frequency_error, body.reference_error,
                           whole(body.mechanism_nodes.size())});
   return table;
 }

@@ -62,7 +62,7 @@ end
 local function short_rows(rows)
   local short = {}
   for i, row in ipairs(rows) do
-    short[i] = {row.label, row.nodes, row.ends, ("%.3g"):format(row.step),
+    short[i] = {row.label, row.nodes, row.ends, ("%.3g"):format(row.step), row.limited_by,
                 ("%.2f"):format(row.cost_ratio), ("%.2f"):format(row.surface_error_percent),
                 ("%.2f"):format(row.shape_error_percent), ("%.4f"):format(row.distance)}
   end
@@ -72,6 +72,6 @@ end
 local ok, rows = command.try(compare)
 if not ok then command.fail("cannot compare %s: %s", args.asset, rows) end
 print(s.format_table(short_rows(rows), {columns = {
-  "level", "nodes", "ends", "step [s]", "cost ratio", "surface error [%]", "shape error [%]",
-  "distance [m]"}}))
+  "level", "nodes", "ends", "step [s]", "limited by", "cost ratio", "surface error [%]",
+  "shape error [%]", "distance [m]"}}))
 s.say("wrote " .. args.out)

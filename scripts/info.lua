@@ -20,13 +20,14 @@ end
 print(chain)
 local rows = {}
 for i, level in ipairs(info.levels) do
-  rows[i] = {level.level, level.nodes, level.springs, level.ends, level.corners,
-             level.border_nodes, ("%.4g"):format(level.mass), ("%.4g"):format(level.stable_dt),
-             level.made_by}
+  rows[i] = {level.level, level.nodes, level.springs, level.ends, level.corners, level.border_nodes,
+             ("%.4g"):format(level.mass), ("%.4g"):format(level.stable_dt),
+             ("%.4g"):format(level.undamped_dt), level.limited_by, level.made_by}
 end
 print()
-print(s.format_table(rows, {columns = {"level", "nodes", "springs", "ends", "corners", "border",
-                                       "mass [kg]", "stable step [s]", "made by"}}))
+print(s.format_table(rows, {columns = {"level", "nodes", "springs", "ends", "corners", "border", "mass [kg]",
+                                       "stable step [s]", "without damping [s]", "limited by",
+                                       "made by"}}))
 certificates.print(info.levels)
 local base = info.levels[1]
 print()

@@ -50,10 +50,24 @@ void require_step_count(double duration, double step) {
         duration / step, duration));
 }
 
-double default_step(const RunOptions& options, double predicted, double duration) {
-  double longest = std::min(options.safety * predicted, kLongestStep * duration);
-  if (is_implicit(options.integrator)) longest = std::min(longest, kImplicitStep);
-  return duration / std::ceil(duration / longest);
+struct ChosenStep {
+  double step = 0;  // [s]
+  StepBound limited_by = StepBound::springs;
+};
+
+ChosenStep default_step(const RunOptions& options, const StepLimit& limit, double duration) {
+  ChosenStep longest{options.safety * limit.step, limit.limited_by()};
+  const auto shorten = [&](double step, StepBound bound) {
+    if (step < longest.step) longest = {step, bound};
+  };
+  if (is_implicit(options.integrator)) shorten(kImplicitStep, StepBound::scheme);
+  shorten(kLongestStep * duration, StepBound::duration);
+  return {duration / std::ceil(duration / longest.step), longest.limited_by};
+}
+
+ChosenStep choose_step(const RunOptions& options, const StepLimit& limit, double duration) {
+  if (options.step) return {*options.step, StepBound::asked};
+  return default_step(options, limit, duration);
 }
 
 }  // namespace
@@ -97,8 +111,10 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Sta
   const auto begin = std::chrono::steady_clock::now();
   Trajectory trajectory;
   trajectory.predicted_step = plan.limit->step;
-  trajectory.step =
-      options.step.value_or(default_step(options, plan.limit->step, scenario.duration));
+  trajectory.undamped_step = plan.limit->without_damping;
+  const ChosenStep chosen = choose_step(options, *plan.limit, scenario.duration);
+  trajectory.step = chosen.step;
+  trajectory.limited_by = chosen.limited_by;
   require_step_count(scenario.duration, trajectory.step);
   integrate(model, scenario, start, options, plan, trajectory);
   trajectory.wall_seconds =

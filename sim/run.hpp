@@ -11,6 +11,7 @@
 #include "sim/fast/layout.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/ledger.hpp"
+#include "sim/integrators/step_bound.hpp"
 #include "sim/scenario.hpp"
 
 namespace springlod::sim {
@@ -83,6 +84,9 @@ struct Trajectory {
   double step = 0;            ///< at rest [s]
   double shortest_step = 0;   ///< while springs were strongly strained [s]
   double predicted_step = 0;  ///< stable step predicted for the model and its contacts [s]
+  double undamped_step = 0;   ///< the same without damping [s]
+  /// What determines `step`. While springs are strongly strained, they determine shortest_step.
+  StepBound limited_by = StepBound::springs;
   std::uint64_t steps = 0;
   /// Spring evaluations in all steps and iterations: the deterministic measure of cost. (A sparse
   /// factorization counts as one pass.)

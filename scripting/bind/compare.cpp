@@ -48,6 +48,23 @@ void warn(Console& console, const std::vector<sim::RunSummary>& runs) {
                     crossed, runs.size(), first));
 }
 
+/// Prints a hint if damping limits the step of a level.
+void hint_at_damping(Console& console, const std::vector<sim::LevelRuns>& levels) {
+  const sim::LevelRuns* worst = nullptr;
+  const auto fraction = [](const sim::LevelRuns& level) {
+    return level.first.predicted_step / level.first.undamped_step;
+  };
+  std::size_t limited = 0;
+  for (const sim::LevelRuns& level : levels) {
+    if (level.first.limited_by != sim::StepBound::damping) continue;
+    ++limited;
+    if (worst == nullptr || fraction(level) < fraction(*worst)) worst = &level;
+  }
+  if (worst != nullptr)
+    console.say(fmt::format("compare: damping shortens the steps of {} of {} levels, that of {} {}",
+                            limited, levels.size(), worst->label, damping_hint(worst->first)));
+}
+
 int compare_binding(Call& call) {
   auto value = std::make_shared<ComparisonValue>();
   value->chain = call.value<LodAsset>(1);
@@ -65,6 +82,7 @@ int compare_binding(Call& call) {
   for (const sim::LevelRuns& level : value->comparison.levels)
     all.insert(all.end(), level.starts.begin(), level.starts.end());
   warn(call.session().console(), all);
+  hint_at_damping(call.session().console(), value->comparison.levels);
   return call.give(std::shared_ptr<const ComparisonValue>(value));
 }
 

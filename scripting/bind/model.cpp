@@ -18,6 +18,7 @@
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
+#include "sim/integrators/step_bound.hpp"
 
 namespace springlod::scripting {
 
@@ -157,7 +158,12 @@ void push_level_info(lua_State* L, const Level& level, std::size_t number) {
   set_field(L, "mass", properties.mass);
   set_field(L, "center_of_mass", properties.center);
   set_field(L, "inertia", properties.inertia);
-  set_field(L, "stable_dt", elastic::stable_step(model));
+  const double omega = elastic::largest_frequency(model);
+  const double stable = elastic::stable_step(omega, elastic::largest_damping_time(model));
+  const double undamped = elastic::stable_step(omega, 0);
+  set_field(L, "stable_dt", stable);
+  set_field(L, "undamped_dt", undamped);
+  set_field(L, "limited_by", to_string(sim::stable_step_bound(stable, undamped)));
   set_field(L, "made_by", level.made_by);
   push_materials(L, model.materials);
   end_field(L, "materials");
@@ -390,7 +396,9 @@ void describe_assets(Api& api) {
       .arguments = {chain},
       .returns =
           "table: levels (a list of level, nodes, springs, ends, corners, border_nodes, mass, "
-          "center_of_mass, inertia, stable_dt, made_by, materials, certificate), provenance, "
+          "center_of_mass, inertia, stable_dt [s], undamped_dt (stable_dt without damping) [s], "
+          "limited_by (\"springs\" or \"damping\": what determines stable_dt), made_by, materials, "
+          "certificate), provenance, "
           "surface_triangles; a level that was compared with the base has a Certificate",
       .errors = "None for a valid chain.",
       .example = "print(s.json(s.info(chain)))",

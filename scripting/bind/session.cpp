@@ -193,11 +193,12 @@ void describe_constants(Api& api) {
   api.add(ConstantEntry{
       {.name = "threads", .type = "integer", .help = "--threads of the command line; 0: all cores"},
       [](lua_State* L) { push(L, session_of(L).settings().threads); }});
-  api.add(ConstantEntry{{.name = "choices",
-                         .type = "table",
-                         .help = "words that options take: s.choices.border lists those of border, "
-                                 "s.choices.border.weak.help describes one"},
-                        push_choices});
+  api.add(ConstantEntry{
+      {.name = "choices",
+       .type = "table",
+       .help = "words that options take and fields have: s.choices.border lists those of border, "
+               "s.choices.border.weak.help describes one"},
+      push_choices});
   api.add(ConstantEntry{{.name = "samples",
                          .type = "string",
                          .help = "folder of the sample meshes, materials and scenes"},

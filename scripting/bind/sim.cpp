@@ -21,6 +21,8 @@ constexpr const char* kGroup = "Simulation";
 
 /// Warnings about a run that completed.
 void warn(Console& console, const sim::Trajectory& run) {
+  if (run.limited_by == sim::StepBound::damping)
+    console.say("run: damping shortens the step " + damping_hint(run));
   if (run.unconverged_steps > 0)
     console.say(
         fmt::format("run: in {} of {} steps the solver did not reach its tolerance; use more "
@@ -127,6 +129,10 @@ void describe_trajectory(Api& api) {
          [](const sim::Trajectory& t) { return t.shortest_step; });
   number("predicted_step", "predicted stable step, contacts included [s]",
          [](const sim::Trajectory& t) { return t.predicted_step; });
+  number("undamped_step", "predicted stable step without damping [s]",
+         [](const sim::Trajectory& t) { return t.undamped_step; });
+  type.choice_field("limited_by", "what determines step",
+                    [](const TrajectoryValue& value) { return value.trajectory.limited_by; });
   number("simulated", "simulated time [s]", [](const sim::Trajectory& t) { return t.simulated; });
   number("wall_seconds", "measured wall time; not reproducible [s]",
          [](const sim::Trajectory& t) { return t.wall_seconds; });
@@ -191,7 +197,9 @@ std::vector<Parameter> single_run_parameters() {
       {.name = "quiet",
        .type = "boolean",
        .fallback = "false",
-       .help = "suppress warnings about unconverged steps and crossings; the Trajectory has them"});
+       .help =
+           "suppress warnings about damping, unconverged steps and crossings; the Trajectory has "
+           "them"});
   return parameters;
 }
 

@@ -25,8 +25,10 @@ void for_each_parameter(const Api& api, const Visit& visit) {
     for (const Parameter& parameter : entry.options) visit(parameter);
   };
   for (const FunctionEntry& entry : api.functions()) of_function(entry);
-  for (const TypeEntry& type : api.types())
+  for (const TypeEntry& type : api.types()) {
+    for (const FieldEntry& field : type.fields) visit(field.parameter);
     for (const FunctionEntry& method : type.methods) of_function(method);
+  }
   for (const RecordEntry& record : api.records())
     for (const Parameter& field : record.fields) visit(field);
 }

@@ -268,7 +268,8 @@ std::string api_markdown(const Api& api) {
   text += "## Values\n\n";
   for (const TypeEntry& type : api.types()) text += markdown(type);
   text +=
-      "## Choices\n\nThe words of `s.choices`, which the options above take.\n\n| table | words "
+      "## Choices\n\nThe words of `s.choices`, which the options above take and some fields "
+      "have.\n\n| table | words "
       "|\n|---|---|\n";
   for (const auto& [name, words] : api.choices())
     text += fmt::format("| `s.choices.{}` | {} |\n", name, quoted(words));

@@ -99,6 +99,14 @@ class TypeBuilder {
                              }});
     return *this;
   }
+  /// `get` returns one of the words of an enum.
+  template <class Get>
+  TypeBuilder& choice_field(const std::string& name, const std::string& help, Get get) {
+    field(name, "one of", help, [get](const T& value) { return to_string(get(value)); });
+    entry_.fields.back().parameter.choices =
+        words_of<std::remove_cvref_t<std::invoke_result_t<Get, const T&>>>();
+    return *this;
+  }
   /// `fill` pushes exactly one Lua value.
   TypeBuilder& table_field(const std::string& name, const std::string& type,
                            const std::string& help,

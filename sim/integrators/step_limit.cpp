@@ -10,13 +10,13 @@ namespace springlod::sim {
 namespace {
 
 // The step counts as limited by damping if it is shorter than this fraction of the undamped limit
-// [1]. Symplectic Euler reaches the fraction if the damping ratio of the highest mode is 3/4.
+// [1].
 constexpr double kDampingPart = 0.5;
 
 }  // namespace
 
-bool StepLimit::set_by_damping() const {
-  return step < kDampingPart * without_damping;
+StepBound stable_step_bound(double step, double undamped) {
+  return step < kDampingPart * undamped ? StepBound::damping : StepBound::springs;
 }
 
 StepLimit step_limit(const MassSpringModel& model, const Scenario& scenario, Integrator integrator,

@@ -6,6 +6,7 @@
 #include "model/mass_spring.hpp"
 #include "sim/contact/contact_skin.hpp"
 #include "sim/integrators/integrator.hpp"
+#include "sim/integrators/step_bound.hpp"
 #include "sim/scenario.hpp"
 
 namespace springlod::sim {
@@ -21,8 +22,7 @@ struct StepLimit {
   /// Largest stiffness that obstacles add to each node [N/m]; empty for the implicit schemes.
   std::vector<double> ground_stiffness = {};
 
-  /// True if damping limits the step more than the stiffness of springs and contacts does.
-  bool set_by_damping() const;
+  StepBound limited_by() const { return stable_step_bound(step, without_damping); }
 };
 
 /// Follows from the highest frequency of the model and the largest damping time of springs and

@@ -64,7 +64,7 @@ void EnergyCheck::throw_not_finite(const Stepper& body) const {
 std::string EnergyCheck::advice() const {
   if (step_ <= limit_.step) return "take a smaller step";
   const bool damping_alone = step_ <= limit_.without_damping;
-  if (damping_alone || limit_.set_by_damping())
+  if (damping_alone || limit_.limited_by() == StepBound::damping)
     return fmt::format(
         "damping is what bounds the step: {:.3g} s is beyond its limit of {:.3g} s ({:.3g} s "
         "without damping); take a smaller step, less damping or an implicit integrator",

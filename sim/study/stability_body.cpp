@@ -114,7 +114,7 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
   body.duration = specimen.scene.duration;
   const StepLimit limit = step_limit(model, specimen.scene);
   body.limit = limit.step;
-  body.limited_by_damping = limit.set_by_damping();
+  body.limited_by = limit.limited_by();
   if (!body.mechanism_nodes.empty()) return specimen;
   if (body.level > 0)
     body.frequency_error =

@@ -8,6 +8,7 @@
 #include "base/progress.hpp"
 #include "model/chain.hpp"
 #include "sim/integrators/integrator.hpp"
+#include "sim/integrators/step_bound.hpp"
 
 namespace springlod::sim {
 
@@ -126,7 +127,7 @@ struct StabilityBody {
   double duration = 0;  ///< of each run [s]
   /// Stability limit of symplectic Euler [s]: the map shows it as the predicted limit.
   double limit = 0;
-  bool limited_by_damping = false;
+  StepBound limited_by = StepBound::springs;
   /// Mean relative error of the lowest frequencies against those of the base at the same ratio [1].
   double frequency_error = 0;
   /// Estimated error of the reference: its distance from a run with twice the step, divided by 3;

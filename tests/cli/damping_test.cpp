@@ -1,4 +1,4 @@
-// Damping of materials as a ratio or a time.
+// Damping of materials as a ratio or a time, and what runs report about their step.
 
 #include <catch2/catch.hpp>
 
@@ -18,6 +18,7 @@ Ran with_bar(const std::string& script) {
       return s.lattice(s.grid{cell = cell or "10 cm", size = {4, 4, 8},
         materials = {bar = material}, fill = function() return "bar" end})
     end
+    local still = {gravity = {0, 0, 0}, duration = 1}
   )" + script});
 }
 
@@ -91,4 +92,43 @@ TEST_CASE("damping as a time and as a ratio, or a ratio out of range, is an erro
   for (const char* ratio : {"-0.1", "1"})
     CHECK_THAT(refused(std::string("{damping_ratio = ") + ratio + "}"),
                Contains("material \"bar\": damping_ratio = ") && Contains("below 1"));
+}
+
+TEST_CASE("a run names what limits its step, and hints at damping") {
+  const Ran ran = with_bar(R"(
+    local function limited(material, options)
+      local run = s.run(bar(material), still, options)
+      print(run.limited_by, run.undamped_step >= run.predicted_step)
+    end
+    limited{}
+    limited({damping = "0.1 s"}, {quiet = true})
+    limited({damping = "0.1 s"}, {step = "0.01 ms"})
+    print(s.choices.limited_by.damping.help ~= nil)
+  )");
+  CAPTURE(ran.out, ran.err);
+  CHECK(ran.out == "springs\ttrue\ndamping\ttrue\nasked\ttrue\ntrue\n");
+  CHECK(ran.err.empty());
+  const Ran hint = with_bar("s.run(bar{damping = '0.1 s'}, still)");
+  CHECK_THAT(hint.err, Contains("run: damping shortens the step to") &&
+                           Contains("% of that without damping") && Contains("damping_ratio"));
+}
+
+TEST_CASE("a comparison and an asset name what limits the steps of their levels") {
+  const springlod::test::TemporaryFolder scratch;
+  const Ran ran = with_bar(R"(
+    local chain = s.simplify(bar{damping = "0.1 s"}, {levels = 1})
+    for _, row in ipairs(s.compare(chain, still):table()) do
+      print(row.limited_by, row.undamped_step > 2 * row.step)
+    end
+    for _, level in ipairs(s.info(chain).levels) do
+      print(level.limited_by, level.undamped_dt > 2 * level.stable_dt)
+    end
+    s.save(")" + (scratch / "bar.glb").string() +
+                           R"(", chain))");
+  CAPTURE(ran.err);
+  CHECK(ran.out == "damping\ttrue\ndamping\ttrue\ndamping\ttrue\ndamping\ttrue\n");
+  CHECK_THAT(ran.err, Contains("compare: damping shortens the steps of 2 of 2 levels"));
+  const Ran info = springlod_run({"info", (scratch / "bar.glb").string()});
+  CHECK_THAT(info.out, Contains("without damping [s]") && Contains("limited by") &&
+                           Contains("damping") && Contains("damping 0.1 s"));
 }

@@ -30,6 +30,9 @@ sim::Comparison comparison() {
     sim::LevelRuns runs;
     runs.label = level == 0 ? "base" : "LOD-1";
     runs.level = level;
+    runs.first.step = 1e-4;
+    runs.first.undamped_step = level == 0 ? 1e-3 : 2e-4;
+    runs.first.limited_by = level == 0 ? sim::StepBound::damping : sim::StepBound::springs;
     for (const double distance : {1.0, 3.0}) {
       sim::StartResult start;
       start.distance = distance;
@@ -46,15 +49,20 @@ sim::Comparison comparison() {
   return c;
 }
 
+const Cell& cell_of(const Table& table, std::size_t row, const std::string& column) {
+  const auto at = std::find(table.columns.begin(), table.columns.end(), column);
+  if (at == table.columns.end()) FAIL("no column " + column);
+  return table.rows.at(row).at(static_cast<std::size_t>(at - table.columns.begin()));
+}
+
 double number(const Table& table, std::size_t row, const std::string& column) {
-  for (std::size_t c = 0; c < table.columns.size(); ++c)
-    if (table.columns[c] == column) {
-      const Cell& cell = table.rows.at(row).at(c);
-      const auto* whole_number = std::get_if<std::int64_t>(&cell);
-      return whole_number != nullptr ? static_cast<double>(*whole_number) : std::get<double>(cell);
-    }
-  FAIL("no column " + column);
-  return 0;
+  const Cell& cell = cell_of(table, row, column);
+  const auto* whole_number = std::get_if<std::int64_t>(&cell);
+  return whole_number != nullptr ? static_cast<double>(*whole_number) : std::get<double>(cell);
+}
+
+std::string text(const Table& table, std::size_t row, const std::string& column) {
+  return std::get<std::string>(cell_of(table, row, column));
 }
 
 }  // namespace
@@ -64,6 +72,10 @@ TEST_CASE("the row of a level has means over its starts and the cost relative to
   REQUIRE(table.rows.size() == 2);
   CHECK(number(table, 0, "nodes") == 3);
   CHECK(number(table, 0, "ends") == 6);
+  CHECK(number(table, 0, "step") == 1e-4);
+  CHECK(number(table, 1, "undamped_step") == 2e-4);
+  CHECK(text(table, 0, "limited_by") == "damping");
+  CHECK(text(table, 1, "limited_by") == "springs");
   CHECK(number(table, 0, "spring_updates_per_second") == 500);
   CHECK(number(table, 0, "cost_ratio") == 1);
   CHECK(number(table, 1, "cost_ratio") == 4);

@@ -73,6 +73,41 @@ TEST_CASE("The step is safety times the predicted one and fits the duration") {
   CHECK(run(model, scene, {.step = 1e-4}).step == 1e-4);
 }
 
+TEST_CASE("A run names what determines its step") {
+  const Scenario scene = test::weightless(1);
+  const auto damped = [](double time) {
+    return test::block(3, 3, 3, 0.1, test::material("m", 1e6, 1000, time),
+                       voxelize::LatticeStyle::corners);
+  };
+  const auto bound = [&](const MassSpringModel& model, const RunOptions& options) {
+    return run(model, scene, options).limited_by;
+  };
+  const MassSpringModel light = damped(1e-5);
+  CHECK(bound(light, {}) == StepBound::springs);
+  CHECK(bound(damped(0.1), {}) == StepBound::damping);
+  CHECK(bound(damped(0.1), {.step = 1e-5}) == StepBound::asked);
+  CHECK(bound(light, {.integrator = Integrator::backward_euler_cg, .step = 1e-3}) ==
+        StepBound::asked);
+  const Scenario blink = test::weightless(1e-3);
+  CHECK(run(light, blink).limited_by == StepBound::duration);
+  CHECK(run(light, blink, {.integrator = Integrator::xpbd}).limited_by == StepBound::duration);
+  CHECK(run(light, scene, {.integrator = Integrator::xpbd}).limited_by == StepBound::scheme);
+}
+
+TEST_CASE("A run has the stable step without damping") {
+  const Scenario scene = test::weightless(0.1);
+  const auto block = [](double time) {
+    return test::block(3, 3, 3, 0.1, test::material("m", 1e6, 1000, time),
+                       voxelize::LatticeStyle::corners);
+  };
+  const Trajectory undamped = run(block(0), scene);
+  const Trajectory damped = run(block(0.1), scene);
+  CHECK(undamped.undamped_step == undamped.predicted_step);
+  CHECK(damped.undamped_step == Approx(undamped.predicted_step));
+  CHECK(damped.predicted_step < 0.02 * damped.undamped_step);
+  CHECK(std::isinf(run(block(0), scene, {.integrator = Integrator::xpbd}).undamped_step));
+}
+
 TEST_CASE("Frames lie at the frame times, first and last state included") {
   const auto model = test::rods();
   Scenario scene;

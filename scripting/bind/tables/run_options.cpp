@@ -1,5 +1,7 @@
 #include "scripting/bind/tables/run_options.hpp"
 
+#include <fmt/format.h>
+
 namespace springlod::scripting {
 
 Parameter contact_parameter() {
@@ -19,6 +21,15 @@ sim::ContactAt read_contact(TableReader& reader) {
 std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::ContactAt contact) {
   if (contact == sim::ContactAt::nodes || !model.chain || model.level == 0) return nullptr;
   return std::make_shared<sim::ContactSkin>(sim::contact_skin(model.chain->chain, model.level));
+}
+
+std::string damping_hint(const sim::Trajectory& run) {
+  return fmt::format(
+      "to {:.2g} % of that without damping (stable step {:.3g} s, without damping {:.3g} s); for a "
+      "longer step, give the materials a smaller damping_ratio or a shorter damping time "
+      "(obstacles "
+      "have one too), or take an implicit integrator",
+      100 * run.predicted_step / run.undamped_step, run.predicted_step, run.undamped_step);
 }
 
 }  // namespace springlod::scripting

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "scripting/bind/tables/values.hpp"
@@ -15,5 +16,9 @@ Parameter contact_parameter();
 sim::ContactAt read_contact(TableReader& reader);
 /// For RunOptions: where the model touches obstacles. A model without a chain is its own base.
 std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::ContactAt contact);
+
+/// "to 12 % of that without damping (...); ...", and what to do: for a run whose step is limited by
+/// damping.
+std::string damping_hint(const sim::Trajectory& run);
 
 }  // namespace springlod::scripting

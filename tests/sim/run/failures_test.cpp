@@ -132,7 +132,7 @@ TEST_CASE("A step beyond the limit of damping is reported as caused by damping")
        {Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::runge_kutta_4}) {
     CAPTURE(to_string(integrator));
     const StepLimit limit = step_limit(model, scene, integrator);
-    CHECK(limit.set_by_damping());
+    CHECK(limit.limited_by() == StepBound::damping);
     CHECK(limit.step < 0.5 * limit.without_damping);
     const auto at = [&](double part) {
       return RunOptions{.integrator = integrator, .step = part * limit.step, .frame_rate = 0};
@@ -143,7 +143,7 @@ TEST_CASE("A step beyond the limit of damping is reported as caused by damping")
         Catch::Contains("damping is what bounds the step") && Catch::Contains("less damping"));
   }
   const StepLimit light = step_limit(cube(1e-4), scene);
-  CHECK_FALSE(light.set_by_damping());
+  CHECK(light.limited_by() == StepBound::springs);
   CHECK_THROWS_WITH(run(cube(1e-4), scene, {.step = 1.2 * light.without_damping}),
                     Catch::Contains("beyond the limit") && !Catch::Contains("damping"));
 }

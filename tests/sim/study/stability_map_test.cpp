@@ -123,7 +123,7 @@ TEST_CASE("From ratio 1 to 1e5 explicit schemes hold below their limit and are c
   for (const StabilityBody& body : map.bodies) {
     CAPTURE(body.ratio);
     CHECK(body.reference_error < 5e-3);
-    CHECK_FALSE(body.limited_by_damping);
+    CHECK(body.limited_by == StepBound::springs);
     // For large ratios, the limit falls with the square root of the ratio.
     if (body.ratio > 100) CHECK(limit / body.limit == Approx(std::sqrt(10)).epsilon(0.05));
     limit = body.limit;
@@ -250,7 +250,7 @@ TEST_CASE("A map shows damping as what bounds the step") {
   options.steps = {0.9, 1.15};
   options.damping = true;
   const StabilityMap map = stability_map(chain, options);
-  CHECK(map.bodies[0].limited_by_damping);
+  CHECK(map.bodies[0].limited_by == StepBound::damping);
   CHECK(map.points[0].verdict == Verdict::stable);
   CHECK(map.points[1].verdict == Verdict::diverged);
 }
