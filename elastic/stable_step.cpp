@@ -25,21 +25,15 @@ constexpr Eigen::Index kMaxRestarts = 200;
 /// relative error of the eigenvalue is at most this, and that of the frequency half of it.
 constexpr double kResidualTolerance = 1e-4;
 
-/// The operator x -> (M^-1/2 K M^-1/2 + G/M) x in the form that Spectra needs.
+/// The operator x -> M^-1/2 K M^-1/2 x in the form that Spectra needs.
 class MassWeightedStiffness {
  public:
   using Scalar = double;
 
-  MassWeightedStiffness(const MassSpringModel& model, const std::vector<double>& ground)
-      : a_(model.a), b_(model.b) {
-    const std::uint32_t n = model.node_count();
-    assert(ground.empty() || ground.size() == n);
-    ground_.resize(n, 0);
-    std::vector<double> weight(n);
-    for (std::uint32_t i = 0; i < n; ++i) {
-      weight[i] = 1 / std::sqrt(model.mass[i]);
-      if (!ground.empty()) ground_[i] = ground[i] / model.mass[i];
-    }
+  explicit MassWeightedStiffness(const MassSpringModel& model)
+      : node_count_(model.node_count()), a_(model.a), b_(model.b) {
+    std::vector<double> weight(node_count_);
+    for (std::uint32_t i = 0; i < node_count_; ++i) weight[i] = 1 / std::sqrt(model.mass[i]);
     end_a_.reserve(a_.size());
     end_b_.reserve(a_.size());
     for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
@@ -49,16 +43,13 @@ class MassWeightedStiffness {
     }
   }
 
-  Eigen::Index rows() const { return 3 * static_cast<Eigen::Index>(ground_.size()); }
+  Eigen::Index rows() const { return 3 * static_cast<Eigen::Index>(node_count_); }
   Eigen::Index cols() const { return rows(); }
 
   void perform_op(const double* in, double* out) const {
     const Eigen::Map<const Eigen::Matrix3Xd> x(in, 3, rows() / 3);
     Eigen::Map<Eigen::Matrix3Xd> y(out, 3, rows() / 3);
-    for (std::size_t i = 0; i < ground_.size(); ++i) {
-      const auto column = static_cast<Eigen::Index>(i);
-      y.col(column) = ground_[i] * x.col(column);
-    }
+    y.setZero();
     for (std::size_t s = 0; s < a_.size(); ++s) {
       const double stretch = end_a_[s].dot(x.col(a_[s])) - end_b_[s].dot(x.col(b_[s]));
       y.col(a_[s]) += stretch * end_a_[s];
@@ -67,10 +58,10 @@ class MassWeightedStiffness {
   }
 
  private:
+  std::uint32_t node_count_;
   const std::vector<std::uint32_t>& a_;
   const std::vector<std::uint32_t>& b_;
   std::vector<Vec3> end_a_, end_b_;  // sqrt(k/m) u at either end
-  std::vector<double> ground_;       // [1/s2]
 };
 
 double largest_eigenvalue_dense(const MassWeightedStiffness& op) {
@@ -124,15 +115,15 @@ std::vector<Mat3> node_stiffness_at(const MassSpringModel& model, const std::vec
   });
 }
 
-/// omega^2 <= max_i (2 lambda_max(A_i) + ground_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
-double squared_bound(const MassSpringModel& model, const std::vector<double>& ground) {
+/// omega^2 <= max_i 2 lambda_max(A_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
+double squared_bound(const MassSpringModel& model) {
   const std::vector<Mat3> stiffness = node_stiffness(model);
   double bound = 0;
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
     const double top = Eigen::SelfAdjointEigenSolver<Mat3>(stiffness[i], Eigen::EigenvaluesOnly)
                            .eigenvalues()
                            .maxCoeff();
-    bound = std::max(bound, (2 * top + (ground.empty() ? 0 : ground[i])) / model.mass[i]);
+    bound = std::max(bound, 2 * top / model.mass[i]);
   }
   return bound;
 }
@@ -146,21 +137,17 @@ double eigenvalue_bound(const Mat3& symmetric) {
 
 }  // namespace
 
-double largest_frequency(const MassSpringModel& model, const FrequencyOptions& options) {
-  const std::vector<double>& ground = options.ground_stiffness;
-  if (!ground.empty() && ground.size() != model.node_count())
-    throw InputError(fmt::format("ground stiffness: {} values for {} nodes; give one per node",
-                                 ground.size(), model.node_count()));
-  const MassWeightedStiffness op(model, ground);
-  const double bound = squared_bound(model, ground);
+double largest_frequency(const MassSpringModel& model, std::uint64_t seed) {
+  const MassWeightedStiffness op(model);
+  const double bound = squared_bound(model);
   if (bound == 0) return 0;
   const double squared = op.rows() <= kDenseUnknowns ? largest_eigenvalue_dense(op)
-                                                     : largest_eigenvalue_lanczos(op, options.seed);
+                                                     : largest_eigenvalue_lanczos(op, seed);
   return std::sqrt(std::min(squared, bound));
 }
 
 double frequency_bound(const MassSpringModel& model) {
-  return std::sqrt(squared_bound(model, {}));
+  return std::sqrt(squared_bound(model));
 }
 
 std::vector<Mat3> node_stiffness(const MassSpringModel& model) {
@@ -170,14 +157,12 @@ std::vector<Mat3> node_stiffness(const MassSpringModel& model) {
   });
 }
 
-std::vector<double> node_frequency_bounds(const MassSpringModel& model, const std::vector<Vec3>& x,
-                                          const std::vector<double>& ground_stiffness) {
+std::vector<double> node_frequency_bounds(const MassSpringModel& model,
+                                          const std::vector<Vec3>& x) {
   const std::vector<Mat3> stiffness = node_stiffness_at(model, x);
   std::vector<double> bounds(stiffness.size());
-  for (std::size_t i = 0; i < stiffness.size(); ++i) {
-    const double ground = ground_stiffness.empty() ? 0 : ground_stiffness[i];
-    bounds[i] = (2 * eigenvalue_bound(stiffness[i]) + ground) / model.mass[i];
-  }
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+    bounds[i] = 2 * eigenvalue_bound(stiffness[i]) / model.mass[i];
   return bounds;
 }
 

@@ -7,32 +7,26 @@
 
 namespace springlod::elastic {
 
-struct FrequencyOptions {
-  /// Additional stiffness between each node and the ground (contact) [N/m]; empty or N.
-  std::vector<double> ground_stiffness;
-  std::uint64_t seed = 1;  ///< of the start vector
-};
 /// Largest angular frequency of the model about rest [rad/s]: the converged Ritz value plus its
 /// residual, an upper bound that is at most 1e-4 too large. Lanczos iteration (Spectra) on M^-1/2 K
 /// M^-1/2 without assembling it; a dense solver for small models. It never exceeds
-/// `frequency_bound`, which is returned if Lanczos does not converge. 0 for a model without springs
-/// and ground stiffness. Throws InputError for a ground stiffness of a size other than N.
-double largest_frequency(const MassSpringModel& model, const FrequencyOptions& options = {});
+/// `frequency_bound`, which is returned if Lanczos does not converge. 0 for a model without
+/// springs. `seed`: of the start vector.
+double largest_frequency(const MassSpringModel& model, std::uint64_t seed = 1);
 
 /// Upper bound of the largest angular frequency without iterating [rad/s]: omega^2 <= 2 max_i
 /// lambda_max(A_i) / m_i, A_i = sum_j k_ij u u^T (docs/method.md, eq. 15).
 double frequency_bound(const MassSpringModel& model);
 /// A_i of each node [N/m], N: the stiffness of its springs while its neighbours are held.
 std::vector<Mat3> node_stiffness(const MassSpringModel& model);
-/// Contribution of each node to that bound in a deformed state x: (2 lambda + ground_i) / m_i
+/// Contribution of each node to that bound in a deformed state x: 2 lambda / m_i
 /// [rad2/s2], N, with A_i = sum_j k_ij (u u^T + max(0, 1 - L/l) (1 - u u^T)): a stretched spring is
 /// stiff across its direction, too (docs/method.md, eqs. 15 and 16).
 ///
 /// lambda = q + 2p >= lambda_max(A_i), where q is the mean of the eigenvalues and 6 p^2 the sum of
 /// their squared deviations from it. It is exact for one large and two equal eigenvalues, cheap,
-/// and invariant under rotations. `ground_stiffness` as in FrequencyOptions.
-std::vector<double> node_frequency_bounds(const MassSpringModel& model, const std::vector<Vec3>& x,
-                                          const std::vector<double>& ground_stiffness);
+/// and invariant under rotations.
+std::vector<double> node_frequency_bounds(const MassSpringModel& model, const std::vector<Vec3>& x);
 
 /// Largest damping time c/k of the springs [s].
 double largest_damping_time(const MassSpringModel& model);

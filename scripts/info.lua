@@ -25,9 +25,9 @@ for i, level in ipairs(info.levels) do
              ("%.4g"):format(level.undamped_dt), level.limited_by, level.made_by}
 end
 print()
-print(s.format_table(rows, {columns = {"level", "nodes", "springs", "ends", "corners", "border", "mass [kg]",
-                                       "stable step [s]", "without damping [s]", "limited by",
-                                       "made by"}}))
+print(s.format_table(rows, {columns = {"level", "nodes", "springs", "ends", "corners", "border",
+                                       "mass [kg]", "stable step [s]", "without damping [s]",
+                                       "limited by", "made by"}}))
 certificates.print(info.levels)
 local base = info.levels[1]
 print()

@@ -82,8 +82,7 @@ RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
   validate(model);
   validate(scenario);
   validate(options);
-  RunPlan plan{.limit = std::make_shared<const StepLimit>(
-                   step_limit(model, scenario, options.integrator, options.skin.get()))};
+  RunPlan plan{.limit = std::make_shared<const StepLimit>(step_limit(model, options.integrator))};
   if (choice_of(options.integrator).traits.fast)
     plan.layout = make_fast_model(model, options.precision, options.layout);
   return plan;

@@ -41,8 +41,9 @@ void validate(const SolidBox& box, const std::string& field) {
 
 void validate(const Obstacle& obstacle, const std::string& field) {
   std::visit([&](const auto& shape) { validate(shape, field); }, obstacle.shape);
-  require(std::isfinite(obstacle.stiffness) && obstacle.stiffness > 0, field + ".stiffness",
-          "a finite number of N/m3 above 0");
+  if (obstacle.stiffness)
+    require(std::isfinite(*obstacle.stiffness) && *obstacle.stiffness > 0, field + ".stiffness",
+            "\"auto\" or a finite number of N/m3 above 0");
   require(std::isfinite(obstacle.friction) && obstacle.friction >= 0, field + ".friction",
           "a finite number, 0 or more");
   require(std::isfinite(obstacle.damping) && obstacle.damping >= 0, field + ".damping",

@@ -25,12 +25,13 @@ struct SolidBox {
 };
 
 /// A fixed obstacle. A node of contact area A at depth d gets the penalty force kappa A d. Coulomb
-/// friction is limited so that a step never reverses the slip.
+/// friction is limited so that a step never reverses the slip. Contacts do not bound the time step.
 struct Obstacle {
   std::variant<Plane, SolidBox> shape;
-  std::string name;        ///< "floor", "wall": for labels and measurements
-  double stiffness = 1e6;  ///< kappa [N/m3] > 0
-  double friction = 0.5;   ///< mu >= 0
+  std::string name;  ///< "floor", "wall": for labels and measurements
+  /// kappa [N/m3] > 0; none: from the stiffness of the body under each point, see ContactPoints.
+  std::optional<double> stiffness = std::nullopt;
+  double friction = 0.5;  ///< mu >= 0
   double damping =
       0;  ///< contact damping time [s] >= 0: force kappa A (d + damping * rate of d), never pulling
 };

@@ -40,7 +40,7 @@ std::vector<Nodes> kinds_of(const MassSpringModel& model, BorderRule border) {
 /// The size of each kind and the median of its nodes' bounds on the squared frequency.
 std::vector<NodeKind> frequencies_of(const MassSpringModel& model,
                                      const std::vector<Nodes>& kinds) {
-  const std::vector<double> bounds = elastic::node_frequency_bounds(model, model.rest, {});
+  const std::vector<double> bounds = elastic::node_frequency_bounds(model, model.rest);
   std::vector<NodeKind> shared;
   for (const Nodes& kind : kinds) {
     std::vector<double> of_kind;

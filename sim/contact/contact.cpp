@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
+#include "sim/contact/normal_law.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -13,20 +13,14 @@ std::int8_t side_of(double coordinate) {
   return coordinate < 0 ? -1 : 1;
 }
 
-/// Penetration of a point into an obstacle.
-struct Depth {
-  double depth = 0;  // [m]
-  Vec3 normal = Vec3::UnitZ();
-};
-
-std::optional<Depth> depth_in(const Plane& plane, const Vec3& x) {
+std::optional<Penetration> depth_in(const Plane& plane, const Vec3& x) {
   const double depth = plane.offset - plane.normal.dot(x);
   if (!(depth > 0)) return std::nullopt;
-  return Depth{depth, plane.normal};
+  return Penetration{depth, plane.normal};
 }
 
-std::optional<Depth> depth_in(const SolidBox& box, std::array<std::int8_t, 3>& side,
-                              const Vec3& x) {
+std::optional<Penetration> depth_in(const SolidBox& box, std::array<std::int8_t, 3>& side,
+                                    const Vec3& x) {
   const Vec3 local = box.local(x);
   Eigen::Index axis = 0;
   const double depth =
@@ -39,42 +33,7 @@ std::optional<Depth> depth_in(const SolidBox& box, std::array<std::int8_t, 3>& s
     if (free_to_change) side[static_cast<std::size_t>(i)] = side_of(local[i]);
   }
   if (!(depth > 0)) return std::nullopt;
-  return Depth{depth, side[static_cast<std::size_t>(axis)] * box.rotation.col(axis)};
-}
-
-// Upper bound of the stiffness that all obstacles add to a point in one direction [N/m].
-double stiffness_of_point(const ContactPoints& points, std::uint32_t point,
-                          const std::vector<Obstacle>& obstacles) {
-  Mat3 planes = Mat3::Zero();  // sum of k n n^T
-  double boxes = 0;            // a box may push along any of its axes
-  for (const Obstacle& obstacle : obstacles) {
-    const double stiffness = points.stiffness(point, obstacle.stiffness);
-    if (const auto* plane = std::get_if<Plane>(&obstacle.shape))
-      planes += stiffness * plane->normal * plane->normal.transpose();
-    else
-      boxes += stiffness;
-  }
-  return boxes +
-         Eigen::SelfAdjointEigenSolver<Mat3>(planes, Eigen::EigenvaluesOnly).eigenvalues()[2];
-}
-
-Contact make_contact(const Obstacle& obstacle, const ContactPoints& points, std::uint32_t point,
-                     const Depth& at, const Vec3& velocity) {
-  Contact contact;
-  contact.point = point;
-  if (points.compliance(point) > 0) contact.stick_stiffness = 1 / points.compliance(point);
-  contact.stick_damping = points.compliance_damping(point);
-  contact.depth = at.depth;
-  contact.stiffness = points.stiffness(point, obstacle.stiffness);
-  contact.damping = points.damping(point, obstacle.stiffness, obstacle.damping);
-  contact.friction = obstacle.friction;
-  contact.normal = at.normal;
-  const double elastic = contact.stiffness * at.depth;
-  const double rate = -at.normal.dot(velocity);
-  contact.normal_force =
-      std::max(0.0, elastic + contact.stiffness * contact.damping * rate);  // contact never pulls
-  contact.damping_force = contact.normal_force - elastic;
-  return contact;
+  return Penetration{depth, side[static_cast<std::size_t>(axis)] * box.rotation.col(axis)};
 }
 
 }  // namespace
@@ -100,28 +59,40 @@ void ContactFinder::find(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                          std::vector<Contact>& contacts) {
   contacts.clear();
   for (std::size_t o = 0; o < obstacles_->size(); ++o)
-    for (std::uint32_t p = 0; p < points_->count(); ++p)
-      if (const auto contact =
-              find_one(o, p, points_->interpolate(p, x), points_->interpolate(p, v)))
-        contacts.push_back(*contact);
+    for (std::uint32_t p = 0; p < points_->count(); ++p) {
+      const std::optional<Penetration> at = penetration(o, p, points_->interpolate(p, x));
+      if (!at) continue;
+      Contact& found = contacts.emplace_back(contact(o, p, at->normal));
+      found.depth = at->depth;
+      const double elastic = found.stiffness * found.depth;
+      const double rate = -found.normal.dot(points_->interpolate(p, v));
+      found.normal_force =
+          std::max(0.0, elastic + found.stiffness * found.damping * rate);  // contact never pulls
+      found.damping_force = found.normal_force - elastic;
+    }
 }
 
-std::optional<Contact> ContactFinder::find_one(std::size_t obstacle, std::uint32_t point,
-                                               const Vec3& x, const Vec3& v) {
+std::optional<Penetration> ContactFinder::penetration(std::size_t obstacle, std::uint32_t point,
+                                                      const Vec3& x) {
   const Obstacle& thing = (*obstacles_)[obstacle];
   const auto* plane = std::get_if<Plane>(&thing.shape);
-  const std::optional<Depth> depth =
-      plane != nullptr ? depth_in(*plane, x)
-                       : depth_in(std::get<SolidBox>(thing.shape), sides_[obstacle][point], x);
-  if (!depth) return std::nullopt;
-  Contact contact = make_contact(thing, *points_, point, *depth, v);
-  contact.obstacle = static_cast<std::uint32_t>(obstacle);
-  return contact;
+  return plane != nullptr ? depth_in(*plane, x)
+                          : depth_in(std::get<SolidBox>(thing.shape), sides_[obstacle][point], x);
 }
 
-void add_normal_forces(const ContactPoints& points, const std::vector<Contact>& contacts,
-                       std::vector<Vec3>& force) {
-  for (const Contact& c : contacts) points.add_force(c.point, c.normal_force * c.normal, force);
+Contact ContactFinder::contact(std::size_t obstacle, std::uint32_t point,
+                               const Vec3& normal) const {
+  const Obstacle& thing = (*obstacles_)[obstacle];
+  Contact contact;
+  contact.obstacle = static_cast<std::uint32_t>(obstacle);
+  contact.point = point;
+  contact.stiffness = points_->stiffness(point, thing);
+  contact.damping = points_->damping(point, thing);
+  contact.friction = thing.friction;
+  contact.normal = normal;
+  if (points_->compliance(point) > 0) contact.stick_stiffness = 1 / points_->compliance(point);
+  contact.stick_damping = points_->compliance_damping(point);
+  return contact;
 }
 
 void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>& now) {
@@ -134,29 +105,38 @@ void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>
   }
 }
 
-void apply_friction(Contact& contact, double mass, double step, const Vec3& v) {
-  const auto along_face = [&](const Vec3& u) {
-    return Vec3(u - contact.normal.dot(u) * contact.normal);
-  };
-  const auto at_most = [](const Vec3& u, double most) {
-    const double size = u.norm();
-    return size > most ? Vec3(u * (most / size)) : u;
-  };
-  const Vec3 slip = along_face(v);
-  const double most = contact.friction * contact.normal_force * step;  // [N s]
+FrictionLaw::FrictionLaw(const Contact& contact, double mass, double step)
+    : normal_(contact.normal), mass_(mass) {
   if (contact.stick_stiffness == 0) {
-    contact.slip_change = at_most(-slip, most / mass);
+    gain_ = mass;
     return;
   }
-  const double held = contact.stick_energy();
-  const double late = step + contact.stick_damping;
-  const Vec3 start = along_face(contact.stretch);
-  const Vec3 impulse = at_most(contact.stick_stiffness * step * (start + late * slip) /
-                                   (1 + contact.stick_stiffness * step * late / mass),
-                               most);
-  contact.slip_change = -impulse / mass;
-  contact.stretch = (impulse / contact.stick_stiffness + contact.stick_damping * start) / late;
-  contact.stick_gain = contact.stick_energy() - held;
+  stick_ = contact.stick_stiffness;
+  damping_ = contact.stick_damping;
+  late_ = step + damping_;
+  gain_ = stick_ * step / (1 + stick_ * step * late_ / mass);
+  start_ = along_face(contact.stretch);
+  held_ = contact.stick_energy();
+}
+
+Vec3 FrictionLaw::slip_change(const Vec3& v, double most) const {
+  const Vec3 impulse = gain_ * (start_ + late_ * along_face(v));
+  const double square = impulse.squaredNorm();
+  const double factor = square > most * most ? most / std::sqrt(square) : 1;
+  return -factor / mass_ * impulse;
+}
+
+void FrictionLaw::finish(Contact& contact) const {
+  if (stick_ == 0) return;
+  const Vec3 impulse = -mass_ * contact.slip_change;
+  contact.stretch = (impulse / stick_ + damping_ * start_) / late_;
+  contact.stick_gain = contact.stick_energy() - held_;
+}
+
+void apply_friction(Contact& contact, double mass, double step, const Vec3& v) {
+  const FrictionLaw law(contact, mass, step);
+  contact.slip_change = law.slip_change(v, contact.friction * contact.normal_force * step);
+  law.finish(contact);
 }
 
 double apply_friction(const ContactPoints& points, double step, std::vector<Contact>& contacts,
@@ -175,19 +155,8 @@ double apply_friction(const ContactPoints& points, double step, std::vector<Cont
 double contact_energy(const std::vector<Contact>& contacts) {
   double energy = 0;
   for (const Contact& c : contacts)
-    energy += 0.5 * c.stiffness * c.depth * c.depth + c.stick_energy();
+    energy += penalty_energy(c.stiffness, c.depth) + c.stick_energy();
   return energy;
-}
-
-std::vector<double> contact_stiffness(const ContactPoints& points,
-                                      const std::vector<Obstacle>& obstacles) {
-  std::vector<double> stiffness(points.node_count(), 0.0);
-  for (std::uint32_t p = 0; p < points.count(); ++p) {
-    const double most = points.reach(p) * stiffness_of_point(points, p, obstacles);
-    for (const ContactPoints::Share& share : points.shares(p))
-      stiffness[share.node] += std::abs(share.weight) * most;
-  }
-  return stiffness;
 }
 
 }  // namespace springlod::sim

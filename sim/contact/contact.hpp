@@ -36,6 +36,12 @@ struct Contact {
   double implicit_stiffness(double step) const { return stiffness * (1 + damping / step); }
 };
 
+/// Penetration of a point into an obstacle.
+struct Penetration {
+  double depth = 0;             ///< [m] > 0
+  Vec3 normal = Vec3::UnitZ();  ///< outward normal of the face that pushes the point out
+};
+
 /// Finds which points touch the obstacles. It keeps, for every point and box, from which side of
 /// each box axis the point came. Depth is measured to that side. A point pushed past the middle of
 /// a thin box is therefore pushed out where it entered, and the potential kappa A d^2 / 2 stays
@@ -50,9 +56,10 @@ class ContactFinder {
   /// then by point.
   void find(const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Contact>& contacts);
 
-  /// The same for one obstacle and one point at x.
-  std::optional<Contact> find_one(std::size_t obstacle, std::uint32_t point, const Vec3& x,
-                                  const Vec3& v);
+  /// Penetration of one point at x into one obstacle; none outside.
+  std::optional<Penetration> penetration(std::size_t obstacle, std::uint32_t point, const Vec3& x);
+  /// A contact of depth 0 and without force between a point and a face of an obstacle.
+  Contact contact(std::size_t obstacle, std::uint32_t point, const Vec3& normal) const;
   /// Updates the sides of a point that was not checked in the last steps and is at x, outside the
   /// obstacle.
   void take_sides(std::size_t obstacle, std::uint32_t point, const Vec3& x);
@@ -65,18 +72,39 @@ class ContactFinder {
   std::vector<std::vector<Sides>> sides_;  // by obstacle; empty for planes
 };
 
-void add_normal_forces(const ContactPoints& points, const std::vector<Contact>& contacts,
-                       std::vector<Vec3>& force);
-
 /// Points that touch the same obstacle as in the previous step keep the stretch of their stick
 /// spring; for others it starts at zero. Both lists have the order of ContactFinder.
 void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>& now);
 
-/// Applies friction over a step to a point of velocity v and mass m: sets slip_change, and stretch
-/// and stick_gain at the end of the step. Without a stick spring, Coulomb friction capped so that
-/// no step reverses the slip (eq. 66 of docs/method.md). With one, the spring is in series with a
-/// slider that slides at mu f_n; integrated implicitly, stable for any stiffness (eq. 67; Cundall
-/// and Strack 1979, "A discrete numerical model for granular assemblies").
+/// Friction of a contact over a step on a point of effective mass m. Without a stick spring,
+/// Coulomb friction limited so that no step reverses the slip (eq. 66 of docs/method.md). With one,
+/// the spring is in series with a slider that slides at mu f_n; integrated implicitly, stable for
+/// any stiffness (eq. 67; Cundall and Strack 1979, "A discrete numerical model for granular
+/// assemblies").
+class FrictionLaw {
+ public:
+  /// The contact has the stretch of its stick spring at the start of the step.
+  FrictionLaw(const Contact& contact, double mass, double step);
+  /// Change of the velocity of a point that moves at v [m/s]; `most`: mu f_n dt [N s].
+  Vec3 slip_change(const Vec3& v, double most) const;
+  /// Sets stretch and stick_gain from slip_change of the contact, at the end of the step.
+  void finish(Contact& contact) const;
+
+ private:
+  Vec3 along_face(const Vec3& u) const { return u - normal_.dot(u) * normal_; }
+
+  Vec3 normal_;
+  double mass_;                // [kg]
+  double gain_ = 0;            // impulse per stretch and late_ times slip [kg/s], or mass [kg]
+  double late_ = 1;            // dt + damping time [s]; 1 without a stick spring [1]
+  double stick_ = 0;           // stiffness of the stick spring [N/m]
+  double damping_ = 0;         // its damping time [s]
+  double held_ = 0;            // its energy at the start [J]
+  Vec3 start_ = Vec3::Zero();  // its stretch at the start, along the face [m]
+};
+
+/// Applies friction over a step to a point of velocity v and mass m: sets slip_change, stretch and
+/// stick_gain.
 void apply_friction(Contact& contact, double mass, double step, const Vec3& v);
 
 /// Applies friction to all contacts in turn, as points may share nodes. `v`: velocities of the
@@ -87,12 +115,5 @@ double apply_friction(const ContactPoints& points, double step, std::vector<Cont
 
 /// Energy of the contacts: sum of k d^2 / 2 and of the stick springs [J].
 double contact_energy(const std::vector<Contact>& contacts);
-
-/// Upper bound of the stiffness that contacts add to each node in one direction [N/m], N: eq. 68 of
-/// docs/method.md. For several planes, the bound uses the direction in which their stiffnesses add
-/// up most. For points interpolated from several nodes it uses (sum w_j x_j)^2 <= sum |w_j| sum
-/// |w_j| x_j^2.
-std::vector<double> contact_stiffness(const ContactPoints& points,
-                                      const std::vector<Obstacle>& obstacles);
 
 }  // namespace springlod::sim

@@ -7,6 +7,7 @@
 
 #include "model/mass_spring.hpp"
 #include "sim/contact/contact_skin.hpp"
+#include "sim/scenario.hpp"
 
 namespace springlod::sim {
 
@@ -32,17 +33,19 @@ class ContactPoints {
   double compliance(std::size_t point) const { return compliance_[point]; }  ///< s_p [m/N]
   /// Damping time of the compliance: mean of the springs of the nodes of the point [s].
   double compliance_damping(std::size_t point) const { return compliance_damping_[point]; }
-  /// Stiffness of its contact with an obstacle of stiffness kappa [N/m3], in series with the
-  /// compliance: kappa A / (1 + kappa A s_p) [N/m], k_n in eq. 64 of docs/method.md.
-  double stiffness(std::size_t point, double kappa) const {
-    const double bare = kappa * area_[point];
+  /// Stiffness of its contact with an obstacle, in series with the compliance: k_n in eq. 64 of
+  /// docs/method.md [N/m]. Without a stiffness of the obstacle, the contact without compliance is
+  /// kAutomaticStiffness times as stiff as the surface of the body there.
+  double stiffness(std::size_t point, const Obstacle& obstacle) const {
+    const double bare =
+        obstacle.stiffness ? *obstacle.stiffness * area_[point] : automatic_stiffness_[point];
     return bare / (1 + bare * compliance_[point]);
   }
-  /// Damping time of that contact for an obstacle with the damping time `damping` [s]: beta_n in
-  /// eq. 64.
-  double damping(std::size_t point, double kappa, double damping) const {
-    const double given = stiffness(point, kappa) * compliance_[point];  // fraction of the depth [1]
-    return (1 - given) * damping + given * compliance_damping_[point];
+  /// Damping time of that contact [s]: beta_n in eq. 64.
+  double damping(std::size_t point, const Obstacle& obstacle) const {
+    const double given =
+        stiffness(point, obstacle) * compliance_[point];  // fraction of the depth [1]
+    return (1 - given) * obstacle.damping + given * compliance_damping_[point];
   }
   /// Effective mass for an impulse at the point, 1 / sum (w_i^2 / m_i) [kg].
   double mass(std::size_t point) const { return mass_[point]; }
@@ -73,14 +76,20 @@ class ContactPoints {
   }
 
  private:
-  void end_point(const MassSpringModel& model, std::uint32_t number, double area,
-                 double compliance);
+  /// The properties of a point that is complete but for them.
+  struct Surface {
+    double area = 0;        // [m2]
+    double stiffness = 0;   // see NodeSurface [N/m]
+    double compliance = 0;  // [m/N]
+  };
+  void end_point(const MassSpringModel& model, std::uint32_t number, const Surface& surface);
 
   std::uint32_t node_count_ = 0;
   bool skin_ = false;
   std::vector<std::uint32_t> start_{0};
   std::vector<Share> shares_;
-  std::vector<double> area_, compliance_, compliance_damping_, mass_, reach_;
+  std::vector<double> area_, automatic_stiffness_;
+  std::vector<double> compliance_, compliance_damping_, mass_, reach_;
   std::vector<std::uint32_t> number_;
 };
 

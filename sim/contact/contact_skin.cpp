@@ -1,35 +1,19 @@
 #include "sim/contact/contact_skin.hpp"
 
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
-#include "elastic/stable_step.hpp"
 #include "lod/transfer.hpp"
+#include "sim/contact/node_surface.hpp"
+#include "sim/contact/skin_patches.hpp"
 
 namespace springlod::sim {
 namespace {
-
-/// Compliance of each node with its neighbours held, along the mean direction of its springs
-/// [m/N]: second factor of eq. 65 of docs/method.md. 0 where the springs have no mean direction.
-std::vector<double> own_compliance(const MassSpringModel& model) {
-  std::vector<Vec3> inwards(model.node_count(), Vec3::Zero());
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    const Vec3 pull = model.stiffness[s] * spring_direction(model, s);
-    inwards[model.a[s]] += pull;
-    inwards[model.b[s]] -= pull;
-  }
-  const std::vector<Mat3> stiffness = elastic::node_stiffness(model);
-  std::vector<double> compliance;
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    const Vec3 normal = inwards[i].normalized();
-    const double along = normal.dot(stiffness[i] * normal);
-    compliance.push_back(along > 0 ? 1 / along : 0);
-  }
-  return compliance;
-}
 
 /// Fraction of its degrees of freedom that each node lost by joining its group [1], 0 for a group
 /// of one: first factor of eq. 65 of docs/method.md. (Two equal nodes joined by stiffness b and
@@ -44,25 +28,55 @@ std::vector<double> lost_freedom(const MassSpringModel& base, const Groups& grou
   return lost;
 }
 
+// Stiffness of a node that lost no freedom [N/m].
+constexpr double kRigid = std::numeric_limits<double>::infinity();
+
+/// Binds the mean of the nodes of a patch, weighted by their areas; returns the area of all [m2].
+double bind_patch(const std::vector<std::uint32_t>& patch, const std::vector<double>& areas,
+                  const Binding& nodes, Binding& bound) {
+  double area = 0;
+  for (const std::uint32_t i : patch) area += areas[i];
+  std::map<std::uint32_t, double> weights;
+  for (const std::uint32_t i : patch)
+    for (std::uint32_t e = nodes.start[i]; e < nodes.start[i + 1]; ++e)
+      weights[nodes.node[e]] += areas[i] / area * nodes.weight[e];
+  for (const auto& [node, weight] : weights) {
+    bound.node.push_back(node);
+    bound.weight.push_back(weight);
+  }
+  bound.start.push_back(static_cast<std::uint32_t>(bound.node.size()));
+  return area;
+}
+
 }  // namespace
 
 ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
   const Binding of_nodes = lod::base_from_level(chain, level);
   const MassSpringModel& base = chain.levels[0].model;
-  ContactSkin skin;
-  skin.of_nodes.start.push_back(0);
-  const std::vector<double> compliance = own_compliance(base);
-  const std::vector<double> lost = lost_freedom(base, chain.levels[level].of_base);
+  const Groups& groups = chain.levels[level].of_base;
+  const NodeSurface surface = node_surface(base);
+  const std::vector<double> lost = lost_freedom(base, groups);
+  std::vector<std::uint32_t> nodes;
+  std::vector<SurfacePoint> points;
   for (std::uint32_t i = 0; i < base.node_count(); ++i) {
     if (!(base.contact_area[i] > 0)) continue;
-    for (std::uint32_t e = of_nodes.start[i]; e < of_nodes.start[i + 1]; ++e) {
-      skin.of_nodes.node.push_back(of_nodes.node[e]);
-      skin.of_nodes.weight.push_back(of_nodes.weight[e]);
+    nodes.push_back(i);
+    points.push_back({groups.of[i], base.rest[i], surface.normal[i], base.contact_area[i]});
+  }
+  ContactSkin skin;
+  skin.of_nodes.start.push_back(0);
+  for (std::vector<std::uint32_t> patch : flat_patches(points, mean_spring_length(base))) {
+    for (std::uint32_t& member : patch) member = nodes[member];
+    double stiffness = 0;
+    double yielding = 0;  // inverse compliance: the nodes yield in parallel [N/m]
+    for (const std::uint32_t i : patch) {
+      stiffness += surface.stiffness[i];
+      yielding += lost[i] > 0 ? surface.stiffness[i] / lost[i] : kRigid;
     }
-    skin.of_nodes.start.push_back(static_cast<std::uint32_t>(skin.of_nodes.node.size()));
-    skin.area.push_back(base.contact_area[i]);
-    skin.base_node.push_back(i);
-    skin.compliance.push_back(lost[i] * compliance[i]);
+    skin.area.push_back(bind_patch(patch, base.contact_area, of_nodes, skin.of_nodes));
+    skin.base_node.push_back(patch.front());
+    skin.stiffness.push_back(stiffness);
+    skin.compliance.push_back(yielding > 0 ? 1 / yielding : 0);
   }
   return skin;
 }
@@ -71,14 +85,20 @@ void validate(const ContactSkin& skin, std::uint32_t node_count) {
   validate(skin.of_nodes, node_count);
   const std::uint32_t points = skin.of_nodes.point_count();
   if (skin.area.size() != points || skin.base_node.size() != points ||
-      skin.compliance.size() != points)
-    throw InputError(
-        fmt::format("contact skin: {} areas, {} nodes of the base and {} compliances for {} points",
-                    skin.area.size(), skin.base_node.size(), skin.compliance.size(), points));
+      skin.stiffness.size() != points || skin.compliance.size() != points)
+    throw InputError(fmt::format(
+        "contact skin: {} areas, {} nodes of the base, {} stiffnesses and {} compliances for {} "
+        "points",
+        skin.area.size(), skin.base_node.size(), skin.stiffness.size(), skin.compliance.size(),
+        points));
   for (std::uint32_t p = 0; p < points; ++p) {
     if (!(std::isfinite(skin.area[p]) && skin.area[p] > 0))
       throw InputError(fmt::format("contact skin: the area of point {} is {}; it must be above 0",
                                    script_number(p), skin.area[p]));
+    if (!(std::isfinite(skin.stiffness[p]) && skin.stiffness[p] >= 0))
+      throw InputError(
+          fmt::format("contact skin: the stiffness of point {} is {}; it must be 0 or more",
+                      script_number(p), skin.stiffness[p]));
     if (!(std::isfinite(skin.compliance[p]) && skin.compliance[p] >= 0))
       throw InputError(
           fmt::format("contact skin: the compliance of point {} is {}; it must be 0 or more",

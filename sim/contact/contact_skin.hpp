@@ -11,12 +11,13 @@ namespace springlod::sim {
 
 /// The surface of the base, bound to the nodes of one of its levels: P points at which the level
 /// touches obstacles where the base does, because the level's own nodes lie deeper inside. Each
-/// point is a base node with a contact area and keeps that area, so the total contact stiffness is
-/// the base's.
+/// point is the mean of a flat patch of base nodes of one group (flat_patches) and has their
+/// contact area, so the total contact stiffness is the base's.
 struct ContactSkin {
   Binding of_nodes;                      ///< P rows; see lod/transfer.hpp
   std::vector<double> area;              ///< [m2] > 0, P
-  std::vector<std::uint32_t> base_node;  ///< node of the base at each point, ascending, P
+  std::vector<std::uint32_t> base_node;  ///< largest base node of each patch, ascending, P
+  std::vector<double> stiffness;         ///< sum of NodeSurface::stiffness [N/m] >= 0, P
   /// Local surface compliance that merging removed, neighbours held [m/N] >= 0, P: eq. 65 of
   /// docs/method.md. It is added in series with the contact penalty, and as a tangential contact
   /// spring (stick spring) of the same compliance with friction.

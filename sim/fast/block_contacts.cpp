@@ -1,6 +1,6 @@
 #include "sim/fast/block_contacts.hpp"
 
-#include <limits>
+#include <algorithm>
 #include <utility>
 
 #include "sim/fast/regions.hpp"
@@ -8,96 +8,95 @@
 namespace springlod::sim {
 namespace {
 
-// Number of a node without contact area.
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
 // Regions are widened by this fraction of the block's size [1], so that rounding to single
 // precision leaves no node out.
 constexpr double kRounding = 1e-6;
+
+std::uint32_t index_count(const FastBody& body, const ContactPoints& points,
+                          const std::vector<std::uint32_t>& numbers) {
+  std::uint32_t count = 0;
+  for (const std::uint32_t number : numbers)
+    count = std::max(count, body.place(points.number(number)).index + 1);
+  return count;
+}
 
 }  // namespace
 
 BlockContacts::BlockContacts(const Shared& shared, std::uint32_t block,
                              std::vector<std::uint32_t> numbers)
-    : FastContacts(shared), block_(block), numbers_(std::move(numbers)) {
-  for (const std::uint32_t number : numbers_) {
-    const std::uint32_t index = place(number).index;
-    if (number_of_.size() <= index) number_of_.resize(index + 1, kNone);
-    number_of_[index] = number;
+    : FastContacts(shared, index_count(*shared.body, *shared.points, numbers)),
+      block_(block),
+      numbers_(std::move(numbers)),
+      number_of_(index_count(body(), points(), numbers_), kNone),
+      checked_at_(obstacles().size(), std::vector<std::uint64_t>(number_of_.size(), 0)),
+      before_(obstacles().size(), std::vector<std::uint32_t>(number_of_.size(), kNone)) {
+  for (const std::uint32_t number : numbers_) number_of_[place(number).index] = number;
+}
+
+void BlockContacts::correct(const Step& step) {
+  if (numbers_.empty() || obstacles().empty()) return;
+  const Box3 swept = moved(bounds_before_, step.before.origin)
+                         .merged(moved(body().bounds(block_), step.after.origin));
+  const bool at_wall = near_wall(swept);
+  if (at_wall) {
+    from_.clear();
+    for (const std::uint32_t number : numbers_) from_.push_back(path(step, place(number)).from);
   }
-  checked_at_.assign(obstacles().size(), std::vector<std::uint64_t>(number_of_.size(), 0));
-}
-
-void BlockContacts::apply(const Step& step) {
-  frame_velocity_ = step.frame.velocity;
-  kicked_frame_velocity_ = step.kicked.velocity;
-  contacts_.clear();
-  if (numbers_.empty()) return;
-  find_contacts(step);
-  add_friction(step);
-  note_first(step);
-}
-
-void BlockContacts::add_friction(const Step& step) {
-  for (Contact& c : contacts_) {
-    const Place at = place(c.point);
-    const double mass = points().mass(c.point);
-    const Vec3 kicked = step.kicked.velocity + body().v(at) + step.kick / mass * body().force(at);
-    apply_friction(c, mass, step.length, kicked);
-    body().add_force(at, mass / step.kick * c.slip_change);
-  }
-}
-
-void BlockContacts::find_contacts(const Step& step) {
-  const Box3& bounds = body().bounds(block_);
-  const Vec3& origin = step.frame.origin;
-  const Vec3 margin = Vec3::Constant(kRounding * bounds.sizes().maxCoeff());
-  for (std::size_t o = 0; o < obstacles().size(); ++o) {
-    const Box3 near = region_touching(obstacles()[o], moved(bounds, origin));
-    if (near.isEmpty()) continue;
-    found_.clear();
-    body().nodes_in(block_, Box3(near.min() - origin - margin, near.max() - origin + margin),
-                    found_);
-    for (const std::uint32_t index : found_) find_contact(step, o, index);
-  }
-}
-
-void BlockContacts::find_contact(const Step& step, std::size_t obstacle, std::uint32_t index) {
-  if (index >= number_of_.size() || number_of_[index] == kNone) return;
-  const std::uint32_t number = number_of_[index];
-  const Place at{block_, index};
-  const Vec3 x = step.frame.origin + body().x(at);
-  const Vec3 v = step.frame.velocity + body().v(at);
-  std::uint64_t& checked_at = checked_at_[obstacle][index];
-  // Skipped if the step is repeated with another length: the node may be inside by now.
-  if (checked_at != step.number && checked_at != step.number + 1)
-    finder().take_sides(obstacle, number, x - step.length * v);
-  checked_at = step.number + 1;
-  if (const Contact* contact = add_contact(obstacle, number, {x, v}))
-    body().add_force(at, contact->normal_force * contact->normal);
-}
-
-void BlockContacts::end_drift(std::uint64_t n, const MovingFrame& before, const MovingFrame& after,
-                              double length) {
-  if (walls().wall_count() == 0 || numbers_.empty()) return;
-  const Box3 swept =
-      moved(bounds_before_, before.origin).merged(moved(body().bounds(block_), after.origin));
-  check_walls(n, length, swept, numbers_, [&](std::uint32_t number) {
-    const Place at = place(number);
-    return Motion{after.origin + body().x(at), before.velocity + body().v(at)};
+  solver().begin(step.length);
+  note_contacts_before();
+  for (std::uint32_t o = 0; o < obstacles().size(); ++o) check_nodes(step, o);
+  solve(
+      step, [&](std::uint32_t node) { return path(step, body().place(node)); },
+      [&](std::uint32_t node) { return body().place(node).index; });
+  if (!at_wall) return;
+  auto from = from_.begin();
+  check_walls(step.number, numbers_, [&](std::uint32_t number) {
+    if (from == from_.end()) from = from_.begin();  // the next wall
+    return StepContacts::Path{*from++, step.after.origin + body().x(place(number))};
   });
 }
 
-Vec3 BlockContacts::velocity(const Contact& contact, const Vec3& of_frame) const {
-  return of_frame + body().v(place(contact.point));
+void BlockContacts::note_contacts_before() {
+  const std::vector<Contact>& contacts = solver().before();
+  for (std::uint32_t i = 0; i < contacts.size(); ++i)
+    before_[contacts[i].obstacle][place(contacts[i].point).index] = i;
 }
 
-Vec3 BlockContacts::velocity_before_kick(std::size_t contact) const {
-  return velocity(now()[contact], frame_velocity_);
+void BlockContacts::check_nodes(const Step& step, std::uint32_t obstacle) {
+  const Box3& bounds = body().bounds(block_);
+  const Vec3& origin = step.after.origin;
+  const Box3 near = region_touching(obstacles()[obstacle], moved(bounds, origin));
+  if (!near.isEmpty()) {
+    const Vec3 margin = Vec3::Constant(kRounding * bounds.sizes().maxCoeff());
+    found_.clear();
+    body().nodes_in(block_, Box3(near.min() - origin - margin, near.max() - origin + margin),
+                    found_);
+    for (const std::uint32_t index : found_)
+      if (index < number_of_.size() && number_of_[index] != kNone)
+        check_node(step, obstacle, index);
+  }
+  for (const Contact& contact : solver().before()) {
+    const std::uint32_t index = place(contact.point).index;
+    if (contact.obstacle == obstacle && before_[obstacle][index] != kNone)
+      check_node(step, obstacle, index);
+  }
 }
 
-Vec3 BlockContacts::velocity_after_kick(std::size_t contact) const {
-  return velocity(now()[contact], kicked_frame_velocity_);
+void BlockContacts::check_node(const Step& step, std::uint32_t obstacle, std::uint32_t index) {
+  const std::uint32_t number = number_of_[index];
+  const StepContacts::Path of_node = path(step, {block_, index});
+  std::uint64_t& checked_at = checked_at_[obstacle][index];
+  if (checked_at != step.number) finder().take_sides(obstacle, number, of_node.from);
+  checked_at = step.number + 1;
+  std::uint32_t& before = before_[obstacle][index];
+  const Contact* was = before == kNone ? nullptr : &solver().before()[before];
+  before = kNone;
+  solver().check(obstacle, number, was, of_node);
+}
+
+StepContacts::Path BlockContacts::path(const Step& step, Place at) const {
+  const Vec3 to = step.after.origin + body().x(at);
+  return {to - step.length * (step.after.velocity + body().v(at)), to};
 }
 
 }  // namespace springlod::sim

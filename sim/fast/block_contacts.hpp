@@ -14,32 +14,30 @@ class BlockContacts final : public FastContacts {
   /// `numbers`: the contact points of the body that belong to the block; all of them are nodes.
   BlockContacts(const Shared& shared, std::uint32_t block, std::vector<std::uint32_t> numbers);
 
-  void apply(const Step& step) override;
   /// Stores the bounds before the drift.
   void start_drift() { bounds_before_ = body().bounds(block_); }
-  /// After the drift to step number n of `length` [s]: checks whether nodes went through a wall.
-  /// `before`, `after`: the frame at its ends.
-  void end_drift(std::uint64_t n, const MovingFrame& before, const MovingFrame& after,
-                 double length);
+  /// Also checks whether nodes tunnelled through walls.
+  void correct(const Step& step) override;
 
  private:
-  Vec3 velocity_before_kick(std::size_t contact) const override;
-  Vec3 velocity_after_kick(std::size_t contact) const override;
-  Vec3 velocity(const Contact& contact, const Vec3& of_frame) const;
+  static constexpr std::uint32_t kNone = static_cast<std::uint32_t>(-1);
 
-  void find_contacts(const Step& step);
-  void find_contact(const Step& step, std::size_t obstacle, std::uint32_t index);
-  void add_friction(const Step& step);
+  void note_contacts_before();
+  void check_nodes(const Step& step, std::uint32_t obstacle);
+  void check_node(const Step& step, std::uint32_t obstacle, std::uint32_t index);
 
   Place place(std::uint32_t point) const { return body().place(points().number(point)); }
+  /// Path of a node in the drift [m].
+  StepContacts::Path path(const Step& step, Place at) const;
 
   std::uint32_t block_;
   std::vector<std::uint32_t> numbers_;                  // contact points of the block
   std::vector<std::uint32_t> number_of_;                // by index in the block; or kNone
   std::vector<std::vector<std::uint64_t>> checked_at_;  // by obstacle and index: last step, plus 1
-  std::vector<std::uint32_t> found_;                    // scratch: indices
-  Vec3 frame_velocity_ = Vec3::Zero();                  // in the last apply(), before the kick
-  Vec3 kicked_frame_velocity_ = Vec3::Zero();           // after the kick
+  // Place in the solver's contacts before the step, by obstacle and index; or kNone.
+  std::vector<std::vector<std::uint32_t>> before_;
+  std::vector<std::uint32_t> found_;  // scratch: indices
+  std::vector<Vec3> from_;            // scratch: start of the drift of each point in numbers_
   Box3 bounds_before_;
 };
 

@@ -15,7 +15,7 @@ namespace springlod::sim {
 /// of blocks to threads does not change the result.
 ///
 /// A step: every block finds its forces. When all blocks in needs() have done so, a block collects
-/// their forces and moves. External forces may be added to its nodes between collecting and moving.
+/// their forces and moves. Then its nodes may be shifted.
 class FastBody {
  public:
   struct BlockRange {
@@ -52,15 +52,20 @@ class FastBody {
   virtual void move(std::uint32_t block, double kick, double drift) = 0;
   /// Bounding box of the block's nodes after its last move [m].
   virtual const Box3& bounds(std::uint32_t block) const = 0;
+  /// Largest displacement of the block's nodes in its last move, along each axis [m].
+  virtual const Vec3& largest_displacement(std::uint32_t block) const = 0;
 
   /// Appends the indices of the block's nodes within `region` [m], ascending.
   virtual void nodes_in(std::uint32_t block, const Box3& region,
                         std::vector<std::uint32_t>& indices) const = 0;
 
-  virtual Vec3 x(Place at) const = 0;                       ///< [m]
-  virtual Vec3 v(Place at) const = 0;                       ///< [m/s]
-  virtual Vec3 force(Place at) const = 0;                   ///< [N], after collect_forces()
-  virtual void add_force(Place at, const Vec3& force) = 0;  ///< [N]; call it before the block moves
+  virtual Vec3 x(Place at) const = 0;      ///< [m]
+  virtual Vec3 v(Place at) const = 0;      ///< [m/s]
+  virtual Vec3 force(Place at) const = 0;  ///< [N], after collect_forces()
+  /// Damping part of that force [N]. Only for a body made with damping.
+  virtual Vec3 damping_force(Place at) const = 0;
+  /// Changes position [m] and velocity [m/s] of a node; its block's bounds then include it.
+  virtual void shift(Place at, const Vec3& displacement, const Vec3& kick) = 0;
 
  protected:
   FastBody() = default;

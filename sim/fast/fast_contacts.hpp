@@ -6,110 +6,100 @@
 
 #include "sim/contact/contact.hpp"
 #include "sim/contact/contact_points.hpp"
+#include "sim/contact/step_contacts.hpp"
 #include "sim/contact/tunnel_watch.hpp"
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/passage.hpp"
 #include "sim/fast/regions.hpp"
-#include "sim/integrators/ledger.hpp"
 
 namespace springlod::sim {
 
-/// The contacts of a set of points of a fast body: the nodes of one block, or a whole skin. Stepper
-/// works on vectors of all nodes; this class works on the points near an obstacle and on the forces
-/// of the body. The derived classes decide which points are checked, and when.
+/// The contacts of a set of points of a fast body: the nodes of one block, or a whole skin. Solves
+/// them after each drift and shifts the nodes: see StepContacts. The derived classes decide which
+/// points are checked, and when.
 class FastContacts {
  public:
-  /// One step of the body.
+  /// One drift of the body.
   struct Step {
-    std::uint64_t number = 0;
-    MovingFrame frame;   ///< at the positions of this step
-    MovingFrame kicked;  ///< after the kick
-    double kick = 0;     ///< [s] > 0
-    double length = 0;   ///< dt [s]
+    std::uint64_t number = 0;  ///< of the step at its end
+    MovingFrame before, after;
+    double length = 0;  ///< dt [s]
   };
 
   /// Data shared by all sets of one body; must outlive them.
   struct Shared {
+    const MassSpringModel* model;
     const ContactPoints* points;
     const std::vector<Obstacle>* obstacles;
     FastBody* body;
     ContactFinder* finder;
     TunnelCheck* walls;
+    Vec3 gravity;      ///< [m/s2]
+    bool with_ledger;  ///< record the losses
   };
 
   virtual ~FastContacts() = default;
 
-  /// Finds the contacts at the positions of the step. Adds their normal and friction forces to the
-  /// forces that the body has collected.
-  virtual void apply(const Step& step) = 0;
+  /// Sets the contacts at the start.
+  void start(std::vector<Contact> contacts) { solver_.set(std::move(contacts)); }
+  /// Solves the contacts of a drift that the body has just done, and shifts its nodes.
+  virtual void correct(const Step& step) = 0;
+  /// Books the part of the losses that depends on the forces at the end of the last step. Call it
+  /// when the body has collected them.
+  void book_end();
 
-  /// Contacts of the last apply().
-  const std::vector<Contact>& now() const { return contacts_; }
+  const std::vector<Contact>& now() const { return solver_.now(); }
+  /// How the contacts changed the nodes in the last step.
+  const std::vector<NodeChange>& changes() const { return solver_.changes(); }
+  /// Losses so far.
+  const StepContacts::Losses& losses() const { return losses_; }
   /// Number of the first step with a contact.
   const std::optional<std::uint64_t>& first_step() const { return first_step_; }
   /// The first point that tunnelled through a wall.
   const std::optional<Passage>& passage() const { return passage_; }
 
-  /// Adds the half of the losses of now() that is computed with the velocities before the kick, in
-  /// a step of `length` [s]. Call it between apply() and the kick.
-  void book_before_kick(double length, LedgerEntry& losses) const;
-  /// Adds the half that is computed with the velocities after the kick. Call it between kick and
-  /// drift.
-  void book_after_kick(double length, LedgerEntry& losses) const;
-
  protected:
-  struct Motion {
-    Vec3 x;  ///< [m]
-    Vec3 v;  ///< [m/s]
-  };
-
-  explicit FastContacts(const Shared& shared) : shared_(shared) {}
+  /// `number_count`: see StepContacts.
+  FastContacts(const Shared& shared, std::uint32_t number_count);
   FastContacts(const FastContacts&) = default;
   FastContacts(FastContacts&&) = default;
 
+  const MassSpringModel& model() const { return *shared_.model; }
   const ContactPoints& points() const { return *shared_.points; }
   const std::vector<Obstacle>& obstacles() const { return *shared_.obstacles; }
   FastBody& body() const { return *shared_.body; }
   ContactFinder& finder() const { return *shared_.finder; }
-  TunnelCheck& walls() const { return *shared_.walls; }
+  StepContacts& solver() { return solver_; }
 
-  /// Adds the contact of a point with an obstacle to now(), if there is one, and returns it.
-  const Contact* add_contact(std::size_t obstacle, std::uint32_t point, const Motion& motion) {
-    const std::optional<Contact> contact = finder().find_one(obstacle, point, motion.x, motion.v);
-    if (!contact) return nullptr;
-    contacts_.push_back(*contact);
-    return &contacts_.back();
+  /// Solves the contacts that were checked, and shifts the nodes. Arguments as for StepContacts.
+  template <class PathOf, class NumberOf>
+  void solve(const Step& step, const PathOf& path_of, const NumberOf& number_of) {
+    solver_.solve(path_of, number_of);
+    apply(step);
   }
-  /// Notes the first step with a contact.
-  void note_first(const Step& step) {
-    if (!first_step_ && !contacts_.empty()) first_step_ = step.number;
-  }
-  /// Checks whether one of `points` tunnelled through a wall in the drift to step `number`, in a
-  /// step of `length` [s]. `swept`: bounds of their paths in world axes [m]. `motion_of(point)`:
-  /// position at the end, velocity of the drift.
-  template <class MotionOf>
-  void check_walls(std::uint64_t number, double length, const Box3& swept,
-                   const std::vector<std::uint32_t>& points, const MotionOf& motion_of) {
-    for (std::size_t w = 0; w < walls().wall_count(); ++w) {
-      if (!bounds_of(walls().wall(w)).intersects(swept)) continue;
+  /// Whether any of the paths within `swept` [m] may go through a wall.
+  bool near_wall(const Box3& swept) const;
+  /// Checks whether points tunnelled through a wall. path_of(point): its path in the step.
+  template <class PathOf>
+  void check_walls(std::uint64_t number, const std::vector<std::uint32_t>& points,
+                   const PathOf& path_of) {
+    for (std::size_t w = 0; w < shared_.walls->wall_count(); ++w)
       for (const std::uint32_t point : points) {
-        const Motion motion = motion_of(point);
-        check_wall({number, w, point, motion.x - length * motion.v, motion.x});
+        const StepContacts::Path path = path_of(point);
+        check_wall({number, w, point, path.from, path.to});
       }
-    }
   }
-
-  std::vector<Contact> contacts_;
 
  private:
-  /// Velocity of the point of contact number `contact` now [m/s].
-  virtual Vec3 velocity_before_kick(std::size_t contact) const = 0;
-  virtual Vec3 velocity_after_kick(std::size_t contact) const = 0;
-
-  /// Stores the first passage through a wall.
+  void apply(const Step& step);
+  /// Half the work of the elastic forces and of gravity on a node over a displacement [J].
+  double half_work(std::uint32_t node, const Vec3& displacement) const;
   void check_wall(const Passage& passage);
 
   Shared shared_;
+  StepContacts solver_;
+  double booked_step_ = 0;  // length of the step whose end is not booked yet; 0: none [s]
+  StepContacts::Losses losses_;
   std::optional<std::uint64_t> first_step_;
   std::optional<Passage> passage_;
 };

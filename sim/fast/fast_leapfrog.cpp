@@ -26,12 +26,6 @@ std::uint32_t team_size(std::uint32_t threads, std::uint32_t blocks, std::uint32
   return std::min({threads > 0 ? threads : cores, blocks, worth});
 }
 
-void add_losses(const LedgerEntry& more, LedgerEntry& sum) {
-  sum.lost_damping += more.lost_damping;
-  sum.lost_friction += more.lost_friction;
-  sum.lost_contact += more.lost_contact;
-}
-
 }  // namespace
 
 FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenario,
@@ -45,17 +39,32 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
       losses_(body_->block_count()),
       sums_(body_->block_count()),
       v_minus_(start.v),
-      v_plus_(start.v) {
-  const FastContacts::Shared shared{&points_, &scenario.obstacles, body_.get(), &finder_, &walls_};
+      v_plus_(start.v),
+      v_step_(start.v) {
+  const FastContacts::Shared shared{.model = model_,
+                                    .points = &points_,
+                                    .obstacles = &scenario.obstacles,
+                                    .body = body_.get(),
+                                    .finder = &finder_,
+                                    .walls = &walls_,
+                                    .gravity = gravity_,
+                                    .with_ledger = with_ledger_};
+  finder_.find(x_, start.v, contacts_);
   if (options.skin) {
-    skin_.emplace(shared, model);
+    skin_.emplace(shared);
+    skin_->start(contacts_);
     return;
   }
   std::vector<std::vector<std::uint32_t>> numbers(body_->block_count());
   for (std::uint32_t p = 0; p < points_.count(); ++p)
     numbers[body_->place(points_.number(p)).block].push_back(p);
-  for (std::uint32_t b = 0; b < body_->block_count(); ++b)
+  std::vector<std::vector<Contact>> contacts(body_->block_count());
+  for (const Contact& c : contacts_)
+    contacts[body_->place(points_.number(c.point)).block].push_back(c);
+  for (std::uint32_t b = 0; b < body_->block_count(); ++b) {
     block_contacts_.emplace_back(shared, b, std::move(numbers[b]));
+    block_contacts_.back().start(std::move(contacts[b]));
+  }
 }
 
 void FastLeapfrog::prepare() {
@@ -108,10 +117,14 @@ MovingFrame FastLeapfrog::observe(Share& share, MovingFrame frame) {
 
 void FastLeapfrog::finish_observation() {
   gather_contacts();
-  if (n_ != start_n_) return;
+  v_step_ = v_minus_;
+  if (n_ != start_n_) {
+    for (const FastContacts* set : contact_sets())
+      for (const NodeChange& change : set->changes())
+        v_step_[change.node] -= change.by_pressure(step_) / step_;
+    return;
+  }
   for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
-  for (const Contact& c : contacts_)
-    points_.kick(c.point, c.slip_change, v_minus_);  // not part of a
 }
 
 // Summed block by block, so that the result does not depend on the threads.
@@ -142,8 +155,7 @@ bool FastLeapfrog::change_step(double step) {
   start_time_ = time();
   start_n_ = n_;
   step_ = step;
-  for (Losses& losses : losses_) losses.next = {};
-  skin_losses_.next = {};
+  for (Losses& losses : losses_) losses.next = 0;
   prepare();
   lost_to_new_steps_ += before - kinetic() - contact_energy(contacts_);
   return true;
@@ -158,10 +170,8 @@ MovingFrame FastLeapfrog::after(const Pass& pass, const MovingFrame& frame) cons
 
 MovingFrame FastLeapfrog::go(const std::vector<Pass>& passes, Share& share, MovingFrame frame) {
   for (const Pass& pass : passes) {
-    if (skin_)
-      find_touch_and_move(pass, frame, share);
-    else
-      find_and_move(pass, frame, share);
+    find_and_move(pass, frame, share);
+    if (skin_) correct_skin(pass, frame, share);
     frame = after(pass, frame);
     share.member.meet();
   }
@@ -191,56 +201,37 @@ void FastLeapfrog::find_and_move(const Pass& pass, const MovingFrame& frame, Sha
   }
 }
 
-void FastLeapfrog::find_touch_and_move(const Pass& pass, const MovingFrame& frame,
-                                       const Share& share) {
-  if (pass.kick != 0) {
-    for (std::uint32_t b = share.first; b < share.end; ++b) body_->find_forces(b);
-    share.member.meet();
-    for (std::uint32_t b = share.first; b < share.end; ++b) body_->collect_forces(b);
-    share.member.meet();
-  }
-  if (share.member.number == 0) apply_skin_contacts(pass, frame);
+void FastLeapfrog::correct_skin(const Pass& pass, const MovingFrame& frame, const Share& share) {
   share.member.meet();
-  for (std::uint32_t b = share.first; b < share.end; ++b) move_block(pass, b);
+  if (share.member.number != 0) return;
+  if (pass.kick != 0) skin_->book_end();
+  if (pass.drift != 0) skin_->correct(drift_step(pass, frame));
 }
 
-FastContacts::Step FastLeapfrog::contact_step(const Pass& pass, const MovingFrame& frame) const {
-  return {.number = pass.number,
-          .frame = frame,
-          .kicked = {frame.origin, after(pass, frame).velocity},
-          .kick = pass.kick,
+FastContacts::Step FastLeapfrog::drift_step(const Pass& pass, const MovingFrame& frame) const {
+  const MovingFrame end = after(pass, frame);
+  return {.number = pass.number + 1,
+          .before = {frame.origin, end.velocity},
+          .after = end,
           .length = step_};
-}
-
-void FastLeapfrog::apply_skin_contacts(const Pass& pass, const MovingFrame& frame) {
-  if (pass.kick != 0) {
-    skin_->apply(contact_step(pass, frame));
-    if (with_ledger_) {
-      if (pass.number > start_n_) skin_->book_before_kick(step_, skin_losses_.until_now);
-      skin_->book_after_kick(step_, skin_losses_.next);
-    }
-  }
-  if (with_ledger_ && pass.drift != 0) take_next(skin_losses_);
 }
 
 void FastLeapfrog::wait_for_others(std::uint32_t block, const Share& share) const {
   const FastBody::BlockRange needs = body_->needs(block);
-  assert(needs.first <= block && block <= needs.last && needs.last < block_contacts_.size());
+  assert(needs.first <= block && block <= needs.last && needs.last < losses_.size());
   for (std::uint32_t b = needs.first; b <= needs.last; ++b)
     if (b < share.first || b >= share.end) found_.wait_for(b, share.kicks);
 }
 
 void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block) {
-  assert(block < block_contacts_.size());
-  BlockContacts& contacts = block_contacts_[block];
-  const FastContacts::Step step = contact_step(pass, frame);
+  BlockContacts* contacts = skin_ ? nullptr : &block_contacts_[block];
   if (pass.kick != 0) {
     body_->collect_forces(block);
-    contacts.apply(step);
+    if (contacts != nullptr) contacts->book_end();
   }
-  contacts.start_drift();
+  if (contacts != nullptr) contacts->start_drift();
   move_block(pass, block);
-  if (pass.drift != 0) contacts.end_drift(pass.number + 1, step.kicked, after(pass, frame), step_);
+  if (contacts != nullptr && pass.drift != 0) contacts->correct(drift_step(pass, frame));
 }
 
 void FastLeapfrog::move_block(const Pass& pass, std::uint32_t block) {
@@ -251,26 +242,15 @@ void FastLeapfrog::move_block(const Pass& pass, std::uint32_t block) {
 
 void FastLeapfrog::kick_and_book(const Pass& pass, std::uint32_t block) {
   Losses& losses = losses_[block];
-  const auto book_damping = [&](LedgerEntry& entry) {
-    entry.lost_damping -= 0.5 * step_ * body_->damping_power(block);
-  };
-  if (pass.number > start_n_) {
-    book_damping(losses.until_now);
-    if (!skin_) block_contacts_[block].book_before_kick(step_, losses.until_now);
-  }
+  const auto damping = [&] { return -0.5 * step_ * body_->damping_power(block); };
+  if (pass.number > start_n_) losses.until_now += damping();
   body_->move(block, pass.kick, 0);
-  book_damping(losses.next);
-  if (!skin_) block_contacts_[block].book_after_kick(step_, losses.next);
+  losses.next += damping();
 }
 
 void FastLeapfrog::drift_and_book(const Pass& pass, std::uint32_t block) {
-  take_next(losses_[block]);
+  losses_[block].until_now += std::exchange(losses_[block].next, 0);
   body_->move(block, 0, pass.drift);
-}
-
-void FastLeapfrog::take_next(Losses& losses) {
-  add_losses(losses.next, losses.until_now);
-  losses.next = {};
 }
 
 std::vector<const FastContacts*> FastLeapfrog::contact_sets() const {
@@ -325,8 +305,11 @@ double FastLeapfrog::kinetic() const {
 
 LedgerEntry FastLeapfrog::ledger_entry() const {
   LedgerEntry entry;
-  for (const Losses& losses : losses_) add_losses(losses.until_now, entry);
-  add_losses(skin_losses_.until_now, entry);
+  for (const Losses& losses : losses_) entry.lost_damping += losses.until_now;
+  for (const FastContacts* set : contact_sets()) {
+    entry.lost_contact += set->losses().contact;
+    entry.lost_friction += set->losses().friction;
+  }
   entry.lost_switch = lost_to_new_steps_;
   entry.time = time();
   entry.kinetic = kinetic();

@@ -54,12 +54,13 @@ class FastLeapfrog final : public Stepper {
     double kick = 0;   ///< [s]; 0: no forces are computed
     double drift = 0;  ///< [s]
   };
-  /// The losses of a block, without the share of v+, which is added before the drift.
+  /// Damping losses of a block [J], without the share of v+, which is added before the drift.
   struct Losses {
-    LedgerEntry until_now, next;
+    double until_now = 0;
+    double next = 0;
   };
 
-  const std::vector<Vec3>& velocities_after() const override { return v_plus_; }
+  const std::vector<Vec3>& step_velocities() const override { return v_step_; }
   /// The work of one thread.
   struct Share {
     StepTeam::Member member;
@@ -80,10 +81,9 @@ class FastLeapfrog final : public Stepper {
   MovingFrame observe(Share& share, MovingFrame frame);
   MovingFrame take_new_frame(const Share& share);
   void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
-  /// The same for a body with a skin, whose points depend on several blocks. The blocks wait until
-  /// its contacts are applied.
-  void find_touch_and_move(const Pass& pass, const MovingFrame& frame, const Share& share);
-  void apply_skin_contacts(const Pass& pass, const MovingFrame& frame);
+  /// The contacts of a skin, whose points depend on several blocks: one thread solves them when all
+  /// blocks have moved.
+  void correct_skin(const Pass& pass, const MovingFrame& frame, const Share& share);
   /// Waits for the forces of the other blocks that this one needs.
   void wait_for_others(std::uint32_t block, const Share& share) const;
 
@@ -91,13 +91,14 @@ class FastLeapfrog final : public Stepper {
   void move_block(const Pass& pass, std::uint32_t block);
   void kick_and_book(const Pass& pass, std::uint32_t block);
   void drift_and_book(const Pass& pass, std::uint32_t block);
-  static void take_next(Losses& losses);
   MovingFrame after(const Pass& pass, const MovingFrame& frame) const;
-  FastContacts::Step contact_step(const Pass& pass, const MovingFrame& frame) const;
+  /// The drift of a pass that begins with `frame`.
+  FastContacts::Step drift_step(const Pass& pass, const MovingFrame& frame) const;
   void finish_observation();
   double kinetic() const;
   /// The contacts of all blocks, or those of the skin.
   std::vector<const FastContacts*> contact_sets() const;
+  void start_contacts(const State& start, bool with_skin);
   void gather_contacts();
   void throw_if_tunnelled() const;
 
@@ -109,11 +110,11 @@ class FastLeapfrog final : public Stepper {
   MovingFrame frame_;
   std::vector<BlockContacts> block_contacts_;  // by block; empty if there is a skin
   std::optional<SkinContacts> skin_;
-  std::vector<Losses> losses_;  // by block
-  Losses skin_losses_;
+  std::vector<Losses> losses_;     // by block
   std::vector<MovingFrame> sums_;  // over the nodes of each block
   double lost_to_new_steps_ = 0;   // [J]
   std::vector<Vec3> v_minus_, v_plus_;
+  std::vector<Vec3> v_step_;  // displacement of the last step over its length [m/s]
 };
 
 }  // namespace springlod::sim

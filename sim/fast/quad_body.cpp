@@ -94,9 +94,25 @@ Vec3 QuadBody<Real>::force(Place at) const {
 }
 
 template <class Real>
-void QuadBody<Real>::add_force(Place at, const Vec3& force) {
-  Real* sum = this->state_[at.block].forces[at.index].at;
-  for (int axis = 0; axis < 3; ++axis) sum[axis] += static_cast<Real>(force[axis]);
+Vec3 QuadBody<Real>::damping_force(Place at) const {
+  return read(this->state_[at.block].damping_forces[at.index].at);
+}
+
+template <class Real>
+void QuadBody<Real>::shift(Place at, const Vec3& displacement, const Vec3& kick) {
+  QuadBlockState<Real>& own = this->state_[at.block];
+  NodeRecord<Real>& record = own.records[at.index];
+  for (int axis = 0; axis < 3; ++axis) {
+    double to = static_cast<double>(record.x[axis]) + displacement[axis];
+    if (!own.low.empty()) {
+      Real& low = own.low[at.index].at[axis];
+      to += static_cast<double>(low);
+      low = rounding_of<Real>(to);
+    }
+    record.x[axis] = static_cast<Real>(to);
+    record.v[axis] = static_cast<Real>(static_cast<double>(record.v[axis]) + kick[axis]);
+  }
+  own.bounds.extend(read(record.x));
 }
 
 template class QuadBody<float>;

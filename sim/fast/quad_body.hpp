@@ -24,11 +24,15 @@ class QuadBody final : public LaidBody<QuadLayout<Real>, QuadState<Real>> {
   void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const override;
   void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const override;
   const Box3& bounds(std::uint32_t block) const override { return this->state_[block].bounds; }
+  const Vec3& largest_displacement(std::uint32_t block) const override {
+    return this->state_[block].largest_displacement;
+  }
 
   Vec3 x(Place at) const override;
   Vec3 v(Place at) const override;
   Vec3 force(Place at) const override;
-  void add_force(Place at, const Vec3& force) override;
+  Vec3 damping_force(Place at) const override;
+  void shift(Place at, const Vec3& displacement, const Vec3& kick) override;
 };
 
 }  // namespace springlod::sim

@@ -101,9 +101,11 @@ void move(const QuadBlock<Real>& block, Real kick_time, Real drift_time,
   const Corner<Real> d;
   NodeVector<Real> least;
   NodeVector<Real> most;
+  NodeVector<Real> farthest;
   for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
     auto low_corner = hn::Set(d, std::numeric_limits<Real>::max());
     auto high_corner = hn::Set(d, std::numeric_limits<Real>::lowest());
+    auto far = hn::Zero(d);
     for (std::uint32_t i = 0; i < block.own; ++i) {
       NodeRecord<Real>& record = own.records[i];
       auto v = hn::Load(d, record.v + lane);
@@ -121,15 +123,18 @@ void move(const QuadBlock<Real>& block, Real kick_time, Real drift_time,
           to = drift(d, displacement, record.x + lane);
         low_corner = hn::Min(low_corner, to);
         high_corner = hn::Max(high_corner, to);
+        far = hn::Max(far, hn::Abs(displacement));
       }
     }
     hn::Store(low_corner, d, least.at + lane);
     hn::Store(high_corner, d, most.at + lane);
+    hn::Store(far, d, farthest.at + lane);
   }
   if (!drifts) return;
   for (int axis = 0; axis < 3; ++axis) {
     own.bounds.min()[axis] = static_cast<double>(least.at[axis]);
     own.bounds.max()[axis] = static_cast<double>(most.at[axis]);
+    own.largest_displacement[axis] = static_cast<double>(farthest.at[axis]);
   }
 }
 

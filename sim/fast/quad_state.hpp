@@ -29,7 +29,8 @@ struct QuadBlockState {
   /// Part of the own nodes' positions below the last bit of x [m], where the displacement of a step
   /// often lies. Empty in double precision.
   std::vector<NodeVector<Real>> low;
-  Box3 bounds;  ///< of the own nodes [m]
+  Box3 bounds;                               ///< of the own nodes [m]
+  Vec3 largest_displacement = Vec3::Zero();  ///< see FastBody [m]
 };
 
 template <class Real>

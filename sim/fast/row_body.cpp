@@ -84,10 +84,27 @@ Vec3 RowBody<Real>::force(Place at) const {
 }
 
 template <class Real>
-void RowBody<Real>::add_force(Place at, const Vec3& force) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    this->state_.force[at.block][axis][at.index] +=
-        static_cast<Real>(force[static_cast<Eigen::Index>(axis)]);
+Vec3 RowBody<Real>::damping_force(Place at) const {
+  return read<Real>(this->state_.damping_force[at.block], at.index);
+}
+
+template <class Real>
+void RowBody<Real>::shift(Place at, const Vec3& displacement, const Vec3& kick) {
+  const std::uint32_t place = position(at);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto of_vector = static_cast<Eigen::Index>(axis);
+    Real& x = this->state_.x[axis][place];
+    double to = static_cast<double>(x) + displacement[of_vector];
+    if (this->state_.low[axis]) {
+      Real& low = this->state_.low[axis][place];
+      to += static_cast<double>(low);
+      low = rounding_of<Real>(to);
+    }
+    x = static_cast<Real>(to);
+    this->state_.v[axis][place] =
+        static_cast<Real>(static_cast<double>(this->state_.v[axis][place]) + kick[of_vector]);
+  }
+  this->state_.bounds[at.block].extend(this->x(at));
 }
 
 template class RowBody<float>;

@@ -25,11 +25,15 @@ class RowBody final : public LaidBody<RowLayout<Real>, RowState<Real>> {
   void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const override;
   void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const override;
   const Box3& bounds(std::uint32_t block) const override { return this->state_.bounds[block]; }
+  const Vec3& largest_displacement(std::uint32_t block) const override {
+    return this->state_.largest_displacement[block];
+  }
 
   Vec3 x(Place at) const override;
   Vec3 v(Place at) const override;
   Vec3 force(Place at) const override;
-  void add_force(Place at, const Vec3& force) override;
+  Vec3 damping_force(Place at) const override;
+  void shift(Place at, const Vec3& displacement, const Vec3& kick) override;
 
  private:
   std::uint32_t position(Place at) const {

@@ -201,6 +201,7 @@ void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick_ti
   Real* HWY_RESTRICT all_x = state.x[axis].get() + block.first;
   auto least = hn::Set(d, std::numeric_limits<Real>::max());
   auto most = hn::Set(d, std::numeric_limits<Real>::lowest());
+  auto farthest = hn::Zero(d);
   for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
     auto v = hn::LoadU(d, all_v + p);
     if constexpr (kicks) {
@@ -217,6 +218,7 @@ void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick_ti
         to = drift(d, displacement, all_x + p);
       least = hn::Min(least, to);
       most = hn::Max(most, to);
+      farthest = hn::Max(farthest, hn::Abs(displacement));
     }
   }
   if (!drifts) return;
@@ -224,6 +226,8 @@ void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick_ti
   Box3& bounds = state.bounds[number];
   bounds.min()[i] = static_cast<double>(hn::GetLane(hn::MinOfLanes(d, least)));
   bounds.max()[i] = static_cast<double>(hn::GetLane(hn::MaxOfLanes(d, most)));
+  state.largest_displacement[number][i] =
+      static_cast<double>(hn::GetLane(hn::MaxOfLanes(d, farthest)));
 }
 
 template <class Real>

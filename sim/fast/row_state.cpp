@@ -17,7 +17,7 @@ void allocate(std::size_t size, typename RowState<Real>::Coordinates& coordinate
 
 template <class Real>
 RowState<Real>::RowState(const RowLayout<Real>& layout, bool with_damping)
-    : bounds(layout.blocks.size()) {
+    : bounds(layout.blocks.size()), largest_displacement(layout.blocks.size(), Vec3::Zero()) {
   const std::size_t size = layout.inverse_mass.size() + layout.reach;
   allocate<Real>(size, x);
   allocate<Real>(size, v);

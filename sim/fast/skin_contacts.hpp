@@ -1,55 +1,58 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
+#include "sim/contact/contact_schedule.hpp"
 #include "sim/fast/fast_contacts.hpp"
 
 namespace springlod::sim {
 
 /// The contacts of the points of a skin. A point may depend on nodes of several blocks, so one
-/// thread works on all points while the others wait. An obstacle costs nothing while the body does
-/// not touch it, and almost nothing for a point that cannot have reached it yet.
+/// thread works on all points while the others wait. An obstacle costs nothing while the body is
+/// away from it, and nothing for a point that cannot have reached it yet.
 class SkinContacts final : public FastContacts {
  public:
-  /// The model must outlive this.
-  SkinContacts(const Shared& shared, const MassSpringModel& model);
+  explicit SkinContacts(const Shared& shared);
 
-  /// Also checks whether points tunnelled through walls since the last step.
-  void apply(const Step& step) override;
+  /// Also checks whether points tunnelled through walls.
+  void correct(const Step& step) override;
 
  private:
-  /// Last check of one obstacle.
+  static constexpr std::uint32_t kNone = static_cast<std::uint32_t>(-1);
+
+  /// The checks of one obstacle.
   struct View {
-    std::optional<std::uint64_t> last;  // step at which it was checked
-    std::vector<double> due;  // travel of the body below which each point cannot touch it [m]
+    ContactSchedule schedule;
+    double travel = 0;  // largest travel of a node towards the obstacle, summed over the steps [m]
+    std::vector<std::uint64_t> checked_at;  // by point: last step, plus 1
+    std::vector<std::uint32_t> before;      // by point: place in the solver's before(), or kNone
   };
 
-  Vec3 velocity_before_kick(std::size_t contact) const override;
-  Vec3 velocity_after_kick(std::size_t contact) const override { return after_kick_[contact]; }
-  Vec3 kicked_velocity(const Contact& contact, const Step& step) const;
-
-  /// Position and velocity before the kick.
-  Motion motion(std::uint32_t point) const;
   /// Bounds of all points in world axes [m].
   Box3 bounds(const MovingFrame& frame) const;
-  bool near_anything(const Box3& region) const;
-  void arrive(const Step& step, bool near, const Box3& swept);
-  void find_contacts(const Step& step, std::size_t obstacle);
-  void add_friction(const Step& step);
+  bool near_anything(const Box3& swept) const;
+  void arrive();
+  void add_travel(const Step& step);
+  void check_points(const Step& step, std::uint32_t obstacle);
+  /// Returns the travel of the body below which the point cannot touch the obstacle [m].
+  double check_point(const Step& step, std::uint32_t obstacle, std::uint32_t point);
+  void solve_contacts(const Step& step);
+  // Start and end of the step.
+  const Vec3& node_to(const Step& step, std::uint32_t node);
+  Vec3 node_from(const Step& step, std::uint32_t node);
+  Vec3 point_to(const Step& step, std::uint32_t point);
+  Vec3 point_from(const Step& step, std::uint32_t point);
 
-  const MassSpringModel* model_;
   std::vector<std::uint32_t> numbers_;  // numbers of all points
   double reach_ = 1;                    // largest reach of a point [1]
-  std::vector<Vec3> x_, v_;             // of the nodes
-  Box3 bounds_;
-  std::optional<std::uint64_t> arrived_;   // step number
-  double travel_ = 0, travel_before_ = 0;  // sum over the steps of the fastest node's travel [m]
-  std::vector<View> views_;                // by obstacle
-  std::optional<std::uint64_t> kicked_;    // step number
-  std::vector<Contact> contacts_before_;
-  std::vector<Vec3> after_kick_;  // velocities of the points in now() [m/s]
+  double near_ = 0;                     // bin of the schedules [m]
+  Box3 bounds_;                         // at the end of the last step
+  bool away_ = true;                    // in the last step
+  std::vector<View> views_;             // by obstacle
+  std::vector<Vec3> to_;                // of the nodes; at the end of the step ...
+  std::vector<std::uint64_t> to_of_;    // ... whose number this is
+  std::vector<Vec3> from_;              // scratch: start of the step of each point
 };
 
 }  // namespace springlod::sim

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/integrators/contact_losses.hpp"
+#include "sim/contact/step_correction.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -16,7 +16,13 @@ Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const
       v_plus_(start.v),
       v_damping_(start.v),
       force_(start.x.size()),
-      damping_force_(start.x.size(), Vec3::Zero()) {
+      damping_force_(start.x.size(), Vec3::Zero()),
+      touching_(points_, finder_, model.node_count()),
+      v_step_(start.v),
+      x_next_(start.x),
+      v_next_(start.v) {
+  finder_.find(x_, start.v, contacts_);
+  touching_.set(contacts_);
   find_forces(false);
   for (std::size_t i = 0; i < x_.size(); ++i)
     v_minus_[i] -= 0.5 * step_ * (force_[i] / model.mass[i] + gravity_);
@@ -32,37 +38,61 @@ void Leapfrog::find_forces(bool with_damping) {
   } else {
     add_spring_forces<false>(*model_, x_, w, force_, damping_force_);
   }
-  std::swap(contacts_, contacts_before_);
-  finder_.find(x_, w, contacts_);
-  keep_stick_springs(contacts_before_, contacts_);
-  add_normal_forces(points_, contacts_, force_);
 }
 
 void Leapfrog::prepare() {
   find_forces(with_ledger_);
-  for (std::size_t i = 0; i < x_.size(); ++i)
+  if (with_ledger_ && n_ > 0) book_damping(v_minus_);
+  for (std::size_t i = 0; i < x_.size(); ++i) {
     v_plus_[i] = v_minus_[i] + step_ * (force_[i] / model_->mass[i] + gravity_);
-  apply_friction(points_, step_, contacts_, v_plus_);
-  if (with_ledger_ && n_ > 0) book_half_step(v_minus_, -step_);
+    x_next_[i] = x_[i] + step_ * v_plus_[i];
+    v_next_[i] = v_plus_[i];
+  }
+  if (with_ledger_) book_end();
+  correct_step(points_, obstacle_count_, step_, x_, touching_, x_next_, v_next_);
+  v_step_ = v_plus_;
+  for (const NodeChange& change : touching_.changes())
+    v_step_[change.node] += change.displacement / step_;
 }
 
 void Leapfrog::commit() {
-  if (with_ledger_) book_half_step(v_plus_, step_);
-  for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += step_ * v_plus_[i];
+  if (with_ledger_) {
+    book_damping(v_plus_);
+    book_contacts();
+  }
   if (integrator_ == Integrator::velocity_verlet)
     for (std::size_t i = 0; i < x_.size(); ++i)
-      v_damping_[i] = v_plus_[i] + 0.5 * (v_plus_[i] - v_minus_[i]);
-  std::swap(v_minus_, v_plus_);
+      v_damping_[i] = v_next_[i] + 0.5 * (v_plus_[i] - v_minus_[i]);
+  std::swap(x_, x_next_);
+  std::swap(v_minus_, v_next_);
+  contacts_ = touching_.now();
   ++n_;
 }
 
-void Leapfrog::book_half_step(const std::vector<Vec3>& v, double to_neighbour) {
+void Leapfrog::book_damping(const std::vector<Vec3>& v) {
   double damping = 0;
   for (std::size_t i = 0; i < x_.size(); ++i) damping -= damping_force_[i].dot(v[i]);
   losses_.lost_damping += 0.5 * step_ * damping;
-  for (const Contact& c : contacts_)
-    book_contact(c, points_.mass(c.point), step_, points_.interpolate(c.point, v), to_neighbour,
-                 losses_);
+}
+
+// See LedgerEntry. The damping forces take their own part.
+double Leapfrog::half_work(std::uint32_t node, const Vec3& displacement) const {
+  const Vec3 force = force_[node] - damping_force_[node] + model_->mass[node] * gravity_;
+  return 0.5 * force.dot(displacement);
+}
+
+void Leapfrog::book_end() {
+  for (const NodeChange& change : touching_.changes())
+    losses_.lost_contact -= half_work(change.node, change.by_pressure(step_));
+}
+
+void Leapfrog::book_contacts() {
+  losses_.lost_contact += touching_.losses().contact;
+  losses_.lost_friction += touching_.losses().friction;
+  for (const NodeChange& change : touching_.changes()) {
+    losses_.lost_contact += half_work(change.node, change.by_pressure(step_));
+    losses_.lost_friction += half_work(change.node, change.by_friction(step_));
+  }
 }
 
 std::vector<Vec3> Leapfrog::positions_at(double time) const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/contact/step_contacts.hpp"
 #include "sim/integrators/stepper.hpp"
 
 namespace springlod::sim {
@@ -10,8 +11,9 @@ namespace springlod::sim {
 /// The state of a run under leapfrog: positions x_n at whole steps, velocities half a step before
 /// and after.
 ///
-///   kick:   v+ = v- + dt (F(x_n, w_n) / m + g), then friction takes its part of the slip
-///   drift:  x_{n+1} = x_n + dt v+
+///   kick:     v+ = v- + dt (F(x_n, w_n) / m + g)
+///   drift:    x_{n+1} = x_n + dt v+
+///   contact:  x_{n+1} += dx, v- of the next step = v+ + dv: see StepContacts
 ///
 /// Both integrators are this scheme; they differ in the velocity w_n that the damping force uses:
 /// - symplectic_euler: w_n = v-, the old velocity. Damping is first order in dt; the limit is
@@ -27,7 +29,7 @@ class Leapfrog final : public StepByStep {
   Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
            const StepperOptions& options);
 
-  /// Kick: takes v- to v+ at x_n and books the first half of the step's losses.
+  /// Takes v- to v+ at x_n, and solves the contacts of the step to x_{n+1}.
   void prepare() override;
 
   std::uint64_t spring_updates() const override { return n_ * model_->spring_count(); }
@@ -39,19 +41,27 @@ class Leapfrog final : public StepByStep {
   LedgerEntry ledger_entry() const override;
 
  private:
-  /// Drift: takes x_n to x_{n+1} and books the second half.
+  /// Takes x_n to x_{n+1}.
   void commit() override;
-  const std::vector<Vec3>& velocities_after() const override { return v_plus_; }
+  const std::vector<Vec3>& step_velocities() const override { return v_step_; }
   void find_forces(bool with_damping);
-  /// Half of a step's losses, with the velocity v- (to_neighbour = -dt) or v+ (dt).
-  void book_half_step(const std::vector<Vec3>& v, double to_neighbour);
+  /// Half of the damping losses of a step, with the velocity v- or v+.
+  void book_damping(const std::vector<Vec3>& v);
+  /// The losses of the contacts of the next step; book_end: their part that depends on the forces
+  /// at its end, one step later.
+  void book_contacts();
+  void book_end();
+  /// Half the work of the elastic forces and of gravity on a node over a displacement [J].
+  double half_work(std::uint32_t node, const Vec3& displacement) const;
 
   Integrator integrator_;
   bool with_ledger_;
   std::vector<Vec3> v_minus_, v_plus_;
   std::vector<Vec3> v_damping_;  // w_n; unused by symplectic Euler
   std::vector<Vec3> force_, damping_force_;
-  std::vector<Contact> contacts_before_;  // a step ago
+  StepContacts touching_;
+  std::vector<Vec3> v_step_;
+  std::vector<Vec3> x_next_, v_next_;  // at the end of the step that prepare() computed
   LedgerEntry losses_;
 };
 

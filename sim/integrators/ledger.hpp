@@ -17,10 +17,10 @@ namespace springlod::sim {
 /// The sum of all entries is therefore an independent check. It shows the trapezoid error of
 /// rotating springs, and nodes that move to another face of a box.
 ///
-/// Contacts that begin or end within a step: from depth -g (a gap) to d, the trapezoid rule takes
-/// the energy kappa A d (d + g) / 2 out of the motion, but the penalty spring stores only kappa A
-/// d^2 / 2. The rest, kappa A d g / 2, is lost and partly regained when the contact ends. This
-/// discretization loss is proportional to dt^2 and is recorded under lost_contact.
+/// Contacts take from the motion what they store or lose (NormalLaw), but the displacement of a
+/// node that they push differs from the velocities at both ends of the step. By this discretization
+/// error, proportional to dt, the forces of the scheme do work on it that the trapezoid rule does
+/// not contain. It is recorded under lost_contact.
 ///
 /// K_n is not a sum of squares: it lies below the kinetic energy of the mean velocity by
 /// m |dt F/m|^2 / 8.
@@ -32,7 +32,7 @@ struct LedgerEntry {
   double contact = 0;        ///< stored in the penalty and stick springs
   double lost_damping = 0;   ///< to spring damping
   double lost_friction = 0;  ///< to sliding, and to the dampers of stick springs
-  double lost_contact = 0;   ///< to contact damping and to contact beginning or ending in mid-step
+  double lost_contact = 0;   ///< to contact damping and the discretization error of contacts
   double lost_switch = 0;    ///< to a change of the level, or of the step (K_n depends on it)
   /// The energy that can still become motion.
   double mechanical() const { return kinetic + elastic + gravity + contact; }

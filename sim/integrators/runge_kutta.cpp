@@ -65,8 +65,6 @@ double RungeKutta::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3
   } else {
     add_spring_forces<false>(*model_, x, v, a, damping_force_);
   }
-  finder_.find(x, v, contacts_stage_);
-  add_normal_forces(points_, contacts_stage_, a);
   for (std::size_t i = 0; i < x.size(); ++i) a[i] = a[i] / model_->mass[i] + gravity_;
   spring_updates_ += model_->spring_count();
   return power;

@@ -6,9 +6,9 @@
 
 namespace springlod::sim {
 
-/// The classical Runge-Kutta scheme of fourth order on (x, v): evaluates elastic, damping and
-/// contact forces at four points per step. (The order is lower in steps where nodes touch or leave
-/// obstacles, and for friction, which is applied after the step.)
+/// The classical Runge-Kutta scheme of fourth order on (x, v): evaluates elastic and damping forces
+/// at four points per step. (The order is lower in steps with contact, which is applied after the
+/// step.)
 class RungeKutta final : public WholeStep {
  public:
   RungeKutta(const MassSpringModel& model, const Scenario& scenario, const State& start,
@@ -20,7 +20,6 @@ class RungeKutta final : public WholeStep {
   double accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Vec3>& a);
 
   std::vector<Vec3> x_stage_, v_stage_, acceleration_, damping_force_;
-  std::vector<Contact> contacts_stage_;
 };
 
 /// Largest stable step of the scheme for springs of one damping time beta [s] and frequencies up to

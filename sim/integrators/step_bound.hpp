@@ -14,9 +14,9 @@ enum class StepBound {
 };
 
 inline constexpr Choice<StepBound> kStepBounds[] = {
-    {StepBound::springs, "springs", "highest frequency of the springs, contacts included"},
+    {StepBound::springs, "springs", "highest frequency of the springs"},
     {StepBound::damping, "damping",
-     "damping time of springs or obstacles: without it, the step would be more than twice as long"},
+     "damping time of the springs: without it, the step would be more than twice as long"},
     {StepBound::asked, "asked", "the option step"},
     {StepBound::duration, "duration", "at least 100 steps in the duration"},
     {StepBound::scheme, "scheme", "default step of the implicit schemes"}};

@@ -10,6 +10,7 @@ Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const S
       gravity_(scenario.gravity),
       step_(step),
       x_(start.x),
+      obstacle_count_(scenario.obstacles.size()),
       points_(skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model)),
       finder_(points_, scenario.obstacles, start.x),
       walls_(points_, scenario.obstacles, start.x),
@@ -31,15 +32,15 @@ Vec3 Stepper::center_of_mass() const {
 }
 
 Vec3 Stepper::center_velocity() const {
-  return springlod::center_of_mass(*model_, velocities_after());
+  return springlod::center_of_mass(*model_, step_velocities());
 }
 
 double Stepper::gravity_energy() const {
   return -total_mass_ * gravity_.dot(center_of_mass() - first_center_);
 }
 
-double Stepper::kinetic_after(std::uint32_t* fastest) const {
-  const std::vector<Vec3>& v = velocities_after();
+double Stepper::kinetic_of_step(std::uint32_t* fastest) const {
+  const std::vector<Vec3>& v = step_velocities();
   double sum = 0;
   double most = -1;
   for (std::uint32_t i = 0; i < v.size(); ++i) {

@@ -51,12 +51,11 @@ class Stepper {
   virtual std::vector<Vec3> positions_at(double time) const = 0;
   virtual State state() const = 0;
   Vec3 center_of_mass() const;
-  Vec3 center_velocity() const;  ///< from the velocities with which the body continues
+  Vec3 center_velocity() const;  ///< of the displacement of a step
   /// Energies at t_n and losses so far; what is exact depends on the scheme.
   virtual LedgerEntry ledger_entry() const = 0;
-  /// Sum of m v . v / 2 [J] of the velocities with which the body continues, and the node with the
-  /// largest term.
-  double kinetic_after(std::uint32_t* fastest) const;
+  /// Sum of m v . v / 2 [J] for the displacement of a step, and the node with the largest term.
+  double kinetic_of_step(std::uint32_t* fastest) const;
 
  protected:
   /// `skin`: where the body touches obstacles; null: at its nodes.
@@ -66,8 +65,8 @@ class Stepper {
   double time_of(std::uint64_t n) const {
     return start_time_ + static_cast<double>(n - start_n_) * step_;
   }
-  /// The velocities with which the body continues from x_n.
-  virtual const std::vector<Vec3>& velocities_after() const = 0;
+  /// Displacement of the step to or from x_n over its length, with that by contacts.
+  virtual const std::vector<Vec3>& step_velocities() const = 0;
   /// Gravitational potential energy relative to the start [J].
   double gravity_energy() const;
 
@@ -79,6 +78,7 @@ class Stepper {
   std::uint64_t start_n_ = 0;
   double start_time_ = 0;  // [s]
   std::vector<Vec3> x_;
+  std::size_t obstacle_count_;
   ContactPoints points_;
   ContactFinder finder_;
   std::vector<Contact> contacts_;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "sim/contact/step_correction.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -13,16 +14,48 @@ WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, con
       v_(start.v),
       x_next_(start.x),
       v_next_(start.v),
-      friction_moves_(is_implicit(options.integrator)) {
+      implicit_(is_implicit(options.integrator)),
+      touching_(points_, finder_, model.node_count()) {
   finder_.find(x_, v_, contacts_);
+  touching_.set(contacts_);
 }
 
 void WholeStep::prepare() {
   solve();
+  next_losses_.lost_damping = lost_damping_;
+  if (implicit_)
+    find_contacts();
+  else
+    correct_contacts();
+}
+
+void WholeStep::correct_contacts() {
+  const std::vector<Vec3> free_x = x_next_;
+  const std::vector<Vec3> free_v = v_next_;
+  correct_step(points_, obstacle_count_, step_, x_, touching_, x_next_, v_next_);
+  next_contacts_ = touching_.now();
+  next_losses_.lost_contact += touching_.losses().contact;
+  next_losses_.lost_friction += touching_.losses().friction;
+  if (with_ledger_ && !touching_.changes().empty())
+    next_losses_.lost_contact -= gain_by_shift(free_x, free_v);
+}
+
+// The contacts work over the displacement of the step, but they change the velocities at its end,
+// and the potential energy of the other forces.
+double WholeStep::gain_by_shift(const std::vector<Vec3>& free_x, const std::vector<Vec3>& free_v) {
+  double gain = elastic_energy(*model_, x_next_) - elastic_energy(*model_, free_x);
+  for (const NodeChange& change : touching_.changes()) {
+    const std::uint32_t i = change.node;
+    const Vec3 ahead = free_v[i] - (free_x[i] - x_[i]) / step_;
+    gain += model_->mass[i] * (change.kick.dot(ahead) - gravity_.dot(change.displacement));
+  }
+  return gain;
+}
+
+void WholeStep::find_contacts() {
   finder_.find(x_next_, v_next_, next_contacts_);
   keep_stick_springs(contacts_, next_contacts_);
   add_friction();
-  next_losses_.lost_damping = lost_damping_;
   for (const Contact& c : next_contacts_)
     next_losses_.lost_contact -=
         step_ * c.damping_force * c.normal.dot(points_.interpolate(c.point, v_next_));
@@ -41,7 +74,6 @@ void WholeStep::add_friction() {
   };
   next_losses_.lost_friction += apply_friction(points_, step_, next_contacts_, v_next_);
   next_losses_.lost_friction += held(contacts_) - held(next_contacts_);
-  if (!friction_moves_) return;
   for (const Contact& c : next_contacts_) points_.kick(c.point, step_ * c.slip_change, x_next_);
 }
 

@@ -31,13 +31,13 @@ EnergyCheck::EnergyCheck(const MassSpringModel& model, const Stepper& start, Pre
       limit_(limit),
       rounding_(std::pow(rounding_strain(precision), 2) * spring_work(model)) {
   std::uint32_t node = 0;
-  available_ = start.kinetic_after(&node) + elastic_energy(model, start.positions()) +
+  available_ = start.kinetic_of_step(&node) + elastic_energy(model, start.positions()) +
                contact_energy(start.contacts());
 }
 
 void EnergyCheck::check(const Stepper& body, double gravity_work) {
   std::uint32_t node = 0;
-  const double kinetic = body.kinetic_after(&node);
+  const double kinetic = body.kinetic_of_step(&node);
   if (!std::isfinite(kinetic)) throw_not_finite(body);
   most_gravity_work_ = std::max(most_gravity_work_, gravity_work);
   const double bound = kEnergyMargin * (available_ + most_gravity_work_) + rounding_;

@@ -25,7 +25,7 @@ RestCriterion::RestCriterion(const MassSpringModel& model, const Scenario& scena
 
 bool RestCriterion::check(const Stepper& body) {
   std::uint32_t fastest = 0;
-  if (body.contacts().empty() || !(body.kinetic_after(&fastest) < most_energy_))
+  if (body.contacts().empty() || !(body.kinetic_of_step(&fastest) < most_energy_))
     last_awake_ = body.time();
   return body.time() - last_awake_ >= kRest;
 }

@@ -23,10 +23,8 @@ StepController::StepController(const MassSpringModel& model, const StepLimit& li
 // The frequency bounds of the nodes exceed the highest frequency, those of light nodes by far.
 // Therefore only the relative growth of each bound is used.
 double StepController::frequency(const std::vector<Vec3>& x) {
-  if (at_rest_.empty())
-    at_rest_ = elastic::node_frequency_bounds(*model_, model_->rest, limit_.ground_stiffness);
-  const std::vector<double> now =
-      elastic::node_frequency_bounds(*model_, x, limit_.ground_stiffness);
+  if (at_rest_.empty()) at_rest_ = elastic::node_frequency_bounds(*model_, model_->rest);
+  const std::vector<double> now = elastic::node_frequency_bounds(*model_, x);
   const double square = limit_.omega * limit_.omega;
   double most = square;
   for (std::size_t i = 0; i < now.size(); ++i)

@@ -112,7 +112,7 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
   body.springs = model.spring_count();
   body.period = at_ratio->period;
   body.duration = specimen.scene.duration;
-  const StepLimit limit = step_limit(model, specimen.scene);
+  const StepLimit limit = step_limit(model);
   body.limit = limit.step;
   body.limited_by = limit.limited_by();
   if (!body.mechanism_nodes.empty()) return specimen;
@@ -120,9 +120,8 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
     body.frequency_error =
         mean_error(lowest_frequencies(model, options.seed), at_ratio->frequencies);
 
-  const double step =
-      std::min(kReferencePart * predicted_step(model, specimen.scene, Integrator::velocity_verlet),
-               specimen.scene.duration / kSamples);
+  const double step = std::min(kReferencePart * predicted_step(model, Integrator::velocity_verlet),
+                               specimen.scene.duration / kSamples);
   specimen.reference = fine_run(model, specimen, step, progress[0]);
   specimen.reference_displacement = std::sqrt(squared_distance(
       model, specimen.reference,

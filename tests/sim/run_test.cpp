@@ -20,8 +20,7 @@ TEST_CASE("The energy ledger closes within 1 % for the ball rolling on the floor
   const auto& end = t.ledger.back();
   CHECK(end.lost_damping > 0);
   CHECK(end.lost_friction > 0);
-  // The floor has no damping: lost_contact holds only the losses of contacts that begin within a
-  // step.
+  // The floor has no damping: lost_contact holds only the discretization error of contacts.
   CHECK(std::abs(end.lost_contact) < 0.01 * end.lost_damping);
   CHECK(t.ledger.size() == t.frames.size());
 }

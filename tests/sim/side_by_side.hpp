@@ -67,8 +67,7 @@ using OptionsOf = std::conditional_t<std::is_same_v<Scheme, sim::FastLeapfrog>, 
 template <class Scheme>
 Outcome after(const MassSpringModel& model, const sim::Scenario& scene, std::uint64_t steps,
               const OptionsOf<Scheme>& options, std::uint64_t stride) {
-  const double step = 0.5 * sim::predicted_step(model, scene, sim::Integrator::symplectic_euler,
-                                                options.skin.get());
+  const double step = 0.5 * sim::predicted_step(model);
   Scheme body(model, scene, sim::initial_state(model, scene.start), step, options);
   body.prepare();
   while (body.step_number() < steps) body.advance(std::min(stride, steps - body.step_number()));

@@ -26,9 +26,9 @@ std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::Co
 std::string damping_hint(const sim::Trajectory& run) {
   return fmt::format(
       "to {:.2g} % of that without damping (stable step {:.3g} s, without damping {:.3g} s); for a "
-      "longer step, give the materials a smaller damping_ratio or a shorter damping time "
-      "(obstacles "
-      "have one too), or take an implicit integrator",
+      "longer step, give the materials a smaller damping_ratio or a shorter damping time, or take "
+      "an "
+      "implicit integrator",
       100 * run.predicted_step / run.undamped_step, run.predicted_step, run.undamped_step);
 }
 

@@ -1,5 +1,7 @@
 #include "scripting/bind/tables/scenario_table.hpp"
 
+#include <string_view>
+
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <lua.hpp>
@@ -12,6 +14,8 @@ namespace springlod::scripting {
 namespace {
 
 constexpr const char* kGroup = "Simulation";
+
+constexpr std::string_view kAutomatic = "auto";  // stiffness of an obstacle
 
 Mat3 read_turn(Call& call, int table, const std::string& owner) {
   TableReader reader = call.record(table, "Turn", owner);
@@ -53,6 +57,16 @@ sim::SolidBox read_box(Call& call, int table, const std::string& owner) {
   return box;
 }
 
+/// A number, or "auto".
+void read_stiffness(Call& call, TableReader& reader, std::optional<double>& into) {
+  const int value = reader.raw("stiffness");
+  if (value == 0) return;
+  lua_State* L = call.lua();
+  const bool automatic =
+      lua_type(L, value) == LUA_TSTRING && std::string_view(lua_tostring(L, value)) == kAutomatic;
+  if (!automatic) reader.read("stiffness", into);
+}
+
 sim::Obstacle read_obstacle(Call& call, int table, const std::string& owner) {
   TableReader reader = call.record(table, "Obstacle", owner);
   sim::Obstacle obstacle;
@@ -62,7 +76,7 @@ sim::Obstacle read_obstacle(Call& call, int table, const std::string& owner) {
   if (plane != 0) obstacle.shape = read_plane(call.lua(), plane, owner + ".plane");
   if (box != 0) obstacle.shape = read_box(call, box, owner + ".box");
   reader.read("name", obstacle.name);
-  reader.read("stiffness", obstacle.stiffness);
+  read_stiffness(call, reader, obstacle.stiffness);
   reader.read("friction", obstacle.friction);
   reader.read("damping", obstacle.damping);
   reader.finish();
@@ -155,9 +169,10 @@ void describe_obstacles(Api& api) {
                   .fallback = "\"\"",
                   .help = "name for labels and measure_from, such as \"wall\""},
                  {.name = "stiffness",
-                  .type = "number",
-                  .fallback = fmt::format("{}", usual.stiffness),
-                  .help = "force per contact area and depth [N/m3]"},
+                  .type = "number or \"auto\"",
+                  .fallback = fmt::format("\"{}\"", kAutomatic),
+                  .help = "force per contact area and depth [N/m3]; \"auto\": from the stiffness "
+                          "of the body's surface at each contact point"},
                  {.name = "friction",
                   .type = "number",
                   .fallback = fmt::format("{}", usual.friction),

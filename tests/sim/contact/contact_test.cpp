@@ -151,20 +151,6 @@ TEST_CASE("A stick spring is kept while its point touches the same obstacle, and
   CHECK(now[3].stretch[0] == 0);
 }
 
-TEST_CASE("Contact stiffness adds up only where obstacles push in the same direction") {
-  const ContactPoints points(one_node(0.5));
-  Obstacle floor = test::floor(1e6, 0);
-  Obstacle wall = test::floor(3e6, 0);
-  wall.shape = Plane{Vec3::UnitX(), 0};
-  Obstacle ceiling = test::floor(1e6, 0);
-  ceiling.shape = Plane{-Vec3::UnitZ(), -5};
-  CHECK(contact_stiffness(points, {floor})[0] == Approx(0.5e6));
-  CHECK(contact_stiffness(points, {floor, wall})[0] == Approx(1.5e6));
-  CHECK(contact_stiffness(points, {floor, ceiling})[0] == Approx(1e6));
-  CHECK(contact_stiffness(points, {floor, box_obstacle({})})[0] == Approx(0.55e6));
-  CHECK(contact_stiffness(points, {})[0] == 0);
-}
-
 TEST_CASE("A node pressed past the middle of a thin box goes back where it came from") {
   SolidBox plate;
   plate.half_size = {1, 1, 0.01};

@@ -150,7 +150,7 @@ TEST_CASE("Bodies of one layout do not disturb each other") {
   const Scenario scene = rough_scene(model);
   const std::shared_ptr<const FastModel> layout =
       make_fast_model(model, Precision::double_precision);
-  const double step = 0.5 * predicted_step(model, scene);
+  const double step = 0.5 * predicted_step(model);
   const State start = initial_state(model, scene.start);
   FastLeapfrog first(model, scene, start, step, {.layout = layout});
   FastLeapfrog second(model, scene, start, step, {.layout = layout});
@@ -165,7 +165,7 @@ TEST_CASE("Bodies of one layout do not disturb each other") {
 TEST_CASE("A fast run may change its step: same path, ledger closed") {
   const MassSpringModel model = two_material_block(5);
   const Scenario scene = rough_scene(model);
-  const double step = 0.5 * predicted_step(model, scene);
+  const double step = 0.5 * predicted_step(model);
   const State start = initial_state(model, scene.start);
   FastLeapfrog steady(model, scene, start, step, {});
   FastLeapfrog changing(model, scene, start, step, {});
@@ -207,7 +207,7 @@ TEST_CASE("Bodies past the middle of a thin box stay on their side of it when th
                          .half_size = {10, 10, half},
                          .rotation = Mat3::Identity()};
   scene.obstacles = {plate};
-  const double step = 0.5 * predicted_step(model, scene);
+  const double step = 0.5 * predicted_step(model);
   const State start = initial_state(model, scene.start);
   LodChain chain;
   chain.levels.push_back({model, identity_groups(model.node_count()), "base"});

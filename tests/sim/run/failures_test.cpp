@@ -83,8 +83,7 @@ TEST_CASE("The step that the tunnelling message advises keeps the body out") {
   const double advised = std::stod(message.substr(at + 18));
   CHECK(advised < 0.02 / 20);
   CHECK(advised > 0.1 * 0.02 / 20);
-  CHECK_NOTHROW(
-      run(model, scene, {.step = std::min(0.9 * advised, 0.8 * predicted_step(model, scene))}));
+  CHECK_NOTHROW(run(model, scene, {.step = std::min(0.9 * advised, 0.8 * predicted_step(model))}));
 }
 
 TEST_CASE("A body pushed through a wall too soft to hold it is stopped, with other advice") {
@@ -131,7 +130,7 @@ TEST_CASE("A step beyond the limit of damping is reported as caused by damping")
   for (const Integrator integrator :
        {Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::runge_kutta_4}) {
     CAPTURE(to_string(integrator));
-    const StepLimit limit = step_limit(model, scene, integrator);
+    const StepLimit limit = step_limit(model, integrator);
     CHECK(limit.limited_by() == StepBound::damping);
     CHECK(limit.step < 0.5 * limit.without_damping);
     const auto at = [&](double part) {
@@ -142,7 +141,7 @@ TEST_CASE("A step beyond the limit of damping is reported as caused by damping")
         run(model, scene, at(1.2)),
         Catch::Contains("damping is what bounds the step") && Catch::Contains("less damping"));
   }
-  const StepLimit light = step_limit(cube(1e-4), scene);
+  const StepLimit light = step_limit(cube(1e-4));
   CHECK(light.limited_by() == StepBound::springs);
   CHECK_THROWS_WITH(run(cube(1e-4), scene, {.step = 1.2 * light.without_damping}),
                     Catch::Contains("beyond the limit") && !Catch::Contains("damping"));

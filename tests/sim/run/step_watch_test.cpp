@@ -48,12 +48,11 @@ TEST_CASE("A node's frequency bound grows as springs are stretched or flattened"
   pair.rest_length = {1};
   pair.stiffness = {8};
   const auto bounds_at = [](const MassSpringModel& model, const std::vector<Vec3>& x) {
-    return elastic::node_frequency_bounds(model, x, {});
+    return elastic::node_frequency_bounds(model, x);
   };
   // Stretched or not, the spring is stiffest along its direction: 2 k / m.
   CHECK(bounds_at(pair, pair.rest)[0] == Approx(8));
   CHECK(bounds_at(pair, {Vec3::Zero(), 3 * Vec3::UnitX()})[1] == Approx(8));
-  CHECK(elastic::node_frequency_bounds(pair, pair.rest, {2, 0})[0] == Approx(9));
 
   const MassSpringModel model = soft_block();
   const auto rest = bounds_at(model, model.rest);
@@ -76,7 +75,7 @@ TEST_CASE("A node's frequency bound grows as springs are stretched or flattened"
 TEST_CASE("The step is halved where springs are strained hard, and doubled again") {
   const MassSpringModel model = soft_block();
   Scenario scene = test::weightless(1);
-  const StepLimit limit = step_limit(model, scene);
+  const StepLimit limit = step_limit(model);
   const double step = 0.8 * limit.step;
   StepController watch(model, limit, step);
   CHECK(watch.step_for(model.rest, 0) == step);

@@ -64,7 +64,7 @@ TEST_CASE("An ensemble refuses what it cannot run, and names the start that dive
   options.jitter = 1;
   CHECK_THROWS_AS(run_ensemble(test::small_chain().levels[0].model, scene(), options), InputError);
   options.jitter = 0.02;
-  options.run.step = 3 * predicted_step(test::small_chain().levels[0].model, scene());
+  options.run.step = 3 * predicted_step(test::small_chain().levels[0].model);
   try {
     run_ensemble(test::small_chain().levels[0].model, scene(), options);
     FAIL("stable at three times the predicted step");

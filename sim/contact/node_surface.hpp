@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "model/mass_spring.hpp"
+
+namespace springlod::sim {
+
+/// The surface of a body at its nodes, N entries each.
+struct NodeSurface {
+  /// Unit vector against the mean direction of the node's springs: at the surface, the outward
+  /// normal. Zero where the springs have no mean direction.
+  std::vector<Vec3> normal;
+  /// Stiffness of the node along the normal with its neighbours held [N/m], 0 without a normal: the
+  /// inverse of the second factor of eq. 65 of docs/method.md.
+  std::vector<double> stiffness;
+};
+NodeSurface node_surface(const MassSpringModel& model);
+
+}  // namespace springlod::sim
