@@ -131,6 +131,18 @@ double largest_change(const SquaredLengths& d, double bound, double most) {
   return safe;
 }
 
+// ---------------------------------------------------------------- travel
+
+/// The largest parallelogram [m2] of two sides of a triangle, each side of which has at most the
+/// given squared length [m2]. The area grows with each side of an acute triangle. An obtuse one is
+/// largest with a right angle between its two shorter sides.
+double largest_parallelogram(double p, double q, double r) {
+  const double longest = std::max({p, q, r});
+  const double others = p + q + r - longest;
+  if (longest >= others) return std::sqrt(p * q * r / longest);
+  return std::sqrt(2 * (p * q + q * r + r * p) - (p * p + q * q + r * r)) / 2;
+}
+
 }  // namespace
 
 double corner_volume(const Corner& corner, const std::vector<Vec3>& x) {
@@ -149,6 +161,20 @@ std::vector<std::uint32_t> inverted_corners(const std::vector<Corner>& corners,
   for (std::size_t c = 0; c < corners.size(); ++c)
     if (!(corner_volume(corners[c], x) > 0)) inverted.push_back(static_cast<std::uint32_t>(c));
   return inverted;
+}
+
+// The gradient of V by a node is the parallelogram of the opposite face.
+double corner_travel(const Corner& corner, const std::vector<Vec3>& rest) {
+  const auto& [n0, n1, n2, n3] = corner.node;
+  const auto squared = [&](std::uint32_t i, std::uint32_t j) {
+    return (rest[j] - rest[i]).squaredNorm();
+  };
+  const auto gradient = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    return largest_parallelogram(squared(i, j), squared(j, k), squared(k, i));
+  };
+  const double sum =
+      gradient(n1, n2, n3) + gradient(n0, n2, n3) + gradient(n0, n1, n3) + gradient(n0, n1, n2);
+  return corner_volume(corner, rest) / (kCornerStretch * kCornerStretch * sum);
 }
 
 bool orient(Corner& corner, const std::vector<Vec3>& rest) {

@@ -39,6 +39,11 @@ inline constexpr double kCornerWatched = 0.55;
 /// corner, and rounding and small strains do not decide on the side of a corner.
 inline constexpr double kFlatCorner = 0.2;
 
+/// Largest length of an edge of a corner, in lengths at rest, to which corner_travel() applies [1].
+/// The gradient of J grows with the square of the edges, so a larger value makes the travel
+/// shorter. Bodies that keep their corners are seldom stretched further.
+inline constexpr double kCornerStretch = 1.5;
+
 /// Signed volume [m3] of a corner at the positions x [m].
 double corner_volume(const Corner& corner, const std::vector<Vec3>& x);
 /// Volume over the product of the lengths of the three edges [1]: 1 for a cube, 0 if flat, negative
@@ -47,6 +52,12 @@ double corner_shape(const Corner& corner, const std::vector<Vec3>& x);
 /// Numbers of the corners with V <= 0 (or not finite) at the positions x [m], ascending.
 std::vector<std::uint32_t> inverted_corners(const std::vector<Corner>& corners,
                                             const std::vector<Vec3>& x);
+
+/// How far the four nodes of a corner may move, each in any direction, while J falls by at most 1
+/// [m]: J falls by at most d / travel if no node moves farther than d relative to a rigid motion,
+/// and if none of the six edges is longer than kCornerStretch times its length at rest, before and
+/// after the displacement (docs/method.md, section 2).
+double corner_travel(const Corner& corner, const std::vector<Vec3>& rest);
 
 /// Brings a corner with four different nodes into the standard form. False if it is flatter than
 /// kFlatCorner at the rest positions [m]; a model must not have such a corner.

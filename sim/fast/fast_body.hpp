@@ -55,6 +55,32 @@ class FastBody {
   /// Largest displacement of the block's nodes in its last move, along each axis [m].
   virtual const Vec3& largest_displacement(std::uint32_t block) const = 0;
 
+  /// Sets the angular velocity of a rigid rotation about the origin of the body's coordinates, for
+  /// largest_departure() [rad/s]; at first 0. It does not change the motion. Call it while no block
+  /// moves.
+  virtual void set_spin(const Vec3& spin) = 0;
+  /// Largest displacement of the block's nodes in its last drift relative to that rotation, along
+  /// each axis [m]: the maximum of |drift (v - spin x x)| with x at the end of the drift. Equal to
+  /// largest_displacement() without spin.
+  virtual const Vec3& largest_departure(std::uint32_t block) const = 0;
+
+  // The state of the material. Call them when all blocks have moved and their nodes have been
+  // shifted; different blocks may be looked at in parallel.
+
+  /// Appends the numbers in the model of the block's corners whose margin is below `margin` [m] or
+  /// not a number. Returns the least margin of its other corners [m], infinity without any. A
+  /// corner belongs to the block of its node[0].
+  ///
+  /// The margin of a corner is (J - kCornerResists) times its corner_travel(), less a bound on the
+  /// error of rounding. J stays above kCornerResists until a node has moved farther than the margin
+  /// relative to a rigid motion, or an edge of the corner is longer than kCornerStretch times its
+  /// length at rest.
+  virtual double find_corners(std::uint32_t block, double margin,
+                              std::vector<std::uint32_t>& corners) const = 0;
+  /// Largest |l - L| / L of the springs that the block computes [1]; not a number if a length is
+  /// not. 0 without springs.
+  virtual double largest_strain(std::uint32_t block) const = 0;
+
   /// Appends the indices of the block's nodes within `region` [m], ascending.
   virtual void nodes_in(std::uint32_t block, const Box3& region,
                         std::vector<std::uint32_t>& indices) const = 0;

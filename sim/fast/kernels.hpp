@@ -17,6 +17,13 @@ struct FastKernels {
   void (*move)(const Layout&, std::uint32_t block, double kick, double drift, State&) = nullptr;
   void (*find_nodes)(const Layout&, std::uint32_t block, const State&, const Box3& region,
                      std::vector<std::uint32_t>& indices) = nullptr;
+  /// Largest |drift (v - spin x x)| of the block's nodes along each axis [m].
+  Vec3 (*departure)(const Layout&, std::uint32_t block, double drift, const Vec3& spin,
+                    const State&) = nullptr;
+  // These may refresh what a block stores of other blocks' nodes.
+  double (*find_corners)(const Layout&, std::uint32_t block, double margin, State&,
+                         std::vector<std::uint32_t>& corners) = nullptr;
+  double (*largest_strain)(const Layout&, std::uint32_t block, State&) = nullptr;
 };
 
 }  // namespace springlod::sim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/kernels.hpp"
@@ -25,20 +26,38 @@ class LaidBody : public FastBody {
   }
   void move(std::uint32_t block, double kick, double drift) final {
     kernels_.move(*layout_, block, kick, drift, state_);
+    if (drift == 0) return;
+    departure_[block] = spin_ == Vec3::Zero()
+                            ? this->largest_displacement(block)
+                            : kernels_.departure(*layout_, block, drift, spin_, state_);
   }
+  void set_spin(const Vec3& spin) final { spin_ = spin; }
+  const Vec3& largest_departure(std::uint32_t block) const final { return departure_[block]; }
   void nodes_in(std::uint32_t block, const Box3& region,
                 std::vector<std::uint32_t>& indices) const final {
     kernels_.find_nodes(*layout_, block, state_, region, indices);
   }
+  double find_corners(std::uint32_t block, double margin,
+                      std::vector<std::uint32_t>& corners) const final {
+    return kernels_.find_corners(*layout_, block, margin, state_, corners);
+  }
+  double largest_strain(std::uint32_t block) const final {
+    return kernels_.largest_strain(*layout_, block, state_);
+  }
 
  protected:
   LaidBody(const Layout& layout, State state, const FastKernels<Layout, State>& kernels)
-      : layout_(&layout), state_(std::move(state)), kernels_(kernels) {}
+      : layout_(&layout),
+        state_(std::move(state)),
+        departure_(layout.blocks.size(), Vec3::Zero()),
+        kernels_(kernels) {}
 
   const Layout* layout_;
-  State state_;
+  mutable State state_;  // mutable: holds copies of other blocks' nodes, which may be out of date
 
  private:
+  Vec3 spin_ = Vec3::Zero();     // [rad/s]
+  std::vector<Vec3> departure_;  // see FastBody; by block [m]
   FastKernels<Layout, State> kernels_;
 };
 

@@ -14,25 +14,20 @@
 #include <hwy/highway.h>
 
 #include "sim/fast/inverse_root-inl.hpp"
+#include "sim/fast/quad_copies-inl.hpp"
 #include "sim/fast/quad_state.hpp"
+#include "sim/fast/quad_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Access by scaled index: a record has 8 numbers, a force has 4.
-template <class Real>
-HWY_INLINE const NodeRecord<Real>& record_at(const NodeRecord<Real>* records, std::size_t index) {
-  return *reinterpret_cast<const NodeRecord<Real>*>(reinterpret_cast<const char*>(records) +
-                                                    8 * index);
-}
+// Access by scaled index: a force has 4 numbers.
 template <class Real>
 HWY_INLINE Real* force_at(NodeVector<Real>* forces, std::size_t index) {
   return reinterpret_cast<Real*>(reinterpret_cast<char*>(forces) + 4 * index);
 }
-
-constexpr std::size_t kCacheLine = 64;  // [bytes]
 
 // Pairs computed together, each stage for all of them [1]. A processor looks ahead about 300
 // instructions, less than three pairs: if pairs were computed one after another, each would wait
@@ -58,50 +53,6 @@ struct Batch {
 };
 
 #if HWY_MAX_BYTES >= 32
-
-template <class Real>
-using D4 = hn::FixedTag<Real, 4>;
-template <class Real>
-using V4 = hn::Vec<D4<Real>>;
-using D8 = hn::FixedTag<float, 8>;
-using V8 = hn::Vec<D8>;
-
-/// Four 3D vectors, one SIMD vector per coordinate.
-template <class V>
-struct Side {
-  V x, y, z;
-};
-
-/// Four records of position (lower half) and velocity (upper half), transposed.
-HWY_INLINE Side<V8> transpose(V8 a, V8 b, V8 c, V8 e) {
-  const D8 d;
-  const hn::Repartition<double, D8> wide;
-  const auto join_lower = [&](V8 p, V8 q) {
-    return hn::BitCast(d, hn::InterleaveLower(wide, hn::BitCast(wide, p), hn::BitCast(wide, q)));
-  };
-  const auto join_upper = [&](V8 p, V8 q) {
-    return hn::BitCast(d, hn::InterleaveUpper(wide, hn::BitCast(wide, p), hn::BitCast(wide, q)));
-  };
-  const V8 ab_xy = hn::InterleaveLower(d, a, b);
-  const V8 ab_zw = hn::InterleaveUpper(d, a, b);
-  const V8 ce_xy = hn::InterleaveLower(d, c, e);
-  const V8 ce_zw = hn::InterleaveUpper(d, c, e);
-  return {join_lower(ab_xy, ce_xy), join_upper(ab_xy, ce_xy), join_lower(ab_zw, ce_zw)};
-}
-/// Four records x y z 0, transposed.
-HWY_INLINE Side<V4<double>> transpose(V4<double> a, V4<double> b, V4<double> c, V4<double> e) {
-  const D4<double> d;
-  const V4<double> ab_x_z = hn::InterleaveLower(d, a, b);
-  const V4<double> ab_y_w = hn::InterleaveUpper(d, a, b);
-  const V4<double> ce_x_z = hn::InterleaveLower(d, c, e);
-  const V4<double> ce_y_w = hn::InterleaveUpper(d, c, e);
-  return {hn::ConcatLowerLower(d, ce_x_z, ab_x_z), hn::ConcatLowerLower(d, ce_y_w, ab_y_w),
-          hn::ConcatUpperUpper(d, ce_x_z, ab_x_z)};
-}
-template <class V>
-HWY_INLINE V dot(const Side<V>& p, const Side<V>& q) {
-  return hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::Mul(p.z, q.z)));
-}
 
 HWY_INLINE void measure(const QuadPair<float>& pair, const NodeRecord<float>* records,
                         float* square, float* x_dot_v) {

@@ -11,34 +11,21 @@
 #include <hwy/highway.h>
 
 #include "sim/fast/move-inl.hpp"
+#include "sim/fast/quad_copies-inl.hpp"
 #include "sim/fast/quad_forces-inl.hpp"
+#include "sim/fast/quad_look-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Copies from everywhere in the body, in an order that the processor cannot predict.
-template <class Real>
-void gather_records(const QuadBlock<Real>& block, const QuadState<Real>& state,
-                    QuadBlockState<Real>& own) {
-  const auto origin = [&](std::size_t h) {
-    return state[block.halo[h].block].records.data() + block.halo[h].index;
-  };
-  constexpr std::size_t kAhead = 24;  // [nodes]
-  for (std::size_t h = 0; h < block.halo.size(); ++h) {
-    hwy::Prefetch(origin(std::min(h + kAhead, block.halo.size() - 1)));
-    own.records[block.own + h] = *origin(h);
-  }
-  for (std::size_t i = 0; i < block.own; i += kCacheLine / sizeof(NodeRecord<Real>))
-    hwy::Prefetch(&own.records[i]);
-}
-
 template <class Real>
 void find_forces(const QuadLayout<Real>& layout, std::uint32_t number, QuadState<Real>& state) {
   const QuadBlock<Real>& block = layout.blocks[number];
   QuadBlockState<Real>& own = state[number];
-  gather_records(block, state, own);
+  copy_records(block.halo, block.own, state, own);
+  prefetch_records(block, own);
   std::fill(own.forces.begin(), own.forces.end(), NodeVector<Real>{});
   std::fill(own.damping_forces.begin(), own.damping_forces.end(), NodeVector<Real>{});
   const auto damping_time = static_cast<Real>(layout.damping_time);
@@ -161,7 +148,10 @@ QuadKernels<Real> kernels() {
           .collect_forces = collect_forces<Real>,
           .damping_power = damping_power<Real>,
           .move = move_nodes<Real>,
-          .find_nodes = find_nodes<Real>};
+          .find_nodes = find_nodes<Real>,
+          .departure = departure<Real>,
+          .find_corners = find_corners<Real>,
+          .largest_strain = largest_strain<Real>};
 }
 QuadKernels<float> quad_kernels_float() {
   return kernels<float>();

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "sim/fast/block_order.hpp"
+#include "sim/fast/quad_corners.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -96,6 +97,7 @@ class Laying {
         }
     }
     for (std::uint32_t n = 0; n < model_.node_count(); ++n) layout.place.push_back(place(rank_[n]));
+    if (!place_corners(model_, layout)) return std::nullopt;
     return layout;
   }
 

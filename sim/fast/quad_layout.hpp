@@ -31,11 +31,19 @@ struct CopiedForce {
   Place copy;
 };
 
+/// Eight corners of a block. Padding has a margin of infinity (see MarginTerms).
+template <class Real>
+struct CornerEight {
+  std::uint16_t node[4][2 * kQuad] = {};  ///< indices in the block, not scaled
+  Real scale[2 * kQuad] = {};             ///< [1/m2]
+  Real offset[2 * kQuad] = {};            ///< [m]
+};
+
 /// Neighbouring nodes and the springs that this block computes. The four springs of a *quad* share
 /// an own node; their other ends are own nodes or copies of other blocks' nodes (the *halo*).
 ///
 /// Indices within a block: own nodes, then the halo, then an unused one for the springs without
-/// stiffness that pad a quad.
+/// stiffness that pad a quad, then copies of further nodes of the corners.
 template <class Real>
 struct QuadBlock {
   std::uint32_t own = 0;            ///< nodes
@@ -46,12 +54,19 @@ struct QuadBlock {
   std::vector<QuadPair<Real>> pairs;
   std::vector<std::array<Real, 2 * kQuad>> damping;  ///< c [N s/m] by pair; empty if damping_time k
 
+  std::vector<CornerEight<Real>> corners;    ///< those whose node[0] is an own node
+  std::vector<std::uint32_t> corner_number;  ///< in the model, by corner; or kNoCorner
+  std::vector<Place> corner_halo;            ///< originals of the nodes that only corners need
+
   std::vector<CopiedForce> copied;  ///< own nodes ascending
   // Range of blocks that contains this block and all blocks with copies of its nodes.
   std::uint32_t first_copy = 0;
   std::uint32_t last_copy = 0;
 
   std::uint32_t nowhere() const { return own + static_cast<std::uint32_t>(halo.size()); }
+  std::uint32_t indices() const {
+    return nowhere() + 1 + static_cast<std::uint32_t>(corner_halo.size());
+  }
 };
 
 /// A model of any shape laid out for fast steps. Each spring is computed once, at one of its ends,

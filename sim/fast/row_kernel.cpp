@@ -10,73 +10,13 @@
 
 #include "sim/fast/inverse_root-inl.hpp"
 #include "sim/fast/move-inl.hpp"
+#include "sim/fast/row_look-inl.hpp"
+#include "sim/fast/row_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-template <class Real>
-using Lanes = hn::CappedTag<Real, kRowLanes>;
-
-template <class D>
-struct Vector3 {
-  hn::Vec<D> x, y, z;
-};
-
-/// Start of each coordinate array, kept in registers: the compiler must assume that any store may
-/// change what a RowState refers to.
-template <class Real>
-struct Starts {
-  Real* x;
-  Real* y;
-  Real* z;
-};
-template <class Real>
-HWY_INLINE Starts<Real> starts_of(const std::array<hwy::AlignedFreeUniquePtr<Real[]>, 3>& of,
-                                  std::size_t first = 0) {
-  return {of[0].get() + first, of[1].get() + first, of[2].get() + first};
-}
-
-template <class D>
-HWY_INLINE Vector3<D> load(D d, const Starts<hn::TFromD<D>>& from, std::size_t place) {
-  return {hn::LoadU(d, from.x + place), hn::LoadU(d, from.y + place), hn::LoadU(d, from.z + place)};
-}
-template <class D>
-HWY_INLINE void store(D d, const Vector3<D>& v, const Starts<hn::TFromD<D>>& to,
-                      std::size_t place) {
-  hn::StoreU(v.x, d, to.x + place);
-  hn::StoreU(v.y, d, to.y + place);
-  hn::StoreU(v.z, d, to.z + place);
-}
-template <class D>
-HWY_INLINE Vector3<D> operator-(const Vector3<D>& p, const Vector3<D>& q) {
-  return {hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
-}
-template <class D>
-HWY_INLINE Vector3<D> operator+(const Vector3<D>& p, const Vector3<D>& q) {
-  return {hn::Add(p.x, q.x), hn::Add(p.y, q.y), hn::Add(p.z, q.z)};
-}
-/// p + factor q
-template <class D>
-HWY_INLINE Vector3<D> add_scaled(const Vector3<D>& p, hn::Vec<D> factor, const Vector3<D>& q) {
-  return {hn::MulAdd(factor, q.x, p.x), hn::MulAdd(factor, q.y, p.y), hn::MulAdd(factor, q.z, p.z)};
-}
-/// p - factor q
-template <class D>
-HWY_INLINE Vector3<D> subtract_scaled(const Vector3<D>& p, hn::Vec<D> factor, const Vector3<D>& q) {
-  return {hn::NegMulAdd(factor, q.x, p.x), hn::NegMulAdd(factor, q.y, p.y),
-          hn::NegMulAdd(factor, q.z, p.z)};
-}
-template <class D>
-HWY_INLINE hn::Vec<D> dot(const Vector3<D>& p, const Vector3<D>& q) {
-  return hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::Mul(p.z, q.z)));
-}
-
-template <class Real>
-std::uint32_t lane_count() {
-  return static_cast<std::uint32_t>(hn::Lanes(Lanes<Real>()));
-}
 
 template <class Real>
 void clear(const RowBlock& block, typename RowState<Real>::Coordinates& force) {
@@ -260,7 +200,10 @@ RowKernels<Real> kernels() {
           .collect_forces = collect_forces<Real>,
           .damping_power = damping_power<Real>,
           .move = move<Real>,
-          .find_nodes = find_nodes<Real>};
+          .find_nodes = find_nodes<Real>,
+          .departure = departure<Real>,
+          .find_corners = find_corners<Real>,
+          .largest_strain = largest_strain<Real>};
 }
 RowKernels<float> row_kernels_float() {
   return kernels<float>();

@@ -4,9 +4,9 @@
 #include <array>
 #include <numeric>
 #include <tuple>
-#include <unordered_map>
 
-#include <xxhash.h>
+#include "sim/fast/palette.hpp"
+#include "sim/fast/row_corners.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -59,25 +59,6 @@ bool same_row(const PlacedSpring& p, const PlacedSpring& q) {
   return p.first / kRowLanes == q.first / kRowLanes && p.ahead == q.ahead;
 }
 
-/// Gives equal properties the same number.
-template <class Real>
-class Palette {
- public:
-  explicit Palette(std::vector<RowProperties<Real>>& entries) : entries_(&entries) {}
-  std::uint32_t number(const RowProperties<Real>& properties) {
-    auto& same_hash = numbers_[XXH3_64bits(&properties, sizeof properties)];
-    for (const std::uint32_t n : same_hash)
-      if ((*entries_)[n] == properties) return n;
-    same_hash.push_back(static_cast<std::uint32_t>(entries_->size()));
-    entries_->push_back(properties);
-    return same_hash.back();
-  }
-
- private:
-  std::vector<RowProperties<Real>>* entries_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> numbers_;
-};
-
 // The forces of a row are added in memory. Rows of neighbouring directions write to overlapping
 // places: executed one right after another, each would wait for the store of the previous one.
 // Therefore rows that are neighbours in `rows`, which is sorted by reach, are separated.
@@ -92,7 +73,7 @@ std::vector<SpringRow> interleave(const std::vector<SpringRow>& rows) {
 template <class Real>
 void lay_rows(const MassSpringModel& model, const std::vector<PlacedSpring>& springs,
               RowLayout<Real>& layout) {
-  Palette<Real> palette(layout.properties);
+  Palette palette(layout.properties);
   const auto eights = static_cast<std::uint32_t>(layout.inverse_mass.size()) / kRowLanes;
   auto next = springs.begin();
   for (std::uint32_t eight = 0; eight < eights; ++eight) {
@@ -114,6 +95,21 @@ void lay_rows(const MassSpringModel& model, const std::vector<PlacedSpring>& spr
     layout.rows.insert(layout.rows.end(), mixed.begin(), mixed.end());
   }
   layout.first_row.push_back(static_cast<std::uint32_t>(layout.rows.size()));
+}
+
+template <class Real>
+RowLengths<Real> lengths_of(const RowProperties<Real>& properties) {
+  RowLengths<Real> lengths;
+  for (std::uint32_t lane = 0; lane < kRowLanes; ++lane) {
+    const auto k = static_cast<double>(properties.stiffness[lane]);
+    if (k > 0) {
+      const double inverse = k / static_cast<double>(properties.rest_force[lane]);
+      lengths.inverse_square[lane] = static_cast<Real>(inverse * inverse);
+    } else {
+      lengths.missing[lane] = 1;
+    }
+  }
+  return lengths;
 }
 
 std::uint32_t whole_rows(std::uint32_t places) {
@@ -155,7 +151,10 @@ RowLayout<Real> make_row_layout(const MassSpringModel& model) {
   for (std::size_t p = 0; p < n; ++p)
     layout.inverse_mass[p] = static_cast<Real>(1 / model.mass[layout.node[p]]);
   lay_rows(model, place_springs(model, layout.node), layout);
+  for (const RowProperties<Real>& each : layout.properties)
+    layout.lengths.push_back(lengths_of(each));
   cut_blocks(layout);
+  layout.corners = place_corners(model, layout);
   return layout;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +27,45 @@ struct RowProperties {
   bool operator==(const RowProperties&) const = default;
 };
 
+/// Lengths of the eight springs of a row.
+template <class Real>
+struct RowLengths {
+  Real inverse_square[kRowLanes] = {};  ///< 1 / L^2 [1/m2]; 0 for a missing spring
+  Real missing[kRowLanes] = {};         ///< 1 for a missing spring, else 0
+};
+
+/// Combinations of one side along each axis [1]. Bits 2, 1 and 0 of the number of an octant:
+/// whether it is on the upper side along x, y and z.
+inline constexpr std::uint32_t kOctants = 8;
+
+/// The corners of eight consecutive places. They end at the same neighbours, counted from each
+/// place: one on each side along each axis. Each octant may have a corner.
+struct CornerStar {
+  std::uint32_t base = 0;               ///< first of the eight places
+  std::uint32_t properties = 0;         ///< index into RowCorners::properties
+  std::array<std::int32_t, 6> to = {};  ///< places to the lower and upper x, y and z; 0 if unused
+};
+
+/// MarginTerms of the corners of a star, by octant and lane. The sign of `scale` is that of the
+/// determinant of the edges along x, y and z at rest.
+template <class Real>
+struct StarProperties {
+  Real scale[kOctants][kRowLanes];   ///< [1/m2]
+  Real offset[kOctants][kRowLanes];  ///< [m]
+  bool operator==(const StarProperties&) const = default;
+};
+
+/// The corners of a lattice, at their own nodes. Stars with equal properties share them.
+template <class Real>
+struct RowCorners {
+  std::vector<CornerStar> stars;          ///< in the order of the blocks
+  std::vector<std::uint32_t> first_star;  ///< of each block, and the end; empty without corners
+  std::vector<StarProperties<Real>> properties;
+  /// Number of each corner in the model, by star, octant and lane; or kNoCorner.
+  std::vector<std::array<std::array<std::uint32_t, kRowLanes>, kOctants>> numbers;
+  std::uint32_t end = 0;  ///< after the last place that a star reads
+};
+
 /// Consecutive places whose rows one thread computes.
 struct RowBlock {
   std::uint32_t first = 0;  ///< place, a multiple of kRowLanes
@@ -45,6 +85,8 @@ struct RowLayout {
   std::vector<std::uint32_t> first_row;  ///< first row of each eight places, and the end
   std::vector<SpringRow> rows;           ///< in the order of the places
   std::vector<RowProperties<Real>> properties;
+  std::vector<RowLengths<Real>> lengths;  ///< by the index of the properties
+  RowCorners<Real> corners;
   std::vector<RowBlock> blocks;
   std::vector<Place> place;        ///< place of each node; N
   std::vector<Real> inverse_mass;  ///< by place, padded with 0 to a multiple of kRowLanes [1/kg]

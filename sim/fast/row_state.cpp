@@ -18,7 +18,8 @@ void allocate(std::size_t size, typename RowState<Real>::Coordinates& coordinate
 template <class Real>
 RowState<Real>::RowState(const RowLayout<Real>& layout, bool with_damping)
     : bounds(layout.blocks.size()), largest_displacement(layout.blocks.size(), Vec3::Zero()) {
-  const std::size_t size = layout.inverse_mass.size() + layout.reach;
+  const std::size_t size =
+      std::max<std::size_t>(layout.inverse_mass.size() + layout.reach, layout.corners.end);
   allocate<Real>(size, x);
   allocate<Real>(size, v);
   if constexpr (sizeof(Real) == sizeof(float)) allocate<Real>(size, low);

@@ -234,6 +234,56 @@ TEST_CASE("Springs within the safe strain keep every corner above the watched vo
   CHECK(tight > 50);  // the bound is not only safe but sharp
 }
 
+TEST_CASE("The travel of a corner bounds the gradient of its volume ratio") {
+  std::mt19937_64 random(2);
+  const auto vector = [&] {
+    return Vec3(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
+  };
+  const auto sum_of_gradients = [](const std::vector<Vec3>& x) {
+    return (x[2] - x[1]).cross(x[3] - x[1]).norm() + (x[2] - x[0]).cross(x[3] - x[0]).norm() +
+           (x[1] - x[0]).cross(x[3] - x[0]).norm() + (x[1] - x[0]).cross(x[2] - x[0]).norm();
+  };
+  int draws = 0;
+  double largest = 0;  // sum of the gradients / bound
+  while (draws < 20'000) {
+    const std::vector<Vec3> rest{vector(), vector(), vector(), vector()};
+    Corner corner{{0, 1, 2, 3}, 1};
+    if (!orient(corner, rest)) continue;
+    const double travel = corner_travel(corner, rest);
+    const double v0 = corner_volume(corner, rest);
+    REQUIRE(travel > 0);
+    for (int draw = 0; draw < 100; ++draw) {
+      // As far apart as the edges allow.
+      std::vector<Vec3> x = rest;
+      for (Vec3& each : x) each = 1.4 * each + 0.2 * vector();
+      double stretch = 0;
+      for (std::uint32_t i = 0; i < 4; ++i)
+        for (std::uint32_t j = 0; j < i; ++j)
+          stretch = std::max(stretch, (x[i] - x[j]).norm() / (rest[i] - rest[j]).norm());
+      for (Vec3& each : x) each *= kCornerStretch / stretch;
+      ++draws;
+      largest = std::max(largest, travel * sum_of_gradients(x) / v0);
+    }
+  }
+  CHECK(largest <= 1 + 1e-12);
+  CHECK(largest > 0.95);  // sharp
+}
+
+TEST_CASE("The travel of special corners") {
+  const auto travel = [](const std::vector<Vec3>& rest) {
+    return corner_travel({{0, 1, 2, 3}, 1e6}, rest);
+  };
+  const double squared = kCornerStretch * kCornerStretch;
+  const std::vector<Vec3> cube{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+  CHECK(travel(cube) == Approx(2 / (squared * (3 + std::sqrt(3)))));
+  // Two edges at an obtuse angle: their face is largest at a right angle.
+  const std::vector<Vec3> obtuse{{0, 0, 0}, {1, 0, 0}, {-0.6, 0.8, 0}, {0, 0, 1}};
+  const double far = std::sqrt(3.2);
+  const double face =
+      std::sqrt(2 * (2 * 2 + 2 * 2 * far * far) - (4 + 4 + far * far * far * far)) / 2;
+  CHECK(travel(obtuse) == Approx(0.8 / (squared * (1 + 1 + 1 + face))));
+}
+
 TEST_CASE("The safe strain of special models") {
   MassSpringModel m = right_corner();
   const double alone = safe_strain(m);

@@ -1,0 +1,192 @@
+// What is read off a block of quads between steps. Included once for every vector target; see
+// Highway's foreach_target.h.
+#if defined(SPRINGLOD_QUAD_LOOK_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPRINGLOD_QUAD_LOOK_INL
+#undef SPRINGLOD_QUAD_LOOK_INL
+#else
+#define SPRINGLOD_QUAD_LOOK_INL
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include "sim/fast/corner_margin.hpp"
+#include "sim/fast/quad_copies-inl.hpp"
+#include "sim/fast/quad_vectors-inl.hpp"
+#include "sim/fast/stretch-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace springlod::sim::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The matrix of the map x -> v x x, by columns, padded as the records are.
+template <class Real>
+std::array<NodeVector<Real>, 3> cross_matrix(const Vec3& v) {
+  std::array<NodeVector<Real>, 3> columns;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 column = v.cross(Vec3(Vec3::Unit(axis)));
+    for (int i = 0; i < 3; ++i)
+      columns[static_cast<std::size_t>(axis)].at[i] = static_cast<Real>(column[i]);
+  }
+  return columns;
+}
+
+template <class Real>
+Vec3 departure(const QuadLayout<Real>& layout, std::uint32_t number, double drift, const Vec3& spin,
+               const QuadState<Real>& state) {
+  const hn::CappedTag<Real, 4> d;
+  const NodeRecord<Real>* records = state[number].records.data();
+  const std::array<NodeVector<Real>, 3> turn = cross_matrix<Real>(spin);
+  NodeVector<Real> most;
+  for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
+    const auto by_x = hn::Load(d, turn[0].at + lane);
+    const auto by_y = hn::Load(d, turn[1].at + lane);
+    const auto by_z = hn::Load(d, turn[2].at + lane);
+    auto of_lanes = hn::Zero(d);
+    for (std::uint32_t i = 0; i < layout.blocks[number].own; ++i) {
+      const NodeRecord<Real>& node = records[i];
+      auto apart = hn::Load(d, node.v + lane);
+      apart = hn::NegMulAdd(by_x, hn::Set(d, node.x[0]), apart);
+      apart = hn::NegMulAdd(by_y, hn::Set(d, node.x[1]), apart);
+      apart = hn::NegMulAdd(by_z, hn::Set(d, node.x[2]), apart);
+      of_lanes = hn::Max(of_lanes, hn::Abs(apart));
+    }
+    hn::Store(of_lanes, d, most.at + lane);
+  }
+  return std::abs(drift) * Vec3(static_cast<double>(most.at[0]), static_cast<double>(most.at[1]),
+                                static_cast<double>(most.at[2]));
+}
+
+// Volumes of corners [m3] and squares of lengths of springs [m2].
+#if HWY_MAX_BYTES >= 32
+
+template <class Real>
+HWY_INLINE void measure_volumes(const CornerEight<Real>& eight, const NodeRecord<Real>* records,
+                                Real* volumes) {
+  for (std::size_t first = 0; first < 2 * kQuad; first += kTogether<Real>) {
+    const auto load = [&](std::size_t n) {
+      return positions(Real(), [&](std::size_t i) -> const NodeRecord<Real>& {
+        return records[eight.node[n][first + i]];
+      });
+    };
+    const auto own = load(0);
+    const auto p = transpose(load(1) - own);
+    const auto q = transpose(load(2) - own);
+    const auto r = transpose(load(3) - own);
+    const decltype(p) face{hn::NegMulAdd(q.z, r.y, hn::Mul(q.y, r.z)),
+                           hn::NegMulAdd(q.x, r.z, hn::Mul(q.z, r.x)),
+                           hn::NegMulAdd(q.y, r.x, hn::Mul(q.x, r.y))};
+    hn::Store(dot(p, face), hn::CappedTag<Real, kTogether<Real>>(), volumes + first);
+  }
+}
+
+template <class Real>
+HWY_INLINE void measure_squares(const QuadPair<Real>& pair, const NodeRecord<Real>* records,
+                                Real* squares) {
+  for (std::size_t first = 0; first < 2 * kQuad; first += kTogether<Real>) {
+    const auto own = positions(Real(), [&](std::size_t i) -> const NodeRecord<Real>& {
+      return record_at(records, pair.own[(first + i) / kQuad]);
+    });
+    const auto other = positions(Real(), [&](std::size_t i) -> const NodeRecord<Real>& {
+      return record_at(records, pair.other[first + i]);
+    });
+    const auto along = transpose(other - own);
+    hn::Store(dot(along, along), hn::CappedTag<Real, kTogether<Real>>(), squares + first);
+  }
+}
+
+#else
+
+template <class Real>
+void measure_volumes(const CornerEight<Real>& eight, const NodeRecord<Real>* records,
+                     Real* volumes) {
+  for (std::size_t c = 0; c < 2 * kQuad; ++c) {
+    Real e[3][3];
+    for (std::size_t n = 0; n < 3; ++n)
+      for (std::size_t i = 0; i < 3; ++i)
+        e[n][i] = records[eight.node[n + 1][c]].x[i] - records[eight.node[0][c]].x[i];
+    volumes[c] = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+                 e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+                 e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+  }
+}
+
+template <class Real>
+void measure_squares(const QuadPair<Real>& pair, const NodeRecord<Real>* records, Real* squares) {
+  for (std::size_t s = 0; s < 2 * kQuad; ++s) {
+    const NodeRecord<Real>& p = record_at(records, pair.own[s / kQuad]);
+    const NodeRecord<Real>& q = record_at(records, pair.other[s]);
+    squares[s] = 0;
+    for (int i = 0; i < 3; ++i) squares[s] += (q.x[i] - p.x[i]) * (q.x[i] - p.x[i]);
+  }
+}
+
+#endif
+
+template <class Real>
+double find_corners(const QuadLayout<Real>& layout, std::uint32_t number, double margin,
+                    QuadState<Real>& state, std::vector<std::uint32_t>& below) {
+  double farthest = 0;
+  for (const QuadBlockState<Real>& of : state)
+    farthest = std::max(farthest, farthest_coordinate(of.bounds));
+  MarginFilter<Real> filter(margin, margin_rounding<Real>(farthest), below);
+  const QuadBlock<Real>& block = layout.blocks[number];
+  if (block.corners.empty()) return filter.least();
+  QuadBlockState<Real>& own = state[number];
+  copy_records(block.halo, block.own, state, own);
+  copy_records(block.corner_halo, block.nowhere() + 1, state, own);
+  const hn::CappedTag<Real, 2 * kQuad> d;
+  const auto limit = hn::Set(d, filter.limit());
+  auto least = hn::Set(d, std::numeric_limits<Real>::infinity());
+  for (std::size_t c = 0; c < block.corners.size(); ++c) {
+    const CornerEight<Real>& eight = block.corners[c];
+    alignas(64) Real of[2 * kQuad];
+    measure_volumes(eight, own.records.data(), of);
+    for (std::size_t lane = 0; lane < 2 * kQuad; lane += hn::Lanes(d)) {
+      const auto margins = hn::MulAdd(hn::Load(d, of + lane), hn::LoadU(d, eight.scale + lane),
+                                      hn::LoadU(d, eight.offset + lane));
+      if (hn::AllTrue(d, hn::Ge(margins, limit))) {
+        least = hn::Min(least, margins);
+        continue;
+      }
+      hn::Store(margins, d, of + lane);
+      for (std::size_t i = lane; i < lane + hn::Lanes(d); ++i)
+        filter.add(block.corner_number[2 * kQuad * c + i], of[i]);
+    }
+  }
+  filter.add_above(hn::GetLane(hn::MinOfLanes(d, least)));
+  return filter.least();
+}
+
+// Compares squares of lengths, which needs no square roots.
+template <class Real>
+double largest_strain(const QuadLayout<Real>& layout, std::uint32_t number,
+                      QuadState<Real>& state) {
+  const QuadBlock<Real>& block = layout.blocks[number];
+  QuadBlockState<Real>& own = state[number];
+  copy_records(block.halo, block.own, state, own);
+  const hn::CappedTag<Real, 2 * kQuad> d;
+  SquaredStretch<Real> stretch;
+  for (const QuadPair<Real>& pair : block.pairs) {
+    alignas(64) Real squares[2 * kQuad];
+    measure_squares(pair, own.records.data(), squares);
+    for (std::size_t lane = 0; lane < 2 * kQuad; lane += hn::Lanes(d)) {
+      const auto stiffness = hn::LoadU(d, pair.stiffness + lane);
+      const auto inverse = hn::Div(stiffness, hn::LoadU(d, pair.rest_force + lane));  // 1 / L
+      const auto square = hn::Mul(hn::Load(d, squares + lane), hn::Mul(inverse, inverse));
+      const auto is_spring = hn::Gt(stiffness, hn::Zero(d));
+      stretch.add(hn::IfThenElse(is_spring, square, hn::Set(d, Real(1))));
+    }
+  }
+  return stretch.largest_strain();
+}
+
+}  // namespace springlod::sim::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

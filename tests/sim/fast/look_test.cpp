@@ -1,0 +1,401 @@
+// Corners, strains and departures of fast layouts, compared with plain loops over the model.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <random>
+#include <set>
+
+#include <catch2/catch.hpp>
+#include <hwy/targets.h>
+
+#include "lod/build.hpp"
+#include "model/corners.hpp"
+#include "sim/fast/fast_model.hpp"
+#include "tests/sim/side_by_side.hpp"
+#include "tests/support/bodies.hpp"
+#include "tests/support/models.hpp"
+#include "voxelize/random.hpp"
+
+using namespace springlod;
+using namespace springlod::sim;
+using namespace springlod::test;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+struct Subject {
+  MassSpringModel model;
+  Layout layout = Layout::fastest;
+  std::uint32_t blocks = 1;  // at least
+};
+
+MassSpringModel merged_block(int side) {
+  return lod::simplify(two_material_block(side), {.levels = 1}).levels[1].model;
+}
+
+MassSpringModel random_body() {
+  voxelize::MaterialGrid grid;
+  grid.cell = 0.01;
+  grid.materials = {Material{.name = "stuff"}};
+  for (int z = 0; z < 8; ++z)
+    for (int y = 0; y < 7; ++y)
+      for (int x = 0; x < 9; ++x) grid.cells.push_back({x, y, z});
+  grid.material.assign(grid.cells.size(), 0);
+  return voxelize::build_random(grid, {.nodes = 500, .rescale = false}).model;
+}
+
+const std::map<std::string, Subject>& subjects() {
+  static const std::map<std::string, Subject> all{
+      {"corners", {two_material_block(21), Layout::fastest, 2}},
+      {"centers", {block(22, 21, 20, voxelize::LatticeStyle::centers), Layout::fastest, 2}},
+      {"small lattice", {two_material_block(5)}},
+      {"lattice in quads", {two_material_block(17), Layout::any_shape, 2}},
+      {"merged", {merged_block(25), Layout::fastest, 2}},
+      {"small merged", {merged_block(7)}},
+      {"random", {random_body()}}};
+  return all;
+}
+
+/// A body at given positions, in a frame that is not that of the model.
+struct Posed {
+  Posed(const Subject& subject, Precision precision, const std::vector<Vec3>& x)
+      : Posed(subject, precision, x, std::vector<Vec3>(x.size(), Vec3::Zero())) {}
+  Posed(const Subject& subject, Precision precision, const std::vector<Vec3>& x,
+        const std::vector<Vec3>& v)
+      : model(make_fast_model(subject.model, precision, subject.layout)),
+        body(model->new_body(false)) {
+    frame.origin = bounds(subject.model.rest).center();
+    for (std::uint32_t b = 0; b < body->block_count(); ++b) body->set(b, frame, x, v);
+  }
+
+  struct Found {
+    std::vector<std::uint32_t> below;
+    double least = kInfinity;
+  };
+  Found find_corners(double margin) const {
+    Found found;
+    for (std::uint32_t b = 0; b < body->block_count(); ++b)
+      found.least = std::min(found.least, body->find_corners(b, margin, found.below));
+    return found;
+  }
+  double largest_strain() const {
+    double most = 0;
+    for (std::uint32_t b = 0; b < body->block_count(); ++b) {
+      const double strain = body->largest_strain(b);
+      if (std::isnan(strain)) return strain;
+      most = std::max(most, strain);
+    }
+    return most;
+  }
+
+  MovingFrame frame;
+  std::unique_ptr<FastModel> model;
+  std::unique_ptr<FastBody> body;
+};
+
+double mean_length(const MassSpringModel& model) {
+  double sum = 0;
+  for (const double length : model.rest_length) sum += length;
+  return sum / model.spring_count();
+}
+
+Vec3 random_vector(std::mt19937_64& random) {
+  const Vec3 v(uniform(random), uniform(random), uniform(random));
+  return 2 * v - Vec3::Ones();
+}
+
+/// Displaced at random by up to `size` mean spring lengths along each axis.
+std::vector<Vec3> displaced(const MassSpringModel& model, double size, std::mt19937_64& random) {
+  std::vector<Vec3> x = model.rest;
+  const double length = mean_length(model);
+  for (Vec3& each : x) each += size * length * random_vector(random);
+  return x;
+}
+
+double ratio(const MassSpringModel& model, const Corner& corner, const std::vector<Vec3>& x) {
+  return corner_volume(corner, x) / corner_volume(corner, model.rest);
+}
+
+double plain_margin(const MassSpringModel& model, const Corner& corner,
+                    const std::vector<Vec3>& x) {
+  return (ratio(model, corner, x) - kCornerResists) * corner_travel(corner, model.rest);
+}
+
+double plain_strain(const MassSpringModel& model, const std::vector<Vec3>& x) {
+  double most = 0;
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+    most =
+        std::max(most, std::abs((x[model.b[s]] - x[model.a[s]]).norm() / model.rest_length[s] - 1));
+  return most;
+}
+
+/// Bound on the rounding of margins [m].
+double rounding(const MassSpringModel& model, Precision precision) {
+  const double size = bounds(model.rest).sizes().maxCoeff();
+  return (precision == Precision::single_precision ? 4e-6 : 1e-14) * size;
+}
+
+void check_corners_at(const MassSpringModel& model, const std::vector<Vec3>& x, double margin,
+                      const Posed::Found& found, double rounding) {
+  const std::set<std::uint32_t> below(found.below.begin(), found.below.end());
+  REQUIRE(below.size() == found.below.size());  // none twice
+  double least = kInfinity;
+  std::uint32_t missed = 0;
+  std::uint32_t needless = 0;
+  for (std::uint32_t c = 0; c < model.corner_count(); ++c) {
+    const double of_corner = plain_margin(model, model.corners[c], x);
+    if (below.count(c) == 0) {
+      least = std::min(least, of_corner);
+      if (!(of_corner >= margin)) ++missed;
+    } else if (of_corner > margin + rounding) {
+      ++needless;
+    }
+  }
+  CHECK(missed == 0);
+  CHECK(needless == 0);
+  CHECK(found.least >= margin);
+  CHECK(found.least <= least);
+  if (least < kInfinity) CHECK(found.least >= least - rounding);
+}
+
+}  // namespace
+
+TEST_CASE("Fast layouts find the corners below a margin and the least margin of the others") {
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  std::mt19937_64 random(1);
+  for (const auto& [name, subject] : subjects()) {
+    CAPTURE(name, precision);
+    const MassSpringModel& model = subject.model;
+    REQUIRE(model.corner_count() > 0);
+    for (const double size : {0.0, 0.1, 0.4}) {
+      const std::vector<Vec3> x = displaced(model, size, random);
+      const Posed posed(subject, precision, x);
+      REQUIRE(posed.body->block_count() >= subject.blocks);
+      if (size > 0.3) REQUIRE(inverted_corners(model.corners, x).size() > 10);
+      for (const double margin : {-kInfinity, 0.0, 0.01 * mean_length(model), kInfinity}) {
+        CAPTURE(size, margin);
+        const Posed::Found found = posed.find_corners(margin);
+        check_corners_at(model, x, margin, found, rounding(model, precision));
+        if (size == 0 && margin == 0) CHECK(found.below.empty());
+        if (margin == kInfinity) CHECK(found.below.size() == model.corner_count());
+      }
+    }
+  }
+}
+
+TEST_CASE("Corners and strains are looked at on every kind of vectors") {
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  std::mt19937_64 random(2);
+  for (const char* name : {"small lattice", "small merged"}) {
+    const Subject& subject = subjects().at(name);
+    const MassSpringModel& model = subject.model;
+    const std::vector<Vec3> x = displaced(model, 0.2, random);
+    const double margin = 0.005 * mean_length(model);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+      CAPTURE(name, precision, hwy::TargetName(target));
+      hwy::DisableTargets(target - 1);  // newer instruction sets have lower bits
+      const Posed posed(subject, precision, x);
+      const Posed::Found found = posed.find_corners(margin);
+      const double strain = posed.largest_strain();
+      posed.body->set_spin({3, -2, 5});
+      posed.body->move(0, 0, 0.5);
+      const Vec3 departure = posed.body->largest_departure(0);
+      hwy::DisableTargets(0);
+      REQUIRE(!found.below.empty());
+      check_corners_at(model, x, margin, found, rounding(model, precision));
+      CHECK(strain == Approx(plain_strain(model, x)).epsilon(1e-5));
+      Vec3 expected = Vec3::Zero();
+      for (const Vec3& each : x)
+        expected =
+            expected.cwiseMax((0.5 * Vec3(3, -2, 5).cross(each - posed.frame.origin)).cwiseAbs());
+      CHECK((departure - expected).norm() < 1e-5 * expected.norm());
+    }
+  }
+}
+
+TEST_CASE("Corners of a node whose position is not a number count as below every margin") {
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  const double wrong = GENERATE(kNan, kInfinity);
+  for (const auto& [name, subject] : subjects()) {
+    const MassSpringModel& model = subject.model;
+    for (const std::uint32_t node : {0U, model.node_count() / 2, model.node_count() - 1}) {
+      CAPTURE(name, precision, wrong, node);
+      std::vector<Vec3> x = model.rest;
+      x[node].y() = wrong;
+      std::set<std::uint32_t> expected;
+      for (std::uint32_t c = 0; c < model.corner_count(); ++c)
+        if (std::count(model.corners[c].node.begin(), model.corners[c].node.end(), node) > 0)
+          expected.insert(c);
+      // Of an infinite position, some volumes are infinite, which is above every margin.
+      const Posed posed(subject, precision, x);
+      const std::vector<std::uint32_t> below = posed.find_corners(0).below;
+      const std::set<std::uint32_t> found(below.begin(), below.end());
+      if (std::isnan(wrong)) {
+        CHECK(found == expected);
+        CHECK(std::isnan(posed.largest_strain()));
+      } else {
+        CHECK_FALSE(posed.largest_strain() < 1);
+      }
+    }
+  }
+}
+
+TEST_CASE("The largest strain is that of a plain loop over the springs") {
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  const double near = precision == Precision::single_precision ? 2e-5 : 1e-12;
+  std::mt19937_64 random(3);
+  for (const auto& [name, subject] : subjects()) {
+    CAPTURE(name, precision);
+    const MassSpringModel& model = subject.model;
+    const Posed rest(subject, precision, model.rest);
+    CHECK(rest.largest_strain() == Approx(plain_strain(model, model.rest)).margin(near));
+    const std::vector<Vec3> jittered = displaced(model, 0.1, random);
+    for (const double scale : {0.6, 1.0, 1.4}) {  // compression or stretch decides
+      std::vector<Vec3> x = jittered;
+      for (Vec3& each : x) each *= scale;
+      CHECK(Posed(subject, precision, x).largest_strain() ==
+            Approx(plain_strain(model, x)).margin(near));
+    }
+    // Springs within blocks and between them.
+    for (std::uint32_t n = 0; n < 20; ++n) {
+      const auto s = static_cast<std::uint32_t>(uniform(random) * model.spring_count());
+      std::vector<Vec3> x = model.rest;
+      x[model.a[s]] = x[model.b[s]] + 3 * (x[model.a[s]] - x[model.b[s]]);
+      CHECK(Posed(subject, precision, x).largest_strain() ==
+            Approx(plain_strain(model, x)).margin(near));
+    }
+  }
+}
+
+TEST_CASE("The largest departure leaves out the rotation of the body") {
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  const double near = precision == Precision::single_precision ? 1e-6 : 1e-14;
+  const Vec3 spin(20, -30, 10);
+  constexpr double kDrift = 1e-4;
+  std::mt19937_64 random(4);
+  for (const auto& [name, subject] : subjects()) {
+    CAPTURE(name, precision);
+    const std::vector<Vec3>& rest = subject.model.rest;
+    const Vec3 center = bounds(rest).center();
+    std::vector<Vec3> v;
+    for (const Vec3& x : rest) v.push_back(spin.cross(x - center) + 0.01 * random_vector(random));
+    const Posed posed(subject, precision, rest, v);
+    FastBody& body = *posed.body;
+    std::vector<Vec3> x(rest.size());
+    for (const bool spins : {false, true, false}) {
+      body.set_spin(spins ? spin : Vec3(Vec3::Zero()));
+      for (std::uint32_t b = 0; b < body.block_count(); ++b) {
+        const Vec3 before = body.largest_departure(b);
+        body.move(b, 1, 0);  // no forces yet
+        CHECK(body.largest_departure(b) == before);
+        body.move(b, 0, kDrift);
+        body.get_x(b, posed.frame, x);
+        Vec3 expected = Vec3::Zero();
+        for (const std::uint32_t node : body.nodes(b))
+          expected =
+              expected.cwiseMax((kDrift * (v[node] - spin.cross(x[node] - center))).cwiseAbs());
+        if (!spins) expected = body.largest_displacement(b);
+        CHECK((body.largest_departure(b) - expected).norm() <=
+              (spins ? near * body.largest_displacement(b).norm() : 0));
+        CHECK(body.largest_displacement(b).norm() > 10 * kDrift * 0.01);
+      }
+    }
+  }
+}
+
+TEST_CASE("No corner falls below kCornerResists while nodes move by less than the margin") {
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  std::mt19937_64 random(5);
+  const Mat3 turn = Eigen::AngleAxisd(2, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  for (const auto& [name, subject] : subjects()) {
+    CAPTURE(name, precision);
+    const MassSpringModel& model = subject.model;
+    const std::vector<Vec3> x = displaced(model, 0.05, random);
+    const Posed::Found found = Posed(subject, precision, x).find_corners(0);
+    std::vector<bool> is_below(model.corner_count());
+    for (const std::uint32_t c : found.below) is_below[c] = true;
+    std::uint32_t wrong = 0;
+    const auto moved_by = [&](double distance) {
+      std::vector<Vec3> y = x;
+      for (Vec3& each : y) each = turn * (each + distance * random_vector(random).normalized());
+      return y;
+    };
+    for (int draw = 0; draw < 3; ++draw) {
+      const std::vector<Vec3> y = moved_by(found.least);
+      for (std::uint32_t c = 0; c < model.corner_count(); ++c)
+        if (!is_below[c] && ratio(model, model.corners[c], y) < kCornerResists) ++wrong;
+    }
+    CHECK(wrong == 0);
+    // The worst displacement: all nodes of a corner against their gradients.
+    std::uint32_t reached = 0;
+    std::uint32_t tried = 0;
+    for (std::uint32_t c = 0; c < model.corner_count(); c += 7) {
+      const Corner& corner = model.corners[c];
+      const double margin = plain_margin(model, corner, x);
+      if (margin < 0) continue;
+      const auto pushed = [&](double distance) {
+        std::array<Vec3, 4> push;
+        const auto& [n0, n1, n2, n3] = corner.node;
+        push[1] = (x[n2] - x[n0]).cross(x[n3] - x[n0]);
+        push[2] = (x[n3] - x[n0]).cross(x[n1] - x[n0]);
+        push[3] = (x[n1] - x[n0]).cross(x[n2] - x[n0]);
+        push[0] = -push[1] - push[2] - push[3];
+        std::vector<Vec3> y(model.node_count());
+        for (std::size_t i = 0; i < 4; ++i)
+          y[corner.node[i]] = x[corner.node[i]] - distance * push[i].normalized();
+        return ratio(model, corner, y);
+      };
+      if (pushed(margin) < kCornerResists) ++wrong;
+      // kCornerStretch^2 times the margin is that of the gradient at rest, which falls then.
+      if (pushed(4.5 * margin) < kCornerResists) ++reached;
+      if (++tried == 300) break;
+    }
+    CHECK(wrong == 0);
+    CHECK(tried > 20);
+    CHECK(reached > tried / 2);
+  }
+}
+
+TEST_CASE("Looking at a body between its steps does not change them") {
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  std::mt19937_64 random(6);
+  for (const auto& [name, subject] : subjects()) {
+    CAPTURE(name, precision);
+    const MassSpringModel& model = subject.model;
+    const std::vector<Vec3> x = displaced(model, 0.05, random);
+    const double step = 0.3 * predicted_step(model);
+    const auto after_steps = [&](bool looks) {
+      const Posed posed(subject, precision, x);
+      FastBody& body = *posed.body;
+      if (looks) body.set_spin({1, 2, 3});
+      for (int i = 0; i < 5; ++i) {
+        for (std::uint32_t b = 0; b < body.block_count(); ++b) body.find_forces(b);
+        for (std::uint32_t b = 0; b < body.block_count(); ++b) {
+          body.collect_forces(b);
+          body.move(b, step, step);
+        }
+        if (!looks) continue;
+        posed.find_corners(1);
+        posed.largest_strain();
+      }
+      std::vector<Vec3> y(x.size());
+      for (std::uint32_t b = 0; b < body.block_count(); ++b) body.get_x(b, posed.frame, y);
+      return y;
+    };
+    CHECK(after_steps(true) == after_steps(false));
+  }
+}
+
+TEST_CASE("A body without corners has none to find") {
+  Subject subject = subjects().at("small lattice");
+  subject.model.corners.clear();
+  const Posed posed(subject, Precision::double_precision, subject.model.rest);
+  const Posed::Found found = posed.find_corners(kInfinity);
+  CHECK(found.below.empty());
+  CHECK(found.least == kInfinity);
+}
