@@ -128,6 +128,15 @@ void measure_squares(const QuadPair<Real>& pair, const NodeRecord<Real>* records
 
 #endif
 
+// Prefetch distance: as long as an access to main memory takes. [eights of corners]
+constexpr std::size_t kEightsAhead = 16;
+
+template <class T>
+HWY_INLINE void prefetch(const T* of) {
+  for (std::size_t byte = 0; byte < sizeof(T); byte += kCacheLine)
+    hwy::Prefetch(reinterpret_cast<const char*>(of) + byte);
+}
+
 template <class Real>
 double find_corners(const QuadLayout<Real>& layout, std::uint32_t number, double margin,
                     QuadState<Real>& state, std::vector<std::uint32_t>& below) {
@@ -140,11 +149,13 @@ double find_corners(const QuadLayout<Real>& layout, std::uint32_t number, double
   QuadBlockState<Real>& own = state[number];
   copy_records(block.halo, block.own, state, own);
   copy_records(block.corner_halo, block.nowhere() + 1, state, own);
+  prefetch_records(block, own);
   const hn::CappedTag<Real, 2 * kQuad> d;
   const auto limit = hn::Set(d, filter.limit());
   auto least = hn::Set(d, std::numeric_limits<Real>::infinity());
   for (std::size_t c = 0; c < block.corners.size(); ++c) {
     const CornerEight<Real>& eight = block.corners[c];
+    prefetch(&eight + std::min(kEightsAhead, block.corners.size() - 1 - c));
     alignas(64) Real of[2 * kQuad];
     measure_volumes(eight, own.records.data(), of);
     for (std::size_t lane = 0; lane < 2 * kQuad; lane += hn::Lanes(d)) {
@@ -170,9 +181,12 @@ double largest_strain(const QuadLayout<Real>& layout, std::uint32_t number,
   const QuadBlock<Real>& block = layout.blocks[number];
   QuadBlockState<Real>& own = state[number];
   copy_records(block.halo, block.own, state, own);
+  prefetch_records(block, own);
   const hn::CappedTag<Real, 2 * kQuad> d;
   SquaredStretch<Real> stretch;
-  for (const QuadPair<Real>& pair : block.pairs) {
+  for (std::size_t n = 0; n < block.pairs.size(); ++n) {
+    const QuadPair<Real>& pair = block.pairs[n];
+    prefetch(&pair + std::min(kPairsAhead, block.pairs.size() - 1 - n));
     alignas(64) Real squares[2 * kQuad];
     measure_squares(pair, own.records.data(), squares);
     for (std::size_t lane = 0; lane < 2 * kQuad; lane += hn::Lanes(d)) {
