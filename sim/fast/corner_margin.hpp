@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "model/corners.hpp"
+#include "model/mass_spring.hpp"
 #include "model/vec.hpp"
 
 namespace springlod::sim {
@@ -20,6 +22,14 @@ struct MarginTerms {
   double scale = 0;                                         ///< [1/m2]
   double offset = std::numeric_limits<double>::infinity();  ///< [m]
 };
+
+/// The first corner of each node, and the end: corners are sorted by their nodes.
+inline std::vector<std::uint32_t> first_corners(const MassSpringModel& model) {
+  std::vector<std::uint32_t> first(model.node_count() + 1, 0);
+  for (const Corner& corner : model.corners) ++first[corner.node[0] + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
+}
 
 inline MarginTerms margin_terms(const Corner& corner, const std::vector<Vec3>& rest) {
   const double travel = corner_travel(corner, rest);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "sim/fast/corner_margin.hpp"
@@ -44,34 +43,32 @@ CornerEight<Real> missing_corners() {
   return eight;
 }
 
+template <class Real>
+void add_corner(const MassSpringModel& model, std::uint32_t number, const std::vector<Place>& place,
+                Indices<Real>& indices, QuadBlock<Real>& block) {
+  const std::size_t lane = block.corner_number.size() % kEight;
+  if (lane == 0) block.corners.push_back(missing_corners<Real>());
+  CornerEight<Real>& eight = block.corners.back();
+  const Corner& corner = model.corners[number];
+  for (std::size_t n = 0; n < 4; ++n)
+    eight.node[n][lane] = static_cast<std::uint16_t>(indices.index(place[corner.node[n]]));
+  const MarginTerms terms = margin_terms(corner, model.rest);
+  eight.scale[lane] = static_cast<Real>(terms.scale);
+  eight.offset[lane] = static_cast<Real>(terms.offset);
+  block.corner_number.push_back(number);
+}
+
 }  // namespace
 
 template <class Real>
 bool place_corners(const MassSpringModel& model, QuadLayout<Real>& layout) {
-  // By block: index of the corner's own node, and the corner. Sorted, so that neighbours in memory
-  // are neighbours in space.
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> corners(layout.blocks.size());
-  for (std::uint32_t c = 0; c < model.corner_count(); ++c) {
-    const Place at = layout.place[model.corners[c].node[0]];
-    corners[at.block].emplace_back(at.index, c);
-  }
+  const std::vector<std::uint32_t> first = first_corners(model);
   for (std::uint32_t b = 0; b < layout.blocks.size(); ++b) {
-    std::sort(corners[b].begin(), corners[b].end());
     QuadBlock<Real>& block = layout.blocks[b];
     Indices<Real> indices(b, block);
-    for (std::size_t i = 0; i < corners[b].size(); ++i) {
-      if (i % kEight == 0) block.corners.push_back(missing_corners<Real>());
-      CornerEight<Real>& eight = block.corners.back();
-      const std::uint32_t number = corners[b][i].second;
-      const Corner& corner = model.corners[number];
-      for (std::size_t n = 0; n < 4; ++n)
-        eight.node[n][i % kEight] =
-            static_cast<std::uint16_t>(indices.index(layout.place[corner.node[n]]));
-      const MarginTerms terms = margin_terms(corner, model.rest);
-      eight.scale[i % kEight] = static_cast<Real>(terms.scale);
-      eight.offset[i % kEight] = static_cast<Real>(terms.offset);
-      block.corner_number.push_back(number);
-    }
+    for (const std::uint32_t node : block.node)
+      for (std::uint32_t c = first[node]; c < first[node + 1]; ++c)
+        add_corner(model, c, layout.place, indices, block);
     block.corner_number.resize(block.corners.size() * kEight, kNoCorner);
     if (block.indices() - 1 > std::numeric_limits<std::uint16_t>::max()) return false;
   }

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cassert>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -61,19 +60,17 @@ class Starring {
       : model_(model), layout_(layout) {}
 
   RowCorners<Real> stars() {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted;  // place and number
-    for (std::uint32_t c = 0; c < model_.corner_count(); ++c)
-      sorted.emplace_back(place(model_.corners[c].node[0]), c);
-    std::sort(sorted.begin(), sorted.end());
-    auto next = sorted.begin();
+    const std::vector<std::uint32_t> first = first_corners(model_);
     for (const RowBlock& block : layout_.blocks) {
-      corners_.first_star.push_back(static_cast<std::uint32_t>(corners_.stars.size()));
-      open_ = corners_.stars.size();
-      for (; next != sorted.end() && next->first < block.first + block.own; ++next)
-        add(next->first, next->second);
+      begin_ = open_ = corners_.stars.size();
+      corners_.first_star.push_back(static_cast<std::uint32_t>(begin_));
+      for (std::uint32_t p = block.first; p < block.first + block.own; ++p) {
+        const std::uint32_t node = layout_.node[p];
+        for (std::uint32_t c = first[node]; c < first[node + 1]; ++c) add(p, c);
+      }
+      close_block();
     }
     corners_.first_star.push_back(static_cast<std::uint32_t>(corners_.stars.size()));
-    share_properties();
     return std::move(corners_);
   }
 
@@ -95,14 +92,12 @@ class Starring {
     const std::uint32_t lane = at - star.base;
     const MarginTerms terms = margin_terms(corner, model_.rest);
     corners_.numbers[index][as.octant][lane] = number;
-    properties_[index].scale[as.octant][lane] = static_cast<Real>(as.sign * terms.scale);
-    properties_[index].offset[as.octant][lane] = static_cast<Real>(terms.offset);
-    for (const std::int32_t t : star.to)
-      corners_.end = std::max(corners_.end,
-                              star.base + kRowLanes + static_cast<std::uint32_t>(std::max(t, 0)));
+    StarProperties<Real>& properties = properties_[index - begin_];
+    properties.scale[as.octant][lane] = static_cast<Real>(as.sign * terms.scale);
+    properties.offset[as.octant][lane] = static_cast<Real>(terms.offset);
   }
 
-  /// The star that has room for the corner, or a new one.
+  /// The star of the block that has room for the corner, or a new one.
   CornerStar& star_for(std::uint32_t at, const Spread& as) {
     while (open_ < corners_.stars.size() && corners_.stars[open_].base + kRowLanes <= at) ++open_;
     for (std::size_t s = open_; s < corners_.stars.size(); ++s)
@@ -130,10 +125,15 @@ class Starring {
     });
   }
 
-  void share_properties() {
-    Palette palette(corners_.properties);
-    for (std::size_t s = 0; s < corners_.stars.size(); ++s)
-      corners_.stars[s].properties = palette.number(properties_[s]);
+  void close_block() {
+    for (std::size_t s = begin_; s < corners_.stars.size(); ++s) {
+      CornerStar& star = corners_.stars[s];
+      star.properties = palette_.number(properties_[s - begin_]);
+      const std::int32_t farthest = *std::max_element(star.to.begin(), star.to.end());
+      corners_.end = std::max(
+          corners_.end, star.base + kRowLanes + static_cast<std::uint32_t>(std::max(farthest, 0)));
+    }
+    properties_.clear();
   }
 
   static constexpr Real kMissing = std::numeric_limits<Real>::infinity();
@@ -141,8 +141,11 @@ class Starring {
   const MassSpringModel& model_;
   const RowLayout<Real>& layout_;
   RowCorners<Real> corners_;
-  std::vector<StarProperties<Real>> properties_;  // by star
+  Palette<StarProperties<Real>> palette_{corners_.properties};
+  // Of the block:
+  std::size_t begin_ = 0;                         // its first star
   std::size_t open_ = 0;                          // the first star that may have room
+  std::vector<StarProperties<Real>> properties_;  // by star, from its first
 };
 
 }  // namespace
