@@ -104,15 +104,15 @@ std::vector<Mat3> sum_at_nodes(const MassSpringModel& model, const StiffnessOf& 
   return sums;
 }
 
-std::vector<Mat3> node_stiffness_at(const MassSpringModel& model, const std::vector<Vec3>& x) {
-  return sum_at_nodes(model, [&](std::uint32_t s) -> Mat3 {
-    const Vec3 along = x[model.b[s]] - x[model.a[s]];
-    const double length = along.norm();
-    if (!(length > 0)) return Mat3::Zero();  // the direction is undefined
-    const Mat3 lengthwise = along * along.transpose() / (length * length);
-    const double across = std::max(0.0, 1 - model.rest_length[s] / length);
-    return model.stiffness[s] * (lengthwise + across * (Mat3::Identity() - lengthwise));
-  });
+/// Stiffness of a spring between its ends in the state x, along it and across [N/m].
+Mat3 spring_stiffness_at(const MassSpringModel& model, std::uint32_t s,
+                         const std::vector<Vec3>& x) {
+  const Vec3 along = x[model.b[s]] - x[model.a[s]];
+  const double length = along.norm();
+  if (!(length > 0)) return Mat3::Zero();  // the direction is undefined
+  const Mat3 lengthwise = along * along.transpose() / (length * length);
+  const double across = std::max(0.0, 1 - model.rest_length[s] / length);
+  return model.stiffness[s] * (lengthwise + across * (Mat3::Identity() - lengthwise));
 }
 
 /// omega^2 <= max_i 2 lambda_max(A_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
@@ -159,10 +159,34 @@ std::vector<Mat3> node_stiffness(const MassSpringModel& model) {
 
 std::vector<double> node_frequency_bounds(const MassSpringModel& model,
                                           const std::vector<Vec3>& x) {
-  const std::vector<Mat3> stiffness = node_stiffness_at(model, x);
+  const std::vector<Mat3> stiffness = sum_at_nodes(
+      model, [&](std::uint32_t s) -> Mat3 { return spring_stiffness_at(model, s, x); });
   std::vector<double> bounds(stiffness.size());
   for (std::size_t i = 0; i < stiffness.size(); ++i)
     bounds[i] = 2 * eigenvalue_bound(stiffness[i]) / model.mass[i];
+  return bounds;
+}
+
+std::vector<double> strained_frequency_bounds(const MassSpringModel& model,
+                                              const std::vector<Vec3>& x, double strain) {
+  std::vector<std::uint8_t> strained(model.node_count(), 0);
+  const double least = (1 - strain) * (1 - strain);
+  const double most = (1 + strain) * (1 + strain);
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    const double square = (x[model.b[s]] - x[model.a[s]]).squaredNorm() /
+                          (model.rest_length[s] * model.rest_length[s]);
+    if (!(square >= least && square <= most)) strained[model.a[s]] = strained[model.b[s]] = 1;
+  }
+  std::vector<Mat3> stiffness(model.node_count(), Mat3::Zero());
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    if ((strained[model.a[s]] | strained[model.b[s]]) == 0) continue;
+    const Mat3 k = spring_stiffness_at(model, s, x);
+    stiffness[model.a[s]] += k;
+    stiffness[model.b[s]] += k;
+  }
+  std::vector<double> bounds(model.node_count(), 0);
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+    if (strained[i] != 0) bounds[i] = 2 * eigenvalue_bound(stiffness[i]) / model.mass[i];
   return bounds;
 }
 

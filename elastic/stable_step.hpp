@@ -28,6 +28,11 @@ std::vector<Mat3> node_stiffness(const MassSpringModel& model);
 /// and invariant under rotations.
 std::vector<double> node_frequency_bounds(const MassSpringModel& model, const std::vector<Vec3>& x);
 
+/// The same for the nodes at a spring with |l - L| / L > `strain` in the state x; 0 for the others.
+/// Most of a body is rarely strained, and then costs little.
+std::vector<double> strained_frequency_bounds(const MassSpringModel& model,
+                                              const std::vector<Vec3>& x, double strain);
+
 /// Largest damping time c/k of the springs [s].
 double largest_damping_time(const MassSpringModel& model);
 

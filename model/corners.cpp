@@ -88,51 +88,6 @@ void validate_corner(const MassSpringModel& model, const SpringLookup& springs,
     fail("it is too flat at rest");
 }
 
-// ---------------------------------------------------------------- safe strain
-
-/// Squared lengths of the edges 01, 02, 03, 12, 13, 23 of a tetrahedron [m2].
-using SquaredLengths = std::array<double, 6>;
-constexpr std::array<std::array<unsigned, 2>, 6> kEdgeEnds{
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-/// Square of the volume of the corner [m6]: the Gram determinant of the edges at node 0.
-double squared_volume(const SquaredLengths& d) {
-  const double g12 = (d[0] + d[1] - d[3]) / 2;
-  const double g13 = (d[0] + d[2] - d[4]) / 2;
-  const double g23 = (d[1] + d[2] - d[5]) / 2;
-  return d[0] * (d[1] * d[2] - g23 * g23) - g12 * (g12 * d[2] - g23 * g13) +
-         g13 * (g12 * g23 - d[1] * g13);
-}
-
-/// The least squared volume while each length changes by a factor between 1 - eps and 1 + eps. The
-/// squared volume is concave in each squared length, so its minimum is at one of the 64 vertices of
-/// the range.
-double least_squared_volume(const SquaredLengths& d, double eps) {
-  const std::array<double, 2> factor{(1 - eps) * (1 - eps), (1 + eps) * (1 + eps)};
-  double least = std::numeric_limits<double>::infinity();
-  for (unsigned vertex = 0; vertex < 64; ++vertex) {
-    SquaredLengths changed = d;
-    for (unsigned e = 0; e < 6; ++e) changed[e] *= factor[vertex >> e & 1U];
-    least = std::min(least, squared_volume(changed));
-  }
-  return least;
-}
-
-/// The largest eps up to `most` for which the least squared volume is at least `bound`.
-double largest_change(const SquaredLengths& d, double bound, double most) {
-  constexpr int kHalvings = 30;  // to 1e-9 of a length
-  if (least_squared_volume(d, most) >= bound) return most;
-  double safe = 0;
-  double unsafe = most;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = (safe + unsafe) / 2;
-    (least_squared_volume(d, middle) >= bound ? safe : unsafe) = middle;
-  }
-  return safe;
-}
-
-// ---------------------------------------------------------------- travel
-
 /// The largest parallelogram [m2] of two sides of a triangle, each side of which has at most the
 /// given squared length [m2]. The area grows with each side of an acute triangle. An obtuse one is
 /// largest with a right angle between its two shorter sides.
@@ -198,24 +153,6 @@ void validate_corners(const MassSpringModel& model) {
   if (model.corners.empty()) return;
   const SpringLookup springs(model);
   for (std::uint32_t c = 0; c < model.corner_count(); ++c) validate_corner(model, springs, c);
-}
-
-double safe_strain(const MassSpringModel& model) {
-  if (model.corners.empty()) return std::numeric_limits<double>::infinity();
-  const SpringLookup springs(model);
-  double safe = 1;  // at which springs have no length
-  for (const Corner& corner : model.corners) {
-    SquaredLengths d{};
-    for (unsigned e = 0; e < 6; ++e) {
-      const std::uint32_t spring =
-          springs.find(corner.node[kEdgeEnds[e][0]], corner.node[kEdgeEnds[e][1]]);
-      if (spring == SpringLookup::kNone) return 0;
-      d[e] = model.rest_length[spring] * model.rest_length[spring];
-    }
-    const double watched = kCornerWatched * corner_volume(corner, model.rest);
-    safe = largest_change(d, watched * watched, safe);
-  }
-  return safe;
 }
 
 }  // namespace springlod::inline model

@@ -31,9 +31,6 @@ struct Corner {
 /// J below which a corner resists [1]. Most bodies never compress a corner so far, so the moduli of
 /// a model stay those of its springs. It leaves room to turn a fast corner before J = 0.
 inline constexpr double kCornerResists = 0.4;
-/// A simulation looks at a corner in every step while its J is below this [1]. The distance to
-/// kCornerResists is what J may lose between two looks at all corners.
-inline constexpr double kCornerWatched = 0.55;
 /// Least corner_shape at rest [1]. The stiffness of a corner against a displacement of a node is in
 /// proportion to 1 / corner_shape. With this bound, it is at most five times that of a cube's
 /// corner, and rounding and small strains do not decide on the side of a corner.
@@ -70,15 +67,5 @@ void settle_corners(std::vector<Corner>& corners, const std::vector<Vec3>& rest)
 /// the standard form, springs from node[0] to the other three, sorted by node, none twice, finite
 /// young > 0, corner_shape >= kFlatCorner at rest.
 void validate_corners(const MassSpringModel& model);
-
-/// The largest relative change of length eps [1], the same for all springs, for which no corner can
-/// be below kCornerWatched: while the length of every spring stays between (1 - eps) and (1 + eps)
-/// rest lengths, and the corners have moved from J = 1 continuously, J >= kCornerWatched. A step
-/// that turns a corner over at once is not covered.
-///
-/// Exact for each corner by itself (docs/method.md, section 2). The result is that of the worst
-/// corner; 0 if two nodes of a corner are joined by no spring, because it can then become flat
-/// without a strain; infinite for a model without corners.
-double safe_strain(const MassSpringModel& model);
 
 }  // namespace springlod::inline model

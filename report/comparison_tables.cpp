@@ -108,7 +108,10 @@ Table starts_table(const sim::Comparison& comparison) {
                    "spring_updates",
                    "ledger_error",
                    "unconverged_steps",
-                   "first_crossing"};
+                   "first_crossing",
+                   "first_inversion",
+                   "most_inverted",
+                   "inverted_at_end"};
   for (const sim::LevelRuns& runs : comparison.levels)
     for (std::size_t i = 0; i < runs.starts.size(); ++i) {
       const sim::StartResult& start = runs.starts[i];
@@ -116,7 +119,9 @@ Table starts_table(const sim::Comparison& comparison) {
                             start.surface_error, start.shape_error, start.energy_difference,
                             start.simulated, whole(start.spring_updates), start.ledger_error,
                             whole(start.unconverged_steps),
-                            start.first_crossing ? Cell(*start.first_crossing) : Cell()});
+                            start.first_crossing ? Cell(*start.first_crossing) : Cell(),
+                            start.first_inversion ? Cell(*start.first_inversion) : Cell(),
+                            whole(start.most_inverted), whole(start.inverted_at_end)});
     }
   return table;
 }

@@ -22,6 +22,7 @@ std::unique_ptr<Stepper> make_fast(const MassSpringModel& model, const Scenario&
                                    const RunPlan& plan) {
   return std::make_unique<FastLeapfrog>(model, scenario, start, step,
                                         FastOptions{.ledger = options.ledger,
+                                                    .volumes = options.volumes,
                                                     .precision = options.precision,
                                                     .threads = options.threads,
                                                     .layout = plan.layout,
@@ -36,6 +37,7 @@ std::unique_ptr<Stepper> make(const MassSpringModel& model, const Scenario& scen
                                   StepperOptions{.integrator = options.integrator,
                                                  .solver = options.solver,
                                                  .ledger = options.ledger,
+                                                 .volumes = options.volumes,
                                                  .skin = options.skin});
 }
 

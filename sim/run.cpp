@@ -72,6 +72,10 @@ ChosenStep choose_step(const RunOptions& options, const StepLimit& limit, double
 
 }  // namespace
 
+bool corners_resist(const MassSpringModel& model, const RunOptions& options) {
+  return options.volumes && !is_implicit(options.integrator) && !model.corners.empty();
+}
+
 Trajectory run(const MassSpringModel& model, const Scenario& scenario, const RunOptions& options) {
   validate(model);
   return run(model, scenario, initial_state(model, scenario.start), options);

@@ -8,6 +8,7 @@
 #include "base/progress.hpp"
 #include "model/mass_spring.hpp"
 #include "sim/contact/contact_skin.hpp"
+#include "sim/correction/inversion.hpp"
 #include "sim/fast/layout.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/ledger.hpp"
@@ -23,8 +24,9 @@ struct RunOptions {
   Integrator integrator = Integrator::symplectic_euler;
   SolverOptions solver = {};  ///< for the implicit schemes
   /// Step [s]. Default: 1 ms for the implicit schemes; for the others, `safety` times the predicted
-  /// stable step, including contact stiffness. Symplectic Euler halves the step while springs are
-  /// stretched or flattened so much that it would be unstable, and doubles it again afterwards.
+  /// stable step. Symplectic Euler halves the step while springs are
+  /// stretched or flattened so much that it would be unstable, or while corners change fast; later
+  /// it doubles it again.
   std::optional<double> step = std::nullopt;
   double safety = 0.8;
   /// A body in contact sleeps, at no cost, once the mean speed of its nodes has stayed below this
@@ -33,6 +35,9 @@ struct RunOptions {
   double sleep = 1e-5;
   /// Stored frames per second of simulated time; 0: only the first and last state.
   double frame_rate = 60;
+  /// Whether the corners of the model resist inversion (model/corners.hpp). Only the explicit
+  /// schemes have them. They are watched and reported in any case.
+  bool volumes = true;
   /// Record the energy ledger (increases the cost by about half).
   bool ledger = true;
   /// Floating-point precision of symplectic Euler; see docs/precision.md.
@@ -58,6 +63,9 @@ constexpr auto option_rows(const RunOptions*) {
       option("sleep", &RunOptions::sleep,
              "a body in contact sleeps, at no cost, once the mean speed of its nodes stays below "
              "this fraction of the speed after a fall through its own size; 0: never"),
+      option("volumes", &RunOptions::volumes,
+             "whether the corners of the model resist inversion, in the explicit schemes; they are "
+             "watched and reported in any case"),
       option("frame_rate", &RunOptions::frame_rate,
              "frames stored per simulated second; 0: only the first and the last"),
       option("ledger", &RunOptions::ledger, "record the energy ledger"));
@@ -74,6 +82,9 @@ struct Crossing {
   double time = 0;      ///< of the check that found it [s]
 };
 
+/// Whether the corners of the model resist inversion in a run with these options.
+bool corners_resist(const MassSpringModel& model, const RunOptions& options);
+
 struct Frame {
   double time = 0;      ///< [s]
   std::vector<Vec3> x;  ///< [m]
@@ -82,10 +93,11 @@ struct Frame {
 /// One run of one model: deterministic for any number of threads.
 struct Trajectory {
   double step = 0;            ///< at rest [s]
-  double shortest_step = 0;   ///< while springs were strongly strained [s]
-  double predicted_step = 0;  ///< stable step predicted for the model and its contacts [s]
+  double shortest_step = 0;   ///< while the body was strongly strained [s]
+  double predicted_step = 0;  ///< stable step predicted for the model [s]
   double undamped_step = 0;   ///< the same without damping [s]
-  /// What determines `step`. While springs are strongly strained, they determine shortest_step.
+  /// What determines `step`. While springs or corners are strongly strained, they determine
+  /// shortest_step.
   StepBound limited_by = StepBound::springs;
   std::uint64_t steps = 0;
   /// Spring evaluations in all steps and iterations: the deterministic measure of cost. (A sparse
@@ -100,8 +112,11 @@ struct Trajectory {
   std::vector<LedgerEntry> ledger;      ///< one per frame; empty if not requested
   std::optional<double> first_contact;  ///< [s]
   std::optional<double> asleep_since;   ///< [s]; from then on it was not advanced
-  /// The first inverted spring: from then on, the deformation near it is not physical.
+  /// For a model without corners: the first inverted spring. From then on, the deformation near it
+  /// is not physical.
   std::optional<Crossing> first_crossing;
+  Inversions inversions;              ///< of corners, during the run
+  std::uint32_t inverted_at_end = 0;  ///< corners inside out in the final state
   State final;
 };
 

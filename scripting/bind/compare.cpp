@@ -25,27 +25,30 @@ namespace {
 constexpr const char* kGroup = "Simulation";
 
 /// Prints warnings about runs that completed.
-void warn(Console& console, const std::vector<sim::RunSummary>& runs) {
+void warn(Console& console, const std::vector<sim::RunSummary>& runs, bool resisted) {
   std::size_t unconverged = 0;
-  std::size_t crossed = 0;
+  std::size_t inverted = 0;
+  std::size_t at_end = 0;
   double first = std::numeric_limits<double>::infinity();
   for (const sim::RunSummary& run : runs) {
     if (run.unconverged_steps > 0) ++unconverged;
-    if (!run.first_crossing) continue;
-    ++crossed;
-    first = std::min(first, *run.first_crossing);
+    if (run.inverted_at_end > 0) ++at_end;
+    const std::optional<double>& time =
+        run.first_inversion ? run.first_inversion : run.first_crossing;
+    if (!time) continue;
+    ++inverted;
+    first = std::min(first, *time);
   }
   if (unconverged > 0)
     console.say(
         fmt::format("compare: in {} of {} runs the solver did not reach its tolerance in some "
                     "steps; use more iterations, a greater tolerance or a smaller step",
                     unconverged, runs.size()));
-  if (crossed > 0)
+  if (inverted > 0)
     console.say(
-        fmt::format("compare: in {} of {} runs springs were inverted, the first by t = {:.4g} s "
-                    "(nodes crossed); "
-                    "use a stiffer material, a slower impact or a finer model",
-                    crossed, runs.size(), first));
+        fmt::format("compare: in {} of {} runs the body was inside out somewhere, the first "
+                    "at t = {:.4g} s, and in {} until the end; {}",
+                    inverted, runs.size(), first, at_end, inversion_hint(resisted)));
 }
 
 /// Prints a hint if damping limits the step of a level.
@@ -81,7 +84,8 @@ int compare_binding(Call& call) {
   std::vector<sim::RunSummary> all;
   for (const sim::LevelRuns& level : value->comparison.levels)
     all.insert(all.end(), level.starts.begin(), level.starts.end());
-  warn(call.session().console(), all);
+  warn(call.session().console(), all,
+       sim::corners_resist(value->chain->chain.levels.front().model, options.run));
   hint_at_damping(call.session().console(), value->comparison.levels);
   return call.give(std::shared_ptr<const ComparisonValue>(value));
 }
@@ -114,6 +118,9 @@ int ensemble_binding(Call& call) {
     set_field(L, "ledger_error", run.ledger_error);
     set_field(L, "unconverged_steps", run.unconverged_steps);
     if (run.first_crossing) set_field(L, "first_crossing", *run.first_crossing);
+    if (run.first_inversion) set_field(L, "first_inversion", *run.first_inversion);
+    set_field(L, "most_inverted", run.most_inverted);
+    set_field(L, "inverted_at_end", run.inverted_at_end);
     end_list_entry(L, ++number);
   }
   return 1;
@@ -170,7 +177,8 @@ void describe_comparison(Api& api) {
                .returns = "list of tables, list of their keys: level, label, start, distance [m], "
                           "surface_error [m], shape_error [m], energy_difference, simulated [s], "
                           "spring_updates, ledger_error, unconverged_steps, first_crossing (time "
-                          "of the first crossing [s], or \"\")",
+                          "of the first crossing [s], or \"\"), first_inversion (the same of "
+                          "corners), most_inverted, inverted_at_end (numbers of corners)",
                .call = starts_method});
   type.method({.name = "timings",
                .summary = "Measured wall times; not reproducible.",
@@ -224,7 +232,9 @@ void describe_compare(Api& api) {
       .options = ensemble_parameters(),
       .returns = "list of tables, one per start: start (its number), distance [m], simulated [s], "
                  "spring_updates, ledger_error, unconverged_steps, first_crossing (time of the "
-                 "first crossing [s], or nil). Starts of equal seed and number are the same for "
+                 "first crossing [s], or nil), first_inversion (the same of corners), "
+                 "most_inverted, inverted_at_end (numbers of corners). Starts of equal seed and "
+                 "number are the same for "
                  "every level, so samples are paired",
       .errors = "As for run.",
       .example = "local distances = {}\n"

@@ -258,10 +258,6 @@ void describe_model_type(Api& api) {
              [](const ModelValue& value) { return value.model->end_count(); });
   type.field("corner_count", "integer", "number of corners; 0 for a model built without volumes",
              [](const ModelValue& value) { return value.model->corner_count(); });
-  type.field("safe_strain", "number",
-             "largest strain of springs for which no corner can be below 0.55 of its volume [1]; "
-             "infinite without corners",
-             [](const ModelValue& value) { return safe_strain(*value.model); });
   type.field("border_count", "integer", "number of border nodes",
              [](const ModelValue& value) { return border_count(*value.model); });
   type.field("part_count", "integer", "number of connected components",

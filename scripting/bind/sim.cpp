@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kGroup = "Simulation";
 
 /// Warnings about a run that completed.
-void warn(Console& console, const sim::Trajectory& run) {
+void warn(Console& console, const sim::Trajectory& run, bool resisted) {
   if (run.limited_by == sim::StepBound::damping)
     console.say("run: damping shortens the step " + damping_hint(run));
   if (run.unconverged_steps > 0)
@@ -30,10 +30,16 @@ void warn(Console& console, const sim::Trajectory& run) {
                     run.unconverged_steps, run.steps));
   if (run.first_crossing)
     console.say(fmt::format(
-        "run: the spring of nodes {} and {} was inverted by t = {:.4g} s (its nodes crossed); "
-        "use a stiffer material, a slower impact or a finer model",
+        "run: the spring of nodes {} and {} was inverted by t = {:.4g} s (its nodes crossed); {}",
         script_number(run.first_crossing->a), script_number(run.first_crossing->b),
-        run.first_crossing->time));
+        run.first_crossing->time, inversion_hint(resisted)));
+  if (const auto& first = run.inversions.first)
+    console.say(fmt::format(
+        "run: the body was inside out at t = {:.4g} s, at ({:.4g}, {:.4g}, {:.4g}) m (corner {}); "
+        "at most {} corners at one time, {} at the end; {}",
+        first->time, first->place.x(), first->place.y(), first->place.z(),
+        script_number(first->corner), run.inversions.most, run.inverted_at_end,
+        inversion_hint(resisted)));
 }
 
 int run_binding(Call& call) {
@@ -54,7 +60,8 @@ int run_binding(Call& call) {
   reader.finish();
   value->trajectory = start ? sim::run(model, *value->scenario, *start, options)
                             : sim::run(model, *value->scenario, options);
-  if (!quiet) warn(call.session().console(), value->trajectory);
+  if (!quiet)
+    warn(call.session().console(), value->trajectory, sim::corners_resist(model, options));
   return call.give(std::shared_ptr<const TrajectoryValue>(value));
 }
 
@@ -85,6 +92,7 @@ void push_ledger(lua_State* L, const TrajectoryValue& value) {
     set_field(L, "lost_damping", entry.lost_damping);
     set_field(L, "lost_friction", entry.lost_friction);
     set_field(L, "lost_contact", entry.lost_contact);
+    set_field(L, "lost_corners", entry.lost_corners);
     set_field(L, "lost_switch", entry.lost_switch);
     set_field(L, "total", entry.total());
     end_list_entry(L, ++number);
@@ -107,6 +115,16 @@ void push_crossing(lua_State* L, const TrajectoryValue& value) {
   set_field(L, "time", crossing->time);
 }
 
+void push_inversion(lua_State* L, const TrajectoryValue& value) {
+  const auto& inversion = value.trajectory.inversions.first;
+  if (!inversion) return lua_pushnil(L);
+  begin_table(L);
+  set_field(L, "corner", inversion->corner + 1);
+  set_field(L, "node", value.model->model->corners[inversion->corner].node[0] + 1);
+  set_field(L, "position", inversion->place);
+  set_field(L, "time", inversion->time);
+}
+
 void push_optional(lua_State* L, const std::optional<double>& number) {
   number ? push(L, *number) : lua_pushnil(L);
 }
@@ -125,7 +143,7 @@ void describe_trajectory(Api& api) {
   };
   number("step", "time step of the body at rest [s]",
          [](const sim::Trajectory& t) { return t.step; });
-  number("shortest_step", "shortest time step, while springs were strongly strained [s]",
+  number("shortest_step", "shortest time step, while the body was strongly strained [s]",
          [](const sim::Trajectory& t) { return t.shortest_step; });
   number("predicted_step", "predicted stable step, contacts included [s]",
          [](const sim::Trajectory& t) { return t.predicted_step; });
@@ -159,9 +177,17 @@ void describe_trajectory(Api& api) {
   type.table_field("first_crossing", "table",
                    "first crossing: nodes a and b of the spring (from 1) and time [s]; or nil",
                    push_crossing);
+  type.table_field("first_inversion", "table",
+                   "first corner inside out: corner, its node (both from 1), position [m] and time "
+                   "[s]; or nil",
+                   push_inversion);
+  type.field("most_inverted", "integer", "largest number of corners inside out at one time",
+             [](const TrajectoryValue& value) { return value.trajectory.inversions.most; });
+  type.field("inverted_at_end", "integer", "corners inside out in the last state",
+             [](const TrajectoryValue& value) { return value.trajectory.inverted_at_end; });
   type.table_field("ledger", "list of tables",
                    "energies of each frame [J]: time, kinetic, elastic, gravity, contact, "
-                   "lost_damping, lost_friction, lost_contact, lost_switch, total",
+                   "lost_damping, lost_friction, lost_contact, lost_corners, lost_switch, total",
                    push_ledger);
   type.table_field("final", "State", "last state: time [s], x and v, lists of {x, y, z} by node",
                    push_final);
@@ -198,7 +224,7 @@ std::vector<Parameter> single_run_parameters() {
        .type = "boolean",
        .fallback = "false",
        .help =
-           "suppress warnings about damping, unconverged steps and crossings; the Trajectory has "
+           "suppress warnings about damping, unconverged steps and inversions; the Trajectory has "
            "them"});
   return parameters;
 }

@@ -45,8 +45,7 @@ struct Penetration {
 /// Finds which points touch the obstacles. It keeps, for every point and box, from which side of
 /// each box axis the point came. Depth is measured to that side. A point pushed past the middle of
 /// a thin box is therefore pushed out where it entered, and the potential kappa A d^2 / 2 stays
-/// continuous. (A point that crosses a box within one step is also pushed back, with an energy
-/// error that no time step resolves: boxes must be thicker than speed times step.)
+/// continuous. A point that crosses a box within one step is also pushed back.
 class ContactFinder {
  public:
   /// `x`: the start positions of the nodes. Points and obstacles must outlive the finder.

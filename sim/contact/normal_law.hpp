@@ -5,7 +5,7 @@ namespace springlod::sim {
 /// Energy of a contact of stiffness k at depth d: k d^2 / 2 inside the obstacle, 0 outside [J].
 double penalty_energy(double stiffness, double depth);
 
-/// Normal force between one point and an obstacle over one step: eq. 64a of docs/method.md.
+/// Normal force between one point and an obstacle over one step: eq. 68 of docs/method.md.
 ///
 /// The force is constant over the step. Its elastic part is the discrete gradient of the energy U
 /// of the contact, (U(d_1) - U(d_0)) / (d_1 - d_0) for the depths d_0 at the start and d_1 at the

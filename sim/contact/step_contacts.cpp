@@ -15,24 +15,17 @@ constexpr int kMostSweeps = 100;
 
 }  // namespace
 
-StepContacts::StepContacts(const ContactPoints& points, ContactFinder& finder,
-                           std::uint32_t number_count)
-    : points_(&points), finder_(&finder), slot_(number_count, kNone) {}
-
 void StepContacts::begin(double step) {
   step_ = step;
   std::swap(contacts_, before_);
   contacts_.clear();
   touches_.clear();
   shares_.clear();
-  nodes_.clear();
-  changes_.clear();
   losses_ = {};
-  coupled_ = false;
 }
 
 void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const Contact* was,
-                         const Path& path) {
+                         const StepPath& path, StepNodes& nodes) {
   const std::optional<Penetration> end = finder_->penetration(obstacle, point, path.to);
   if (was == nullptr && !end) return;
   Contact contact = finder_->contact(obstacle, point, end ? end->normal : was->normal);
@@ -57,52 +50,40 @@ void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const Cont
   // A point on another face of a box than before, or that other contacts pushed in.
   losses_.contact += (was != nullptr ? penalty_energy(was->stiffness, was->depth) : 0) -
                      penalty_energy(contact.stiffness, touch.before);
+  touch.first = static_cast<std::uint32_t>(shares_.size());
+  for (const ContactPoints::Share& share : points_->shares(point))
+    shares_.push_back({nodes.slot(share.node), share.weight, share.kick});
+  touch.end = static_cast<std::uint32_t>(shares_.size());
   touches_.push_back(std::move(touch));
 }
 
-std::uint32_t StepContacts::gathered(std::uint32_t node, std::uint32_t number) {
-  std::uint32_t& slot = slot_[number];
-  if (slot != kNone) {
-    coupled_ = true;
-    return slot;
-  }
-  slot = static_cast<std::uint32_t>(nodes_.size());
-  used_.push_back(number);
-  nodes_.emplace_back().node = node;
-  return slot;
-}
-
-void StepContacts::solve_gathered() {
-  at_.clear();
-  for (const Node& node : nodes_) at_.push_back(node.path.to);
-  if (touches_.empty()) return;
+void StepContacts::solve(StepNodes& nodes) {
   for (int i = 0; i < kMostSweeps; ++i)
-    if (sweep() < kTolerance || !coupled_) break;
-  finish();
+    if (sweep(nodes) < kTolerance || !nodes.shared()) return;
 }
 
-double StepContacts::sweep() {
+double StepContacts::sweep(StepNodes& nodes) {
   double largest_change = 0;
   double largest = 0;
   for (Touch& touch : touches_) {
-    largest_change = std::max(largest_change, update(touch));
+    largest_change = std::max(largest_change, update(touch, nodes));
     largest = std::max(largest, touch.law.mobility * touch.contact.normal_force);
   }
   return largest > 0 ? largest_change / largest : 0;
 }
 
-Vec3 StepContacts::position(const Touch& touch) const {
+Vec3 StepContacts::position(const Touch& touch, const StepNodes& nodes) const {
   Vec3 sum = Vec3::Zero();
   for (std::uint32_t s = touch.first; s < touch.end; ++s)
-    sum += shares_[s].weight * at_[shares_[s].node];
+    sum += shares_[s].weight * nodes.at(shares_[s].slot);
   return sum;
 }
 
 // The kicks of a point's nodes move the point by the displacement itself, so its position need not
 // be computed again between normal force and friction.
-double StepContacts::update(Touch& touch) {
+double StepContacts::update(Touch& touch, StepNodes& nodes) {
   Contact& contact = touch.contact;
-  Vec3 at = position(touch);
+  Vec3 at = position(touch, nodes);
   const double free =
       touch.level - contact.normal.dot(at) + touch.law.mobility * contact.normal_force;
   const double force = touch.law.solve(touch.before, free).force;
@@ -113,11 +94,11 @@ double StepContacts::update(Touch& touch) {
   const Vec3 change = pushed + slid;
   if (change.isZero(0)) return 0;
   for (std::uint32_t s = touch.first; s < touch.end; ++s)
-    at_[shares_[s].node] += shares_[s].kick * change;
+    nodes.move(shares_[s].slot, shares_[s].kick * change);
   return change.norm();
 }
 
-Vec3 StepContacts::update_friction(Touch& touch, const Vec3& at) {
+Vec3 StepContacts::update_friction(Touch& touch, const Vec3& at) const {
   Contact& contact = touch.contact;
   const Vec3 slip_before = contact.slip_change;
   if (contact.normal_force == 0 && slip_before.isZero(0)) return Vec3::Zero();
@@ -126,33 +107,27 @@ Vec3 StepContacts::update_friction(Touch& touch, const Vec3& at) {
   return step_ * (contact.slip_change - slip_before);
 }
 
-void StepContacts::finish() {
+void StepContacts::finish(StepNodes& nodes) {
   for (Touch& touch : touches_) {
     if (touch.contact.friction > 0) touch.friction.finish(touch.contact);
     for (std::uint32_t s = touch.first; s < touch.end; ++s)
-      nodes_[shares_[s].node].slide += shares_[s].kick * step_ * touch.contact.slip_change;
+      nodes.add_slide(shares_[s].slot, shares_[s].kick * step_ * touch.contact.slip_change);
   }
   for (Touch& touch : touches_) {
-    touch.contact.depth = touch.level - touch.contact.normal.dot(position(touch));
-    book(touch);
+    touch.contact.depth = touch.level - touch.contact.normal.dot(position(touch, nodes));
+    book(touch, nodes);
     if (touch.contact.depth > 0) contacts_.push_back(touch.contact);
-  }
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Vec3 displacement = at_[i] - nodes_[i].path.to;
-    changes_.push_back({.node = nodes_[i].node,
-                        .displacement = displacement,
-                        .kick = (2 * displacement - nodes_[i].slide) / step_});
   }
 }
 
-void StepContacts::book(const Touch& touch) {
+void StepContacts::book(const Touch& touch, const StepNodes& nodes) {
   const Contact& contact = touch.contact;
   losses_.contact += contact.normal_force * (contact.depth - touch.before) -
                      penalty_energy(contact.stiffness, contact.depth) +
                      penalty_energy(contact.stiffness, touch.before);
   Vec3 slide = Vec3::Zero();  // of the point, by the friction of all contacts [m]
   for (std::uint32_t s = touch.first; s < touch.end; ++s)
-    slide += shares_[s].weight * nodes_[shares_[s].node].slide;
+    slide += shares_[s].weight * nodes.slide(shares_[s].slot);
   const Vec3 free = touch.path.to - touch.path.from;
   losses_.friction -=
       touch.mass / step_ * contact.slip_change.dot(free + 0.5 * slide) + contact.stick_gain;

@@ -97,14 +97,11 @@ void TunnelCheck::throw_tunnelled(std::size_t wall, std::size_t point, const Vec
   const Eigen::Index axis = std::abs(pass(box.half_size, start, end).out) - 1;
   const double thickness = 2 * box.half_size[axis];
   const double moved = std::abs(end[axis] - start[axis]);
-  // A node that moves by half the thickness per step is still pushed back to the side it came from.
-  const bool too_fast = moved > thickness / 2;
-  const std::string advice =
-      too_fast ? fmt::format("take a step below {:.3g} s or a thicker obstacle",
-                             step * thickness / (2 * moved))
-               : std::string(
-                     "its contact is too soft to hold the body: give it more stiffness, or make it "
-                     "thicker");
+  std::string advice =
+      "its contact is too soft to hold the body: give it more stiffness, or make it thicker";
+  // Such a step does not resolve the contact.
+  if (moved > thickness / 2)
+    advice += fmt::format(", or take a step below {:.3g} s", step * thickness / (2 * moved));
   throw TunnelError(
       fmt::format("{} went through obstacle \"{}\" by t = {:.6g} s: it moved {:.3g} m in a "
                   "step of {:.3g} s, and the obstacle is {:.3g} m thick; {}",

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <thread>
 #include <tuple>
 #include <utility>
 
+#include "sim/correction/corner_law.hpp"
 #include "sim/integrators/kernel.hpp"
+#include "sim/run/motion.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -16,9 +19,15 @@ namespace {
 // A new frame costs about three steps.
 constexpr std::uint64_t kFrameEvery = 64;
 
-// Least number of nodes per thread: with fewer, the two waits per step cost more than the thread
+// Least number of nodes per thread: with fewer, the waits per step cost more than the thread
 // saves.
 constexpr std::uint32_t kNodesAThread = 2 * kBlockNodes;
+
+double shortest_spring(const MassSpringModel& model) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const double length : model.rest_length) shortest = std::min(shortest, length);
+  return shortest;
+}
 
 std::uint32_t team_size(std::uint32_t threads, std::uint32_t blocks, std::uint32_t nodes) {
   const std::uint32_t cores = std::max(1U, std::thread::hardware_concurrency());
@@ -36,35 +45,25 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
       team_(team_size(options.threads, body_->block_count(), model.node_count())),
       found_(body_->block_count()),
       with_ledger_(options.ledger),
+      volumes_(options.volumes),
+      correction_({.model = model_,
+                   .points = {.points = &points_,
+                              .obstacles = &scenario.obstacles,
+                              .body = body_.get(),
+                              .finder = &finder_,
+                              .walls = &walls_},
+                   .body = body_.get(),
+                   .gravity = gravity_,
+                   .with_ledger = with_ledger_,
+                   .volumes = volumes_}),
+      watch_(body_->block_count(), shortest_spring(model)),
       losses_(body_->block_count()),
       sums_(body_->block_count()),
       v_minus_(start.v),
       v_plus_(start.v),
       v_step_(start.v) {
-  const FastContacts::Shared shared{.model = model_,
-                                    .points = &points_,
-                                    .obstacles = &scenario.obstacles,
-                                    .body = body_.get(),
-                                    .finder = &finder_,
-                                    .walls = &walls_,
-                                    .gravity = gravity_,
-                                    .with_ledger = with_ledger_};
   finder_.find(x_, start.v, contacts_);
-  if (options.skin) {
-    skin_.emplace(shared);
-    skin_->start(contacts_);
-    return;
-  }
-  std::vector<std::vector<std::uint32_t>> numbers(body_->block_count());
-  for (std::uint32_t p = 0; p < points_.count(); ++p)
-    numbers[body_->place(points_.number(p)).block].push_back(p);
-  std::vector<std::vector<Contact>> contacts(body_->block_count());
-  for (const Contact& c : contacts_)
-    contacts[body_->place(points_.number(c.point)).block].push_back(c);
-  for (std::uint32_t b = 0; b < body_->block_count(); ++b) {
-    block_contacts_.emplace_back(shared, b, std::move(numbers[b]));
-    block_contacts_.back().start(std::move(contacts[b]));
-  }
+  correction_.start(contacts_);
 }
 
 void FastLeapfrog::prepare() {
@@ -75,17 +74,19 @@ void FastLeapfrog::prepare() {
 void FastLeapfrog::advance(std::uint64_t steps) {
   while (steps > 0) {
     const std::uint64_t together = std::min(steps, kFrameEvery - n_ % kFrameEvery);
-    std::vector<Pass> passes{{.number = n_, .drift = step_}};
-    for (std::uint64_t i = 1; i < together; ++i)
-      passes.push_back({.number = n_ + i, .kick = step_, .drift = step_});
-    n_ += together;
-    steps -= together;
     share_out([&](Share& share, const MovingFrame& frame) {
-      return observe(share, go(passes, share, frame));
+      return observe(share, go(together, share, frame));
     });
+    steps -= reached_ - n_;
+    n_ = reached_;
     throw_if_tunnelled();
     finish_observation();
+    if (watch_.stopped()) return;
   }
+}
+
+void FastLeapfrog::watch(const Watch& limits) {
+  watch_.set(limits);
 }
 
 void FastLeapfrog::share_out(const std::function<MovingFrame(Share&, const MovingFrame&)>& work) {
@@ -102,26 +103,26 @@ void FastLeapfrog::share_out(const std::function<MovingFrame(Share&, const Movin
 }
 
 MovingFrame FastLeapfrog::observe(Share& share, MovingFrame frame) {
-  const bool first = n_ == start_n_;
+  const std::uint64_t number = reached_;
+  const bool first = number == start_n_;
   if (!first)
     for (std::uint32_t b = share.first; b < share.end; ++b) {
       body_->get_x(b, frame, x_);
       body_->get_v(b, frame, v_minus_);
     }
-  if (first || n_ % kFrameEvery == 0) frame = take_new_frame(share);
+  if (first || number % kFrameEvery == 0) frame = take_new_frame(share);
   // The first forces and damping use the start velocities: v+- = v_0 +- dt/2 a.
-  frame = go({{.number = n_, .kick = first ? 0.5 * step_ : step_}}, share, frame);
+  frame = pass({.number = number, .kick = first ? 0.5 * step_ : step_}, share, frame);
   for (std::uint32_t b = share.first; b < share.end; ++b) body_->get_v(b, frame, v_plus_);
   return frame;
 }
 
 void FastLeapfrog::finish_observation() {
-  gather_contacts();
+  gather_corrections();
   v_step_ = v_minus_;
   if (n_ != start_n_) {
-    for (const FastContacts* set : contact_sets())
-      for (const NodeChange& change : set->changes())
-        v_step_[change.node] -= change.by_pressure(step_) / step_;
+    for (const NodeChange& change : correction_.changes())
+      v_step_[change.node] -= change.by_pressure(step_) / step_;
     return;
   }
   for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
@@ -145,6 +146,7 @@ MovingFrame FastLeapfrog::take_new_frame(const Share& share) {
   const auto count = static_cast<double>(x_.size());
   MovingFrame frame{sum.origin / count, sum.velocity / count};
   for (std::uint32_t b = share.first; b < share.end; ++b) body_->set(b, frame, x_, v_minus_);
+  if (share.member.number == 0) body_->set_spin(angular_velocity(*model_, {x_, v_minus_}));
   share.member.meet();
   return frame;
 }
@@ -154,6 +156,7 @@ bool FastLeapfrog::change_step(double step) {
   v_minus_ = state().v;
   start_time_ = time();
   start_n_ = n_;
+  reached_ = n_;
   step_ = step;
   for (Losses& losses : losses_) losses.next = 0;
   prepare();
@@ -168,17 +171,42 @@ MovingFrame FastLeapfrog::after(const Pass& pass, const MovingFrame& frame) cons
   return next;
 }
 
-MovingFrame FastLeapfrog::go(const std::vector<Pass>& passes, Share& share, MovingFrame frame) {
-  for (const Pass& pass : passes) {
-    find_and_move(pass, frame, share);
-    if (skin_) correct_skin(pass, frame, share);
-    frame = after(pass, frame);
-    share.member.meet();
+MovingFrame FastLeapfrog::go(std::uint64_t passes, Share& share, MovingFrame frame) {
+  for (std::uint64_t i = 0; i < passes; ++i) {
+    // The velocities of the first are those after the kick of the last observation.
+    frame = pass({.number = n_ + i, .kick = i > 0 ? step_ : 0, .drift = step_}, share, frame);
+    if (watch_.stopped()) break;
   }
   return frame;
 }
 
-void FastLeapfrog::find_and_move(const Pass& pass, const MovingFrame& frame, Share& share) {
+MovingFrame FastLeapfrog::pass(const Pass& pass, Share& share, const MovingFrame& frame) {
+  find_and_move(pass, share);
+  share.member.meet();
+  if (share.member.number == 0 && pass.kick != 0) correction_.book_end();
+  if (pass.drift != 0) correct(drift_step(pass, frame), share);
+  share.member.meet();
+  return after(pass, frame);
+}
+
+void FastLeapfrog::correct(const FastStep& step, const Share& share) {
+  const bool one = share.member.number == 0;
+  if (one) {
+    reached_ = step.number;
+    if (correction_.needed()) correction_.correct_contacts(step);
+    watch_.plan(*body_, correction_);
+  }
+  share.member.meet();
+  if (watch_.looks()) {
+    for (std::uint32_t b = share.first; b < share.end; ++b) watch_.look(b, *body_, correction_);
+    share.member.meet();
+  }
+  if (!one) return;
+  if (correction_.needed()) correction_.correct_corners(step);
+  watch_.finish(step, *body_, correction_);
+}
+
+void FastLeapfrog::find_and_move(const Pass& pass, Share& share) {
   std::vector<std::uint32_t> later;
   std::uint32_t next = share.first;
   if (pass.kick != 0) {
@@ -190,25 +218,18 @@ void FastLeapfrog::find_and_move(const Pass& pass, const MovingFrame& frame, Sha
         if (body_->needs(next).first < share.first)
           later.push_back(next);
         else
-          kick_and_drift(pass, frame, next);
+          kick_and_drift(pass, next);
       }
     }
   }
   for (; next < share.end; ++next) later.push_back(next);
   for (const std::uint32_t block : later) {
     if (pass.kick != 0) wait_for_others(block, share);
-    kick_and_drift(pass, frame, block);
+    kick_and_drift(pass, block);
   }
 }
 
-void FastLeapfrog::correct_skin(const Pass& pass, const MovingFrame& frame, const Share& share) {
-  share.member.meet();
-  if (share.member.number != 0) return;
-  if (pass.kick != 0) skin_->book_end();
-  if (pass.drift != 0) skin_->correct(drift_step(pass, frame));
-}
-
-FastContacts::Step FastLeapfrog::drift_step(const Pass& pass, const MovingFrame& frame) const {
+FastStep FastLeapfrog::drift_step(const Pass& pass, const MovingFrame& frame) const {
   const MovingFrame end = after(pass, frame);
   return {.number = pass.number + 1,
           .before = {frame.origin, end.velocity},
@@ -223,15 +244,9 @@ void FastLeapfrog::wait_for_others(std::uint32_t block, const Share& share) cons
     if (b < share.first || b >= share.end) found_.wait_for(b, share.kicks);
 }
 
-void FastLeapfrog::kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block) {
-  BlockContacts* contacts = skin_ ? nullptr : &block_contacts_[block];
-  if (pass.kick != 0) {
-    body_->collect_forces(block);
-    if (contacts != nullptr) contacts->book_end();
-  }
-  if (contacts != nullptr) contacts->start_drift();
+void FastLeapfrog::kick_and_drift(const Pass& pass, std::uint32_t block) {
+  if (pass.kick != 0) body_->collect_forces(block);
   move_block(pass, block);
-  if (contacts != nullptr && pass.drift != 0) contacts->correct(drift_step(pass, frame));
 }
 
 void FastLeapfrog::move_block(const Pass& pass, std::uint32_t block) {
@@ -253,34 +268,18 @@ void FastLeapfrog::drift_and_book(const Pass& pass, std::uint32_t block) {
   body_->move(block, 0, pass.drift);
 }
 
-std::vector<const FastContacts*> FastLeapfrog::contact_sets() const {
-  std::vector<const FastContacts*> sets;
-  for (const BlockContacts& block : block_contacts_) sets.push_back(&block);
-  if (skin_) sets.push_back(&*skin_);
-  return sets;
-}
-
-void FastLeapfrog::gather_contacts() {
-  contacts_.clear();
-  std::optional<std::uint64_t> first;
-  for (const FastContacts* set : contact_sets()) {
-    contacts_.insert(contacts_.end(), set->now().begin(), set->now().end());
-    const std::optional<std::uint64_t>& step = set->first_step();
-    if (step && (!first || *step < *first)) first = step;
-  }
-  if (first && !first_contact_) first_contact_ = time_of(*first);
+void FastLeapfrog::gather_corrections() {
+  contacts_ = correction_.contacts();
+  if (!first_contact_ && correction_.first_step())
+    first_contact_ = time_of(*correction_.first_step());
+  take(correction_.inversions());
 }
 
 void FastLeapfrog::throw_if_tunnelled() const {
-  const Passage* earliest = nullptr;
-  const auto rank = [](const Passage& p) { return std::tuple(p.step, p.wall, p.number); };
-  for (const FastContacts* set : contact_sets()) {
-    const std::optional<Passage>& passage = set->passage();
-    if (passage && (earliest == nullptr || rank(*passage) < rank(*earliest))) earliest = &*passage;
-  }
-  if (earliest != nullptr)
-    walls_.throw_tunnelled(earliest->wall, earliest->number, earliest->from, earliest->to,
-                           time_of(earliest->step), step_);
+  const std::optional<Passage>& passage = correction_.passage();
+  if (passage)
+    walls_.throw_tunnelled(passage->wall, passage->number, passage->from, passage->to,
+                           time_of(passage->step), step_);
 }
 
 std::vector<Vec3> FastLeapfrog::positions_at(double time) const {
@@ -306,14 +305,13 @@ double FastLeapfrog::kinetic() const {
 LedgerEntry FastLeapfrog::ledger_entry() const {
   LedgerEntry entry;
   for (const Losses& losses : losses_) entry.lost_damping += losses.until_now;
-  for (const FastContacts* set : contact_sets()) {
-    entry.lost_contact += set->losses().contact;
-    entry.lost_friction += set->losses().friction;
-  }
+  entry.lost_contact = correction_.losses().contact;
+  entry.lost_friction = correction_.losses().friction;
+  entry.lost_corners = correction_.losses().corners;
   entry.lost_switch = lost_to_new_steps_;
   entry.time = time();
   entry.kinetic = kinetic();
-  entry.elastic = elastic_energy(*model_, x_);
+  entry.elastic = elastic_energy(*model_, x_) + (volumes_ ? corner_energy(*model_, x_) : 0);
   entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);
   return entry;

@@ -6,16 +6,17 @@
 #include <optional>
 #include <vector>
 
-#include "sim/fast/block_contacts.hpp"
+#include "sim/fast/fast_correction.hpp"
 #include "sim/fast/fast_model.hpp"
-#include "sim/fast/skin_contacts.hpp"
+#include "sim/fast/fast_watch.hpp"
 #include "sim/fast/step_team.hpp"
 #include "sim/integrators/stepper.hpp"
 
 namespace springlod::sim {
 
 struct FastOptions {
-  bool ledger = true;  ///< record the losses
+  bool ledger = true;   ///< record the losses
+  bool volumes = true;  ///< whether corners resist inversion
   Precision precision = Precision::double_precision;
   std::uint32_t threads = 1;  ///< at most; 0: chosen by body size. Does not change the result
   /// The model laid out for `precision`, shared by many runs; null: made for this run.
@@ -39,6 +40,9 @@ class FastLeapfrog final : public Stepper {
   void prepare() override;
   void advance(std::uint64_t steps) override;
   bool change_step(double step) override;
+  void watch(const Watch& limits) override;
+  bool stopped() const override { return watch_.stopped(); }
+  double take_corner_change() override { return correction_.take_largest_corner_change(); }
 
   std::uint64_t spring_updates() const override { return n_ * model_->spring_count(); }
   /// x_n + (t - t_n) v+
@@ -74,32 +78,29 @@ class FastLeapfrog final : public Stepper {
 
   // Called by these threads:
 
-  /// Returns the frame at the end of the passes.
-  MovingFrame go(const std::vector<Pass>& passes, Share& share, MovingFrame frame);
-  /// Reads the state at step n_, kicks the body and reads the velocities after the kick. Returns
-  /// the frame after the kick.
+  /// `passes` from step n_ on, fewer if the watch stops them. Returns the frame at their end.
+  MovingFrame go(std::uint64_t passes, Share& share, MovingFrame frame);
+  MovingFrame pass(const Pass& pass, Share& share, const MovingFrame& frame);
+  /// Reads the state at the current step, kicks the body and reads the velocities after the kick.
+  /// Returns the frame after the kick.
   MovingFrame observe(Share& share, MovingFrame frame);
   MovingFrame take_new_frame(const Share& share);
-  void find_and_move(const Pass& pass, const MovingFrame& frame, Share& share);
-  /// The contacts of a skin, whose points depend on several blocks: one thread solves them when all
-  /// blocks have moved.
-  void correct_skin(const Pass& pass, const MovingFrame& frame, const Share& share);
+  void find_and_move(const Pass& pass, Share& share);
+  /// Corrects a drift for contacts and corners, when all blocks have moved.
+  void correct(const FastStep& step, const Share& share);
   /// Waits for the forces of the other blocks that this one needs.
   void wait_for_others(std::uint32_t block, const Share& share) const;
 
-  void kick_and_drift(const Pass& pass, const MovingFrame& frame, std::uint32_t block);
+  void kick_and_drift(const Pass& pass, std::uint32_t block);
   void move_block(const Pass& pass, std::uint32_t block);
   void kick_and_book(const Pass& pass, std::uint32_t block);
   void drift_and_book(const Pass& pass, std::uint32_t block);
   MovingFrame after(const Pass& pass, const MovingFrame& frame) const;
   /// The drift of a pass that begins with `frame`.
-  FastContacts::Step drift_step(const Pass& pass, const MovingFrame& frame) const;
+  FastStep drift_step(const Pass& pass, const MovingFrame& frame) const;
   void finish_observation();
   double kinetic() const;
-  /// The contacts of all blocks, or those of the skin.
-  std::vector<const FastContacts*> contact_sets() const;
-  void start_contacts(const State& start, bool with_skin);
-  void gather_contacts();
+  void gather_corrections();
   void throw_if_tunnelled() const;
 
   std::shared_ptr<const FastModel> layout_;
@@ -108,8 +109,10 @@ class FastLeapfrog final : public Stepper {
   Milestones found_;  // number of kicks for which each block has computed its forces
   bool with_ledger_;
   MovingFrame frame_;
-  std::vector<BlockContacts> block_contacts_;  // by block; empty if there is a skin
-  std::optional<SkinContacts> skin_;
+  std::uint64_t reached_ = 0;  // step at the end of the last drift
+  bool volumes_;
+  FastCorrection correction_;
+  FastWatch watch_;
   std::vector<Losses> losses_;     // by block
   std::vector<MovingFrame> sums_;  // over the nodes of each block
   double lost_to_new_steps_ = 0;   // [J]

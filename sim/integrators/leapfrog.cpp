@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/contact/step_correction.hpp"
+#include "sim/correction/corner_law.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -12,17 +12,18 @@ Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const
     : StepByStep(model, scenario, start, step, options.skin.get()),
       integrator_(options.integrator),
       with_ledger_(options.ledger),
+      volumes_(options.volumes),
       v_minus_(start.v),
       v_plus_(start.v),
       v_damping_(start.v),
       force_(start.x.size()),
       damping_force_(start.x.size(), Vec3::Zero()),
-      touching_(points_, finder_, model.node_count()),
+      correction_(model, points_, finder_, obstacle_count_, options.volumes),
       v_step_(start.v),
       x_next_(start.x),
       v_next_(start.v) {
   finder_.find(x_, start.v, contacts_);
-  touching_.set(contacts_);
+  correction_.solver().set(contacts_);
   find_forces(false);
   for (std::size_t i = 0; i < x_.size(); ++i)
     v_minus_[i] -= 0.5 * step_ * (force_[i] / model.mass[i] + gravity_);
@@ -49,24 +50,26 @@ void Leapfrog::prepare() {
     v_next_[i] = v_plus_[i];
   }
   if (with_ledger_) book_end();
-  correct_step(points_, obstacle_count_, step_, x_, touching_, x_next_, v_next_);
+  correction_.correct(step_, x_, x_next_, v_next_);
   v_step_ = v_plus_;
-  for (const NodeChange& change : touching_.changes())
+  for (const NodeChange& change : correction_.solver().changes())
     v_step_[change.node] += change.displacement / step_;
 }
 
 void Leapfrog::commit() {
   if (with_ledger_) {
     book_damping(v_plus_);
-    book_contacts();
+    book_correction();
   }
   if (integrator_ == Integrator::velocity_verlet)
     for (std::size_t i = 0; i < x_.size(); ++i)
       v_damping_[i] = v_next_[i] + 0.5 * (v_plus_[i] - v_minus_[i]);
   std::swap(x_, x_next_);
   std::swap(v_minus_, v_next_);
-  contacts_ = touching_.now();
+  contacts_ = correction_.solver().now();
   ++n_;
+  const StepCorrection& solver = correction_.solver();
+  note_inversions(solver.inverted(), solver.late_inverted());
 }
 
 void Leapfrog::book_damping(const std::vector<Vec3>& v) {
@@ -82,15 +85,20 @@ double Leapfrog::half_work(std::uint32_t node, const Vec3& displacement) const {
 }
 
 void Leapfrog::book_end() {
-  for (const NodeChange& change : touching_.changes())
-    losses_.lost_contact -= half_work(change.node, change.by_pressure(step_));
+  for (const NodeChange& change : correction_.solver().changes()) {
+    losses_.lost_contact -= half_work(change.node, change.by_contacts(step_));
+    losses_.lost_corners -= half_work(change.node, change.by_corners);
+  }
 }
 
-void Leapfrog::book_contacts() {
-  losses_.lost_contact += touching_.losses().contact;
-  losses_.lost_friction += touching_.losses().friction;
-  for (const NodeChange& change : touching_.changes()) {
-    losses_.lost_contact += half_work(change.node, change.by_pressure(step_));
+void Leapfrog::book_correction() {
+  const StepCorrection& solver = correction_.solver();
+  losses_.lost_contact += solver.losses().contact;
+  losses_.lost_friction += solver.losses().friction;
+  losses_.lost_corners += solver.losses().corners;
+  for (const NodeChange& change : solver.changes()) {
+    losses_.lost_contact += half_work(change.node, change.by_contacts(step_));
+    losses_.lost_corners += half_work(change.node, change.by_corners);
     losses_.lost_friction += half_work(change.node, change.by_friction(step_));
   }
 }
@@ -113,7 +121,7 @@ LedgerEntry Leapfrog::ledger_entry() const {
   entry.time = time();
   for (std::size_t i = 0; i < x_.size(); ++i)
     entry.kinetic += 0.5 * model_->mass[i] * v_minus_[i].dot(v_plus_[i]);
-  entry.elastic = elastic_energy(*model_, x_);
+  entry.elastic = elastic_energy(*model_, x_) + (volumes_ ? corner_energy(*model_, x_) : 0);
   entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);
   return entry;

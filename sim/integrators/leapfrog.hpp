@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/contact/step_contacts.hpp"
+#include "sim/correction/plain_correction.hpp"
 #include "sim/integrators/stepper.hpp"
 
 namespace springlod::sim {
@@ -13,7 +13,7 @@ namespace springlod::sim {
 ///
 ///   kick:     v+ = v- + dt (F(x_n, w_n) / m + g)
 ///   drift:    x_{n+1} = x_n + dt v+
-///   contact:  x_{n+1} += dx, v- of the next step = v+ + dv: see StepContacts
+///   correct:  x_{n+1} += dx, v- of the next step = v+ + dv: see StepCorrection
 ///
 /// Both integrators are this scheme; they differ in the velocity w_n that the damping force uses:
 /// - symplectic_euler: w_n = v-, the old velocity. Damping is first order in dt; the limit is
@@ -29,7 +29,7 @@ class Leapfrog final : public StepByStep {
   Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
            const StepperOptions& options);
 
-  /// Takes v- to v+ at x_n, and solves the contacts of the step to x_{n+1}.
+  /// Takes v- to v+ at x_n, and corrects the step to x_{n+1}.
   void prepare() override;
 
   std::uint64_t spring_updates() const override { return n_ * model_->spring_count(); }
@@ -47,19 +47,20 @@ class Leapfrog final : public StepByStep {
   void find_forces(bool with_damping);
   /// Half of the damping losses of a step, with the velocity v- or v+.
   void book_damping(const std::vector<Vec3>& v);
-  /// The losses of the contacts of the next step; book_end: their part that depends on the forces
+  /// The losses of the correction of the next step; book_end: their part that depends on the forces
   /// at its end, one step later.
-  void book_contacts();
+  void book_correction();
   void book_end();
   /// Half the work of the elastic forces and of gravity on a node over a displacement [J].
   double half_work(std::uint32_t node, const Vec3& displacement) const;
 
   Integrator integrator_;
   bool with_ledger_;
+  bool volumes_;
   std::vector<Vec3> v_minus_, v_plus_;
   std::vector<Vec3> v_damping_;  // w_n; unused by symplectic Euler
   std::vector<Vec3> force_, damping_force_;
-  StepContacts touching_;
+  PlainCorrection correction_;
   std::vector<Vec3> v_step_;
   std::vector<Vec3> x_next_, v_next_;  // at the end of the step that prepare() computed
   LedgerEntry losses_;

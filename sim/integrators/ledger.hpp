@@ -20,24 +20,25 @@ namespace springlod::sim {
 /// Contacts take from the motion what they store or lose (NormalLaw), but the displacement of a
 /// node that they push differs from the velocities at both ends of the step. By this discretization
 /// error, proportional to dt, the forces of the scheme do work on it that the trapezoid rule does
-/// not contain. It is recorded under lost_contact.
+/// not contain. It is recorded under lost_contact. The same holds for corners, under lost_corners.
 ///
 /// K_n is not a sum of squares: it lies below the kinetic energy of the mean velocity by
 /// m |dt F/m|^2 / 8.
 struct LedgerEntry {
   double time = 0;  ///< [s]
   double kinetic = 0;
-  double elastic = 0;
+  double elastic = 0;        ///< in springs and corners
   double gravity = 0;        ///< potential
   double contact = 0;        ///< stored in the penalty and stick springs
   double lost_damping = 0;   ///< to spring damping
   double lost_friction = 0;  ///< to sliding, and to the dampers of stick springs
   double lost_contact = 0;   ///< to contact damping and the discretization error of contacts
+  double lost_corners = 0;   ///< to corner damping and the discretization error of corners
   double lost_switch = 0;    ///< to a change of the level, or of the step (K_n depends on it)
   /// The energy that can still become motion.
   double mechanical() const { return kinetic + elastic + gravity + contact; }
   double total() const {
-    return mechanical() + lost_damping + lost_friction + lost_contact + lost_switch;
+    return mechanical() + lost_damping + lost_friction + lost_contact + lost_corners + lost_switch;
   }
 };
 

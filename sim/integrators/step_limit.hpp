@@ -22,7 +22,7 @@ struct StepLimit {
 
 /// Follows from the highest frequency of the model and the largest damping time of its springs: see
 /// stable_step. Velocity Verlet counts damping twice (see Leapfrog), Runge-Kutta has its own limit.
-/// Contacts do not bound the step: see StepContacts.
+/// Contacts and corners do not bound the step: see StepCorrection.
 StepLimit step_limit(const MassSpringModel& model,
                      Integrator integrator = Integrator::symplectic_euler);
 

@@ -27,6 +27,20 @@ void StepByStep::advance(std::uint64_t steps) {
   if (!first_contact_ && !contacts_.empty()) first_contact_ = time();
 }
 
+void Stepper::take(const InversionLog& log) {
+  inversions_.most = log.most();
+  if (log.first() && !inversions_.first)
+    inversions_.first =
+        Inversion{log.first()->corner, log.first()->place, time_of(log.first()->step)};
+}
+
+void StepByStep::note_inversions(const std::vector<std::uint32_t>& now,
+                                 const std::vector<std::uint32_t>& late) {
+  log_.note(n_, now, late,
+            [&](std::uint32_t corner) { return x_[model_->corners[corner].node[0]]; });
+  take(log_);
+}
+
 Vec3 Stepper::center_of_mass() const {
   return springlod::center_of_mass(*model_, x_);
 }

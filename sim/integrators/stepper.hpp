@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "sim/contact/contact.hpp"
 #include "sim/contact/contact_points.hpp"
 #include "sim/contact/tunnel_watch.hpp"
+#include "sim/correction/inversion.hpp"
+#include "sim/correction/inversion_log.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/ledger.hpp"
 #include "sim/scenario.hpp"
@@ -29,10 +32,24 @@ class Stepper {
   Stepper& operator=(const Stepper&) = delete;
 
   virtual void prepare() = 0;
-  /// Throws TunnelError as soon as a node has gone through a box.
+  /// Takes at most that many steps. Returns early if the motion asks for a check of the body: see
+  /// watch(). Throws TunnelError as soon as a node has gone through a box.
   virtual void advance(std::uint64_t steps) = 0;
   /// Continues from x_n with steps of another length [s]. Returns false if the scheme cannot.
   virtual bool change_step(double /*step*/) { return false; }
+
+  /// What a scheme looks for in every step, if it can.
+  struct Watch {
+    double speed = std::numeric_limits<double>::infinity();   ///< of the fastest node [m/s]
+    double strain = std::numeric_limits<double>::infinity();  ///< of the most strained spring [1]
+    double corner_change = std::numeric_limits<double>::infinity();  ///< of J in a step [1]
+  };
+  /// From now on, advance() returns after a step in which one of these limits was exceeded.
+  virtual void watch(const Watch& /*limits*/) {}
+  /// Whether one of them was exceeded in the last step, even if advance() took all its steps.
+  virtual bool stopped() const { return false; }
+  /// The largest change in a step of the J of a corner near inversion, since the last call [1].
+  virtual double take_corner_change() { return 0; }
 
   std::uint64_t step_number() const { return n_; }
   double time() const { return time_of(n_); }
@@ -45,6 +62,8 @@ class Stepper {
 
   const std::vector<Vec3>& positions() const { return x_; }
   const std::vector<Contact>& contacts() const { return contacts_; }
+  /// The corners that were inside out at the end of a step, so far.
+  const Inversions& inversions() const { return inversions_; }
   /// When nodes first touched an obstacle [s].
   std::optional<double> first_contact() const { return first_contact_; }
   /// Positions interpolated between x_n and x_{n+1} as the scheme defines (t_n <= time <= t_{n+1}).
@@ -65,7 +84,7 @@ class Stepper {
   double time_of(std::uint64_t n) const {
     return start_time_ + static_cast<double>(n - start_n_) * step_;
   }
-  /// Displacement of the step to or from x_n over its length, with that by contacts.
+  /// Displacement of the step to or from x_n over its length, with that by contacts and corners.
   virtual const std::vector<Vec3>& step_velocities() const = 0;
   /// Gravitational potential energy relative to the start [J].
   double gravity_energy() const;
@@ -84,6 +103,10 @@ class Stepper {
   std::vector<Contact> contacts_;
   TunnelCheck walls_;
   std::optional<double> first_contact_;  // [s]
+  Inversions inversions_;
+
+  /// Takes the inversions recorded by this scheme so far.
+  void take(const InversionLog& log);
 
  private:
   double total_mass_ = 0;
@@ -99,12 +122,19 @@ class StepByStep : public Stepper {
   using Stepper::Stepper;
   /// Takes the step to x_{n+1}.
   virtual void commit() = 0;
+  /// Records the corners inside out at x_n, once it is committed. `late`: see InversionLog.
+  void note_inversions(const std::vector<std::uint32_t>& now,
+                       const std::vector<std::uint32_t>& late);
+
+ private:
+  InversionLog log_;
 };
 
 struct StepperOptions {
   Integrator integrator = Integrator::symplectic_euler;
   SolverOptions solver = {};
-  bool ledger = true;  ///< record the losses
+  bool ledger = true;   ///< record the losses
+  bool volumes = true;  ///< whether corners resist inversion; only the explicit schemes have it
   /// Where the body touches obstacles; none: at its nodes.
   std::shared_ptr<const ContactSkin> skin = nullptr;
 };

@@ -1,8 +1,9 @@
 #include "sim/integrators/whole_step.hpp"
 
+#include <algorithm>
 #include <utility>
 
-#include "sim/contact/step_correction.hpp"
+#include "sim/correction/corner_law.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -15,9 +16,10 @@ WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, con
       x_next_(start.x),
       v_next_(start.v),
       implicit_(is_implicit(options.integrator)),
-      touching_(points_, finder_, model.node_count()) {
+      volumes_(options.volumes && !implicit_),
+      correction_(model, points_, finder_, obstacle_count_, options.volumes) {
   finder_.find(x_, v_, contacts_);
-  touching_.set(contacts_);
+  correction_.solver().set(contacts_);
 }
 
 void WholeStep::prepare() {
@@ -26,30 +28,42 @@ void WholeStep::prepare() {
   if (implicit_)
     find_contacts();
   else
-    correct_contacts();
+    correct();
 }
 
-void WholeStep::correct_contacts() {
+void WholeStep::correct() {
   const std::vector<Vec3> free_x = x_next_;
   const std::vector<Vec3> free_v = v_next_;
-  correct_step(points_, obstacle_count_, step_, x_, touching_, x_next_, v_next_);
-  next_contacts_ = touching_.now();
-  next_losses_.lost_contact += touching_.losses().contact;
-  next_losses_.lost_friction += touching_.losses().friction;
-  if (with_ledger_ && !touching_.changes().empty())
-    next_losses_.lost_contact -= gain_by_shift(free_x, free_v);
+  correction_.correct(step_, x_, x_next_, v_next_);
+  const StepCorrection& solver = correction_.solver();
+  next_contacts_ = solver.now();
+  next_losses_.lost_contact += solver.losses().contact;
+  next_losses_.lost_friction += solver.losses().friction;
+  next_losses_.lost_corners += solver.losses().corners;
+  if (!with_ledger_ || solver.changes().empty()) return;
+  const bool by_corners =
+      std::any_of(solver.changes().begin(), solver.changes().end(),
+                  [](const NodeChange& change) { return !change.by_corners.isZero(0); });
+  const double by_contacts = gain_by_shift(free_x, free_v, false);
+  next_losses_.lost_contact -= by_contacts;
+  if (by_corners) next_losses_.lost_corners -= gain_by_shift(free_x, free_v, true) - by_contacts;
 }
 
-// The contacts work over the displacement of the step, but they change the velocities at its end,
-// and the potential energy of the other forces.
-double WholeStep::gain_by_shift(const std::vector<Vec3>& free_x, const std::vector<Vec3>& free_v) {
-  double gain = elastic_energy(*model_, x_next_) - elastic_energy(*model_, free_x);
-  for (const NodeChange& change : touching_.changes()) {
+// Contacts and corners work over the displacement of the step, but they change the velocities at
+// its end, and the potential energy of the other forces.
+double WholeStep::gain_by_shift(const std::vector<Vec3>& free_x, const std::vector<Vec3>& free_v,
+                                bool with_corners) const {
+  std::vector<Vec3> x = x_next_;
+  double gain = 0;
+  for (const NodeChange& change : correction_.solver().changes()) {
     const std::uint32_t i = change.node;
+    const Vec3 left_out = with_corners ? Vec3(Vec3::Zero()) : change.by_corners;
+    x[i] -= left_out;
+    const Vec3 kick = change.kick - 2 / step_ * left_out;
     const Vec3 ahead = free_v[i] - (free_x[i] - x_[i]) / step_;
-    gain += model_->mass[i] * (change.kick.dot(ahead) - gravity_.dot(change.displacement));
+    gain += model_->mass[i] * (kick.dot(ahead) - gravity_.dot(change.displacement - left_out));
   }
-  return gain;
+  return gain + elastic_energy(*model_, x) - elastic_energy(*model_, free_x);
 }
 
 void WholeStep::find_contacts() {
@@ -83,6 +97,10 @@ void WholeStep::commit() {
   std::swap(contacts_, next_contacts_);
   losses_ = next_losses_;
   ++n_;
+  if (implicit_)
+    note_inversions(inverted_corners(model_->corners, x_), {});
+  else
+    note_inversions(correction_.solver().inverted(), correction_.solver().late_inverted());
 }
 
 std::vector<Vec3> WholeStep::positions_at(double time) const {
@@ -97,7 +115,7 @@ LedgerEntry WholeStep::ledger_entry() const {
   entry.time = time();
   for (std::size_t i = 0; i < x_.size(); ++i)
     entry.kinetic += 0.5 * model_->mass[i] * v_[i].squaredNorm();
-  entry.elastic = elastic_energy(*model_, x_);
+  entry.elastic = elastic_energy(*model_, x_) + (volumes_ ? corner_energy(*model_, x_) : 0);
   entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);
   return entry;

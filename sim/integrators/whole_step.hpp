@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/contact/step_contacts.hpp"
+#include "sim/correction/plain_correction.hpp"
 #include "sim/integrators/implicit_springs.hpp"
 #include "sim/integrators/stepper.hpp"
 
@@ -11,8 +11,8 @@ namespace springlod::sim {
 
 /// Schemes with positions and velocities at the same instants. solve() implements the scheme. The
 /// implicit schemes solve the normal forces of contacts too; friction is applied after it, limits
-/// the slip, and corrects the positions by the slip that it removed. For the explicit ones, all
-/// contacts are solved after it: see StepContacts.
+/// the slip, and corrects the positions by the slip that it removed. The steps of explicit ones are
+/// corrected after it: see StepCorrection.
 ///
 /// Its ledger holds the true energies of (x_n, v_n) and the work of each dissipative force in the
 /// discrete scheme. No entry holds the numerical gain or loss of a scheme: it appears as the drift
@@ -47,15 +47,17 @@ class WholeStep : public StepByStep {
  private:
   void commit() final;
   const std::vector<Vec3>& step_velocities() const final { return v_next_; }
-  void correct_contacts();
-  /// What the contacts of a step add to the energy of the body beyond their work [J]. `free_x`,
-  /// `free_v`: at its end, without them.
-  double gain_by_shift(const std::vector<Vec3>& free_x, const std::vector<Vec3>& free_v);
+  void correct();
+  /// What the correction of a step adds to the energy of the body beyond its work [J], with the
+  /// corners or by contacts alone. `free_x`, `free_v`: at its end, without it.
+  double gain_by_shift(const std::vector<Vec3>& free_x, const std::vector<Vec3>& free_v,
+                       bool with_corners) const;
   void find_contacts();
   void add_friction();
 
   bool implicit_;
-  StepContacts touching_;  // of an explicit scheme
+  bool volumes_;
+  PlainCorrection correction_;  // of an explicit scheme
   std::vector<Contact> next_contacts_;
   // Losses of the step to x_{n+1}, added to the ledger when the step is taken.
   LedgerEntry losses_, next_losses_;

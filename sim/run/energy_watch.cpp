@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "sim/correction/corner_law.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -25,14 +27,16 @@ double rounding_strain(Precision precision) {
 
 }  // namespace
 
-EnergyCheck::EnergyCheck(const MassSpringModel& model, const Stepper& start, Precision precision,
-                         double step, const StepLimit& limit)
+EnergyCheck::EnergyCheck(const MassSpringModel& model, const Stepper& start, bool volumes,
+                         Precision precision, double step, const StepLimit& limit)
     : step_(step),
+      mass_(std::accumulate(model.mass.begin(), model.mass.end(), 0.0)),
       limit_(limit),
       rounding_(std::pow(rounding_strain(precision), 2) * spring_work(model)) {
   std::uint32_t node = 0;
   available_ = start.kinetic_of_step(&node) + elastic_energy(model, start.positions()) +
-               contact_energy(start.contacts());
+               contact_energy(start.contacts()) +
+               (volumes ? corner_energy(model, start.positions()) : 0);
 }
 
 void EnergyCheck::check(const Stepper& body, double gravity_work) {
@@ -40,14 +44,21 @@ void EnergyCheck::check(const Stepper& body, double gravity_work) {
   const double kinetic = body.kinetic_of_step(&node);
   if (!std::isfinite(kinetic)) throw_not_finite(body);
   most_gravity_work_ = std::max(most_gravity_work_, gravity_work);
-  const double bound = kEnergyMargin * (available_ + most_gravity_work_) + rounding_;
-  if (kinetic > bound)
+  if (kinetic > bound())
     throw UnstableError(
         fmt::format("the run became unstable: at t = {:.6g} s the kinetic energy is {:.3g} J, of "
                     "at most {:.3g} J that were there, most of it in node {}; {}",
                     body.time(), kinetic, available_ + most_gravity_work_, script_number(node),
                     advice()),
         node, body.time());
+}
+
+double EnergyCheck::bound() const {
+  return kEnergyMargin * (available_ + most_gravity_work_) + rounding_;
+}
+
+double EnergyCheck::safe_speed() const {
+  return std::sqrt(2 * bound() / mass_);
 }
 
 void EnergyCheck::throw_not_finite(const Stepper& body) const {

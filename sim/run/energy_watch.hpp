@@ -14,19 +14,24 @@ namespace springlod::sim {
 class EnergyCheck {
  public:
   /// `start`: after the first kick. The check uses its v+, because the ledger's v- . v+ is negative
-  /// for a body released at rest. `precision`: of the body's state. `step` and `limit` are for the
-  /// advice in the message.
-  EnergyCheck(const MassSpringModel& model, const Stepper& start, Precision precision, double step,
-              const StepLimit& limit);
+  /// for a body released at rest. `volumes`: whether corners resist. `precision`: of the body's
+  /// state. `step` and `limit` are for the advice in the message.
+  EnergyCheck(const MassSpringModel& model, const Stepper& start, bool volumes, Precision precision,
+              double step, const StepLimit& limit);
 
   /// Throws UnstableError naming the worst node.
   void check(const Stepper& body, double gravity_work);
+  /// Speed of a node below which check() cannot throw [m/s].
+  double safe_speed() const;
 
  private:
   [[noreturn]] void throw_not_finite(const Stepper& body) const;
   std::string advice() const;
 
+  double bound() const;
+
   double step_;
+  double mass_;  // of the body [kg]
   StepLimit limit_;
   double rounding_;
   double available_ = 0;

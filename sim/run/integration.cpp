@@ -20,8 +20,8 @@ namespace {
 // At twice the stability limit, speeds grow by the factor 14 per step and stay finite in double
 // precision until the next check.
 constexpr std::uint64_t kCheckEvery = 64;
-// The same while springs are strongly strained: the stability limit may then change within a few
-// steps.
+// The same while springs are strongly strained, as the stability limit may then change within a few
+// steps, and for schemes that do not look at the body themselves.
 constexpr std::uint64_t kCheckOftenEvery = 16;
 
 /// A run in progress.
@@ -29,8 +29,10 @@ class Integration {
  public:
   Integration(const MassSpringModel& model, const Scenario& scenario, const State& start,
               const RunOptions& options, const RunPlan& plan, Trajectory& trajectory)
-      : duration_(scenario.duration),
+      : model_(&model),
+        duration_(scenario.duration),
         first_step_(trajectory.step),
+        fast_(choice_of(options.integrator).traits.fast),
         trajectory_(&trajectory),
         body_(choice_of(options.integrator)
                   .make(model, scenario, start, trajectory.step, options, plan)),
@@ -42,9 +44,9 @@ class Integration {
         sleep_(model, scenario, options.sleep),
         task_(options.progress, "simulate", steps_left()) {
     body_->prepare();
-    energy_.emplace(model, *body_, options.precision, trajectory.step, *plan.limit);
-    if (!options.step && choice_of(options.integrator).traits.fast)
-      step_.emplace(model, *plan.limit, trajectory.step);
+    energy_.emplace(model, *body_, corners_resist(model, options), options.precision,
+                    trajectory.step, *plan.limit);
+    if (!options.step && fast_) step_.emplace(model, *plan.limit, trajectory.step);
   }
 
   void go() {
@@ -55,8 +57,10 @@ class Integration {
         if (check() || asleep) break;
       }
       recorder_.record(*body_);
-      body_->advance(std::min(
-          {next_check_ - body_->step_number(), steps_left(), recorder_.steps_to_next(*body_)}));
+      const std::uint64_t steps = std::min(
+          {next_check_ - body_->step_number(), steps_left(), recorder_.steps_to_next(*body_)});
+      body_->advance(steps);
+      if (body_->stopped()) next_check_ = body_->step_number();
     }
     check_energy();
     finish(asleep ? duration_ : body_->time());
@@ -74,11 +78,24 @@ class Integration {
     check_energy();
     springs_.check(body_->state());
     if (stop_.check(*body_)) return true;
-    const bool strained = springs_.largest_strain() > StepController::kSmallStrain;
-    next_check_ = body_->step_number() + (strained ? kCheckOftenEvery : kCheckEvery);
-    if (step_) take_step(step_->step_for(body_->positions(), springs_.largest_strain()));
+    const double strain = springs_.largest_strain();
+    const bool strained = strain > StepController::kSmallStrain;
+    next_check_ = body_->step_number() + (strained || !fast_ ? kCheckOftenEvery : kCheckEvery);
+    if (step_)
+      take_step(step_->step_for(body_->positions(), {.strain = strain,
+                                                     .corner_change = body_->take_corner_change(),
+                                                     .step_number = body_->step_number()}));
+    watch(strained);
     report();
     return false;
+  }
+
+  /// What the scheme looks for until the next check. A strained body is checked often anyway.
+  void watch(bool strained) {
+    Stepper::Watch limits{.speed = energy_->safe_speed()};
+    if (step_ && !strained) limits.strain = StepController::kSmallStrain;
+    if (step_ && step_->corners_may_halve()) limits.corner_change = StepController::kCornerChange;
+    body_->watch(limits);
   }
 
   void take_step(double step) {
@@ -105,6 +122,9 @@ class Integration {
     t.final.t = time;
     t.first_contact = body_->first_contact();
     t.first_crossing = springs_.first_crossing();
+    t.inversions = body_->inversions();
+    t.inverted_at_end =
+        static_cast<std::uint32_t>(inverted_corners(model_->corners, t.final.x).size());
     if (time > body_->time()) t.asleep_since = body_->time();
     t.steps = body_->step_number();
     t.unconverged_steps = body_->unconverged_steps();
@@ -112,8 +132,10 @@ class Integration {
     t.simulated = time;
   }
 
+  const MassSpringModel* model_;
   double duration_;    // [s]
   double first_step_;  // [s]
+  bool fast_;
   Trajectory* trajectory_;
   std::unique_ptr<Stepper> body_;
   Recorder recorder_;

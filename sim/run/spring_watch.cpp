@@ -8,12 +8,16 @@
 
 namespace springlod::sim {
 
-void SpringCheck::check(State state) {
+Mat3 SpringCheck::rotation_until(double time) const {
   const Vec3 spin = angular_velocity(*model_, before_);
-  const double angle = spin.norm() * (state.t - before_.t);
-  const Mat3 turn = angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix()
-                              : Mat3(Mat3::Identity());
-  bool crossed = first_crossing_.has_value();
+  const double angle = spin.norm() * (time - before_.t);
+  return angle > 0 ? Eigen::AngleAxisd(angle, spin.normalized()).toRotationMatrix()
+                   : Mat3(Mat3::Identity());
+}
+
+void SpringCheck::check(State state) {
+  bool crossed = first_crossing_.has_value() || !model_->corners.empty();
+  const Mat3 turn = crossed ? Mat3(Mat3::Identity()) : rotation_until(state.t);
   double most = 1;  // largest l^2 / L^2
   double least = 1;
   for (std::uint32_t s = 0; s < model_->spring_count(); ++s) {

@@ -8,7 +8,8 @@
 
 namespace springlod::sim {
 
-/// Checks all springs at intervals for inversion and strain.
+/// Checks all springs at intervals for strain and, in a model without corners, for inversion. (The
+/// corners of a model are checked in every step: see Stepper::inversions.)
 class SpringCheck {
  public:
   SpringCheck(const MassSpringModel& model, const State& start) : model_(&model), before_(start) {}
@@ -22,6 +23,9 @@ class SpringCheck {
   double largest_strain() const { return largest_strain_; }
 
  private:
+  /// Rotation of the body since the previous check.
+  Mat3 rotation_until(double time) const;
+
   const MassSpringModel* model_;
   State before_;
   std::optional<Crossing> first_crossing_;

@@ -10,7 +10,7 @@ namespace springlod::sim {
 
 /// Shortens the time step while springs are strongly strained (section 8 of docs/method.md):
 /// stretched springs are also stiff across their length, and the springs of a flattened body are
-/// nearly parallel.
+/// nearly parallel. A corner near inversion must be turned back within a few steps.
 class StepController {
  public:
   /// Up to this strain [1], a node's stiffness grows at most by the factor 1 + 2 (1 - 1/1.25) =
@@ -21,10 +21,22 @@ class StepController {
   /// `step`: the step for the body at rest [s].
   StepController(const MassSpringModel& model, const StepLimit& limit, double step);
 
+  /// A step in which the J of a corner changes by more is too long [1]: it
+  /// would follow a corner near inversion too coarsely.
+  static constexpr double kCornerChange = 0.15;
+
+  /// What a check found.
+  struct Strained {
+    double strain = 0;  ///< the largest strain of the springs [1]; small ones do not count
+    double corner_change =
+        0;  ///< largest change of the J of a corner in a step since the last check
+    std::uint64_t step_number = 0;
+  };
   /// The step to take from here [s]: the initial step divided by a power of two, so that steps
-  /// still add up to the same duration. `strain`: the largest strain of the springs [1]; small
-  /// strains are not checked.
-  double step_for(const std::vector<Vec3>& x, double strain);
+  /// still add up to the same duration.
+  double step_for(const std::vector<Vec3>& x, const Strained& found);
+  /// Whether corners may halve it further.
+  bool corners_may_halve() const;
 
  private:
   /// Highest frequency for node positions x [rad/s].
@@ -35,6 +47,8 @@ class StepController {
   double step_;
   std::vector<double> at_rest_;  // bounds of the nodes [rad2/s2]; empty until first needed
   std::uint32_t halvings_ = 0;
+  std::uint64_t last_short_ = 0;  // number of the last step that was too long, or nearly
+  std::uint64_t calm_;            // steps without one after which the step is doubled
 };
 
 }  // namespace springlod::sim

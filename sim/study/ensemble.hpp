@@ -26,7 +26,10 @@ struct RunSummary {
   double wall_seconds = 0;  ///< measured; kept out of results
   double ledger_error = 0;  ///< closure_error; 0 without a ledger
   std::uint64_t unconverged_steps = 0;
-  std::optional<double> first_crossing;  ///< when springs first inverted [s], see Trajectory
+  std::optional<double> first_crossing;   ///< when springs first inverted [s], see Trajectory
+  std::optional<double> first_inversion;  ///< when corners first were inside out [s]
+  std::uint32_t most_inverted = 0;        ///< largest number of corners inside out at one time
+  std::uint32_t inverted_at_end = 0;      ///< corners inside out at the end
 };
 
 /// Runs the model from the scenario's start and returns a summary. `center`: the body's centre of

@@ -76,7 +76,7 @@ std::vector<double> steps_of(const StabilityPoint& point, const StabilityBody& b
 Verdict judge(const StabilityBody& body, const StabilityPoint& point, const Trajectory& run) {
   if (!point.stable) return Verdict::runaway;
   if (run.unconverged_steps > 0) return Verdict::unconverged;
-  if (run.first_crossing) return Verdict::crossed;
+  if (run.first_crossing || run.inversions.first) return Verdict::crossed;
   if (body.frequency_error > kOffDesign) return Verdict::off_design;
   if (std::abs(point.energy_drift) > kDrifting) return Verdict::drifting;
   if (point.error > kInaccurate) return Verdict::inaccurate;
@@ -210,6 +210,8 @@ class Mapping {
       point.unconverged_steps = found.unconverged_steps;
       point.wall_seconds = found.wall_seconds;
       if (found.first_crossing) point.node = found.first_crossing->a;
+      if (found.inversions.first)
+        point.node = model_of(point).corners[found.inversions.first->corner].node[0];
       point.verdict = judge(body, point, found);
     } catch (const UnstableError& e) {
       point.verdict = Verdict::diverged;

@@ -19,7 +19,7 @@ enum class Verdict {
   drifting,     ///< the scheme itself gained or lost more than kDrifting of the energy
   off_design,   ///< the level no longer represents the body: the error of its frequencies is above
                 ///< kOffDesign
-  crossed,      ///< springs were inverted: their nodes moved past each other
+  crossed,      ///< springs or corners were inverted: nodes moved past each other
   unconverged,  ///< the solver of backward Euler stopped before it reached its tolerance
   runaway,      ///< the energy rose by kRunaway: the state is finite but meaningless
   diverged,     ///< non-finite state or growing energy
@@ -32,7 +32,7 @@ inline constexpr Choice<Verdict> kVerdicts[] = {
      "the mean distance from the reference run is over 10 % of its displacement"},
     {Verdict::drifting, "drifting", "the scheme gained or lost over 10 % of the energy"},
     {Verdict::off_design, "off_design", "the mean error of the level's frequencies is over 25 %"},
-    {Verdict::crossed, "crossed", "springs were inverted"},
+    {Verdict::crossed, "crossed", "springs or corners were inverted"},
     {Verdict::unconverged, "unconverged", "the solver did not reach its tolerance"},
     {Verdict::runaway, "runaway", "the energy more than doubled, although the state stayed finite"},
     {Verdict::diverged, "diverged", "non-finite state"},

@@ -40,6 +40,9 @@ Trajectory run_start(const MassSpringModel& model, const Scenario& scenario, con
     summary.ledger_error = closure_error(trajectory.ledger);
     summary.unconverged_steps = trajectory.unconverged_steps;
     if (trajectory.first_crossing) summary.first_crossing = trajectory.first_crossing->time;
+    if (trajectory.inversions.first) summary.first_inversion = trajectory.inversions.first->time;
+    summary.most_inverted = trajectory.inversions.most;
+    summary.inverted_at_end = trajectory.inverted_at_end;
     return trajectory;
   } catch (const UnstableError& e) {
     throw UnstableError(fmt::format("{}: {}", name, e.what()), e.node(), e.time());

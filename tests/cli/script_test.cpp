@@ -256,7 +256,7 @@ TEST_CASE("values cannot be forged, changed or mixed up") {
         "false\texpected a Model\n"
         "false\texpected a Model\n"
         "false\t a Model cannot be changed; make a new one\n"
-        "false\t node_count, spring_count, end_count, corner_count, safe_strain, border_count, "
+        "false\t node_count, spring_count, end_count, corner_count, border_count, "
         "part_count, mass, volume, center, inertia, bounds, young, materials, level, made_by, "
         "provenance, node, spring, corner, nodes, springs, corners, inverted_corners\n"
         "false\tbad argument #1 to 'setmetatable' (table expected, got Model)\n"

@@ -184,56 +184,6 @@ TEST_CASE("Components keep their corners") {
   CHECK(parts[1].model.corners == std::vector<Corner>{{{0, 1, 2, 3}, 2e6}});
 }
 
-/// The positions of a tetrahedron with the squared lengths d of its edges 01, 02, 03, 12, 13, 23.
-std::vector<Vec3> tetrahedron(const std::array<double, 6>& d) {
-  const double g12 = (d[0] + d[1] - d[3]) / 2;
-  const double g13 = (d[0] + d[2] - d[4]) / 2;
-  const double g23 = (d[1] + d[2] - d[5]) / 2;
-  const double x1 = std::sqrt(d[0]);
-  const double x2 = g12 / x1;
-  const double y2 = std::sqrt(d[1] - x2 * x2);
-  const double x3 = g13 / x1;
-  const double y3 = (g23 - x2 * x3) / y2;
-  return {{0, 0, 0}, {x1, 0, 0}, {x2, y2, 0}, {x3, y3, std::sqrt(d[2] - x3 * x3 - y3 * y3)}};
-}
-
-TEST_CASE("Springs within the safe strain keep every corner above the watched volume") {
-  std::mt19937_64 random(1);
-  constexpr std::array<std::array<unsigned, 2>, 6> kEnds{
-      {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-  int tight = 0;
-  for (int body = 0; body < 60; ++body) {
-    MassSpringModel m = right_corner();
-    for (Vec3& x : m.rest)
-      x += 0.5 * Vec3(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
-    for (std::uint32_t s = 0; s < m.spring_count(); ++s)
-      m.rest_length[s] = (m.rest[m.b[s]] - m.rest[m.a[s]]).norm();
-    const double safe = safe_strain(m);
-    REQUIRE(safe > 0);
-    REQUIRE(safe < 0.2);
-    const double v0 = corner_volume(m.corners[0], m.rest);
-    const auto least_ratio = [&](double eps) {
-      double least = 1;
-      for (int draw = 0; draw < 300; ++draw) {
-        std::array<double, 6> d{};
-        for (unsigned e = 0; e < 6; ++e) {
-          // Extreme changes of length, and some between them.
-          double change = 2 * uniform(random) - 1;
-          if (draw % 3 > 0) change = change > 0 ? 1 : -1;
-          d[e] = (m.rest[kEnds[e][1]] - m.rest[kEnds[e][0]]).squaredNorm() *
-                 std::pow(1 + eps * change, 2);
-        }
-        const std::vector<Vec3> x = tetrahedron(d);
-        least = std::min(least, std::abs(corner_volume(m.corners[0], x)) / v0);
-      }
-      return least;
-    };
-    CHECK(least_ratio(safe) >= kCornerWatched * (1 - 1e-7));
-    if (least_ratio(1.05 * safe) < kCornerWatched) ++tight;
-  }
-  CHECK(tight > 50);  // the bound is not only safe but sharp
-}
-
 TEST_CASE("The travel of a corner bounds the gradient of its volume ratio") {
   std::mt19937_64 random(2);
   const auto vector = [&] {
@@ -282,44 +232,6 @@ TEST_CASE("The travel of special corners") {
   const double face =
       std::sqrt(2 * (2 * 2 + 2 * 2 * far * far) - (4 + 4 + far * far * far * far)) / 2;
   CHECK(travel(obtuse) == Approx(0.8 / (squared * (1 + 1 + 1 + face))));
-}
-
-TEST_CASE("The safe strain of special models") {
-  MassSpringModel m = right_corner();
-  const double alone = safe_strain(m);
-  SECTION("it does not depend on the size") {
-    for (Vec3& x : m.rest) x *= 0.01;
-    for (double& length : m.rest_length) length *= 0.01;
-    CHECK(safe_strain(m) == Approx(alone).epsilon(1e-6));
-  }
-  SECTION("a corner with an edge that is no spring") {
-    m.a.pop_back(), m.b.pop_back(), m.rest_length.pop_back(), m.stiffness.pop_back();
-    m.damping.pop_back();
-    REQUIRE_NOTHROW(validate(m));
-    CHECK(safe_strain(m) == 0);
-  }
-  SECTION("a model whose springs are strained at rest") {
-    m.rest_length[0] *= 1 - 0.9 * alone;
-    CHECK(safe_strain(m) < alone);
-    m.rest_length[0] /= 3;
-    CHECK(safe_strain(m) == 0);
-  }
-  SECTION("no corners") {
-    m.corners.clear();
-    CHECK(safe_strain(m) == std::numeric_limits<double>::infinity());
-  }
-  SECTION("a cube's corner") {
-    for (std::uint32_t i = 1; i < 4; ++i) m.rest[i].normalize();
-    for (std::uint32_t s = 0; s < m.spring_count(); ++s)
-      m.rest_length[s] = (m.rest[m.b[s]] - m.rest[m.a[s]]).norm();
-    // The worst case shortens the three edges and lengthens the three diagonals: with
-    // p = (1 - eps)^2 and q = -4 eps, the squared volume is (p - q)^2 (p + 2 q).
-    const double eps = safe_strain(m);
-    const double p = (1 - eps) * (1 - eps);
-    const double q = -4 * eps;
-    CHECK((p - q) * (p - q) * (p + 2 * q) == Approx(kCornerWatched * kCornerWatched));
-    CHECK(eps == Approx(0.078).margin(0.001));
-  }
 }
 
 }  // namespace

@@ -27,9 +27,14 @@ std::string damping_hint(const sim::Trajectory& run) {
   return fmt::format(
       "to {:.2g} % of that without damping (stable step {:.3g} s, without damping {:.3g} s); for a "
       "longer step, give the materials a smaller damping_ratio or a shorter damping time, or take "
-      "an "
-      "implicit integrator",
+      "an implicit integrator",
       100 * run.predicted_step / run.undamped_step, run.predicted_step, run.undamped_step);
+}
+
+std::string inversion_hint(bool resisted) {
+  if (resisted) return "use a stiffer material, a slower impact or a smaller step";
+  return "keep the corners of the model (volumes = true) and take an explicit integrator, use a "
+         "stiffer material or a slower impact";
 }
 
 }  // namespace springlod::scripting

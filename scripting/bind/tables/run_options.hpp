@@ -21,4 +21,7 @@ std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::Co
 /// damping.
 std::string damping_hint(const sim::Trajectory& run);
 
+/// For warnings: what keeps a body from turning inside out. `resisted`: its corners resisted.
+std::string inversion_hint(bool resisted);
+
 }  // namespace springlod::scripting

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "sim/contact/step_correction.hpp"
+#include "sim/correction/plain_correction.hpp"
 #include "sim/integrators/leapfrog.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"
@@ -21,15 +21,19 @@ std::shared_ptr<ContactSkin> skin_of(const LodChain& chain, std::uint32_t level)
   return std::make_shared<ContactSkin>(contact_skin(chain, level));
 }
 
-/// A body that moves freely over one step, with its contacts.
+MassSpringModel without_corners(MassSpringModel model) {
+  model.corners.clear();
+  return model;
+}
+
+/// A body without springs and corners that moves over one step, with its contacts.
 struct OneStep {
   OneStep(const MassSpringModel& of_model, const std::vector<Obstacle>& obstacles,
           const ContactSkin* skin)
-      : model(of_model),
+      : model(without_corners(of_model)),
         points(skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model)),
         finder(points, obstacles, model.rest),
-        contacts(points, finder, model.node_count()),
-        obstacle_count(obstacles.size()),
+        correction(model, points, finder, obstacles.size(), true),
         x(model.rest) {}
 
   /// Kinetic energy of the nodes [J].
@@ -43,7 +47,7 @@ struct OneStep {
     const double before = kinetic(v) + contact_energy(contacts.now());
     std::vector<Vec3> x_next = x;
     for (std::size_t i = 0; i < x.size(); ++i) x_next[i] += step * v[i];
-    correct_step(points, obstacle_count, step, x, contacts, x_next, v);
+    correction.correct(step, x, x_next, v);
     x = x_next;
     return kinetic(v) + contact_energy(contacts.now()) + contacts.losses().contact +
            contacts.losses().friction - before;
@@ -52,8 +56,8 @@ struct OneStep {
   MassSpringModel model;
   ContactPoints points;
   ContactFinder finder;
-  StepContacts contacts;
-  std::size_t obstacle_count;
+  PlainCorrection correction;
+  StepCorrection& contacts = correction.solver();
   std::vector<Vec3> x;
 };
 

@@ -78,10 +78,25 @@ TEST_CASE("The step is halved where springs are strained hard, and doubled again
   const StepLimit limit = step_limit(model);
   const double step = 0.8 * limit.step;
   StepController watch(model, limit, step);
-  CHECK(watch.step_for(model.rest, 0) == step);
-  CHECK(watch.step_for(scaled(model, {2, 2, 2}), 1) == step / 2);
-  CHECK(watch.step_for(scaled(model, {1.3, 1.3, 1.3}), 0.3) == step / 2);  // not back and forth
-  CHECK(watch.step_for(model.rest, 0) == step);
+  const auto at = [&](const std::vector<Vec3>& x, double strain, double change,
+                      std::uint64_t number) {
+    return watch.step_for(x, {.strain = strain, .corner_change = change, .step_number = number});
+  };
+  const std::vector<Vec3> stretched = scaled(model, {2, 2, 2});
+  CHECK(at(model.rest, 0, 0, 64) == step);
+  CHECK(at(stretched, 1, 0, 128) == step / 2);
+  CHECK(at(scaled(model, {1.3, 1.3, 1.3}), 0.3, 0, 144) == step / 2);  // not back and forth
+  // It is doubled late, and the second time later, so that it cannot follow a vibration.
+  CHECK(at(model.rest, 0, 0, 144 + 511) == step / 2);
+  CHECK(at(model.rest, 0, 0, 144 + 512) == step);
+  CHECK(at(stretched, 1, 0, 1000) == step / 2);
+  CHECK(at(model.rest, 0, 0, 1000 + 1023) == step / 2);
+  CHECK(at(model.rest, 0, 0, 1000 + 1024) == step);
+  // Corners that change fast halve it once, for they are stable with any step.
+  CHECK(watch.corners_may_halve());
+  CHECK(at(model.rest, 0, 0.2, 3000) == step / 2);
+  CHECK_FALSE(watch.corners_may_halve());
+  CHECK(at(model.rest, 0, 0.2, 3016) == step / 2);
 }
 
 TEST_CASE("A body let go stretched to twice its size only holds with the step adapted") {

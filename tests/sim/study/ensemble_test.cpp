@@ -73,20 +73,26 @@ TEST_CASE("An ensemble refuses what it cannot run, and names the start that dive
   }
 }
 
-TEST_CASE("Ensemble runs report when springs turned over, or that none did") {
+TEST_CASE("Ensemble runs report when corners were inside out, or that none was") {
   Scenario violent = scene();
   violent.start.velocity = {0, 0, -120};  // far above the speed of sound of the block, 32 m/s
   violent.obstacles = {test::floor(1e8, 0.5)};
   violent.duration = 0.02;
   CompareOptions compared;
   compared.starts = 2;
+  compared.run.volumes = false;
   const Comparison comparison = compare(test::small_chain(), violent, compared);
-  const auto runs = run_ensemble(test::small_chain().levels[0].model, violent, {.starts = 2});
+  EnsembleOptions options{.starts = 2};
+  options.run.volumes = false;
+  const auto runs = run_ensemble(test::small_chain().levels[0].model, violent, options);
   for (std::size_t i = 0; i < 2; ++i) {
-    REQUIRE(runs[i].first_crossing.has_value());
-    CHECK(*runs[i].first_crossing > 0.001);
-    CHECK(runs[i].first_crossing == comparison.levels[0].starts[i].first_crossing);
+    REQUIRE(runs[i].first_inversion.has_value());
+    CHECK(*runs[i].first_inversion > 0.001);
+    CHECK(runs[i].most_inverted > 0);
+    CHECK(runs[i].first_inversion == comparison.levels[0].starts[i].first_inversion);
+    CHECK(runs[i].inverted_at_end == comparison.levels[0].starts[i].inverted_at_end);
   }
-  CHECK_FALSE(
-      run_ensemble(test::small_chain().levels[0].model, scene(), {.starts = 1})[0].first_crossing);
+  const auto calm = run_ensemble(test::small_chain().levels[0].model, scene(), {.starts = 1});
+  CHECK_FALSE(calm[0].first_inversion);
+  CHECK(calm[0].most_inverted == 0);
 }

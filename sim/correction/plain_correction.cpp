@@ -1,0 +1,125 @@
+#include "sim/correction/plain_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/run/motion.hpp"
+
+namespace springlod::sim {
+namespace {
+
+/// The paths between two vectors of positions.
+class VectorPaths final : public StepPaths {
+ public:
+  VectorPaths(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
+      : from_(&from), to_(&to) {}
+  StepPath path(std::uint32_t node) const override { return {(*from_)[node], (*to_)[node]}; }
+
+ private:
+  const std::vector<Vec3>* from_;
+  const std::vector<Vec3>* to_;
+};
+
+std::vector<double> corner_travels(const MassSpringModel& model) {
+  std::vector<double> travels;
+  for (const Corner& corner : model.corners) travels.push_back(corner_travel(corner, model.rest));
+  return travels;
+}
+
+}  // namespace
+
+PlainCorrection::PlainCorrection(const MassSpringModel& model, const ContactPoints& points,
+                                 ContactFinder& finder, std::size_t obstacle_count, bool volumes)
+    : model_(&model),
+      points_(&points),
+      obstacle_count_(obstacle_count),
+      solver_(model, points, finder, volumes),
+      watch_(model.corner_count()),
+      corner_travel_(corner_travels(model)) {}
+
+void PlainCorrection::correct(double step, const std::vector<Vec3>& x, std::vector<Vec3>& x_next,
+                              std::vector<Vec3>& v_next) {
+  const VectorPaths paths(x, x_next);
+  solver_.begin(step, paths);
+  check_contacts(x, x_next);
+  solver_.solve_contacts();
+  if (!model_->corners.empty()) check_corners(step, x, x_next);
+  solver_.finish();
+  double most = 0;
+  by_contacts_.resize(solver_.changes().size(), Vec3::Zero());
+  auto by_contacts = by_contacts_.begin();  // changes have the order of StepNodes
+  for (const NodeChange& change : solver_.changes()) {
+    x_next[change.node] += change.displacement;
+    v_next[change.node] += change.kick;
+    most = std::max(most, (change.displacement - *by_contacts++).squaredNorm());
+  }
+  watch_.corrected(std::sqrt(most), solver_.resisting());
+}
+
+void PlainCorrection::check_contacts(const std::vector<Vec3>& x, const std::vector<Vec3>& x_next) {
+  auto was = solver_.before().begin();  // in the order of the checks, as they made it
+  for (std::uint32_t o = 0; o < obstacle_count_; ++o)
+    for (std::uint32_t p = 0; p < points_->count(); ++p) {
+      const bool touched = was != solver_.before().end() && was->obstacle == o && was->point == p;
+      solver_.check_contact(o, p, touched ? &*was : nullptr,
+                            {points_->interpolate(p, x), points_->interpolate(p, x_next)});
+      if (touched) ++was;
+    }
+}
+
+void PlainCorrection::check_corners(double step, const std::vector<Vec3>& x,
+                                    const std::vector<Vec3>& x_next) {
+  const Vec3 from = springlod::center_of_mass(*model_, x);
+  const Vec3 displacement = springlod::center_of_mass(*model_, x_next) - from;
+  double most = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Vec3 rigid = displacement + step * spin_.cross(x[i] - from);
+    most = std::max(most, (x_next[i] - x[i] - rigid).squaredNorm());
+  }
+  double by_contacts = 0;
+  const StepNodes& nodes = solver_.nodes();
+  by_contacts_.clear();
+  for (std::uint32_t i = 0; i < nodes.count(); ++i) {
+    by_contacts_.push_back(nodes.displacement(i));
+    by_contacts = std::max(by_contacts, by_contacts_.back().squaredNorm());
+  }
+  if (watch_.moved(std::sqrt(most) + std::sqrt(by_contacts))) {
+    State state{x, x_next, 0};
+    for (std::size_t i = 0; i < x.size(); ++i) state.v[i] = (x_next[i] - x[i]) / step;
+    spin_ = angular_velocity(*model_, state);
+    state.x = x_next;
+    for (std::uint32_t i = 0; i < nodes.count(); ++i) state.x[nodes.node(i)] = nodes.at(i);
+    look_at_corners(state.x);
+  }
+  watch_.check(
+      [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
+}
+
+bool PlainCorrection::is_stretched(const Corner& corner, const std::vector<Vec3>& x) const {
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      const auto square = [&](const std::vector<Vec3>& at) {
+        return (at[corner.node[j]] - at[corner.node[i]]).squaredNorm();
+      };
+      if (square(x) > kCornerStretch * kCornerStretch * square(model_->rest)) return true;
+    }
+  return false;
+}
+
+void PlainCorrection::look_at_corners(const std::vector<Vec3>& x_next) {
+  std::vector<std::uint32_t> found;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t c = 0; c < model_->corner_count(); ++c) {
+    const Corner& corner = model_->corners[c];
+    const double ratio = corner_volume(corner, x_next) / corner_volume(corner, model_->rest);
+    const double margin = (ratio - kCornerResists) * corner_travel_[c];
+    if (margin >= 0)
+      least = std::min(least, is_stretched(corner, x_next) ? 0 : margin);
+    else
+      found.push_back(c);
+  }
+  watch_.looked(found, least);
+}
+
+}  // namespace springlod::sim

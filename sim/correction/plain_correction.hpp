@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/correction/corner_watch.hpp"
+#include "sim/correction/step_correction.hpp"
+
+namespace springlod::sim {
+
+/// The corrections of a body whose positions are one vector; checks all contact points in every
+/// step.
+class PlainCorrection {
+ public:
+  /// Everything must outlive this. `volumes`: whether corners resist.
+  PlainCorrection(const MassSpringModel& model, const ContactPoints& points, ContactFinder& finder,
+                  std::size_t obstacle_count, bool volumes);
+
+  /// Corrects a step of length `step` [s] from the positions x to `x_next`, with the velocities
+  /// `v_next` at its end.
+  void correct(double step, const std::vector<Vec3>& x, std::vector<Vec3>& x_next,
+               std::vector<Vec3>& v_next);
+
+  StepCorrection& solver() { return solver_; }
+  const StepCorrection& solver() const { return solver_; }
+
+ private:
+  void check_contacts(const std::vector<Vec3>& x, const std::vector<Vec3>& x_next);
+  void check_corners(double step, const std::vector<Vec3>& x, const std::vector<Vec3>& x_next);
+  void look_at_corners(const std::vector<Vec3>& x_next);
+  /// Whether an edge is too long for corner_travel().
+  bool is_stretched(const Corner& corner, const std::vector<Vec3>& x) const;
+
+  const MassSpringModel* model_;
+  const ContactPoints* points_;
+  std::size_t obstacle_count_;
+  StepCorrection solver_;
+  CornerWatch watch_;
+  std::vector<double> corner_travel_;  // see corner_travel()
+  std::vector<Vec3> by_contacts_;      // displacement of nodes by contacts, before corners [m]
+  Vec3 spin_ = Vec3::Zero();           // of the body at the last look [rad/s]
+};
+
+}  // namespace springlod::sim

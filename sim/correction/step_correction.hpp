@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "sim/contact/step_contacts.hpp"
+#include "sim/correction/step_corners.hpp"
+#include "sim/correction/step_nodes.hpp"
+
+namespace springlod::sim {
+
+/// Corrects each step of an explicit scheme for contacts and corners, so that they do not bound it:
+/// section 9 of docs/method.md. The scheme takes the step without them. Then the contacts get their
+/// forces by Gauss-Seidel sweeps, and corners that are near inversion as the contacts have left
+/// them are solved together with the contacts. Calls for each step, in this order:
+///
+///   begin(step, paths);
+///   for each obstacle, for each point that may touch it: check_contact(...);
+///   solve_contacts();
+///   for each corner that is near inversion: check_corner(...);
+///   finish();
+class StepCorrection {
+ public:
+  struct Losses {
+    double contact = 0;   ///< [J]
+    double friction = 0;  ///< [J]
+    double corners = 0;   ///< [J]
+  };
+
+  /// Model, points and finder must outlive this. `volumes`: whether corners resist.
+  StepCorrection(const MassSpringModel& model, const ContactPoints& points, ContactFinder& finder,
+                 bool volumes)
+      : nodes_(model.node_count()), contacts_(points, finder), corners_(model, volumes) {}
+
+  /// The contacts at the start of a run.
+  void set(std::vector<Contact> contacts) { contacts_.set(std::move(contacts)); }
+  /// The contacts at the end of the last step.
+  const std::vector<Contact>& now() const { return contacts_.now(); }
+
+  /// The paths must outlive the step. `step` [s].
+  void begin(double step, const StepPaths& paths);
+  /// The contacts at the start of the step; all of them must be checked.
+  const std::vector<Contact>& before() const { return contacts_.before(); }
+  /// See StepContacts::check.
+  void check_contact(std::uint32_t obstacle, std::uint32_t point, const Contact* was,
+                     const StepPath& path) {
+    contacts_.check(obstacle, point, was, path, nodes_);
+  }
+  void solve_contacts();
+  /// The nodes that the contacts moved.
+  const StepNodes& nodes() const { return nodes_; }
+  /// See StepCorners::check.
+  void check_corner(std::uint32_t corner, bool resisted) {
+    corners_.check(corner, resisted, nodes_);
+  }
+  void finish();
+
+  /// How the nodes change at the end of the step.
+  const std::vector<NodeChange>& changes() const { return changes_; }
+  /// Energy lost in the step, without the part that the forces of the scheme take.
+  const Losses& losses() const { return losses_; }
+  /// See StepCorners.
+  const std::vector<std::uint32_t>& resisting() const { return corners_.resisting(); }
+  const std::vector<std::uint32_t>& inverted() const { return corners_.inverted(); }
+  const std::vector<std::uint32_t>& late_inverted() const { return corners_.late_inverted(); }
+  double largest_corner_change() const { return corners_.largest_change(); }
+
+ private:
+  double step_ = 0;  // [s]
+  StepNodes nodes_;
+  StepContacts contacts_;
+  StepCorners corners_;
+  std::vector<NodeChange> changes_;
+  Losses losses_;
+};
+
+}  // namespace springlod::sim

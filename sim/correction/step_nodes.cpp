@@ -1,0 +1,41 @@
+#include "sim/correction/step_nodes.hpp"
+
+namespace springlod::sim {
+
+void StepNodes::begin(const StepPaths& paths) {
+  of_step_ = &paths;
+  shared_ = false;
+  for (const std::uint32_t node : node_) slot_[node] = kNone;
+  node_.clear();
+  paths_.clear();
+  at_.clear();
+  slide_.clear();
+  corners_.clear();
+}
+
+std::uint32_t StepNodes::slot(std::uint32_t node) {
+  std::uint32_t& slot = slot_[node];
+  if (slot != kNone) {
+    shared_ = true;
+    return slot;
+  }
+  slot = static_cast<std::uint32_t>(node_.size());
+  node_.push_back(node);
+  paths_.push_back(of_step_->path(node));
+  at_.push_back(paths_.back().to);
+  slide_.emplace_back(Vec3::Zero());
+  corners_.emplace_back(Vec3::Zero());
+  return slot;
+}
+
+void StepNodes::finish(double step, std::vector<NodeChange>& changes) const {
+  for (std::size_t i = 0; i < node_.size(); ++i) {
+    const Vec3 displacement = this->displacement(static_cast<std::uint32_t>(i));
+    changes.push_back({.node = node_[i],
+                       .displacement = displacement,
+                       .kick = (2 * displacement - slide_[i]) / step,
+                       .by_corners = corners_[i]});
+  }
+}
+
+}  // namespace springlod::sim

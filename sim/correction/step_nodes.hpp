@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "model/vec.hpp"
+
+namespace springlod::sim {
+
+/// Path of a node or a point over a step without contacts and corners [m].
+struct StepPath {
+  Vec3 from = Vec3::Zero();
+  Vec3 to = Vec3::Zero();
+};
+
+/// The paths of the nodes of a body in one step.
+class StepPaths {
+ public:
+  virtual ~StepPaths() = default;
+  virtual StepPath path(std::uint32_t node) const = 0;
+
+ protected:
+  StepPaths() = default;
+  StepPaths(const StepPaths&) = default;
+  StepPaths(StepPaths&&) = default;
+};
+
+/// How a correction changes a node at the end of a step. Friction kicks a node at the start of the
+/// step and so moves it by step * kick. The force of a contact or a corner is constant over the
+/// step and moves it by step * kick / 2.
+struct NodeChange {
+  std::uint32_t node = 0;
+  Vec3 displacement = Vec3::Zero();  ///< [m]
+  Vec3 kick = Vec3::Zero();          ///< change of the velocity [m/s]
+  Vec3 by_corners = Vec3::Zero();    ///< displacement by corners [m]
+
+  /// Displacement by friction in a step of length `step` [m].
+  Vec3 by_friction(double step) const { return 2 * displacement - step * kick; }
+  /// Displacement by normal forces of contacts and by corners [m].
+  Vec3 by_pressure(double step) const { return step * kick - displacement; }
+  /// Displacement by normal forces of contacts [m].
+  Vec3 by_contacts(double step) const { return by_pressure(step) - by_corners; }
+};
+
+/// The nodes that the contacts and corners of a step move, gathered so that the sweeps of the
+/// solver touch little memory.
+class StepNodes {
+ public:
+  explicit StepNodes(std::uint32_t node_count) : slot_(node_count, kNone) {}
+
+  /// Forgets the nodes of the last step. The paths must outlive the step.
+  void begin(const StepPaths& paths);
+  /// Slot of a node, which is added if it is new.
+  std::uint32_t slot(std::uint32_t node);
+  /// Whether a slot was asked for more than once: then its forces depend on each other.
+  bool shared() const { return shared_; }
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(node_.size()); }
+  std::uint32_t node(std::uint32_t slot) const { return node_[slot]; }
+  const StepPath& path(std::uint32_t slot) const { return paths_[slot]; }
+  /// Position at the end of the step, so far [m].
+  const Vec3& at(std::uint32_t slot) const { return at_[slot]; }
+  Vec3 displacement(std::uint32_t slot) const { return at_[slot] - paths_[slot].to; }
+  void move(std::uint32_t slot, const Vec3& displacement) { at_[slot] += displacement; }
+  /// The displacement by friction or by corners, once it is final.
+  void add_slide(std::uint32_t slot, const Vec3& slide) { slide_[slot] += slide; }
+  void add_corners(std::uint32_t slot, const Vec3& displacement) { corners_[slot] += displacement; }
+  const Vec3& slide(std::uint32_t slot) const { return slide_[slot]; }
+
+  /// Appends the change of each node in a step of length `step` [s].
+  void finish(double step, std::vector<NodeChange>& changes) const;
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  const StepPaths* of_step_ = nullptr;
+  bool shared_ = false;
+  std::vector<std::uint32_t> slot_;  // by node; or kNone
+  // By slot.
+  std::vector<std::uint32_t> node_;
+  std::vector<StepPath> paths_;
+  std::vector<Vec3> at_;       // at the end of the step, so far [m]
+  std::vector<Vec3> slide_;    // displacement by friction [m]
+  std::vector<Vec3> corners_;  // displacement by corners [m]
+};
+
+}  // namespace springlod::sim

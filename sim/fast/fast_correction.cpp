@@ -1,0 +1,120 @@
+#include "sim/fast/fast_correction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace springlod::sim {
+
+FastCorrection::FastCorrection(const Shared& shared)
+    : shared_(shared),
+      needed_(!shared.points.obstacles->empty() || !shared.model->corners.empty()),
+      paths_(*shared.body, shared.model->node_count()),
+      near_(shared.points, paths_),
+      watch_(shared.model->corner_count()),
+      found_(shared.body->block_count()),
+      margins_(shared.body->block_count(), std::numeric_limits<double>::infinity()),
+      solver_(*shared.model, *shared.points.points, *shared.points.finder, shared.volumes) {}
+
+void FastCorrection::correct_contacts(const FastStep& step) {
+  paths_.begin(step);
+  solver_.begin(step.length, paths_);
+  near_.check(step, solver_);
+  solver_.solve_contacts();
+}
+
+bool FastCorrection::corners_due(double travel, bool stretched) {
+  const StepNodes& nodes = solver_.nodes();
+  double most = 0;
+  by_contacts_.clear();
+  for (std::uint32_t i = 0; i < nodes.count(); ++i) {
+    by_contacts_.push_back(nodes.displacement(i));
+    most = std::max(most, by_contacts_.back().squaredNorm());
+  }
+  looking_ = watch_.moved(travel + std::sqrt(most)) || stretched;
+  if (!looking_) return false;
+  // The look must find the nodes where the contacts have left them.
+  for (std::uint32_t i = 0; i < nodes.count(); ++i)
+    shared_.body->shift(shared_.body->place(nodes.node(i)), by_contacts_[i], Vec3::Zero());
+  return true;
+}
+
+void FastCorrection::look_at_corners(std::uint32_t block) {
+  found_[block].clear();
+  margins_[block] = shared_.body->find_corners(block, 0, found_[block]);
+}
+
+void FastCorrection::finish_look() {
+  std::vector<std::uint32_t> found;
+  for (const std::vector<std::uint32_t>& of_block : found_)
+    found.insert(found.end(), of_block.begin(), of_block.end());
+  watch_.looked(found, *std::min_element(margins_.begin(), margins_.end()));
+  looking_ = false;
+}
+
+void FastCorrection::correct_corners(const FastStep& step) {
+  const bool looked = looking_;
+  if (looked) finish_look();
+  watch_.check(
+      [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
+  solver_.finish();
+  apply(step, looked);
+  near_.check_walls(step);
+  note_inversions(step);
+}
+
+// The changes have the order of StepNodes: the nodes that contacts moved come first.
+void FastCorrection::apply(const FastStep& step, bool looked) {
+  double most = 0;
+  double after_contacts = 0;
+  by_contacts_.resize(solver_.changes().size(), Vec3::Zero());
+  auto by_contacts = by_contacts_.begin();
+  for (const NodeChange& change : solver_.changes()) {
+    const Vec3 rest = change.displacement - *by_contacts++;
+    shared_.body->shift(shared_.body->place(change.node), looked ? rest : change.displacement,
+                        change.kick);
+    paths_.shift(change.node, change.displacement);
+    most = std::max(most, change.displacement.squaredNorm());
+    after_contacts = std::max(after_contacts, rest.squaredNorm());
+  }
+  near_.corrected(std::sqrt(most));
+  largest_shift_ = std::sqrt(most);
+  watch_.corrected(std::sqrt(after_contacts), solver_.resisting());
+  if (!first_step_ && !contacts().empty()) first_step_ = step.number;
+  if (!shared_.with_ledger) return;
+  losses_.contact += solver_.losses().contact;
+  losses_.friction += solver_.losses().friction;
+  losses_.corners += solver_.losses().corners;
+  for (const NodeChange& change : solver_.changes()) {
+    losses_.contact += half_work(change.node, change.by_contacts(step.length));
+    losses_.friction += half_work(change.node, change.by_friction(step.length));
+    losses_.corners += half_work(change.node, change.by_corners);
+  }
+  booked_step_ = step.length;
+}
+
+void FastCorrection::book_end() {
+  if (booked_step_ == 0) return;
+  for (const NodeChange& change : solver_.changes()) {
+    losses_.contact -= half_work(change.node, change.by_contacts(booked_step_));
+    losses_.corners -= half_work(change.node, change.by_corners);
+  }
+  booked_step_ = 0;
+}
+
+// See LedgerEntry. The damping forces take their own part.
+double FastCorrection::half_work(std::uint32_t node, const Vec3& displacement) const {
+  const Place at = shared_.body->place(node);
+  const Vec3 force = shared_.body->force(at) - shared_.body->damping_force(at) +
+                     shared_.model->mass[node] * shared_.gravity;
+  return 0.5 * force.dot(displacement);
+}
+
+void FastCorrection::note_inversions(const FastStep& step) {
+  largest_corner_change_ = std::max(largest_corner_change_, solver_.largest_corner_change());
+  inversions_.note(
+      step.number, solver_.inverted(), solver_.late_inverted(),
+      [&](std::uint32_t corner) { return paths_.to(shared_.model->corners[corner].node[0]); });
+}
+
+}  // namespace springlod::sim

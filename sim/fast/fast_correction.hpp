@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sim/correction/corner_watch.hpp"
+#include "sim/correction/inversion_log.hpp"
+#include "sim/correction/step_correction.hpp"
+#include "sim/fast/fast_paths.hpp"
+#include "sim/fast/near_points.hpp"
+
+namespace springlod::sim {
+
+/// Corrects the drifts of a fast body for contacts and corners. A contact point or a corner may
+/// depend on nodes of several blocks, so one thread corrects the body while the others wait; only
+/// the corners are looked at by all. Calls for each drift, when all blocks have moved:
+///
+///   one thread:  correct_contacts(step); bool look = corners_due(travel);
+///   if (look) for each block, by any thread: look_at_corners(block);
+///   one thread:  correct_corners(step);
+class FastCorrection {
+ public:
+  /// Everything must outlive this.
+  struct Shared {
+    const MassSpringModel* model;
+    NearPoints::Shared points;
+    FastBody* body;
+    Vec3 gravity;      ///< [m/s2]
+    bool with_ledger;  ///< record the losses
+    bool volumes;      ///< whether corners resist
+  };
+  explicit FastCorrection(const Shared& shared);
+
+  /// Sets the contacts at the start.
+  void start(std::vector<Contact> contacts) { solver_.set(std::move(contacts)); }
+  /// Whether there is anything to correct at all, in any step.
+  bool needed() const { return needed_; }
+  bool has_corners() const { return !shared_.model->corners.empty(); }
+
+  void correct_contacts(const FastStep& step);
+  /// `travel`: of the drift without contacts, see CornerWatch [m]. `stretched`: an edge of a corner
+  /// may be longer than kCornerStretch, so the travel tells nothing.
+  bool corners_due(double travel, bool stretched);
+  void look_at_corners(std::uint32_t block);
+  /// Ends the correction.
+  void correct_corners(const FastStep& step);
+  /// Books the part of the losses that depends on the forces at the end of the last step. Call it
+  /// when the body has collected them.
+  void book_end();
+
+  const std::vector<Contact>& contacts() const { return solver_.now(); }
+  /// How the last correction changed the nodes.
+  const std::vector<NodeChange>& changes() const { return solver_.changes(); }
+  /// Losses so far.
+  const StepCorrection::Losses& losses() const { return losses_; }
+  /// Number of the first step with a contact.
+  const std::optional<std::uint64_t>& first_step() const { return first_step_; }
+  /// The first point that tunnelled through a wall.
+  const std::optional<Passage>& passage() const { return near_.passage(); }
+  /// The largest displacement of a node by the last correction [m].
+  double largest_shift() const { return largest_shift_; }
+  /// Largest change in one step of the J of a corner near inversion, since the last call [1].
+  double largest_corner_change() const { return largest_corner_change_; }
+  double take_largest_corner_change() { return std::exchange(largest_corner_change_, 0); }
+
+  /// The inversions so far.
+  const InversionLog& inversions() const { return inversions_; }
+
+ private:
+  void finish_look();
+  /// `looked`: the body is where the contacts have left it.
+  void apply(const FastStep& step, bool looked);
+  void note_inversions(const FastStep& step);
+  /// Half the work of the elastic forces and of gravity on a node over a displacement [J].
+  double half_work(std::uint32_t node, const Vec3& displacement) const;
+
+  Shared shared_;
+  bool needed_;
+  FastPaths paths_;
+  NearPoints near_;
+  CornerWatch watch_;
+  bool looking_ = false;
+  std::vector<Vec3> by_contacts_;  // displacement of nodes by contacts, before corners [m]
+  std::vector<std::vector<std::uint32_t>> found_;  // by block: corners that resist
+  std::vector<double> margins_;                    // by block: least margin of the others [m]
+  StepCorrection solver_;
+  double booked_step_ = 0;  // length of the step whose end is not booked yet; 0: none [s]
+  StepCorrection::Losses losses_;
+  double largest_shift_ = 0;          // [m]
+  double largest_corner_change_ = 0;  // [1]
+  InversionLog inversions_;
+  std::optional<std::uint64_t> first_step_;
+};
+
+}  // namespace springlod::sim
