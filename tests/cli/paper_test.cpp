@@ -4,10 +4,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/cli/csv_rows.hpp"
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
+using springlod::test::Row;
+using springlod::test::rows_of;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::springlod_interrupted;
@@ -64,6 +67,21 @@ TEST_CASE("paper resumes after an interruption, with the same tables for any num
   const Ran mixed = springlod_run(paper(scratch / "whole", "6", "2"));
   CHECK(mixed.exit_code == 1);
   CHECK_THAT(mixed.err, Contains("holds runs with starts = 5, not 6; use another folder"));
+}
+
+TEST_CASE("paper --volumes: the soft ball has corners, and none is inverted at the end") {
+  const TemporaryFolder scratch;
+  std::vector<std::string> arguments = paper(scratch / "out", "5", "1");
+  arguments.emplace_back("--volumes");
+  const Ran stopped = springlod_interrupted(arguments, "ball/base");
+  CHECK(stopped.exit_code == 130);
+  const std::vector<Row> rows = rows_of(slurp(scratch / "out/runs/ball/base.csv"));
+  CHECK(rows.size() == 5);
+  for (const Row& row : rows) CHECK(row.at("inverted_at_end") == "0");
+
+  const Ran without = springlod_run(paper(scratch / "out", "5", "1"));
+  CHECK(without.exit_code == 1);
+  CHECK_THAT(without.err, Contains("holds runs with volumes = true, not false"));
 }
 
 TEST_CASE("paper identifies the materials of kept runs by content, independent of the path") {

@@ -8,7 +8,9 @@ local progress = require "lib.progress"
 
 local paper_runs = {}
 
-local columns = {"start", "distance", "simulated", "spring_updates", "first_crossing"}
+local columns = {
+  "start", "distance", "simulated", "spring_updates", "first_crossing", "inverted_at_end",
+}
 
 -- One throw of one body. `scene` is the Scenario, `table` the Lua table it was created from;
 -- `variants` are those of the paper's table.
@@ -20,8 +22,9 @@ end
 
 -- The cases of Table 1 (`ball`) and Table 2 (`rods`, one per speed).
 function paper_runs.cases(settings)
-  local ball = paper_scenes.ball{materials = settings.ball_materials}
-  local rods = paper_scenes.rods{materials = settings.rods_materials}
+  local volumes = settings.volumes
+  local ball = paper_scenes.ball{materials = settings.ball_materials, volumes = volumes}
+  local rods = paper_scenes.rods{materials = settings.rods_materials, volumes = volumes}
   local cases = {ball = case("ball", ball, paper_scenes.roll{
     speed = settings.ball_speed, friction = settings.friction,
   }, paper_variants.wanted(paper_variants, settings)), rods = {}}
@@ -90,16 +93,23 @@ local function samples(one, settings)
   return list
 end
 
--- The distances of a sample, run if they are not in the store, and the number of its runs in which
--- springs inverted.
-local function distances(sample, scene, store)
+-- Whether a run counts as turned over: its final state has inverted corners or, in a study without
+-- corners, springs inverted during it.
+local function is_turned_over(row, settings)
+  if settings.volumes then return row.inverted_at_end > 0 end
+  return row.first_crossing ~= ""
+end
+
+-- The distances of a sample, run if they are not in the store, and the number of its runs that
+-- turned over.
+local function distances(sample, scene, settings, store)
   local rows = store:rows(sample.name, columns, function()
     return s.ensemble(sample.model(), scene, sample.options)
   end)
   local list, turned_over = {}, 0
   for i, row in ipairs(rows) do
     list[i] = row.distance
-    if row.first_crossing ~= "" then turned_over = turned_over + 1 end
+    if is_turned_over(row, settings) then turned_over = turned_over + 1 end
   end
   return list, turned_over
 end
@@ -120,7 +130,7 @@ function paper_runs.run(cases, settings, store)
     one.noise, one.levels, one.turned_over = {}, {}, {}
     for _, sample in ipairs(one.samples) do
       local new = not store:has(sample.name)
-      local found, turned_over = distances(sample, one.scene, store)
+      local found, turned_over = distances(sample, one.scene, settings, store)
       one.turned_over[sample.kind] = (one.turned_over[sample.kind] or 0) + turned_over
       if new then report(sample.name) end
       if sample.kind == "base" then

@@ -20,13 +20,14 @@ end
 
 local function sample(name) return dofile(s.samples .. "/" .. name .. ".lua") end
 
--- Bodies: models with a node at the center of each cell, as in the paper.
+-- Bodies: models with a node at the center of each cell, as in the paper. `volumes` is that of
+-- s.lattice; the paper's models have no corners.
 
 -- The `count` cells closest to a point slightly off a cell center. Cells within `core_radius` cells
 -- of that point are core, the others shell.
 function paper_scenes.ball(options)
   local o = with_defaults(options, {
-    count = 281, core_radius = 2.3, materials = sample("ball_materials"),
+    count = 281, core_radius = 2.3, materials = sample("ball_materials"), volumes = false,
   })
   local reach = math.ceil((o.count * 3 / (4 * math.pi)) ^ (1 / 3)) + 1 -- [cells]
   local points = {}
@@ -55,13 +56,13 @@ function paper_scenes.ball(options)
     origin = {corner, corner, corner}, materials = o.materials,
     fill = function(x, y, z) return material[key(nearest(x), nearest(y), nearest(z))] end,
   }
-  return s.lattice(grid, {style = "centers", volumes = false}), grid
+  return s.lattice(grid, {style = "centers", volumes = o.volumes}), grid
 end
 
 -- Two stiff rods of `width` x `width` x `rod` cells, joined by `joint` cells of rubber.
 function paper_scenes.rods(options)
   local o = with_defaults(options, {
-    width = 4, rod = 9, joint = 5, materials = sample("dumbbell_materials"),
+    width = 4, rod = 9, joint = 5, materials = sample("dumbbell_materials"), volumes = false,
   })
   local length = 2 * o.rod + o.joint
   local grid = s.grid{
@@ -72,7 +73,7 @@ function paper_scenes.rods(options)
       return math.abs(z) < o.joint * cell / 2 and "rubber" or "rod"
     end,
   }
-  return s.lattice(grid, {style = "centers", volumes = false}), grid
+  return s.lattice(grid, {style = "centers", volumes = o.volumes}), grid
 end
 
 -- A block of one material with `size` nodes along the axes; default: the paper's cube.
@@ -80,6 +81,7 @@ function paper_scenes.block(options)
   local o = with_defaults(options, {
     size = {6, 6, 6},
     material = {young = "1 MPa", density = 1000, damping = "2 ms", colour = "#b08d57"},
+    volumes = false,
   })
   local origin = {}
   for axis, count in ipairs(o.size) do origin[axis] = -count * cell / 2 end
@@ -87,7 +89,7 @@ function paper_scenes.block(options)
     cell = cell, size = o.size, origin = origin, materials = {body = o.material},
     fill = function() return "body" end,
   }
-  return s.lattice(grid, {style = "centers", volumes = false}), grid
+  return s.lattice(grid, {style = "centers", volumes = o.volumes}), grid
 end
 
 -- Scenes: tables for s.scenario.

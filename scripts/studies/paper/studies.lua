@@ -162,10 +162,11 @@ end
 function paper_studies.sensitivity(settings, store)
   local columns = {"scene", "time", "way", "spread", "growth", "level_difference"}
   local jitter = 0.001 -- relative, uniform: a standard deviation of jitter / sqrt(3)
+  local body, contact = {volumes = settings.volumes}, {friction = settings.friction}
   local scenes = {
-    {"die", paper_scenes.block(), paper_scenes.die{friction = settings.friction}},
-    {"roll", paper_scenes.ball(), paper_scenes.roll{friction = settings.friction}},
-    {"wall", paper_scenes.rods(), paper_scenes.wall{friction = settings.friction}},
+    {"die", paper_scenes.block(body), paper_scenes.die(contact)},
+    {"roll", paper_scenes.ball(body), paper_scenes.roll(contact)},
+    {"wall", paper_scenes.rods(body), paper_scenes.wall(contact)},
   }
   return store:rows("sensitivity", columns, function()
     local rows = {}
