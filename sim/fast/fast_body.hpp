@@ -81,10 +81,6 @@ class FastBody {
   /// not. 0 without springs.
   virtual double largest_strain(std::uint32_t block) const = 0;
 
-  /// Appends the indices of the block's nodes within `region` [m], ascending.
-  virtual void nodes_in(std::uint32_t block, const Box3& region,
-                        std::vector<std::uint32_t>& indices) const = 0;
-
   virtual Vec3 x(Place at) const = 0;      ///< [m]
   virtual Vec3 v(Place at) const = 0;      ///< [m/s]
   virtual Vec3 force(Place at) const = 0;  ///< [N], after collect_forces()

@@ -15,8 +15,6 @@ struct FastKernels {
   void (*collect_forces)(const Layout&, std::uint32_t block, State&) = nullptr;
   double (*damping_power)(const Layout&, std::uint32_t block, const State&) = nullptr;
   void (*move)(const Layout&, std::uint32_t block, double kick, double drift, State&) = nullptr;
-  void (*find_nodes)(const Layout&, std::uint32_t block, const State&, const Box3& region,
-                     std::vector<std::uint32_t>& indices) = nullptr;
   /// Largest |drift (v - spin x x)| of the block's nodes along each axis [m].
   Vec3 (*departure)(const Layout&, std::uint32_t block, double drift, const Vec3& spin,
                     const State&) = nullptr;

@@ -33,10 +33,6 @@ class LaidBody : public FastBody {
   }
   void set_spin(const Vec3& spin) final { spin_ = spin; }
   const Vec3& largest_departure(std::uint32_t block) const final { return departure_[block]; }
-  void nodes_in(std::uint32_t block, const Box3& region,
-                std::vector<std::uint32_t>& indices) const final {
-    kernels_.find_nodes(*layout_, block, state_, region, indices);
-  }
   double find_corners(std::uint32_t block, double margin,
                       std::vector<std::uint32_t>& corners) const final {
     return kernels_.find_corners(*layout_, block, margin, state_, corners);

@@ -60,28 +60,6 @@ double damping_power(const QuadLayout<Real>& layout, std::uint32_t number,
 template <class Real>
 using Corner = hn::CappedTag<Real, 4>;
 
-template <class Real>
-void find_nodes(const QuadLayout<Real>& layout, std::uint32_t number, const QuadState<Real>& state,
-                const Box3& region, std::vector<std::uint32_t>& indices) {
-  const Corner<Real> d;
-  const QuadBlockState<Real>& own = state[number];
-  NodeVector<Real> low;
-  NodeVector<Real> high;
-  for (int axis = 0; axis < 3; ++axis) {
-    low.at[axis] = static_cast<Real>(region.min()[axis]);
-    high.at[axis] = static_cast<Real>(region.max()[axis]);
-  }
-  for (std::uint32_t i = 0; i < layout.blocks[number].own; ++i) {
-    bool inside = true;
-    for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
-      const auto x = hn::Load(d, own.records[i].x + lane);
-      inside &= hn::AllTrue(d, hn::And(hn::Ge(x, hn::Load(d, low.at + lane)),
-                                       hn::Le(x, hn::Load(d, high.at + lane))));
-    }
-    if (inside) indices.push_back(i);
-  }
-}
-
 template <bool kicks, bool drifts, class Real>
 void move(const QuadBlock<Real>& block, Real kick_time, Real drift_time,
           QuadBlockState<Real>& own) {
@@ -148,7 +126,6 @@ QuadKernels<Real> kernels() {
           .collect_forces = collect_forces<Real>,
           .damping_power = damping_power<Real>,
           .move = move_nodes<Real>,
-          .find_nodes = find_nodes<Real>,
           .departure = departure<Real>,
           .find_corners = find_corners<Real>,
           .largest_strain = largest_strain<Real>};

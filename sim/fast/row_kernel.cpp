@@ -105,31 +105,6 @@ double damping_power(const RowLayout<Real>& layout, std::uint32_t number,
   return power;
 }
 
-template <class Real>
-void find_nodes(const RowLayout<Real>& layout, std::uint32_t number, const RowState<Real>& state,
-                const Box3& region, std::vector<std::uint32_t>& indices) {
-  using D = Lanes<Real>;
-  const D d;
-  const RowBlock& block = layout.blocks[number];
-  const auto set = [&](double value) { return hn::Set(d, static_cast<Real>(value)); };
-  const Vector3<D> low{set(region.min().x()), set(region.min().y()), set(region.min().z())};
-  const Vector3<D> high{set(region.max().x()), set(region.max().y()), set(region.max().z())};
-  const auto within = [](auto value, auto least, auto most) {
-    return hn::And(hn::Ge(value, least), hn::Le(value, most));
-  };
-  const Starts<Real> all_x = starts_of<Real>(state.x, block.first);
-  for (std::uint32_t p = 0; p < block.own; p += lane_count<Real>()) {
-    const Vector3<D> x = load(d, all_x, p);
-    const auto inside = hn::And(hn::And(within(x.x, low.x, high.x), within(x.y, low.y, high.y)),
-                                within(x.z, low.z, high.z));
-    if (hn::AllFalse(d, inside)) continue;
-    std::uint8_t bits[8] = {};  // one bit per lane; Highway writes at least 8 bytes
-    hn::StoreMaskBits(d, inside, bits);
-    for (std::uint32_t lane = 0; lane < lane_count<Real>() && p + lane < block.own; ++lane)
-      if ((bits[0] >> lane & 1U) != 0) indices.push_back(p + lane);
-  }
-}
-
 template <bool kicks, bool drifts, class Real>
 void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick_time, Real drift_time,
                std::size_t axis, RowState<Real>& state) {
@@ -200,7 +175,6 @@ RowKernels<Real> kernels() {
           .collect_forces = collect_forces<Real>,
           .damping_power = damping_power<Real>,
           .move = move<Real>,
-          .find_nodes = find_nodes<Real>,
           .departure = departure<Real>,
           .find_corners = find_corners<Real>,
           .largest_strain = largest_strain<Real>};
