@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,13 +34,20 @@ bool straight_from_base(const SimplifyOptions& options) {
          (!options.groups && choice_of(options.grouping.grouping).traits.from_base);
 }
 
-/// Requested number of nodes of a level; 0: the grouping determines it.
-std::uint32_t wanted_nodes(std::uint32_t base_nodes, const SimplifyOptions& options,
+/// Number of nodes that the next level should have; 0: the grouping determines it.
+std::uint32_t wanted_nodes(const LodChain& chain, const SimplifyOptions& options,
                            std::uint32_t level) {
   if (options.groups || (options.keep.empty() && !straight_from_base(options))) return 0;
   constexpr double kUsual = 0.45;  // average fraction that groups of 2 or 3 nodes leave
-  const double part = options.keep.empty() ? std::pow(kUsual, level) : options.keep[level - 1];
-  return std::max(1U, static_cast<std::uint32_t>(std::lround(part * base_nodes)));
+  const std::uint32_t base = chain.levels.front().model.node_count();
+  const std::uint32_t before = chain.levels.back().model.node_count();
+  const auto part_of = [](double part, std::uint32_t nodes) {
+    return std::max(1U, static_cast<std::uint32_t>(std::lround(part * nodes)));
+  };
+  if (!options.keep.empty()) return part_of(options.keep[level - 1], base);
+  const std::uint32_t usual = part_of(std::pow(kUsual, level), base);
+  // The guards may have left few nodes in the level before.
+  return usual < before ? usual : part_of(kUsual, before);
 }
 
 /// Groups of the nodes of `finer`, before guards: `wanted` groups unless that is 0.
@@ -76,12 +84,17 @@ Step guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
   return {std::move(sound.groups), std::move(sound.links)};
 }
 
-/// Exactly `wanted` groups after the guards. If the guards fuse n groups, the next attempt requests
-/// n more; surplus groups are then fused, the smallest first.
-Step exact_step(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
-                std::uint32_t level, std::uint32_t wanted) {
+/// The number of groups after the guards that is nearest to `wanted`, of some attempts; usually
+/// `wanted` itself. If the guards fuse n groups, the next attempt requests n more; surplus groups
+/// are then fused, the smallest first.
+Step step_near(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
+               std::uint32_t level, std::uint32_t wanted) {
   constexpr int kTries = 20;
-  std::uint32_t requested = wanted, found = 0;
+  const auto miss = [wanted](const Step& step) {
+    return step.groups.count > wanted ? step.groups.count - wanted : wanted - step.groups.count;
+  };
+  std::uint32_t requested = wanted;
+  std::optional<Step> nearest;
   for (int i = 0; i < kTries; ++i) {
     Step step = guarded_step(finer, springs, raw_groups(finer, springs, options, level, requested),
                              options);
@@ -89,30 +102,37 @@ Step exact_step(const Level& finer, const SpringRows& springs, const SimplifyOpt
       fuse_to_count(finer.model, options.grouping.border, wanted, step.groups);
       step = guarded_step(finer, springs, std::move(step.groups), options);
     }
-    if (step.groups.count == wanted) return step;
-    found = step.groups.count;
+    const std::uint32_t found = step.groups.count;
+    if (!nearest || miss(step) < miss(*nearest)) nearest = std::move(step);
+    if (found == wanted) break;
     // One more group in each attempt; otherwise the same groups could recur.
     requested =
         std::min(requested + (found < wanted ? wanted - found : 0) + 1, finer.model.node_count());
   }
-  throw InputError(fmt::format(
-      "simplify: level {} has {} nodes instead of {}, because of the guards or the border rule; "
-      "set keep to {} nodes or leave it out",
-      level, found, wanted, found));
+  return std::move(*nearest);
 }
 
 Step next_step(const Level& finer, const SimplifyOptions& options, std::uint32_t level,
                std::uint32_t wanted) {
   const SpringRows springs(finer.model);
-  if (wanted > 0) return exact_step(finer, springs, options, level, wanted);
-  return guarded_step(finer, springs, raw_groups(finer, springs, options, level, 0), options);
+  if (wanted == 0)
+    return guarded_step(finer, springs, raw_groups(finer, springs, options, level, 0), options);
+  Step step = step_near(finer, springs, options, level, wanted);
+  // Without `keep`, the number is only the usual one.
+  if (!options.keep.empty() && step.groups.count != wanted)
+    throw InputError(
+        fmt::format("simplify: keep asks for {} nodes in level {}, but the guards and the border "
+                    "rule leave {}; "
+                    "change keep, or leave it out to get a possible number",
+                    wanted, level, step.groups.count));
+  return step;
 }
 
 void require_coarser(const Level& finer, const Groups& groups, const SimplifyOptions& options,
                      std::uint32_t level, std::uint32_t wanted) {
   const std::uint32_t before = finer.model.node_count();
   if (groups.count < before) return;
-  if (wanted >= before)
+  if (!options.keep.empty() && wanted >= before)
     throw InputError(fmt::format(
         "simplify: keep asks for {} nodes in level {}, and level {} has {} nodes; use a smaller "
         "fraction or fewer levels",
@@ -126,8 +146,7 @@ void require_coarser(const Level& finer, const Groups& groups, const SimplifyOpt
 
 Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uint32_t level) {
   const Level& finer = straight_from_base(options) ? chain.levels.front() : chain.levels.back();
-  const std::uint32_t wanted =
-      wanted_nodes(chain.levels.front().model.node_count(), options, level);
+  const std::uint32_t wanted = wanted_nodes(chain, options, level);
   Step step = next_step(finer, options, level, wanted);
   require_coarser(chain.levels.back(), step.groups, options, level, wanted);
   return {merge(finer.model, step.groups, std::move(step.links)),

@@ -305,7 +305,8 @@ using GroupMaker =
 struct SimplifyOptions {
   std::uint32_t levels = 2;
   /// Number of nodes of each level as a fraction of the base's, descending; met exactly. Empty: as
-  /// many as the grouping makes; for levels merged straight from the base 0.45, 0.2, 0.09, ...
+  /// many as the grouping makes; for levels merged straight from the base 0.45, 0.2, 0.09, ... or
+  /// the nearest that the guards allow.
   std::vector<double> keep{};
   GroupingOptions grouping{};
   /// Every level is merged straight from the base, independently of the other levels. Groupings

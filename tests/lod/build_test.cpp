@@ -90,6 +90,42 @@ TEST_CASE("A level that cannot be coarser is an error that names the possible nu
   CHECK_THROWS_WITH(simplify(two, {.levels = 3}), Catch::Contains("use levels = 1"));
 }
 
+TEST_CASE("Levels of thin plates have the nearest number of nodes that the guards allow") {
+  const Grouping grouping = GENERATE(Grouping::compact, Grouping::metis);
+  for (const MassSpringModel& plate :
+       {block(8, 8, 1, voxelize::LatticeStyle::corners), block(7, 7, 2), block(9, 9, 2)}) {
+    SimplifyOptions options;
+    options.levels = 2;
+    options.grouping = {.grouping = grouping, .seed = 1};
+    const LodChain chain = simplify(plate, options);
+    const double base = plate.node_count();
+    const double left[] = {chain.levels[1].model.node_count() / base,
+                           chain.levels[2].model.node_count() / base};
+    CHECK(left[0] == Approx(0.45).margin(0.05));
+    CHECK(left[1] == Approx(0.2).margin(0.07));
+  }
+}
+
+TEST_CASE("A plate coarsens until one node is left, however many nodes the guards fuse") {
+  SimplifyOptions options;
+  options.levels = 4;
+  options.grouping = {.grouping = Grouping::compact, .seed = 1};
+  // The guards leave fewer nodes in level 3 than are usual in level 4.
+  CHECK(simplify(block(8, 8, 2), options).levels.back().model.node_count() < 5);
+  options.levels = 8;
+  CHECK_THROWS_WITH(simplify(block(8, 8, 2), options), Catch::Contains("use levels = "));
+}
+
+TEST_CASE("A number of nodes that the guards do not allow is an error that names one") {
+  SimplifyOptions options;
+  options.levels = 2;
+  options.keep = {0.45, 0.2};
+  options.grouping.grouping = Grouping::compact;
+  CHECK_THROWS_WITH(
+      simplify(block(5, 4, 2), options),
+      Catch::Contains("keep asks for 8 nodes in level 2") && Catch::Contains("leave it out"));
+}
+
 TEST_CASE("Groups of a script are used unchanged, except by the guards") {
   const MassSpringModel base = block(4, 4, 4);
   SimplifyOptions options;
