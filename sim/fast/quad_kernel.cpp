@@ -10,10 +10,10 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "sim/fast/look/quad_look-inl.hpp"
 #include "sim/fast/move-inl.hpp"
 #include "sim/fast/quad_copies-inl.hpp"
 #include "sim/fast/quad_forces-inl.hpp"
-#include "sim/fast/quad_look-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "sim/fast/block_order.hpp"
-#include "sim/fast/quad_corners.hpp"
+#include "sim/fast/look/quad_corners.hpp"
 
 namespace springlod::sim {
 namespace {

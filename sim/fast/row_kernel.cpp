@@ -9,8 +9,8 @@
 #include <hwy/highway.h>
 
 #include "sim/fast/inverse_root-inl.hpp"
+#include "sim/fast/look/row_look-inl.hpp"
 #include "sim/fast/move-inl.hpp"
-#include "sim/fast/row_look-inl.hpp"
 #include "sim/fast/row_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

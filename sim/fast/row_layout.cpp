@@ -5,8 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "sim/fast/look/row_corners.hpp"
 #include "sim/fast/palette.hpp"
-#include "sim/fast/row_corners.hpp"
 
 namespace springlod::sim {
 namespace {

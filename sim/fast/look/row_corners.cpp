@@ -1,4 +1,4 @@
-#include "sim/fast/row_corners.hpp"
+#include "sim/fast/look/row_corners.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/fast/corner_margin.hpp"
+#include "sim/fast/look/corner_margin.hpp"
 #include "sim/fast/palette.hpp"
 
 namespace springlod::sim {

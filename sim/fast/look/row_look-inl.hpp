@@ -13,9 +13,9 @@
 
 #include <hwy/highway.h>
 
-#include "sim/fast/corner_margin.hpp"
+#include "sim/fast/look/corner_margin.hpp"
+#include "sim/fast/look/stretch-inl.hpp"
 #include "sim/fast/row_vectors-inl.hpp"
-#include "sim/fast/stretch-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {

@@ -1,11 +1,11 @@
-#include "sim/fast/quad_corners.hpp"
+#include "sim/fast/look/quad_corners.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <unordered_map>
 #include <vector>
 
-#include "sim/fast/corner_margin.hpp"
+#include "sim/fast/look/corner_margin.hpp"
 
 namespace springlod::sim {
 namespace {

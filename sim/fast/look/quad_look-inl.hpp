@@ -14,10 +14,11 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
-#include "sim/fast/corner_margin.hpp"
+#include "sim/fast/look/corner_margin.hpp"
+#include "sim/fast/look/stretch-inl.hpp"
 #include "sim/fast/quad_copies-inl.hpp"
+#include "sim/fast/quad_forces-inl.hpp"
 #include "sim/fast/quad_vectors-inl.hpp"
-#include "sim/fast/stretch-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {
