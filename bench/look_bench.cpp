@@ -55,9 +55,11 @@ void look(benchmark::State& state, Subjects& subjects, Shape shape, Size size,
     plain.measure([&] { step(*body, subject.step); });
     body->set_spin({1, 2, 3});
     spinning.measure([&] { step(*body, subject.step); });
+    const sim::CornerLook look{.travel = std::numeric_limits<double>::infinity(),
+                               .farthest = body->farthest_coordinate()};  // all are due
     corners.measure([&] {
       for (std::uint32_t b = 0; b < body->block_count(); ++b)
-        benchmark::DoNotOptimize(body->find_corners(b, 0, found));
+        benchmark::DoNotOptimize(body->find_corners(b, look, found));
     });
     strain.measure([&] {
       for (std::uint32_t b = 0; b < body->block_count(); ++b)

@@ -34,6 +34,10 @@ double product_of_lengths(const Edges& e) {
   return e.first.norm() * e.second.norm() * e.third.norm();
 }
 
+double squares_of(const Edges& e) {
+  return e.first.squaredNorm() + e.second.squaredNorm() + e.third.squaredNorm();
+}
+
 bool by_nodes(const Corner& l, const Corner& r) {
   return l.node < r.node;
 }
@@ -88,16 +92,6 @@ void validate_corner(const MassSpringModel& model, const SpringLookup& springs,
     fail("it is too flat at rest");
 }
 
-/// The largest parallelogram [m2] of two sides of a triangle, each side of which has at most the
-/// given squared length [m2]. The area grows with each side of an acute triangle. An obtuse one is
-/// largest with a right angle between its two shorter sides.
-double largest_parallelogram(double p, double q, double r) {
-  const double longest = std::max({p, q, r});
-  const double others = p + q + r - longest;
-  if (longest >= others) return std::sqrt(p * q * r / longest);
-  return std::sqrt(2 * (p * q + q * r + r * p) - (p * p + q * q + r * r)) / 2;
-}
-
 }  // namespace
 
 double corner_volume(const Corner& corner, const std::vector<Vec3>& x) {
@@ -118,18 +112,15 @@ std::vector<std::uint32_t> inverted_corners(const std::vector<Corner>& corners,
   return inverted;
 }
 
-// The gradient of V by a node is the parallelogram of the opposite face.
-double corner_travel(const Corner& corner, const std::vector<Vec3>& rest) {
-  const auto& [n0, n1, n2, n3] = corner.node;
-  const auto squared = [&](std::uint32_t i, std::uint32_t j) {
-    return (rest[j] - rest[i]).squaredNorm();
-  };
-  const auto gradient = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    return largest_parallelogram(squared(i, j), squared(j, k), squared(k, i));
-  };
-  const double sum =
-      gradient(n1, n2, n3) + gradient(n0, n2, n3) + gradient(n0, n1, n3) + gradient(n0, n1, n2);
-  return corner_volume(corner, rest) / (kCornerStretch * kCornerStretch * sum);
+double corner_squares(const Corner& corner, const std::vector<Vec3>& x) {
+  return squares_of(edges_of(corner, x));
+}
+
+double corner_margin(const Corner& corner, const std::vector<Vec3>& rest,
+                     const std::vector<Vec3>& x) {
+  const Edges edges = edges_of(corner, x);
+  const double room = volume_of(edges) - kCornerResists * corner_volume(corner, rest);
+  return kMarginPart * room / squares_of(edges);
 }
 
 bool orient(Corner& corner, const std::vector<Vec3>& rest) {

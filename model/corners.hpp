@@ -36,10 +36,9 @@ inline constexpr double kCornerResists = 0.4;
 /// corner, and rounding and small strains do not decide on the side of a corner.
 inline constexpr double kFlatCorner = 0.2;
 
-/// Largest length of an edge of a corner, in lengths at rest, to which corner_travel() applies [1].
-/// The gradient of J grows with the square of the edges, so a larger value makes the travel
-/// shorter. Bodies that keep their corners are seldom stretched further.
-inline constexpr double kCornerStretch = 1.5;
+/// Factor of corner_margin() [1]. The volume falls by at most 2 Q d while all nodes move by a small
+/// d. Until a corner can resist, Q may grow, by a factor whose mean over the way is at most 37/27.
+inline constexpr double kMarginPart = 27.0 / 74;
 
 /// Signed volume [m3] of a corner at the positions x [m].
 double corner_volume(const Corner& corner, const std::vector<Vec3>& x);
@@ -50,11 +49,14 @@ double corner_shape(const Corner& corner, const std::vector<Vec3>& x);
 std::vector<std::uint32_t> inverted_corners(const std::vector<Corner>& corners,
                                             const std::vector<Vec3>& x);
 
-/// How far the four nodes of a corner may move, each in any direction, while J falls by at most 1
-/// [m]: J falls by at most d / travel if no node moves farther than d relative to a rigid motion,
-/// and if none of the six edges is longer than kCornerStretch times its length at rest, before and
-/// after the displacement (docs/method.md, section 2).
-double corner_travel(const Corner& corner, const std::vector<Vec3>& rest);
+/// The three edges from the corner's node: the sum of their squares [m2].
+double corner_squares(const Corner& corner, const std::vector<Vec3>& x);
+/// How far the four nodes of a corner may move from the positions x, each in any direction and
+/// relative to a rigid motion, until J can fall to kCornerResists: kMarginPart (V - V') / Q, with
+/// the volume V' there and Q = corner_squares() [m]. Below 0 if J is lower, not a number if J is
+/// not. See section 2 of docs/method.md.
+double corner_margin(const Corner& corner, const std::vector<Vec3>& rest,
+                     const std::vector<Vec3>& x);
 
 /// Brings a corner with four different nodes into the standard form. False if it is flatter than
 /// kFlatCorner at the rest positions [m]; a model must not have such a corner.

@@ -21,12 +21,6 @@ class VectorPaths final : public StepPaths {
   const std::vector<Vec3>* to_;
 };
 
-std::vector<double> corner_travels(const MassSpringModel& model) {
-  std::vector<double> travels;
-  for (const Corner& corner : model.corners) travels.push_back(corner_travel(corner, model.rest));
-  return travels;
-}
-
 }  // namespace
 
 PlainCorrection::PlainCorrection(const MassSpringModel& model, const ContactPoints& points,
@@ -36,7 +30,7 @@ PlainCorrection::PlainCorrection(const MassSpringModel& model, const ContactPoin
       obstacle_count_(obstacle_count),
       solver_(model, points, finder, volumes),
       watch_(model.corner_count()),
-      corner_travel_(corner_travels(model)) {}
+      due_(model.corner_count(), kDueAtOnce) {}
 
 void PlainCorrection::correct(double step, const std::vector<Vec3>& x, std::vector<Vec3>& x_next,
                               std::vector<Vec3>& v_next) {
@@ -96,30 +90,20 @@ void PlainCorrection::check_corners(double step, const std::vector<Vec3>& x,
       [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
 }
 
-bool PlainCorrection::is_stretched(const Corner& corner, const std::vector<Vec3>& x) const {
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j) {
-      const auto square = [&](const std::vector<Vec3>& at) {
-        return (at[corner.node[j]] - at[corner.node[i]]).squaredNorm();
-      };
-      if (square(x) > kCornerStretch * kCornerStretch * square(model_->rest)) return true;
-    }
-  return false;
-}
-
 void PlainCorrection::look_at_corners(const std::vector<Vec3>& x_next) {
-  std::vector<std::uint32_t> found;
+  found_.clear();
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t c = 0; c < model_->corner_count(); ++c) {
-    const Corner& corner = model_->corners[c];
-    const double ratio = corner_volume(corner, x_next) / corner_volume(corner, model_->rest);
-    const double margin = (ratio - kCornerResists) * corner_travel_[c];
-    if (margin >= 0)
-      least = std::min(least, is_stretched(corner, x_next) ? 0 : margin);
-    else
-      found.push_back(c);
+    if (!(watch_.travel() < due_[c])) {
+      const double margin = corner_margin(model_->corners[c], model_->rest, x_next);
+      const bool has_margin = margin >= 0;
+      if (!has_margin) found_.push_back(c);
+      due_[c] = has_margin ? due_travel(watch_.travel(), margin) : kDueAtOnce;
+    }
+    least = std::min(least, due_[c]);
   }
-  watch_.looked(found, least);
+  watch_.found(found_);
+  watch_.looked(least);
 }
 
 }  // namespace springlod::sim

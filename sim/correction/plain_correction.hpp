@@ -27,17 +27,16 @@ class PlainCorrection {
   void check_contacts(const std::vector<Vec3>& x, const std::vector<Vec3>& x_next);
   void check_corners(double step, const std::vector<Vec3>& x, const std::vector<Vec3>& x_next);
   void look_at_corners(const std::vector<Vec3>& x_next);
-  /// Whether an edge is too long for corner_travel().
-  bool is_stretched(const Corner& corner, const std::vector<Vec3>& x) const;
 
   const MassSpringModel* model_;
   const ContactPoints* points_;
   std::size_t obstacle_count_;
   StepCorrection solver_;
   CornerWatch watch_;
-  std::vector<double> corner_travel_;  // see corner_travel()
-  std::vector<Vec3> by_contacts_;      // displacement of nodes by contacts, before corners [m]
-  Vec3 spin_ = Vec3::Zero();           // of the body at the last look [rad/s]
+  std::vector<double> due_;           // travel at which each corner is due [m]
+  std::vector<std::uint32_t> found_;  // by the last look
+  std::vector<Vec3> by_contacts_;     // displacement of nodes by contacts, before corners [m]
+  Vec3 spin_ = Vec3::Zero();          // of the body at the last look [rad/s]
 };
 
 }  // namespace springlod::sim

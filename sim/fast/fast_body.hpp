@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "model/mass_spring.hpp"
+#include "sim/fast/look/corner_look.hpp"
 #include "sim/fast/moving_frame.hpp"
 #include "sim/fast/place.hpp"
 
@@ -67,19 +69,23 @@ class FastBody {
   // The state of the material. Call them when all blocks have moved and their nodes have been
   // shifted; different blocks may be looked at in parallel.
 
-  /// Appends the numbers in the model of the block's corners whose margin is below `margin` [m] or
-  /// not a number. Returns the least margin of its other corners [m], infinity without any. A
-  /// corner belongs to the block of its node[0].
+  /// Looks at the groups of corners of the block that are due. Appends the numbers in the model of
+  /// their corners that have no margin: that resist, but for a bound on the error of rounding, or
+  /// whose volume is not a number. Returns the travel at which the next group of the block is due
+  /// [m], infinity without corners. A corner belongs to the block of its node[0].
   ///
-  /// The margin of a corner is (J - kCornerResists) times its corner_travel(), less a bound on the
-  /// error of rounding. J stays above kCornerResists until a node has moved farther than the margin
-  /// relative to a rigid motion, or an edge of the corner is longer than kCornerStretch times its
-  /// length at rest.
-  virtual double find_corners(std::uint32_t block, double margin,
-                              std::vector<std::uint32_t>& corners) const = 0;
+  /// The travel of the body is the sum, over all steps so far, of the largest displacement of a
+  /// node relative to a rigid motion; it must not fall. A group is due as soon as the body has
+  /// travelled by the least corner_margin() of its corners since it was looked at: at once if one
+  /// of them has none, and at the first look at a body. So all corners that resist are found.
+  virtual double find_corners(std::uint32_t block, const CornerLook& look,
+                              std::vector<std::uint32_t>& found) = 0;
   /// Largest |l - L| / L of the springs that the block computes [1]; not a number if a length is
   /// not. 0 without springs.
   virtual double largest_strain(std::uint32_t block) const = 0;
+
+  /// Largest absolute value of a coordinate in the bounds of all blocks [m].
+  double farthest_coordinate() const;
 
   virtual Vec3 x(Place at) const = 0;      ///< [m]
   virtual Vec3 v(Place at) const = 0;      ///< [m/s]
@@ -92,5 +98,14 @@ class FastBody {
  protected:
   FastBody() = default;
 };
+
+inline double FastBody::farthest_coordinate() const {
+  double farthest = 0;
+  for (std::uint32_t b = 0; b < block_count(); ++b) {
+    const Box3& box = bounds(b);
+    farthest = std::max(farthest, box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff());
+  }
+  return farthest;
+}
 
 }  // namespace springlod::sim

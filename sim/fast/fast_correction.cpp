@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace springlod::sim {
 
@@ -13,7 +12,7 @@ FastCorrection::FastCorrection(const Shared& shared)
       near_(shared.points, paths_),
       watch_(shared.model->corner_count()),
       found_(shared.body->block_count()),
-      margins_(shared.body->block_count(), std::numeric_limits<double>::infinity()),
+      dues_(shared.body->block_count()),
       solver_(*shared.model, *shared.points.points, *shared.points.finder, shared.volumes) {}
 
 void FastCorrection::correct_contacts(const FastStep& step) {
@@ -23,7 +22,7 @@ void FastCorrection::correct_contacts(const FastStep& step) {
   solver_.solve_contacts();
 }
 
-bool FastCorrection::corners_due(double travel, bool stretched) {
+bool FastCorrection::corners_due(double travel) {
   const StepNodes& nodes = solver_.nodes();
   double most = 0;
   by_contacts_.clear();
@@ -31,24 +30,23 @@ bool FastCorrection::corners_due(double travel, bool stretched) {
     by_contacts_.push_back(nodes.displacement(i));
     most = std::max(most, by_contacts_.back().squaredNorm());
   }
-  looking_ = watch_.moved(travel + std::sqrt(most)) || stretched;
+  looking_ = watch_.moved(travel + std::sqrt(most));
   if (!looking_) return false;
   // The look must find the nodes where the contacts have left them.
   for (std::uint32_t i = 0; i < nodes.count(); ++i)
     shared_.body->shift(shared_.body->place(nodes.node(i)), by_contacts_[i], Vec3::Zero());
+  look_ = {watch_.travel(), shared_.body->farthest_coordinate()};
   return true;
 }
 
 void FastCorrection::look_at_corners(std::uint32_t block) {
   found_[block].clear();
-  margins_[block] = shared_.body->find_corners(block, 0, found_[block]);
+  dues_[block] = shared_.body->find_corners(block, look_, found_[block]);
 }
 
 void FastCorrection::finish_look() {
-  std::vector<std::uint32_t> found;
-  for (const std::vector<std::uint32_t>& of_block : found_)
-    found.insert(found.end(), of_block.begin(), of_block.end());
-  watch_.looked(found, *std::min_element(margins_.begin(), margins_.end()));
+  for (const std::vector<std::uint32_t>& of_block : found_) watch_.found(of_block);
+  watch_.looked(*std::min_element(dues_.begin(), dues_.end()));
   looking_ = false;
 }
 

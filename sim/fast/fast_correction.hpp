@@ -8,6 +8,7 @@
 #include "sim/correction/inversion_log.hpp"
 #include "sim/correction/step_correction.hpp"
 #include "sim/fast/fast_paths.hpp"
+#include "sim/fast/look/corner_look.hpp"
 #include "sim/fast/near_points.hpp"
 
 namespace springlod::sim {
@@ -36,12 +37,10 @@ class FastCorrection {
   void start(std::vector<Contact> contacts) { solver_.set(std::move(contacts)); }
   /// Whether there is anything to correct at all, in any step.
   bool needed() const { return needed_; }
-  bool has_corners() const { return !shared_.model->corners.empty(); }
 
   void correct_contacts(const FastStep& step);
-  /// `travel`: of the drift without contacts, see CornerWatch [m]. `stretched`: an edge of a corner
-  /// may be longer than kCornerStretch, so the travel tells nothing.
-  bool corners_due(double travel, bool stretched);
+  /// `travel`: of the drift without contacts, see CornerWatch [m].
+  bool corners_due(double travel);
   void look_at_corners(std::uint32_t block);
   /// Ends the correction.
   void correct_corners(const FastStep& step);
@@ -82,8 +81,9 @@ class FastCorrection {
   CornerWatch watch_;
   bool looking_ = false;
   std::vector<Vec3> by_contacts_;  // displacement of nodes by contacts, before corners [m]
-  std::vector<std::vector<std::uint32_t>> found_;  // by block: corners that resist
-  std::vector<double> margins_;                    // by block: least margin of the others [m]
+  CornerLook look_;
+  std::vector<std::vector<std::uint32_t>> found_;  // by block: corners without a margin
+  std::vector<double> dues_;                       // by block: travel at which corners are due [m]
   StepCorrection solver_;
   double booked_step_ = 0;  // length of the step whose end is not booked yet; 0: none [s]
   StepCorrection::Losses losses_;

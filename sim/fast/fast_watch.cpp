@@ -23,9 +23,8 @@ void FastWatch::plan(const FastBody& body, FastCorrection& correction) {
     most = most.cwiseMax(body.largest_departure(b));
   const double travel = most.norm();
   travel_ += travel;
-  const bool stretched = correction.has_corners() && largest_strain() > kCornerStretch - 1;
-  at_corners_ = correction.corners_due(travel, stretched);
-  at_springs_ = ++steps_ >= kLookEvery && (stretched || largest_strain() > limits_.strain);
+  at_corners_ = correction.corners_due(travel);
+  at_springs_ = ++steps_ >= kLookEvery && largest_strain() > limits_.strain;
 }
 
 // A spring becomes longer or shorter by at most twice the travel.

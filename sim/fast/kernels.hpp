@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/vec.hpp"
+#include "sim/fast/look/corner_look.hpp"
 
 namespace springlod::sim {
 
@@ -19,8 +20,8 @@ struct FastKernels {
   Vec3 (*departure)(const Layout&, std::uint32_t block, double drift, const Vec3& spin,
                     const State&) = nullptr;
   // These may refresh what a block stores of other blocks' nodes.
-  double (*find_corners)(const Layout&, std::uint32_t block, double margin, State&,
-                         std::vector<std::uint32_t>& corners) = nullptr;
+  double (*find_corners)(const Layout&, std::uint32_t block, const CornerLook&, State&,
+                         std::vector<std::uint32_t>& found) = nullptr;
   double (*largest_strain)(const Layout&, std::uint32_t block, State&) = nullptr;
 };
 

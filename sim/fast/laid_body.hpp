@@ -33,9 +33,9 @@ class LaidBody : public FastBody {
   }
   void set_spin(const Vec3& spin) final { spin_ = spin; }
   const Vec3& largest_departure(std::uint32_t block) const final { return departure_[block]; }
-  double find_corners(std::uint32_t block, double margin,
-                      std::vector<std::uint32_t>& corners) const final {
-    return kernels_.find_corners(*layout_, block, margin, state_, corners);
+  double find_corners(std::uint32_t block, const CornerLook& look,
+                      std::vector<std::uint32_t>& found) final {
+    return kernels_.find_corners(*layout_, block, look, state_, found);
   }
   double largest_strain(std::uint32_t block) const final {
     return kernels_.largest_strain(*layout_, block, state_);

@@ -31,7 +31,7 @@ struct CopiedForce {
   Place copy;
 };
 
-/// Eight corners of a block. Padding has a margin of infinity (see MarginTerms).
+/// Eight corners of a block. Those that pad it are missing (see MarginTerms).
 template <class Real>
 struct CornerEight {
   std::uint16_t node[4][2 * kQuad] = {};  ///< indices in the block, not scaled

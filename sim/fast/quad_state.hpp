@@ -31,6 +31,7 @@ struct QuadBlockState {
   std::vector<NodeVector<Real>> low;
   Box3 bounds;                               ///< of the own nodes [m]
   Vec3 largest_displacement = Vec3::Zero();  ///< see FastBody [m]
+  CornerDues corner_dues;                    ///< of the eights of corners
 };
 
 template <class Real>

@@ -64,6 +64,10 @@ struct RowCorners {
   /// Number of each corner in the model, by star, octant and lane; or kNoCorner.
   std::vector<std::array<std::array<std::uint32_t, kRowLanes>, kOctants>> numbers;
   std::uint32_t end = 0;  ///< after the last place that a star reads
+
+  std::uint32_t star_count(std::size_t block) const {
+    return first_star.empty() ? 0 : first_star[block + 1] - first_star[block];
+  }
 };
 
 /// Consecutive places whose rows one thread computes.

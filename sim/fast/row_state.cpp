@@ -23,6 +23,8 @@ RowState<Real>::RowState(const RowLayout<Real>& layout, bool with_damping)
   allocate<Real>(size, x);
   allocate<Real>(size, v);
   if constexpr (sizeof(Real) == sizeof(float)) allocate<Real>(size, low);
+  for (std::size_t b = 0; b < layout.blocks.size(); ++b)
+    corner_dues.emplace_back(layout.corners.star_count(b));
   for (const RowBlock& block : layout.blocks) {
     allocate<Real>(block.places() + block.reach, force.emplace_back());
     if (with_damping) allocate<Real>(block.places() + block.reach, damping_force.emplace_back());

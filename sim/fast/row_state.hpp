@@ -30,6 +30,7 @@ struct RowState {
   std::vector<Coordinates> damping_force;  ///< its damping part; empty if not requested
   std::vector<Box3> bounds;                ///< bounds of the places of each block [m]
   std::vector<Vec3> largest_displacement;  ///< see FastBody; by block [m]
+  std::vector<CornerDues> corner_dues;     ///< of the stars; by block
 };
 
 template <class Real>

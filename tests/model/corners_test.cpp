@@ -184,54 +184,64 @@ TEST_CASE("Components keep their corners") {
   CHECK(parts[1].model.corners == std::vector<Corner>{{{0, 1, 2, 3}, 2e6}});
 }
 
-TEST_CASE("The travel of a corner bounds the gradient of its volume ratio") {
+TEST_CASE("J of a corner stays above kCornerResists while its nodes move by less than the margin") {
   std::mt19937_64 random(2);
   const auto vector = [&] {
     return Vec3(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
   };
-  const auto sum_of_gradients = [](const std::vector<Vec3>& x) {
-    return (x[2] - x[1]).cross(x[3] - x[1]).norm() + (x[2] - x[0]).cross(x[3] - x[0]).norm() +
-           (x[1] - x[0]).cross(x[3] - x[0]).norm() + (x[1] - x[0]).cross(x[2] - x[0]).norm();
+  // Each node moves by `distance` in a direction that lowers the volume.
+  const auto pushed = [&](const std::vector<Vec3>& x, double distance) {
+    const Vec3 gradient[3] = {(x[2] - x[0]).cross(x[3] - x[0]), (x[3] - x[0]).cross(x[1] - x[0]),
+                              (x[1] - x[0]).cross(x[2] - x[0])};
+    std::vector<Vec3> y = x;
+    y[0] += distance * (gradient[0] + gradient[1] + gradient[2]).normalized();
+    for (std::size_t i = 0; i < 3; ++i) y[i + 1] -= distance * gradient[i].normalized();
+    return y;
   };
-  int draws = 0;
-  double largest = 0;  // sum of the gradients / bound
-  while (draws < 20'000) {
+  const Mat3 turn = Eigen::AngleAxisd(2, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  int tried = 0;
+  int reached = 0;
+  double lowest = 1;
+  while (tried < 20'000) {
     const std::vector<Vec3> rest{vector(), vector(), vector(), vector()};
     Corner corner{{0, 1, 2, 3}, 1};
     if (!orient(corner, rest)) continue;
-    const double travel = corner_travel(corner, rest);
-    const double v0 = corner_volume(corner, rest);
-    REQUIRE(travel > 0);
-    for (int draw = 0; draw < 100; ++draw) {
-      // As far apart as the edges allow.
-      std::vector<Vec3> x = rest;
-      for (Vec3& each : x) each = 1.4 * each + 0.2 * vector();
-      double stretch = 0;
-      for (std::uint32_t i = 0; i < 4; ++i)
-        for (std::uint32_t j = 0; j < i; ++j)
-          stretch = std::max(stretch, (x[i] - x[j]).norm() / (rest[i] - rest[j]).norm());
-      for (Vec3& each : x) each *= kCornerStretch / stretch;
-      ++draws;
-      largest = std::max(largest, travel * sum_of_gradients(x) / v0);
+    std::vector<Vec3> x = rest;  // stretched, squeezed and sheared
+    for (Vec3& each : x) each = (0.5 + 2 * uniform(random)) * each + 0.5 * vector();
+    std::vector<Vec3> ordered;
+    for (const std::uint32_t node : corner.node) ordered.push_back(x[node]);
+    const auto ratio = [&](const std::vector<Vec3>& of) {
+      std::vector<Vec3> y(4);
+      for (std::size_t i = 0; i < 4; ++i) y[corner.node[i]] = turn * of[i];
+      return corner_volume(corner, y) / corner_volume(corner, rest);
+    };
+    const double margin = corner_margin(corner, rest, x);
+    if (!(margin > 0)) {
+      CHECK(ratio(ordered) <= kCornerResists + 1e-12);
+      continue;
     }
+    ++tried;
+    lowest = std::min(lowest, ratio(pushed(ordered, margin)));
+    for (Vec3& each : ordered) each += 0.001 * margin * vector();
+    if (ratio(pushed(ordered, 6 * margin)) < kCornerResists) ++reached;
   }
-  CHECK(largest <= 1 + 1e-12);
-  CHECK(largest > 0.95);  // sharp
+  CHECK(lowest >= kCornerResists - 1e-12);
+  CHECK(reached > tried / 2);
 }
 
-TEST_CASE("The travel of special corners") {
-  const auto travel = [](const std::vector<Vec3>& rest) {
-    return corner_travel({{0, 1, 2, 3}, 1e6}, rest);
-  };
-  const double squared = kCornerStretch * kCornerStretch;
+TEST_CASE("The margins of special corners") {
+  const Corner corner{{0, 1, 2, 3}, 1e6};
   const std::vector<Vec3> cube{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
-  CHECK(travel(cube) == Approx(2 / (squared * (3 + std::sqrt(3)))));
-  // Two edges at an obtuse angle: their face is largest at a right angle.
-  const std::vector<Vec3> obtuse{{0, 0, 0}, {1, 0, 0}, {-0.6, 0.8, 0}, {0, 0, 1}};
-  const double far = std::sqrt(3.2);
-  const double face =
-      std::sqrt(2 * (2 * 2 + 2 * 2 * far * far) - (4 + 4 + far * far * far * far)) / 2;
-  CHECK(travel(obtuse) == Approx(0.8 / (squared * (1 + 1 + 1 + face))));
+  CHECK(corner_margin(corner, cube, cube) == Approx(27.0 / 74 * 0.6 * 8 / 12));
+  std::vector<Vec3> x = cube;
+  x[3].z() = 4;  // J = 2
+  CHECK(corner_margin(corner, cube, x) == Approx(27.0 / 74 * 1.6 * 8 / 24));
+  x[3].z() = 0.8;
+  CHECK(std::abs(corner_margin(corner, cube, x)) < 1e-15);
+  x[3].z() = -1;
+  CHECK(corner_margin(corner, cube, x) < 0);
+  x[3].z() = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isnan(corner_margin(corner, cube, x)));
 }
 
 }  // namespace

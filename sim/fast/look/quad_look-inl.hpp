@@ -14,6 +14,8 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "sim/correction/corner_watch.hpp"
+#include "sim/fast/look/corner_dues-inl.hpp"
 #include "sim/fast/look/corner_margin.hpp"
 #include "sim/fast/look/stretch-inl.hpp"
 #include "sim/fast/quad_copies-inl.hpp"
@@ -63,12 +65,18 @@ Vec3 departure(const QuadLayout<Real>& layout, std::uint32_t number, double drif
                                 static_cast<double>(most.at[2]));
 }
 
-// Volumes of corners [m3] and squares of lengths of springs [m2].
+/// The corners of one call of take() in measure_corners().
+template <class Real>
+using CornerLanes = hn::CappedTag<Real, kTogether<Real>>;
+
+// measure_corners() calls take(lane, volumes, squares) for the corners from each lane of an eight:
+// their volumes [m3] and the sums of the squares of their edges [m2]. measure_squares() finds the
+// squares of the lengths of springs [m2].
 #if HWY_MAX_BYTES >= 32
 
-template <class Real>
-HWY_INLINE void measure_volumes(const CornerEight<Real>& eight, const NodeRecord<Real>* records,
-                                Real* volumes) {
+template <class Real, class Take>
+HWY_INLINE void measure_corners(const CornerEight<Real>& eight, const NodeRecord<Real>* records,
+                                const Take& take) {
   for (std::size_t first = 0; first < 2 * kQuad; first += kTogether<Real>) {
     const auto load = [&](std::size_t n) {
       return positions(Real(), [&](std::size_t i) -> const NodeRecord<Real>& {
@@ -82,7 +90,7 @@ HWY_INLINE void measure_volumes(const CornerEight<Real>& eight, const NodeRecord
     const decltype(p) face{hn::NegMulAdd(q.z, r.y, hn::Mul(q.y, r.z)),
                            hn::NegMulAdd(q.x, r.z, hn::Mul(q.z, r.x)),
                            hn::NegMulAdd(q.y, r.x, hn::Mul(q.x, r.y))};
-    hn::Store(dot(p, face), hn::CappedTag<Real, kTogether<Real>>(), volumes + first);
+    take(first, dot(p, face), hn::Add(dot(p, p), hn::Add(dot(q, q), dot(r, r))));
   }
 }
 
@@ -103,18 +111,26 @@ HWY_INLINE void measure_squares(const QuadPair<Real>& pair, const NodeRecord<Rea
 
 #else
 
-template <class Real>
-void measure_volumes(const CornerEight<Real>& eight, const NodeRecord<Real>* records,
-                     Real* volumes) {
+template <class Real, class Take>
+void measure_corners(const CornerEight<Real>& eight, const NodeRecord<Real>* records,
+                     const Take& take) {
+  Real volumes[2 * kQuad];
+  Real squares[2 * kQuad];
   for (std::size_t c = 0; c < 2 * kQuad; ++c) {
     Real e[3][3];
+    squares[c] = 0;
     for (std::size_t n = 0; n < 3; ++n)
-      for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t i = 0; i < 3; ++i) {
         e[n][i] = records[eight.node[n + 1][c]].x[i] - records[eight.node[0][c]].x[i];
+        squares[c] += e[n][i] * e[n][i];
+      }
     volumes[c] = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
                  e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
                  e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
   }
+  const CornerLanes<Real> d;
+  for (std::size_t lane = 0; lane < 2 * kQuad; lane += hn::Lanes(d))
+    take(lane, hn::LoadU(d, volumes + lane), hn::LoadU(d, squares + lane));
 }
 
 template <class Real>
@@ -138,41 +154,65 @@ HWY_INLINE void prefetch(const T* of) {
     hwy::Prefetch(reinterpret_cast<const char*>(of) + byte);
 }
 
+/// Looks at eight corners. Returns their due travel.
 template <class Real>
-double find_corners(const QuadLayout<Real>& layout, std::uint32_t number, double margin,
-                    QuadState<Real>& state, std::vector<std::uint32_t>& below) {
-  double farthest = 0;
-  for (const QuadBlockState<Real>& of : state)
-    farthest = std::max(farthest, farthest_coordinate(of.bounds));
-  MarginFilter<Real> filter(margin, margin_rounding<Real>(farthest), below);
+HWY_INLINE double look_at_eight(const QuadBlock<Real>& block, std::size_t number,
+                                const NodeRecord<Real>* records, const CornerLook& look,
+                                std::vector<std::uint32_t>& found) {
+  const CornerEight<Real>& eight = block.corners[number];
+  const CornerLanes<Real> d;
+  LeastMargin<CornerLanes<Real>> margin(look.farthest);
+  bool any = false;
+  measure_corners(eight, records, [&](std::size_t lane, auto volumes, auto squares) {
+    const auto room = margin.add(volumes, squares, hn::LoadU(d, eight.scale + lane),
+                                 hn::LoadU(d, eight.offset + lane));
+    const auto has_room = hn::Ge(room, hn::Zero(d));
+    if (HWY_LIKELY(hn::AllTrue(d, has_room))) return;
+    any = true;
+    for_each_lane(d, hn::Not(has_room), [&](std::uint32_t i) {
+      const std::uint32_t corner = block.corner_number[2 * kQuad * number + lane + i];
+      if (corner != kNoCorner) found.push_back(corner);
+    });
+  });
+  return any ? kDueAtOnce : due_travel(look.travel, margin.least());
+}
+
+/// Copies the nodes of other blocks that the given eights of corners need.
+template <class Real>
+void copy_corner_nodes(const QuadBlock<Real>& block, const std::vector<std::uint32_t>& eights,
+                       const QuadState<Real>& state, QuadBlockState<Real>& own) {
+  const auto copy = [&](std::uint32_t index) {
+    const Place from = index < block.nowhere() ? block.halo[index - block.own]
+                                               : block.corner_halo[index - block.nowhere() - 1];
+    own.records[index] = state[from.block].records[from.index];
+  };
+  for (const std::uint32_t e : eights)
+    for (const auto& nodes : block.corners[e].node)
+      for (const std::uint32_t index : nodes)
+        if (index >= block.own) copy(index);
+}
+
+template <class Real>
+double find_corners(const QuadLayout<Real>& layout, std::uint32_t number, const CornerLook& look,
+                    QuadState<Real>& state, std::vector<std::uint32_t>& found) {
   const QuadBlock<Real>& block = layout.blocks[number];
-  if (block.corners.empty()) return filter.least();
   QuadBlockState<Real>& own = state[number];
-  copy_records(block.halo, block.own, state, own);
-  copy_records(block.corner_halo, block.nowhere() + 1, state, own);
-  prefetch_records(block, own);
-  const hn::CappedTag<Real, 2 * kQuad> d;
-  const auto limit = hn::Set(d, filter.limit());
-  auto least = hn::Set(d, std::numeric_limits<Real>::infinity());
-  for (std::size_t c = 0; c < block.corners.size(); ++c) {
-    const CornerEight<Real>& eight = block.corners[c];
-    prefetch(&eight + std::min(kEightsAhead, block.corners.size() - 1 - c));
-    alignas(64) Real of[2 * kQuad];
-    measure_volumes(eight, own.records.data(), of);
-    for (std::size_t lane = 0; lane < 2 * kQuad; lane += hn::Lanes(d)) {
-      const auto margins = hn::MulAdd(hn::Load(d, of + lane), hn::LoadU(d, eight.scale + lane),
-                                      hn::LoadU(d, eight.offset + lane));
-      if (hn::AllTrue(d, hn::Ge(margins, limit))) {
-        least = hn::Min(least, margins);
-        continue;
-      }
-      hn::Store(margins, d, of + lane);
-      for (std::size_t i = lane; i < lane + hn::Lanes(d); ++i)
-        filter.add(block.corner_number[2 * kQuad * c + i], of[i]);
-    }
+  double least = list_due(look, own.corner_dues);
+  const std::vector<std::uint32_t>& now = own.corner_dues.now;
+  if (now.size() * 8 * kQuad < block.halo.size() + block.corner_halo.size()) {
+    copy_corner_nodes(block, now, state, own);
+  } else {
+    copy_records(block.halo, block.own, state, own);
+    copy_records(block.corner_halo, block.nowhere() + 1, state, own);
+    prefetch_records(block, own);
   }
-  filter.add_above(hn::GetLane(hn::MinOfLanes(d, least)));
-  return filter.least();
+  for (std::size_t n = 0; n < now.size(); ++n) {
+    prefetch(&block.corners[now[std::min(n + kEightsAhead, now.size() - 1)]]);
+    double& due = own.corner_dues.travel[now[n]];
+    due = look_at_eight(block, now[n], own.records.data(), look, found);
+    least = std::min(least, due);
+  }
+  return least;
 }
 
 // Compares squares of lengths, which needs no square roots.

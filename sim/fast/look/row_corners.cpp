@@ -136,7 +136,7 @@ class Starring {
     properties_.clear();
   }
 
-  static constexpr Real kMissing = std::numeric_limits<Real>::infinity();
+  static constexpr auto kMissing = static_cast<Real>(MarginTerms{}.offset);
 
   const MassSpringModel& model_;
   const RowLayout<Real>& layout_;

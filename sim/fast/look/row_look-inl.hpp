@@ -13,6 +13,8 @@
 
 #include <hwy/highway.h>
 
+#include "sim/correction/corner_watch.hpp"
+#include "sim/fast/look/corner_dues-inl.hpp"
 #include "sim/fast/look/corner_margin.hpp"
 #include "sim/fast/look/stretch-inl.hpp"
 #include "sim/fast/row_vectors-inl.hpp"
@@ -62,8 +64,8 @@ Vec3 departure(const RowLayout<Real>& layout, std::uint32_t number, double drift
   return {result(most.x), result(most.y), result(most.z)};
 }
 
-/// Calls take(octant, volume) for the corners of each octant of a star, at the lanes from `lane`.
-/// Volumes of corners have the sign of their octant.
+/// Calls take(octant, volume, squares) for the corners of each octant of a star, at the lanes from
+/// `lane`: the volumes, with the sign of their octant, and the sums of the squares of the edges.
 template <class Real, class Take>
 HWY_INLINE void for_each_octant(const CornerStar& star, std::uint32_t lane,
                                 const Starts<Real>& all_x, const Take& take) {
@@ -80,61 +82,60 @@ HWY_INLINE void for_each_octant(const CornerStar& star, std::uint32_t lane,
   const Vector3<D> along_x[2] = {edge(0), edge(1)};
   const Vector3<D> along_y[2] = {edge(2), edge(3)};
   const Vector3<D> along_z[2] = {edge(4), edge(5)};
+  const auto square = [](const Vector3<D>& of) { return dot<D>(of, of); };
+  const hn::Vec<D> square_x[2] = {square(along_x[0]), square(along_x[1])};
+  const hn::Vec<D> square_y[2] = {square(along_y[0]), square(along_y[1])};
+  const hn::Vec<D> square_z[2] = {square(along_z[0]), square(along_z[1])};
   for (std::uint32_t yz = 0; yz < 4; ++yz) {
     const Vector3<D> face = cross<D>(along_y[yz / 2], along_z[yz % 2]);
-    take(yz, dot<D>(along_x[0], face));
-    take(4 + yz, dot<D>(along_x[1], face));
+    const hn::Vec<D> squares = hn::Add(square_y[yz / 2], square_z[yz % 2]);
+    take(yz, dot<D>(along_x[0], face), hn::Add(square_x[0], squares));
+    take(4 + yz, dot<D>(along_x[1], face), hn::Add(square_x[1], squares));
   }
 }
 
-/// Corner by corner.
+/// Looks at the corners of a star. Returns its due travel.
 template <class Real>
-HWY_NOINLINE void add_star(const RowCorners<Real>& corners, std::size_t number, std::uint32_t lane,
-                           const Starts<Real>& all_x, MarginFilter<Real>& filter) {
-  const Lanes<Real> d;
-  const StarProperties<Real>& terms = corners.properties[corners.stars[number].properties];
-  for_each_octant(corners.stars[number], lane, all_x, [&](std::uint32_t octant, auto volume) {
-    alignas(64) Real margins[kRowLanes];
-    hn::Store(hn::MulAdd(volume, hn::LoadU(d, terms.scale[octant] + lane),
-                         hn::LoadU(d, terms.offset[octant] + lane)),
-              d, margins);
-    for (std::uint32_t i = 0; i < lane_count<Real>(); ++i)
-      filter.add(corners.numbers[number][octant][lane + i], margins[i]);
-  });
-}
-
-template <class Real>
-double find_corners(const RowLayout<Real>& layout, std::uint32_t number, double margin,
-                    RowState<Real>& state, std::vector<std::uint32_t>& below) {
+HWY_INLINE double look_at_star(const RowCorners<Real>& corners, std::size_t number,
+                               const Starts<Real>& all_x, const CornerLook& look,
+                               std::vector<std::uint32_t>& found) {
   using D = Lanes<Real>;
   const D d;
-  const RowCorners<Real>& corners = layout.corners;
-  double farthest = 0;
-  for (const Box3& box : state.bounds) farthest = std::max(farthest, farthest_coordinate(box));
-  MarginFilter<Real> filter(margin, margin_rounding<Real>(farthest), below);
-  if (corners.stars.empty()) return filter.least();
-  const Starts<Real> all_x = starts_of<Real>(state.x);
-  const auto limit = hn::Set(d, filter.limit());
-  auto least = hn::Set(d, std::numeric_limits<Real>::infinity());
-  for (std::size_t s = corners.first_star[number]; s < corners.first_star[number + 1]; ++s) {
-    const StarProperties<Real>& terms = corners.properties[corners.stars[s].properties];
-    for (std::uint32_t lane = 0; lane < kRowLanes; lane += lane_count<Real>()) {
-      auto of_star = hn::Set(d, std::numeric_limits<Real>::infinity());
-      auto sum = hn::Zero(d);
-      for_each_octant(corners.stars[s], lane, all_x, [&](std::uint32_t octant, auto volume) {
-        sum = hn::Add(sum, volume);
-        of_star = hn::Min(of_star, hn::MulAdd(volume, hn::LoadU(d, terms.scale[octant] + lane),
-                                              hn::LoadU(d, terms.offset[octant] + lane)));
+  const CornerStar& star = corners.stars[number];
+  const StarProperties<Real>& terms = corners.properties[star.properties];
+  LeastMargin<D> margin(look.farthest);
+  bool any = false;
+  for (std::uint32_t lane = 0; lane < kRowLanes; lane += lane_count<Real>()) {
+    hn::Vec<D> room[kOctants];
+    auto has_room = hn::Eq(hn::Zero(d), hn::Zero(d));
+    for_each_octant(star, lane, all_x, [&](std::uint32_t octant, auto volume, auto squares) {
+      room[octant] = margin.add(volume, squares, hn::LoadU(d, terms.scale[octant] + lane),
+                                hn::LoadU(d, terms.offset[octant] + lane));
+      has_room = hn::And(has_room, hn::Ge(room[octant], hn::Zero(d)));
+    });
+    if (HWY_LIKELY(hn::AllTrue(d, has_room))) continue;
+    any = true;
+    for (std::uint32_t octant = 0; octant < kOctants; ++octant)
+      for_each_lane(d, hn::Not(hn::Ge(room[octant], hn::Zero(d))), [&](std::uint32_t i) {
+        const std::uint32_t corner = corners.numbers[number][octant][lane + i];
+        if (corner != kNoCorner) found.push_back(corner);
       });
-      // A minimum may lose what is not a number, the sum does not.
-      if (hn::AllTrue(d, hn::And(hn::Ge(of_star, limit), hn::IsFinite(sum))))
-        least = hn::Min(least, of_star);
-      else
-        add_star(corners, s, lane, all_x, filter);
-    }
   }
-  filter.add_above(hn::GetLane(hn::MinOfLanes(d, least)));
-  return filter.least();
+  return any ? kDueAtOnce : due_travel(look.travel, margin.least());
+}
+
+template <class Real>
+double find_corners(const RowLayout<Real>& layout, std::uint32_t number, const CornerLook& look,
+                    RowState<Real>& state, std::vector<std::uint32_t>& found) {
+  CornerDues& dues = state.corner_dues[number];
+  double least = list_due(look, dues);
+  const Starts<Real> all_x = starts_of<Real>(state.x);
+  for (const std::uint32_t group : dues.now) {
+    const std::size_t star = layout.corners.first_star[number] + group;
+    dues.travel[group] = look_at_star(layout.corners, star, all_x, look, found);
+    least = std::min(least, dues.travel[group]);
+  }
+  return least;
 }
 
 // Compares squares of lengths, which needs no square roots.

@@ -73,14 +73,20 @@ struct Posed {
     for (std::uint32_t b = 0; b < body->block_count(); ++b) body->set(b, frame, x, v);
   }
 
+  void move_to(const std::vector<Vec3>& x) const {
+    const std::vector<Vec3> v(x.size(), Vec3::Zero());
+    for (std::uint32_t b = 0; b < body->block_count(); ++b) body->set(b, frame, x, v);
+  }
+
   struct Found {
-    std::vector<std::uint32_t> below;
-    double least = kInfinity;
+    std::vector<std::uint32_t> corners;
+    double due = kInfinity;
   };
-  Found find_corners(double margin) const {
+  Found find_corners(double travel = 0) const {
+    const CornerLook look{.travel = travel, .farthest = body->farthest_coordinate()};
     Found found;
     for (std::uint32_t b = 0; b < body->block_count(); ++b)
-      found.least = std::min(found.least, body->find_corners(b, margin, found.below));
+      found.due = std::min(found.due, body->find_corners(b, look, found.corners));
     return found;
   }
   double largest_strain() const {
@@ -121,11 +127,6 @@ double ratio(const MassSpringModel& model, const Corner& corner, const std::vect
   return corner_volume(corner, x) / corner_volume(corner, model.rest);
 }
 
-double plain_margin(const MassSpringModel& model, const Corner& corner,
-                    const std::vector<Vec3>& x) {
-  return (ratio(model, corner, x) - kCornerResists) * corner_travel(corner, model.rest);
-}
-
 double plain_strain(const MassSpringModel& model, const std::vector<Vec3>& x) {
   double most = 0;
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
@@ -140,51 +141,130 @@ double rounding(const MassSpringModel& model, Precision precision) {
   return (precision == Precision::single_precision ? 4e-6 : 1e-14) * size;
 }
 
-void check_corners_at(const MassSpringModel& model, const std::vector<Vec3>& x, double margin,
-                      const Posed::Found& found, double rounding) {
-  const std::set<std::uint32_t> below(found.below.begin(), found.below.end());
-  REQUIRE(below.size() == found.below.size());  // none twice
+double least_margin(const MassSpringModel& model, const std::vector<Vec3>& x) {
   double least = kInfinity;
+  for (const Corner& corner : model.corners)
+    least = std::min(least, corner_margin(corner, model.rest, x));
+  return least;
+}
+
+/// Checks that these are the corners without a margin.
+void check_found(const MassSpringModel& model, const std::vector<Vec3>& x,
+                 const std::vector<std::uint32_t>& corners, double rounding) {
+  const std::set<std::uint32_t> found(corners.begin(), corners.end());
+  REQUIRE(found.size() == corners.size());  // none twice
   std::uint32_t missed = 0;
   std::uint32_t needless = 0;
   for (std::uint32_t c = 0; c < model.corner_count(); ++c) {
-    const double of_corner = plain_margin(model, model.corners[c], x);
-    if (below.count(c) == 0) {
-      least = std::min(least, of_corner);
-      if (!(of_corner >= margin)) ++missed;
-    } else if (of_corner > margin + rounding) {
-      ++needless;
-    }
+    const double margin = corner_margin(model.corners[c], model.rest, x);
+    if (found.count(c) == 0 && !(margin >= 0)) ++missed;
+    if (found.count(c) != 0 && margin > rounding) ++needless;
   }
   CHECK(missed == 0);
   CHECK(needless == 0);
-  CHECK(found.least >= margin);
-  CHECK(found.least <= least);
-  if (least < kInfinity) CHECK(found.least >= least - rounding);
+}
+
+/// Every corner turned inside out.
+std::vector<Vec3> mirrored(std::vector<Vec3> x) {
+  for (Vec3& each : x) each.x() = -each.x();
+  return x;
 }
 
 }  // namespace
 
-TEST_CASE("Fast layouts find the corners below a margin and the least margin of the others") {
+TEST_CASE("Fast layouts find the corners without a margin, and when the next is due") {
   const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
   std::mt19937_64 random(1);
   for (const auto& [name, subject] : subjects()) {
-    CAPTURE(name, precision);
     const MassSpringModel& model = subject.model;
     REQUIRE(model.corner_count() > 0);
-    for (const double size : {0.0, 0.1, 0.4}) {
+    for (const double size : {0.0, 0.02, 0.4}) {
+      CAPTURE(name, precision, size);
       const std::vector<Vec3> x = displaced(model, size, random);
       const Posed posed(subject, precision, x);
       REQUIRE(posed.body->block_count() >= subject.blocks);
-      if (size > 0.3) REQUIRE(inverted_corners(model.corners, x).size() > 10);
-      for (const double margin : {-kInfinity, 0.0, 0.01 * mean_length(model), kInfinity}) {
-        CAPTURE(size, margin);
-        const Posed::Found found = posed.find_corners(margin);
-        check_corners_at(model, x, margin, found, rounding(model, precision));
-        if (size == 0 && margin == 0) CHECK(found.below.empty());
-        if (margin == kInfinity) CHECK(found.below.size() == model.corner_count());
+      const Posed::Found found = posed.find_corners(1);
+      const double near = rounding(model, precision);
+      check_found(model, x, found.corners, near);
+      const double least = least_margin(model, x);
+      if (size > 0.3) {
+        REQUIRE(inverted_corners(model.corners, x).size() > 10);
+        CHECK(found.due == -kInfinity);
+      } else if (found.corners.empty()) {
+        CHECK(found.due <= 1 + least);
+        // Sharp if the corners of a group have grown alike.
+        CHECK(found.due >= 1 + (size == 0 ? 1 : 0.8) * least - near);
       }
+      if (size == 0) CHECK(found.corners.empty());
     }
+  }
+}
+
+TEST_CASE("Only groups of corners that are due are looked at") {
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  std::mt19937_64 random(7);
+  for (const auto& [name, subject] : subjects()) {
+    CAPTURE(name, precision);
+    const MassSpringModel& model = subject.model;
+    const std::vector<Vec3> x = displaced(model, 0.005, random);
+    const std::vector<Vec3> inside_out = mirrored(x);
+    const Posed posed(subject, precision, x);
+    const Posed::Found start = posed.find_corners(1);
+    REQUIRE(start.corners.empty());
+    REQUIRE(start.due > 1);
+    posed.move_to(inside_out);
+    const double before = std::nextafter(start.due, 0.0);
+    const Posed::Found none = posed.find_corners(before);
+    CHECK(none.corners.empty());
+    CHECK(none.due == start.due);
+    const Posed::Found first = posed.find_corners(start.due);
+    CHECK(!first.corners.empty());
+    CHECK(first.corners.size() < model.corner_count() / 2);
+    CHECK(first.due == -kInfinity);
+    // Groups with a corner without margin are looked at again, and no others.
+    const Posed::Found again = posed.find_corners(start.due);
+    CHECK(again.corners == first.corners);
+    CHECK(posed.find_corners(kInfinity).corners.size() == model.corner_count());
+    posed.move_to(x);
+    const Posed::Found back = posed.find_corners(start.due);
+    CHECK(back.corners.empty());
+    CHECK(back.due > start.due);
+  }
+}
+
+TEST_CASE("Looks at groups that are due find what a look at all corners finds") {
+  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
+  // A body is shaken and turned while it is stretched along one axis and squeezed along another.
+  const double stretch = GENERATE(0.0, 0.04);
+  std::mt19937_64 random(8);
+  for (const auto& [name, subject] : subjects()) {
+    CAPTURE(name, precision, stretch);
+    const MassSpringModel& model = subject.model;
+    std::vector<Vec3> x = model.rest;
+    const Posed posed(subject, precision, x);
+    const double shake = 0.02 * mean_length(model);
+    double travel = 0;
+    Mat3 turned = Mat3::Identity();
+    std::size_t most = 0;
+    for (int step = 0; step < 30; ++step) {
+      const Mat3 turn =
+          Eigen::AngleAxisd(0.1, random_vector(random).normalized()).toRotationMatrix();
+      double farthest = 0;
+      for (Vec3& each : x) {
+        Vec3 by = shake * random_vector(random).normalized();
+        const Vec3 from = turned.transpose() * (each - posed.frame.origin);
+        by += stretch * Vec3(from.x(), -1.5 * from.y(), 0);
+        farthest = std::max(farthest, by.norm());
+        each = posed.frame.origin + turn * turned * (from + by);
+      }
+      turned = turn * turned;
+      travel += farthest;
+      posed.move_to(x);
+      const Posed::Found found = posed.find_corners(travel);
+      check_found(model, x, found.corners, rounding(model, precision));
+      most = std::max(most, found.corners.size());
+    }
+    CHECK(most > 0);
   }
 }
 
@@ -195,19 +275,22 @@ TEST_CASE("Corners and strains are looked at on every kind of vectors") {
     const Subject& subject = subjects().at(name);
     const MassSpringModel& model = subject.model;
     const std::vector<Vec3> x = displaced(model, 0.2, random);
-    const double margin = 0.005 * mean_length(model);
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
       CAPTURE(name, precision, hwy::TargetName(target));
       hwy::DisableTargets(target - 1);  // newer instruction sets have lower bits
       const Posed posed(subject, precision, x);
-      const Posed::Found found = posed.find_corners(margin);
+      const Posed::Found found = posed.find_corners();
+      posed.move_to(mirrored(x));
+      const Posed::Found later = posed.find_corners(kInfinity);
+      posed.move_to(x);
       const double strain = posed.largest_strain();
       posed.body->set_spin({3, -2, 5});
       posed.body->move(0, 0, 0.5);
       const Vec3 departure = posed.body->largest_departure(0);
       hwy::DisableTargets(0);
-      REQUIRE(!found.below.empty());
-      check_corners_at(model, x, margin, found, rounding(model, precision));
+      REQUIRE(!found.corners.empty());
+      check_found(model, x, found.corners, rounding(model, precision));
+      check_found(model, mirrored(x), later.corners, rounding(model, precision));
       CHECK(strain == Approx(plain_strain(model, x)).epsilon(1e-5));
       Vec3 expected = Vec3::Zero();
       for (const Vec3& each : x)
@@ -218,7 +301,7 @@ TEST_CASE("Corners and strains are looked at on every kind of vectors") {
   }
 }
 
-TEST_CASE("Corners of a node whose position is not a number count as below every margin") {
+TEST_CASE("Corners of a node whose position is not a number have no margin") {
   const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
   const double wrong = GENERATE(kNan, kInfinity);
   for (const auto& [name, subject] : subjects()) {
@@ -231,10 +314,10 @@ TEST_CASE("Corners of a node whose position is not a number count as below every
       for (std::uint32_t c = 0; c < model.corner_count(); ++c)
         if (std::count(model.corners[c].node.begin(), model.corners[c].node.end(), node) > 0)
           expected.insert(c);
-      // Of an infinite position, some volumes are infinite, which is above every margin.
+      // Of an infinite position, some volumes are infinite.
       const Posed posed(subject, precision, x);
-      const std::vector<std::uint32_t> below = posed.find_corners(0).below;
-      const std::set<std::uint32_t> found(below.begin(), below.end());
+      const std::vector<std::uint32_t> corners = posed.find_corners().corners;
+      const std::set<std::uint32_t> found(corners.begin(), corners.end());
       if (std::isnan(wrong)) {
         CHECK(found == expected);
         CHECK(std::isnan(posed.largest_strain()));
@@ -308,59 +391,6 @@ TEST_CASE("The largest departure leaves out the rotation of the body") {
   }
 }
 
-TEST_CASE("No corner falls below kCornerResists while nodes move by less than the margin") {
-  const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
-  std::mt19937_64 random(5);
-  const Mat3 turn = Eigen::AngleAxisd(2, Vec3(1, 2, -1).normalized()).toRotationMatrix();
-  for (const auto& [name, subject] : subjects()) {
-    CAPTURE(name, precision);
-    const MassSpringModel& model = subject.model;
-    const std::vector<Vec3> x = displaced(model, 0.05, random);
-    const Posed::Found found = Posed(subject, precision, x).find_corners(0);
-    std::vector<bool> is_below(model.corner_count());
-    for (const std::uint32_t c : found.below) is_below[c] = true;
-    std::uint32_t wrong = 0;
-    const auto moved_by = [&](double distance) {
-      std::vector<Vec3> y = x;
-      for (Vec3& each : y) each = turn * (each + distance * random_vector(random).normalized());
-      return y;
-    };
-    for (int draw = 0; draw < 3; ++draw) {
-      const std::vector<Vec3> y = moved_by(found.least);
-      for (std::uint32_t c = 0; c < model.corner_count(); ++c)
-        if (!is_below[c] && ratio(model, model.corners[c], y) < kCornerResists) ++wrong;
-    }
-    CHECK(wrong == 0);
-    // The worst displacement: all nodes of a corner against their gradients.
-    std::uint32_t reached = 0;
-    std::uint32_t tried = 0;
-    for (std::uint32_t c = 0; c < model.corner_count(); c += 7) {
-      const Corner& corner = model.corners[c];
-      const double margin = plain_margin(model, corner, x);
-      if (margin < 0) continue;
-      const auto pushed = [&](double distance) {
-        std::array<Vec3, 4> push;
-        const auto& [n0, n1, n2, n3] = corner.node;
-        push[1] = (x[n2] - x[n0]).cross(x[n3] - x[n0]);
-        push[2] = (x[n3] - x[n0]).cross(x[n1] - x[n0]);
-        push[3] = (x[n1] - x[n0]).cross(x[n2] - x[n0]);
-        push[0] = -push[1] - push[2] - push[3];
-        std::vector<Vec3> y(model.node_count());
-        for (std::size_t i = 0; i < 4; ++i)
-          y[corner.node[i]] = x[corner.node[i]] - distance * push[i].normalized();
-        return ratio(model, corner, y);
-      };
-      if (pushed(margin) < kCornerResists) ++wrong;
-      // kCornerStretch^2 times the margin is that of the gradient at rest, which falls then.
-      if (pushed(4.5 * margin) < kCornerResists) ++reached;
-      if (++tried == 300) break;
-    }
-    CHECK(wrong == 0);
-    CHECK(tried > 20);
-    CHECK(reached > tried / 2);
-  }
-}
-
 TEST_CASE("Looking at a body between its steps does not change them") {
   const auto precision = GENERATE(Precision::single_precision, Precision::double_precision);
   std::mt19937_64 random(6);
@@ -380,7 +410,7 @@ TEST_CASE("Looking at a body between its steps does not change them") {
           body.move(b, step, step);
         }
         if (!looks) continue;
-        posed.find_corners(1);
+        posed.find_corners(i);
         posed.largest_strain();
       }
       std::vector<Vec3> y(x.size());
@@ -396,6 +426,6 @@ TEST_CASE("A body without corners has none to find") {
   subject.model.corners.clear();
   const Posed posed(subject, Precision::double_precision, subject.model.rest);
   const Posed::Found found = posed.find_corners(kInfinity);
-  CHECK(found.below.empty());
-  CHECK(found.least == kInfinity);
+  CHECK(found.corners.empty());
+  CHECK(found.due == kInfinity);
 }
