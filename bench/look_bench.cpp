@@ -51,9 +51,9 @@ void look(benchmark::State& state, Subjects& subjects, Shape shape, Size size,
   LeastTime strain;
   std::vector<std::uint32_t> found;
   for (auto _ : state) {
-    body->set_spin(Vec3::Zero());
+    body->set_rigid_motion({});
     plain.measure([&] { step(*body, subject.step); });
-    body->set_spin({1, 2, 3});
+    body->set_rigid_motion({.spin = {1, 2, 3}});
     spinning.measure([&] { step(*body, subject.step); });
     const sim::CornerLook look{.travel = std::numeric_limits<double>::infinity(),
                                .farthest = body->farthest_coordinate()};  // all are due

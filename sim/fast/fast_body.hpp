@@ -9,6 +9,7 @@
 #include "sim/fast/look/corner_look.hpp"
 #include "sim/fast/moving_frame.hpp"
 #include "sim/fast/place.hpp"
+#include "sim/fast/rigid_motion.hpp"
 
 namespace springlod::sim {
 
@@ -57,13 +58,15 @@ class FastBody {
   /// Largest displacement of the block's nodes in its last move, along each axis [m].
   virtual const Vec3& largest_displacement(std::uint32_t block) const = 0;
 
-  /// Sets the angular velocity of a rigid rotation about the origin of the body's coordinates, for
-  /// largest_departure() [rad/s]; at first 0. It does not change the motion. Call it while no block
-  /// moves.
-  virtual void set_spin(const Vec3& spin) = 0;
-  /// Largest displacement of the block's nodes in its last drift relative to that rotation, along
-  /// each axis [m]: the maximum of |drift (v - spin x x)| with x at the end of the drift. Equal to
-  /// largest_displacement() without spin.
+  /// The rigid motion that largest_departure() leaves out; at first none. It does not change the
+  /// motion of the body. Set it while no block moves.
+  virtual void set_rigid_motion(const RigidMotion& motion) = 0;
+  virtual const RigidMotion& rigid_motion() const = 0;
+  /// Whether largest_departure() counts the node; at first all. Set it while no block moves.
+  virtual void count_departure(Place at, bool counts) = 0;
+  /// Largest displacement of the block's nodes that count, in its last drift, relative to the rigid
+  /// motion, along each axis [m]: the maximum of |drift (v - velocity - spin x x)| with x at the
+  /// end of the drift.
   virtual const Vec3& largest_departure(std::uint32_t block) const = 0;
 
   // The state of the material. Call them when all blocks have moved and their nodes have been

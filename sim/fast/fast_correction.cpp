@@ -11,6 +11,7 @@ FastCorrection::FastCorrection(const Shared& shared)
       paths_(*shared.body, shared.model->node_count()),
       near_(shared.points, paths_),
       watch_(shared.model->corner_count()),
+      pressed_at_(shared.model->node_count(), 0),
       found_(shared.body->block_count()),
       dues_(shared.body->block_count()),
       solver_(*shared.model, *shared.points.points, *shared.points.finder, shared.volumes) {}
@@ -22,17 +23,43 @@ void FastCorrection::correct_contacts(const FastStep& step) {
   solver_.solve_contacts();
 }
 
-bool FastCorrection::corners_due(double travel) {
+// A contact takes back most of the drift of a node that it presses, so the nodes that contacts
+// moved in the last step or in this one count with their displacement by both together.
+double FastCorrection::take_travel(const FastStep& step) {
+  Vec3 largest = Vec3::Zero();
+  for (std::uint32_t b = 0; b < shared_.body->block_count(); ++b)
+    largest = largest.cwiseMax(shared_.body->largest_departure(b));
+  double most = largest.squaredNorm();
+  const RigidMotion& rigid = shared_.body->rigid_motion();
+  const auto departure = [&](const StepPath& path) -> Vec3 {
+    const Vec3 velocity = step.after.velocity + rigid.at(path.to - step.after.origin);
+    return path.to - path.from - step.length * velocity;
+  };
   const StepNodes& nodes = solver_.nodes();
-  double most = 0;
   by_contacts_.clear();
   for (std::uint32_t i = 0; i < nodes.count(); ++i) {
     by_contacts_.push_back(nodes.displacement(i));
-    most = std::max(most, by_contacts_.back().squaredNorm());
+    most = std::max(most, (departure(nodes.path(i)) + by_contacts_.back()).squaredNorm());
+    pressed_at_[nodes.node(i)] = step.number;
   }
-  looking_ = watch_.moved(travel + std::sqrt(most));
+  for (const std::uint32_t node : pressed_) {
+    if (pressed_at_[node] == step.number) continue;
+    most = std::max(most, departure(paths_.path(node)).squaredNorm());
+    shared_.body->count_departure(shared_.body->place(node), true);
+  }
+  pressed_.clear();
+  for (std::uint32_t i = 0; i < nodes.count(); ++i) {
+    pressed_.push_back(nodes.node(i));
+    shared_.body->count_departure(shared_.body->place(nodes.node(i)), false);
+  }
+  return std::sqrt(most);
+}
+
+bool FastCorrection::corners_due(double travel) {
+  looking_ = watch_.moved(travel);
   if (!looking_) return false;
   // The look must find the nodes where the contacts have left them.
+  const StepNodes& nodes = solver_.nodes();
   for (std::uint32_t i = 0; i < nodes.count(); ++i)
     shared_.body->shift(shared_.body->place(nodes.node(i)), by_contacts_[i], Vec3::Zero());
   look_ = {watch_.travel(), shared_.body->farthest_coordinate()};
@@ -76,8 +103,8 @@ void FastCorrection::apply(const FastStep& step, bool looked) {
     after_contacts = std::max(after_contacts, rest.squaredNorm());
   }
   near_.corrected(std::sqrt(most));
-  largest_shift_ = std::sqrt(most);
-  watch_.corrected(std::sqrt(after_contacts), solver_.resisting());
+  largest_shift_ = std::sqrt(after_contacts);
+  watch_.corrected(largest_shift_, solver_.resisting());
   if (!first_step_ && !contacts().empty()) first_step_ = step.number;
   if (!shared_.with_ledger) return;
   losses_.contact += solver_.losses().contact;

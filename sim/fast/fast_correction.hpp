@@ -17,7 +17,7 @@ namespace springlod::sim {
 /// depend on nodes of several blocks, so one thread corrects the body while the others wait; only
 /// the corners are looked at by all. Calls for each drift, when all blocks have moved:
 ///
-///   one thread:  correct_contacts(step); bool look = corners_due(travel);
+///   one thread:  correct_contacts(step); bool look = corners_due(take_travel(step));
 ///   if (look) for each block, by any thread: look_at_corners(block);
 ///   one thread:  correct_corners(step);
 class FastCorrection {
@@ -39,7 +39,10 @@ class FastCorrection {
   bool needed() const { return needed_; }
 
   void correct_contacts(const FastStep& step);
-  /// `travel`: of the drift without contacts, see CornerWatch [m].
+  /// How far a node moved at most in the drift and by contacts together, relative to a rigid motion
+  /// [m]. Call it once.
+  double take_travel(const FastStep& step);
+  /// `travel`: that.
   bool corners_due(double travel);
   void look_at_corners(std::uint32_t block);
   /// Ends the correction.
@@ -57,7 +60,7 @@ class FastCorrection {
   const std::optional<std::uint64_t>& first_step() const { return first_step_; }
   /// The first point that tunnelled through a wall.
   const std::optional<Passage>& passage() const { return near_.passage(); }
-  /// The largest displacement of a node by the last correction [m].
+  /// The largest displacement of a node by correct_corners() in the last step [m].
   double largest_shift() const { return largest_shift_; }
   /// Largest change in one step of the J of a corner near inversion, since the last call [1].
   double largest_corner_change() const { return largest_corner_change_; }
@@ -80,7 +83,9 @@ class FastCorrection {
   NearPoints near_;
   CornerWatch watch_;
   bool looking_ = false;
-  std::vector<Vec3> by_contacts_;  // displacement of nodes by contacts, before corners [m]
+  std::vector<Vec3> by_contacts_;          // displacement of nodes by contacts, before corners [m]
+  std::vector<std::uint32_t> pressed_;     // nodes that contacts moved in the last step
+  std::vector<std::uint64_t> pressed_at_;  // by node: number of the last step in which they did
   CornerLook look_;
   std::vector<std::vector<std::uint32_t>> found_;  // by block: corners without a margin
   std::vector<double> dues_;                       // by block: travel at which corners are due [m]

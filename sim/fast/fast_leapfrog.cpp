@@ -9,7 +9,6 @@
 
 #include "sim/correction/corner_law.hpp"
 #include "sim/integrators/kernel.hpp"
-#include "sim/run/motion.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -56,7 +55,7 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
                    .gravity = gravity_,
                    .with_ledger = with_ledger_,
                    .volumes = volumes_}),
-      watch_(body_->block_count(), shortest_spring(model)),
+      watch_(*body_, model.node_count(), shortest_spring(model)),
       losses_(body_->block_count()),
       sums_(body_->block_count()),
       v_minus_(start.v),
@@ -146,7 +145,8 @@ MovingFrame FastLeapfrog::take_new_frame(const Share& share) {
   const auto count = static_cast<double>(x_.size());
   MovingFrame frame{sum.origin / count, sum.velocity / count};
   for (std::uint32_t b = share.first; b < share.end; ++b) body_->set(b, frame, x_, v_minus_);
-  if (share.member.number == 0) body_->set_spin(angular_velocity(*model_, {x_, v_minus_}));
+  share.member.meet();
+  if (share.member.number == 0) watch_.follow(*body_);
   share.member.meet();
   return frame;
 }
@@ -194,7 +194,7 @@ void FastLeapfrog::correct(const FastStep& step, const Share& share) {
   if (one) {
     reached_ = step.number;
     if (correction_.needed()) correction_.correct_contacts(step);
-    watch_.plan(*body_, correction_);
+    watch_.plan(step, correction_);
   }
   share.member.meet();
   if (watch_.looks()) {

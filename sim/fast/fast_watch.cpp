@@ -10,6 +10,10 @@ namespace {
 // within so few steps a body is not strained so much more that its step becomes unstable.
 constexpr std::uint32_t kLookEvery = 4;
 
+// Interval between two fits of the rigid motion [steps]: short for a bounce, which takes about a
+// hundred steps. A fit costs as much as about ten nodes of a step in each of these steps.
+constexpr std::uint64_t kFollowEvery = 16;
+
 }  // namespace
 
 void FastWatch::set(const Stepper::Watch& limits) {
@@ -17,11 +21,8 @@ void FastWatch::set(const Stepper::Watch& limits) {
   stopped_ = false;
 }
 
-void FastWatch::plan(const FastBody& body, FastCorrection& correction) {
-  Vec3 most = Vec3::Zero();
-  for (std::uint32_t b = 0; b < body.block_count(); ++b)
-    most = most.cwiseMax(body.largest_departure(b));
-  const double travel = most.norm();
+void FastWatch::plan(const FastStep& step, FastCorrection& correction) {
+  const double travel = correction.take_travel(step);
   travel_ += travel;
   at_corners_ = correction.corners_due(travel);
   at_springs_ = ++steps_ >= kLookEvery && largest_strain() > limits_.strain;
@@ -37,8 +38,8 @@ void FastWatch::look(std::uint32_t block, const FastBody& body, FastCorrection& 
   if (at_springs_) strains_[block] = body.largest_strain(block);
 }
 
-void FastWatch::finish(const FastStep& step, const FastBody& body,
-                       const FastCorrection& correction) {
+void FastWatch::finish(const FastStep& step, FastBody& body, const FastCorrection& correction) {
+  if (step.number % kFollowEvery == 0) follow(body);
   if (at_springs_) {
     strain_ = *std::max_element(strains_.begin(), strains_.end());
     travel_ = 0;

@@ -14,21 +14,24 @@ namespace springlod::sim {
 /// lengths and volumes can have changed since they were last looked at. Calls for each drift, when
 /// all blocks have moved:
 ///
-///   one thread, after the correction of contacts:  plan();
+///   one thread, after the correction of contacts:  plan(step);
 ///   if (looks()) for each block, by any thread: look(block);
 ///   one thread, after the correction of corners:  finish(step);
 class FastWatch {
  public:
   /// `shortest`: rest length of the shortest spring [m].
-  FastWatch(std::uint32_t block_count, double shortest)
-      : shortest_(shortest), strains_(block_count, 0) {}
+  FastWatch(const FastBody& body, std::uint32_t node_count, double shortest)
+      : fit_(body, node_count), shortest_(shortest), strains_(body.block_count(), 0) {}
 
   void set(const Stepper::Watch& limits);
 
-  void plan(const FastBody& body, FastCorrection& correction);
+  /// Takes the rigid motion of the body as it is now. Call it when the body has a new frame.
+  void follow(FastBody& body) const { body.set_rigid_motion(fit_.fit(body)); }
+
+  void plan(const FastStep& step, FastCorrection& correction);
   bool looks() const { return at_corners_ || at_springs_; }
   void look(std::uint32_t block, const FastBody& body, FastCorrection& correction);
-  void finish(const FastStep& step, const FastBody& body, const FastCorrection& correction);
+  void finish(const FastStep& step, FastBody& body, const FastCorrection& correction);
 
   /// Whether a limit was exceeded in the last step.
   bool stopped() const { return stopped_; }
@@ -37,6 +40,7 @@ class FastWatch {
   /// Bound on the strain of the springs now [1].
   double largest_strain() const;
 
+  RigidFit fit_;
   Stepper::Watch limits_;
   double shortest_;  // [m]
   bool at_corners_ = false, at_springs_ = false;

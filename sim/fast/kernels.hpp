@@ -5,6 +5,7 @@
 
 #include "model/vec.hpp"
 #include "sim/fast/look/corner_look.hpp"
+#include "sim/fast/rigid_motion.hpp"
 
 namespace springlod::sim {
 
@@ -16,8 +17,7 @@ struct FastKernels {
   void (*collect_forces)(const Layout&, std::uint32_t block, State&) = nullptr;
   double (*damping_power)(const Layout&, std::uint32_t block, const State&) = nullptr;
   void (*move)(const Layout&, std::uint32_t block, double kick, double drift, State&) = nullptr;
-  /// Largest |drift (v - spin x x)| of the block's nodes along each axis [m].
-  Vec3 (*departure)(const Layout&, std::uint32_t block, double drift, const Vec3& spin,
+  Vec3 (*departure)(const Layout&, std::uint32_t block, double drift, const RigidMotion&,
                     const State&) = nullptr;
   // These may refresh what a block stores of other blocks' nodes.
   double (*find_corners)(const Layout&, std::uint32_t block, const CornerLook&, State&,

@@ -26,12 +26,11 @@ class LaidBody : public FastBody {
   }
   void move(std::uint32_t block, double kick, double drift) final {
     kernels_.move(*layout_, block, kick, drift, state_);
-    if (drift == 0) return;
-    departure_[block] = spin_ == Vec3::Zero()
-                            ? this->largest_displacement(block)
-                            : kernels_.departure(*layout_, block, drift, spin_, state_);
+    if (drift != 0)
+      departure_[block] = kernels_.departure(*layout_, block, drift, rigid_motion_, state_);
   }
-  void set_spin(const Vec3& spin) final { spin_ = spin; }
+  void set_rigid_motion(const RigidMotion& motion) final { rigid_motion_ = motion; }
+  const RigidMotion& rigid_motion() const final { return rigid_motion_; }
   const Vec3& largest_departure(std::uint32_t block) const final { return departure_[block]; }
   double find_corners(std::uint32_t block, const CornerLook& look,
                       std::vector<std::uint32_t>& found) final {
@@ -52,7 +51,7 @@ class LaidBody : public FastBody {
   mutable State state_;  // mutable: holds copies of other blocks' nodes, which may be out of date
 
  private:
-  Vec3 spin_ = Vec3::Zero();     // [rad/s]
+  RigidMotion rigid_motion_;
   std::vector<Vec3> departure_;  // see FastBody; by block [m]
   FastKernels<Layout, State> kernels_;
 };

@@ -15,6 +15,7 @@ QuadState<Real> zero_state(const QuadLayout<Real>& layout, bool with_damping) {
   QuadState<Real> state(layout.blocks.size());
   for (std::size_t b = 0; b < state.size(); ++b) {
     const QuadBlock<Real>& block = layout.blocks[b];
+    state[b].counts.assign(block.own, Real(1));
     state[b].corner_dues = CornerDues(block.corners.size());
     state[b].records.resize(block.indices());
     state[b].forces.resize(block.nowhere() + 1);

@@ -23,6 +23,9 @@ class QuadBody final : public LaidBody<QuadLayout<Real>, QuadState<Real>> {
            const std::vector<Vec3>& v) override;
   void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const override;
   void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const override;
+  void count_departure(Place at, bool counts) override {
+    this->state_[at.block].counts[at.index] = counts ? Real(1) : Real(0);
+  }
   const Box3& bounds(std::uint32_t block) const override { return this->state_[block].bounds; }
   const Vec3& largest_displacement(std::uint32_t block) const override {
     return this->state_[block].largest_displacement;

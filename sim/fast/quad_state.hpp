@@ -29,6 +29,7 @@ struct QuadBlockState {
   /// Part of the own nodes' positions below the last bit of x [m], where the displacement of a step
   /// often lies. Empty in double precision.
   std::vector<NodeVector<Real>> low;
+  std::vector<Real> counts;                  ///< by own node: 1 if its departure counts, else 0
   Box3 bounds;                               ///< of the own nodes [m]
   Vec3 largest_displacement = Vec3::Zero();  ///< see FastBody [m]
   CornerDues corner_dues;                    ///< of the eights of corners

@@ -24,6 +24,9 @@ class RowBody final : public LaidBody<RowLayout<Real>, RowState<Real>> {
            const std::vector<Vec3>& v) override;
   void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const override;
   void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const override;
+  void count_departure(Place at, bool counts) override {
+    this->state_.counts[position(at)] = counts ? Real(1) : Real(0);
+  }
   const Box3& bounds(std::uint32_t block) const override { return this->state_.bounds[block]; }
   const Vec3& largest_displacement(std::uint32_t block) const override {
     return this->state_.largest_displacement[block];

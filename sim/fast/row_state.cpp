@@ -23,6 +23,10 @@ RowState<Real>::RowState(const RowLayout<Real>& layout, bool with_damping)
   allocate<Real>(size, x);
   allocate<Real>(size, v);
   if constexpr (sizeof(Real) == sizeof(float)) allocate<Real>(size, low);
+  counts = hwy::AllocateAligned<Real>(size);
+  std::fill_n(counts.get(), size, Real(0));
+  for (const RowBlock& block : layout.blocks)
+    std::fill_n(counts.get() + block.first, block.own, Real(1));
   for (std::size_t b = 0; b < layout.blocks.size(); ++b)
     corner_dues.emplace_back(layout.corners.star_count(b));
   for (const RowBlock& block : layout.blocks) {

@@ -25,6 +25,7 @@ struct RowState {
   /// Part of the positions below the last bit of x [m], where the displacement of a step often
   /// lies. Unused in double precision.
   Coordinates low;
+  Array counts;  ///< 1 for a node whose departure counts, 0 for another and for padding
   /// Forces that a block computes on its own places and those in its reach [N]; by block.
   std::vector<Coordinates> force;
   std::vector<Coordinates> damping_force;  ///< its damping part; empty if not requested

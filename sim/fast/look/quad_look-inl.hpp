@@ -27,37 +27,41 @@ namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The matrix of the map x -> v x x, by columns, padded as the records are.
+/// A vector padded as the records are.
+template <class Real>
+NodeVector<Real> padded(const Vec3& v) {
+  return {{static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())}};
+}
+
+/// The matrix of the map x -> v x x, by columns.
 template <class Real>
 std::array<NodeVector<Real>, 3> cross_matrix(const Vec3& v) {
-  std::array<NodeVector<Real>, 3> columns;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 column = v.cross(Vec3(Vec3::Unit(axis)));
-    for (int i = 0; i < 3; ++i)
-      columns[static_cast<std::size_t>(axis)].at[i] = static_cast<Real>(column[i]);
-  }
-  return columns;
+  return {padded<Real>(v.cross(Vec3(Vec3::UnitX()))), padded<Real>(v.cross(Vec3(Vec3::UnitY()))),
+          padded<Real>(v.cross(Vec3(Vec3::UnitZ())))};
 }
 
 template <class Real>
-Vec3 departure(const QuadLayout<Real>& layout, std::uint32_t number, double drift, const Vec3& spin,
-               const QuadState<Real>& state) {
+Vec3 departure(const QuadLayout<Real>& layout, std::uint32_t number, double drift,
+               const RigidMotion& motion, const QuadState<Real>& state) {
   const hn::CappedTag<Real, 4> d;
   const NodeRecord<Real>* records = state[number].records.data();
-  const std::array<NodeVector<Real>, 3> turn = cross_matrix<Real>(spin);
+  const std::array<NodeVector<Real>, 3> turn = cross_matrix<Real>(motion.spin);
+  const Real* const counts = state[number].counts.data();
+  const NodeVector<Real> velocity = padded<Real>(motion.velocity);
   NodeVector<Real> most;
   for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
+    const auto common = hn::Load(d, velocity.at + lane);
     const auto by_x = hn::Load(d, turn[0].at + lane);
     const auto by_y = hn::Load(d, turn[1].at + lane);
     const auto by_z = hn::Load(d, turn[2].at + lane);
     auto of_lanes = hn::Zero(d);
     for (std::uint32_t i = 0; i < layout.blocks[number].own; ++i) {
       const NodeRecord<Real>& node = records[i];
-      auto apart = hn::Load(d, node.v + lane);
+      auto apart = hn::Sub(hn::Load(d, node.v + lane), common);
       apart = hn::NegMulAdd(by_x, hn::Set(d, node.x[0]), apart);
       apart = hn::NegMulAdd(by_y, hn::Set(d, node.x[1]), apart);
       apart = hn::NegMulAdd(by_z, hn::Set(d, node.x[2]), apart);
-      of_lanes = hn::Max(of_lanes, hn::Abs(apart));
+      of_lanes = hn::Max(of_lanes, hn::Abs(hn::Mul(apart, hn::Set(d, counts[i]))));
     }
     hn::Store(of_lanes, d, most.at + lane);
   }

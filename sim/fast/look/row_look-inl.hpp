@@ -29,34 +29,29 @@ HWY_INLINE Vector3<D> cross(const Vector3<D>& p, const Vector3<D>& q) {
   return {hn::NegMulAdd(p.z, q.y, hn::Mul(p.y, q.z)), hn::NegMulAdd(p.x, q.z, hn::Mul(p.z, q.x)),
           hn::NegMulAdd(p.y, q.x, hn::Mul(p.x, q.y))};
 }
-template <class D>
-HWY_INLINE Vector3<D> largest(const Vector3<D>& p, const Vector3<D>& q) {
-  return {hn::Max(p.x, q.x), hn::Max(p.y, q.y), hn::Max(p.z, q.z)};
-}
-
 template <class Real>
-Vec3 departure(const RowLayout<Real>& layout, std::uint32_t number, double drift, const Vec3& spin,
-               const RowState<Real>& state) {
+Vec3 departure(const RowLayout<Real>& layout, std::uint32_t number, double drift,
+               const RigidMotion& motion, const RowState<Real>& state) {
   using D = Lanes<Real>;
   const D d;
   const RowBlock& block = layout.blocks[number];
   const Starts<Real> all_x = starts_of<Real>(state.x, block.first);
   const Starts<Real> all_v = starts_of<Real>(state.v, block.first);
   const auto set = [&](double value) { return hn::Set(d, static_cast<Real>(value)); };
-  const Vector3<D> omega{set(spin.x()), set(spin.y()), set(spin.z())};
-  const auto size = [&](std::uint32_t p) -> Vector3<D> {
-    const Vector3<D> apart = load(d, all_v, p) - cross<D>(omega, load(d, all_x, p));
-    return {hn::Abs(apart.x), hn::Abs(apart.y), hn::Abs(apart.z)};
+  const auto vector = [&](const Vec3& of) -> Vector3<D> {
+    return {set(of.x()), set(of.y()), set(of.z())};
   };
+  const Vector3<D> velocity = vector(motion.velocity);
+  const Vector3<D> spin = vector(motion.spin);
+  const Real* const counts = state.counts.get() + block.first;
   Vector3<D> most{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  std::uint32_t p = 0;
-  for (; p + lane_count<Real>() <= block.own; p += lane_count<Real>())
-    most = largest<D>(most, size(p));
-  if (p < block.own) {  // the padding does not rotate
-    const auto own = hn::FirstN(d, block.own - p);
-    const Vector3<D> last = size(p);
-    most = largest<D>(most, {hn::IfThenElseZero(own, last.x), hn::IfThenElseZero(own, last.y),
-                             hn::IfThenElseZero(own, last.z)});
+  for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
+    const Vector3<D> apart = load(d, all_v, p) - velocity - cross<D>(spin, load(d, all_x, p));
+    const hn::Vec<D> count = hn::LoadU(d, counts + p);
+    const auto larger = [&](hn::Vec<D> than, hn::Vec<D> of) {
+      return hn::Max(than, hn::Abs(hn::Mul(count, of)));
+    };
+    most = {larger(most.x, apart.x), larger(most.y, apart.y), larger(most.z, apart.z)};
   }
   const auto result = [&](hn::Vec<D> of) {
     return std::abs(drift) * static_cast<double>(hn::GetLane(hn::MaxOfLanes(d, of)));
