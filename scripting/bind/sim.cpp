@@ -93,6 +93,7 @@ void push_ledger(lua_State* L, const TrajectoryValue& value) {
     set_field(L, "lost_friction", entry.lost_friction);
     set_field(L, "lost_contact", entry.lost_contact);
     set_field(L, "lost_corners", entry.lost_corners);
+    set_field(L, "lost_scheme", entry.lost_scheme);
     set_field(L, "lost_switch", entry.lost_switch);
     set_field(L, "total", entry.total());
     end_list_entry(L, ++number);
@@ -185,10 +186,12 @@ void describe_trajectory(Api& api) {
              [](const TrajectoryValue& value) { return value.trajectory.inversions.most; });
   type.field("inverted_at_end", "integer", "corners inside out in the last state",
              [](const TrajectoryValue& value) { return value.trajectory.inverted_at_end; });
-  type.table_field("ledger", "list of tables",
-                   "energies of each frame [J]: time, kinetic, elastic, gravity, contact, "
-                   "lost_damping, lost_friction, lost_contact, lost_corners, lost_switch, total",
-                   push_ledger);
+  type.table_field(
+      "ledger", "list of tables",
+      "energies of each frame [J]: time, kinetic, elastic, gravity, contact, "
+      "lost_damping, lost_friction, lost_contact, lost_corners, lost_scheme, lost_switch, "
+      "total",
+      push_ledger);
   type.table_field("final", "State", "last state: time [s], x and v, lists of {x, y, z} by node",
                    push_final);
   type.method(

@@ -47,11 +47,11 @@ local function tell(number)
       print(("\nlevel %d, %d nodes: %s"):format(row.level, row.nodes, row.message))
     else
       print(("\nlevel %d, %d nodes, %d corners: inverted %d at the end, at most %d%s; volume %s; "
-        .. "ledger error %.2g %%; %d steps of %.3g s, shortest %.3g s\n"):format(row.level,
-        row.nodes, row.corners, row.inverted_at_end, row.most_inverted,
+        .. "ledger error %.2g %%, of the scheme %.2g %%; %d steps of %.3g s, shortest %.3g s\n")
+        :format(row.level, row.nodes, row.corners, row.inverted_at_end, row.most_inverted,
         row.first_inversion ~= "" and (", first at %.4g s"):format(row.first_inversion) or "",
         row.volume_ratio ~= "" and ("%.1f %%"):format(100 * row.volume_ratio) or "unknown",
-        100 * row.ledger_error, row.steps, row.step, row.shortest_step))
+        100 * row.ledger_error, 100 * row.scheme_error, row.steps, row.step, row.shortest_step))
       print(runs[row])
     end
   end

@@ -10,6 +10,12 @@ namespace {
 // more energy where they are cut short by the cap on their displacement.
 constexpr double kStiffness = 30;
 
+double energy_of(const MassSpringModel& model, const Corner& corner, const std::vector<Vec3>& x) {
+  const double rest = corner_volume(corner, model.rest);
+  const double depth = kCornerResists - corner_volume(corner, x) / rest;
+  return depth > 0 ? penalty_energy(corner_stiffness(corner, rest), depth) : 0;
+}
+
 }  // namespace
 
 double corner_stiffness(const Corner& corner, double rest_volume) {
@@ -18,11 +24,14 @@ double corner_stiffness(const Corner& corner, double rest_volume) {
 
 double corner_energy(const MassSpringModel& model, const std::vector<Vec3>& x) {
   double energy = 0;
-  for (const Corner& corner : model.corners) {
-    const double rest = corner_volume(corner, model.rest);
-    const double depth = kCornerResists - corner_volume(corner, x) / rest;
-    if (depth > 0) energy += penalty_energy(corner_stiffness(corner, rest), depth);
-  }
+  for (const Corner& corner : model.corners) energy += energy_of(model, corner, x);
+  return energy;
+}
+
+double corner_energy(const MassSpringModel& model, const std::vector<std::uint32_t>& corners,
+                     const std::vector<Vec3>& x) {
+  double energy = 0;
+  for (const std::uint32_t c : corners) energy += energy_of(model, model.corners[c], x);
   return energy;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -17,6 +18,9 @@ double corner_stiffness(const Corner& corner, double rest_volume);
 
 /// Sum of U over all corners at the positions x [m]: [J].
 double corner_energy(const MassSpringModel& model, const std::vector<Vec3>& x);
+/// Sum of U over some corners.
+double corner_energy(const MassSpringModel& model, const std::vector<std::uint32_t>& corners,
+                     const std::vector<Vec3>& x);
 
 /// The nodes of a corner at four positions [m].
 using CornerNodes = std::array<Vec3, 4>;

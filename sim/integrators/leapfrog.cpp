@@ -12,6 +12,7 @@ Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const
     : StepByStep(model, scenario, start, step, options.skin.get()),
       integrator_(options.integrator),
       with_ledger_(options.ledger),
+      books_scheme_(options.ledger && options.integrator == Integrator::velocity_verlet),
       volumes_(options.volumes),
       v_minus_(start.v),
       v_plus_(start.v),
@@ -21,7 +22,8 @@ Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const
       correction_(model, points_, finder_, obstacle_count_, options.volumes),
       v_step_(start.v),
       x_next_(start.x),
-      v_next_(start.v) {
+      v_next_(start.v),
+      booked_corners_(volumes_ ? corner_energy(model, start.x) : 0) {
   finder_.find(x_, start.v, contacts_);
   correction_.solver().set(contacts_);
   find_forces(false);
@@ -44,6 +46,11 @@ void Leapfrog::find_forces(bool with_damping) {
 void Leapfrog::prepare() {
   find_forces(with_ledger_);
   if (with_ledger_ && n_ > 0) book_damping(v_minus_);
+  if (books_scheme_) {
+    const double before = elastic_;
+    elastic_ = elastic_energy(*model_, x_);
+    if (n_ > 0) losses_.lost_scheme += before - elastic_ - half_spring_work();
+  }
   for (std::size_t i = 0; i < x_.size(); ++i) {
     v_plus_[i] = v_minus_[i] + step_ * (force_[i] / model_->mass[i] + gravity_);
     x_next_[i] = x_[i] + step_ * v_plus_[i];
@@ -59,7 +66,10 @@ void Leapfrog::prepare() {
 void Leapfrog::commit() {
   if (with_ledger_) {
     book_damping(v_plus_);
+    if (books_scheme_) losses_.lost_scheme -= half_spring_work();
     book_correction();
+    if (volumes_)
+      booked_corners_ = corner_energy(*model_, correction_.solver().resisting(), x_next_);
   }
   if (integrator_ == Integrator::velocity_verlet)
     for (std::size_t i = 0; i < x_.size(); ++i)
@@ -76,6 +86,14 @@ void Leapfrog::book_damping(const std::vector<Vec3>& v) {
   double damping = 0;
   for (std::size_t i = 0; i < x_.size(); ++i) damping -= damping_force_[i].dot(v[i]);
   losses_.lost_damping += 0.5 * step_ * damping;
+}
+
+// Half of the trapezoid rule for the work of the springs over a step, with the forces at x_n.
+double Leapfrog::half_spring_work() const {
+  double power = 0;
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    power += (force_[i] - damping_force_[i]).dot(v_step_[i]);
+  return 0.5 * step_ * power;
 }
 
 // See LedgerEntry. The damping forces take their own part.
@@ -121,7 +139,9 @@ LedgerEntry Leapfrog::ledger_entry() const {
   entry.time = time();
   for (std::size_t i = 0; i < x_.size(); ++i)
     entry.kinetic += 0.5 * model_->mass[i] * v_minus_[i].dot(v_plus_[i]);
-  entry.elastic = elastic_energy(*model_, x_) + (volumes_ ? corner_energy(*model_, x_) : 0);
+  const double corners = volumes_ ? corner_energy(*model_, x_) : 0;
+  entry.elastic = elastic_energy(*model_, x_) + corners;
+  entry.lost_corners -= corners - booked_corners_;
   entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);
   return entry;

@@ -47,6 +47,7 @@ class Leapfrog final : public StepByStep {
   void find_forces(bool with_damping);
   /// Half of the damping losses of a step, with the velocity v- or v+.
   void book_damping(const std::vector<Vec3>& v);
+  double half_spring_work() const;
   /// The losses of the correction of the next step; book_end: their part that depends on the forces
   /// at its end, one step later.
   void book_correction();
@@ -56,6 +57,7 @@ class Leapfrog final : public StepByStep {
 
   Integrator integrator_;
   bool with_ledger_;
+  bool books_scheme_;  // symplectic Euler does not: see LedgerEntry
   bool volumes_;
   std::vector<Vec3> v_minus_, v_plus_;
   std::vector<Vec3> v_damping_;  // w_n; unused by symplectic Euler
@@ -63,6 +65,10 @@ class Leapfrog final : public StepByStep {
   PlainCorrection correction_;
   std::vector<Vec3> v_step_;
   std::vector<Vec3> x_next_, v_next_;  // at the end of the step that prepare() computed
+  double elastic_ = 0;                 // energy of the springs at x_n [J]
+  // Energy at x_n of the corners that resist, as far as the losses contain it; the next step books
+  // that of corners which others have pressed since they were checked [J].
+  double booked_corners_;
   LedgerEntry losses_;
 };
 

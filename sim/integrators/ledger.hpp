@@ -14,8 +14,15 @@ namespace springlod::sim {
 /// except for rounding, for any step. If that sum is split by forces instead of by steps, a
 /// dissipative force F_d loses -dt F_d . (v- + v+) / 2 per step (half of it in the first and the
 /// last step). Every loss is computed from its own force, and none as the remainder of the others.
-/// The sum of all entries is therefore an independent check. It shows the trapezoid error of
-/// rotating springs, and nodes that move to another face of a box.
+/// The sum of all entries is therefore an independent check.
+///
+/// lost_scheme is the error of a scheme in the steps without contacts and corners. Velocity Verlet
+/// computes it from the springs: the trapezoid rule of their work is not exact if they rotate or
+/// are strained much. Runge-Kutta computes it from the energies before and after such a step and
+/// the work of damping in it, so that its sum checks contacts, friction and corners. Symplectic
+/// Euler keeps the trapezoid error small by its step, and the implicit schemes cannot separate
+/// their error from the contacts, which they solve with the springs: in both, it is the drift of
+/// the sum.
 ///
 /// Contacts take from the motion what they store or lose (NormalLaw), but the displacement of a
 /// node that they push differs from the velocities at both ends of the step. By this discretization
@@ -34,11 +41,13 @@ struct LedgerEntry {
   double lost_friction = 0;  ///< to sliding, and to the dampers of stick springs
   double lost_contact = 0;   ///< to contact damping and the discretization error of contacts
   double lost_corners = 0;   ///< to corner damping and the discretization error of corners
+  double lost_scheme = 0;    ///< to the error of the scheme; < 0: it gained energy
   double lost_switch = 0;    ///< to a change of the level, or of the step (K_n depends on it)
   /// The energy that can still become motion.
   double mechanical() const { return kinetic + elastic + gravity + contact; }
   double total() const {
-    return mechanical() + lost_damping + lost_friction + lost_contact + lost_corners + lost_switch;
+    return mechanical() + lost_damping + lost_friction + lost_contact + lost_corners + lost_scheme +
+           lost_switch;
   }
 };
 

@@ -17,18 +17,27 @@ WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, con
       v_next_(start.v),
       implicit_(is_implicit(options.integrator)),
       volumes_(options.volumes && !implicit_),
-      correction_(model, points_, finder_, obstacle_count_, options.volumes) {
+      correction_(model, points_, finder_, obstacle_count_, options.volumes),
+      booked_corners_(volumes_ ? corner_energy(model, start.x) : 0) {
   finder_.find(x_, v_, contacts_);
   correction_.solver().set(contacts_);
 }
 
 void WholeStep::prepare() {
   solve();
+  const double damping = lost_damping_ - next_losses_.lost_damping;
   next_losses_.lost_damping = lost_damping_;
-  if (implicit_)
-    find_contacts();
-  else
-    correct();
+  if (implicit_) return find_contacts();
+  if (with_ledger_) next_losses_.lost_scheme += lost_energy() - damping;
+  correct();
+}
+
+double WholeStep::lost_energy() const {
+  double lost = elastic_energy(*model_, x_) - elastic_energy(*model_, x_next_);
+  for (std::size_t i = 0; i < x_.size(); ++i)
+    lost += model_->mass[i] * (0.5 * (v_[i].squaredNorm() - v_next_[i].squaredNorm()) +
+                               gravity_.dot(x_next_[i] - x_[i]));
+  return lost;
 }
 
 void WholeStep::correct() {
@@ -92,6 +101,8 @@ void WholeStep::add_friction() {
 }
 
 void WholeStep::commit() {
+  if (with_ledger_ && volumes_)
+    booked_corners_ = corner_energy(*model_, correction_.solver().resisting(), x_next_);
   std::swap(x_, x_next_);
   std::swap(v_, v_next_);
   std::swap(contacts_, next_contacts_);
@@ -115,7 +126,9 @@ LedgerEntry WholeStep::ledger_entry() const {
   entry.time = time();
   for (std::size_t i = 0; i < x_.size(); ++i)
     entry.kinetic += 0.5 * model_->mass[i] * v_[i].squaredNorm();
-  entry.elastic = elastic_energy(*model_, x_) + (volumes_ ? corner_energy(*model_, x_) : 0);
+  const double corners = volumes_ ? corner_energy(*model_, x_) : 0;
+  entry.elastic = elastic_energy(*model_, x_) + corners;
+  entry.lost_corners -= corners - booked_corners_;
   entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);
   return entry;

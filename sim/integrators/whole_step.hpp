@@ -15,8 +15,8 @@ namespace springlod::sim {
 /// corrected after it: see StepCorrection.
 ///
 /// Its ledger holds the true energies of (x_n, v_n) and the work of each dissipative force in the
-/// discrete scheme. No entry holds the numerical gain or loss of a scheme: it appears as the drift
-/// of the total.
+/// discrete scheme. The numerical gain or loss of an explicit scheme is lost_scheme, that of an
+/// implicit one appears as the drift of the total.
 class WholeStep : public StepByStep {
  public:
   void prepare() final;
@@ -47,6 +47,8 @@ class WholeStep : public StepByStep {
  private:
   void commit() final;
   const std::vector<Vec3>& step_velocities() const final { return v_next_; }
+  /// Energy of the body at x_n less that at the end of the step [J], without contacts and corners.
+  double lost_energy() const;
   void correct();
   /// What the correction of a step adds to the energy of the body beyond its work [J], with the
   /// corners or by contacts alone. `free_x`, `free_v`: at its end, without it.
@@ -59,6 +61,9 @@ class WholeStep : public StepByStep {
   bool volumes_;
   PlainCorrection correction_;  // of an explicit scheme
   std::vector<Contact> next_contacts_;
+  // Energy at x_n of the corners that resist, as far as the losses contain it; the next step books
+  // that of corners which others have pressed since they were checked [J].
+  double booked_corners_;
   // Losses of the step to x_{n+1}, added to the ledger when the step is taken.
   LedgerEntry losses_, next_losses_;
 };

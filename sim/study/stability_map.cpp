@@ -87,7 +87,7 @@ double worst_drift(const std::vector<LedgerEntry>& ledger) {
   double worst = 0;
   const double first = ledger.front().total();
   for (const LedgerEntry& entry : ledger) {
-    const double drift = (entry.total() - first) / first;
+    const double drift = (entry.total() - entry.lost_scheme - first) / first;
     if (std::abs(drift) > std::abs(worst)) worst = drift;
   }
   return worst;

@@ -149,7 +149,8 @@ struct StabilityPoint {
   /// The worst node of a run that diverged, of an inverted spring or of a mechanism.
   std::optional<std::uint32_t> node;
   // Of finished runs:
-  double energy_drift = 0;  ///< largest signed change of the ledger's total / first total [1]
+  double energy_drift = 0;  ///< largest signed change of the ledger's total without
+                            ///< lost_scheme / first total [1]
   /// RMS distance of the nodes from those of the reference over the RMS of its displacement from
   /// the start, both weighted by mass, over kSamples common times [1].
   double error = 0;

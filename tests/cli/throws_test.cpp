@@ -45,6 +45,7 @@ TEST_CASE("throws --quick: bodies keep their shape, and two runs write the same 
     CHECK(number(row, "inverted_at_end") <= number(row, "most_inverted"));
     CHECK((number(row, "most_inverted") > 0) == !row.at("first_inversion").empty());
     CHECK(number(row, "ledger_error") < 0.05);
+    CHECK((number(row, "scheme_error") > 0) == (row.at("integrator") != "symplectic_euler"));
     if (number(row, "corners") > 0) {  // small levels may have none
       CHECK(number(row, "volume_ratio") > 0.5);
       CHECK(number(row, "volume_ratio") < 1.5);

@@ -95,11 +95,11 @@ local function make_scene(throw, base)
   }
 end
 
--- The largest deviation of the ledger's total from its start, over the largest kinetic energy.
-local function ledger_error(ledger)
+-- The largest deviation of an entry of the ledger from its start, over the largest kinetic energy.
+local function deviation(ledger, name)
   local gap, kinetic = 0, 0
   for _, entry in ipairs(ledger) do
-    gap = math.max(gap, math.abs(entry.total - ledger[1].total))
+    gap = math.max(gap, math.abs(entry[name] - ledger[1][name]))
     kinetic = math.max(kinetic, entry.kinetic)
   end
   return kinetic > 0 and gap / kinetic or 0
@@ -148,7 +148,8 @@ end
 local function measured(row, model, run)
   row.inverted_at_end, row.most_inverted = run.inverted_at_end, run.most_inverted
   row.first_inversion = run.first_inversion and run.first_inversion.time or ""
-  row.ledger_error = ledger_error(run.ledger)
+  row.ledger_error = deviation(run.ledger, "total")
+  row.scheme_error = deviation(run.ledger, "lost_scheme")
   row.simulated, row.steps, row.spring_updates = run.simulated, run.steps, run.spring_updates
   row.step, row.shortest_step = run.step, run.shortest_step
   row.volume_ratio = volume_ratio(model, run.final.x)

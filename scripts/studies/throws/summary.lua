@@ -5,14 +5,14 @@ local command = require "lib.command"
 
 local summary = {}
 
-local much = 0.01 -- ledger error from which a run counts as inaccurate
+local much = 0.01 -- ledger or scheme error from which a run counts as inaccurate
 local worst_count = 5 -- entries in each list of the worst runs
 
 -- The columns of throws.csv: those of a run, then the parameters of its throw.
 local run_columns = {
   "level", "nodes", "springs", "corners", "inverted_at_end", "most_inverted", "first_inversion",
-  "ledger_error", "volume_ratio", "simulated", "steps", "step", "shortest_step", "spring_updates",
-  "error", "message",
+  "ledger_error", "scheme_error", "volume_ratio", "simulated", "steps", "step", "shortest_step",
+  "spring_updates", "error", "message",
 }
 local throw_columns = {
   "shape", "cells", "cell", "base", "layout", "young", "ratio", "grouping", "fitted", "contact",
@@ -56,6 +56,7 @@ end
 local function at_end(row) return not row.error and row.inverted_at_end > 0 end
 local function on_the_way(row) return not row.error and row.most_inverted > 0 end
 local function inaccurate(row) return not row.error and row.ledger_error > much end
+local function coarse(row) return not row.error and row.scheme_error > much end
 local function failed(row) return row.error ~= nil end
 
 local function count(rows, accepts)
@@ -78,7 +79,7 @@ end
 
 local count_columns = {
   "level", "runs", "failed", "inverted at end", "inverted on the way", "ledger error > 1 %",
-  "median ledger error [%]", "largest [%]",
+  "median ledger error [%]", "largest [%]", "scheme error > 1 %",
 }
 
 local function count_row(name, rows)
@@ -87,6 +88,7 @@ local function count_row(name, rows)
   return {
     name, #rows, count(rows, failed), count(rows, at_end), count(rows, on_the_way),
     count(rows, inaccurate), percent(errors[(#errors + 1) // 2]), percent(errors[#errors]),
+    count(rows, coarse),
   }
 end
 
@@ -135,6 +137,9 @@ local lists = {
   {name = "ledger error > 1 %", accepts = inaccurate,
    value = function(row) return row.ledger_error end,
    text = function(row) return ("%.3g %%"):format(100 * row.ledger_error) end},
+  {name = "scheme error > 1 %", accepts = coarse,
+   value = function(row) return row.scheme_error end,
+   text = function(row) return ("%.3g %%"):format(100 * row.scheme_error) end},
   {name = "failed", accepts = failed, value = function() return 0 end,
    text = function(row) return row.message end},
 }
@@ -218,12 +223,13 @@ function summary.timeline(model, run)
     list[i] = {
       entry.time, #model:inverted_corners(frame), entry.kinetic, entry.elastic, entry.contact,
       entry.lost_damping, entry.lost_friction, entry.lost_contact, entry.lost_corners,
-      entry.lost_switch, entry.total - ledger[1].total,
+      entry.lost_scheme, entry.lost_switch, entry.total - ledger[1].total,
     }
   end
   return s.format_table(list, {columns = {
     "time [s]", "inverted", "kinetic [J]", "elastic [J]", "contact [J]", "lost to damping [J]",
-    "friction [J]", "contact loss [J]", "corners [J]", "step changes [J]", "ledger gap [J]",
+    "friction [J]", "contact loss [J]", "corners [J]", "scheme [J]", "step changes [J]",
+    "ledger gap [J]",
   }})
 end
 

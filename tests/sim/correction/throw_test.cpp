@@ -200,3 +200,25 @@ TEST_CASE("Frames do not change a run whose step is adapted") {
     }
   }
 }
+
+TEST_CASE("Verlet and Runge-Kutta close the ledger at the default step and name their own error") {
+  const MassSpringModel& model = bar().levels[0].model;
+  const Integrator integrator = GENERATE(Integrator::velocity_verlet, Integrator::runge_kutta_4);
+  // Fraction of the kinetic energy that the scheme takes or gives.
+  const auto lost_scheme = [&](double safety) {
+    CAPTURE(to_string(integrator), safety);
+    const Trajectory t = run(model, test::bar_throw(12),
+                             {.integrator = integrator, .safety = safety, .frame_rate = 500});
+    CHECK(closure_error(t.ledger) < 1e-9);
+    // If the part of the scheme were the remainder of all others, the sum would also close here.
+    for (const auto part : {&LedgerEntry::lost_contact, &LedgerEntry::lost_corners}) {
+      auto without = t.ledger;
+      for (LedgerEntry& entry : without) entry.*part = 0;
+      CHECK(closure_error(without) > 1e-4);
+    }
+    return std::abs(t.ledger.back().lost_scheme) / largest_kinetic(t);
+  };
+  const double usual = lost_scheme(0.8);
+  CHECK(usual > 1e-3);
+  CHECK(lost_scheme(0.2) < 0.2 * usual);
+}
