@@ -54,7 +54,22 @@ void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const Cont
   for (const ContactPoints::Share& share : points_->shares(point))
     shares_.push_back({nodes.slot(share.node), share.weight, share.kick});
   touch.end = static_cast<std::uint32_t>(shares_.size());
+  if (was != nullptr) start_from(*was, touch, nodes);
   touches_.push_back(std::move(touch));
+}
+
+// The forces of the last step need fewer sweeps than none.
+void StepContacts::start_from(const Contact& was, Touch& touch, StepNodes& nodes) const {
+  Contact& contact = touch.contact;
+  contact.normal_force = was.normal_force;
+  contact.slip_change = was.slip_change;
+  push(touch, touch.law.mobility * was.normal_force * contact.normal + step_ * was.slip_change,
+       nodes);
+}
+
+void StepContacts::push(const Touch& touch, const Vec3& change, StepNodes& nodes) const {
+  for (std::uint32_t s = touch.first; s < touch.end; ++s)
+    nodes.move(shares_[s].slot, shares_[s].kick * change);
 }
 
 void StepContacts::solve(StepNodes& nodes) {
@@ -93,8 +108,7 @@ double StepContacts::update(Touch& touch, StepNodes& nodes) {
   const Vec3 slid = contact.friction > 0 ? update_friction(touch, at) : Vec3::Zero();
   const Vec3 change = pushed + slid;
   if (change.isZero(0)) return 0;
-  for (std::uint32_t s = touch.first; s < touch.end; ++s)
-    nodes.move(shares_[s].slot, shares_[s].kick * change);
+  push(touch, change, nodes);
   return change.norm();
 }
 

@@ -68,6 +68,9 @@ class StepContacts {
     double kick = 0;         // see ContactPoints::Share [1]
   };
 
+  void start_from(const Contact& was, Touch& touch, StepNodes& nodes) const;
+  /// Moves the nodes of a point so that it moves by `change` [m].
+  void push(const Touch& touch, const Vec3& change, StepNodes& nodes) const;
   /// Updates the forces of a contact and the nodes of its point; returns the point's change [m].
   double update(Touch& touch, StepNodes& nodes);
   /// `at`: position of the point. Returns its change [m].

@@ -38,17 +38,13 @@ void PlainCorrection::correct(double step, const std::vector<Vec3>& x, std::vect
   solver_.begin(step, paths);
   check_contacts(x, x_next);
   solver_.solve_contacts();
-  if (!model_->corners.empty()) check_corners(step, x, x_next);
+  if (!model_->corners.empty()) correct_corners(step, x, x_next);
   solver_.finish();
-  double most = 0;
-  by_contacts_.resize(solver_.changes().size(), Vec3::Zero());
-  auto by_contacts = by_contacts_.begin();  // changes have the order of StepNodes
   for (const NodeChange& change : solver_.changes()) {
     x_next[change.node] += change.displacement;
     v_next[change.node] += change.kick;
-    most = std::max(most, (change.displacement - *by_contacts++).squaredNorm());
   }
-  watch_.corrected(std::sqrt(most), solver_.resisting());
+  watch_.corrected(solver_.take_travel(), solver_.resisting());
 }
 
 void PlainCorrection::check_contacts(const std::vector<Vec3>& x, const std::vector<Vec3>& x_next) {
@@ -62,8 +58,19 @@ void PlainCorrection::check_contacts(const std::vector<Vec3>& x, const std::vect
     }
 }
 
-void PlainCorrection::check_corners(double step, const std::vector<Vec3>& x,
-                                    const std::vector<Vec3>& x_next) {
+void PlainCorrection::correct_corners(double step, const std::vector<Vec3>& x,
+                                      const std::vector<Vec3>& x_next) {
+  double travel = free_travel(step, x, x_next);
+  do {
+    if (watch_.moved(travel + solver_.take_travel())) look(step, x, x_next);
+    travel = 0;
+    watch_.check(
+        [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
+  } while (solver_.solve_corners());
+}
+
+double PlainCorrection::free_travel(double step, const std::vector<Vec3>& x,
+                                    const std::vector<Vec3>& x_next) const {
   const Vec3 from = springlod::center_of_mass(*model_, x);
   const Vec3 displacement = springlod::center_of_mass(*model_, x_next) - from;
   double most = 0;
@@ -71,31 +78,26 @@ void PlainCorrection::check_corners(double step, const std::vector<Vec3>& x,
     const Vec3 rigid = displacement + step * spin_.cross(x[i] - from);
     most = std::max(most, (x_next[i] - x[i] - rigid).squaredNorm());
   }
-  double by_contacts = 0;
-  const StepNodes& nodes = solver_.nodes();
-  by_contacts_.clear();
-  for (std::uint32_t i = 0; i < nodes.count(); ++i) {
-    by_contacts_.push_back(nodes.displacement(i));
-    by_contacts = std::max(by_contacts, by_contacts_.back().squaredNorm());
-  }
-  if (watch_.moved(std::sqrt(most) + std::sqrt(by_contacts))) {
-    State state{x, x_next, 0};
-    for (std::size_t i = 0; i < x.size(); ++i) state.v[i] = (x_next[i] - x[i]) / step;
-    spin_ = angular_velocity(*model_, state);
-    state.x = x_next;
-    for (std::uint32_t i = 0; i < nodes.count(); ++i) state.x[nodes.node(i)] = nodes.at(i);
-    look_at_corners(state.x);
-  }
-  watch_.check(
-      [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
+  return std::sqrt(most);
 }
 
-void PlainCorrection::look_at_corners(const std::vector<Vec3>& x_next) {
+void PlainCorrection::look(double step, const std::vector<Vec3>& x,
+                           const std::vector<Vec3>& x_next) {
+  State state{x, x_next, 0};
+  for (std::size_t i = 0; i < x.size(); ++i) state.v[i] = (x_next[i] - x[i]) / step;
+  spin_ = angular_velocity(*model_, state);
+  state.x = x_next;
+  const StepNodes& nodes = solver_.nodes();
+  for (std::uint32_t i = 0; i < nodes.count(); ++i) state.x[nodes.node(i)] = nodes.at(i);
+  look_at_corners(state.x);
+}
+
+void PlainCorrection::look_at_corners(const std::vector<Vec3>& x) {
   found_.clear();
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t c = 0; c < model_->corner_count(); ++c) {
     if (!(watch_.travel() < due_[c])) {
-      const double margin = corner_margin(model_->corners[c], model_->rest, x_next);
+      const double margin = corner_margin(model_->corners[c], model_->rest, x);
       const bool has_margin = margin >= 0;
       if (!has_margin) found_.push_back(c);
       due_[c] = has_margin ? due_travel(watch_.travel(), margin) : kDueAtOnce;

@@ -25,8 +25,12 @@ class PlainCorrection {
 
  private:
   void check_contacts(const std::vector<Vec3>& x, const std::vector<Vec3>& x_next);
-  void check_corners(double step, const std::vector<Vec3>& x, const std::vector<Vec3>& x_next);
-  void look_at_corners(const std::vector<Vec3>& x_next);
+  void correct_corners(double step, const std::vector<Vec3>& x, const std::vector<Vec3>& x_next);
+  /// Travel of the step without contacts and corners: see CornerWatch [m].
+  double free_travel(double step, const std::vector<Vec3>& x,
+                     const std::vector<Vec3>& x_next) const;
+  void look(double step, const std::vector<Vec3>& x, const std::vector<Vec3>& x_next);
+  void look_at_corners(const std::vector<Vec3>& x);
 
   const MassSpringModel* model_;
   const ContactPoints* points_;
@@ -35,7 +39,6 @@ class PlainCorrection {
   CornerWatch watch_;
   std::vector<double> due_;           // travel at which each corner is due [m]
   std::vector<std::uint32_t> found_;  // by the last look
-  std::vector<Vec3> by_contacts_;     // displacement of nodes by contacts, before corners [m]
   Vec3 spin_ = Vec3::Zero();          // of the body at the last look [rad/s]
 };
 

@@ -20,13 +20,26 @@ constexpr double kLargestMove = 0.25;
 
 StepCorners::StepCorners(const MassSpringModel& model, bool resist)
     : model_(&model), resist_(resist) {
-  for (const Corner& corner : model.corners)
-    rest_volume_.push_back(corner_volume(corner, model.rest));
+  for (const Corner& corner : model.corners) {
+    const double volume = corner_volume(corner, model.rest);
+    kept_.push_back({.inverse_volume = 1 / volume,
+                     .stiffness = corner_stiffness(corner, volume),
+                     .largest_move = kLargestMove * std::cbrt(volume)});
+  }
+  for (const double mass : model.mass) inverse_mass_.push_back(1 / mass);
 }
 
 void StepCorners::begin(double step) {
   step_ = step;
+  for (const std::uint32_t corner : pressed_before_) kept_[corner].force = 0;
+  pressed_before_.clear();
+  for (const Press& press : presses_) {
+    kept_[press.corner].force = press.force;
+    kept_[press.corner].is_pressed = false;
+    pressed_before_.push_back(press.corner);
+  }
   presses_.clear();
+  started_ = 0;
   resisting_.clear();
   inverted_.clear();
   late_inverted_.clear();
@@ -36,6 +49,8 @@ void StepCorners::begin(double step) {
 
 void StepCorners::check(std::uint32_t number, bool resisted, StepNodes& nodes) {
   const Corner& corner = model_->corners[number];
+  Kept& kept = kept_[number];
+  if (kept.is_pressed) return;
   Press press;
   CornerNodes from;
   CornerNodes to;
@@ -44,77 +59,85 @@ void StepCorners::check(std::uint32_t number, bool resisted, StepNodes& nodes) {
     press.slot[i] = nodes.slot(corner.node[i]);
     from[i] = nodes.path(press.slot[i]).from;
     to[i] = nodes.at(press.slot[i]);
-    middle[i] = 0.5 * (from[i] + to[i]);
+    middle[i] = 0.5 * (from[i] + to[i] - nodes.by_corners(press.slot[i]));
   }
-  const double rest = rest_volume_[number];
-  const double start = volume_at(from) / rest;
-  const double end = volume_at(to) / rest;
+  const double start = volume_at(from) * kept.inverse_volume;
+  const double end = volume_at(to) * kept.inverse_volume;
   if (start >= kCornerResists && end >= kCornerResists) return;
   if (!resisted && !(start > 0)) late_inverted_.push_back(number);
   if (!resist_) return note(number, end);
+  kept.is_pressed = true;
   press.corner = number;
-  press.rest_volume = rest;
   press.before = kCornerResists - start;
   press.level = kCornerResists - end;
   press.gradient = volume_gradient(middle);
-  double inertia = 0;  // sum of |gradient|^2 / m [1/(m2 kg)]
+  double inertia = 0;  // sum of mobility |gradient|^2 [1/J]
   double most = 0;     // square of the largest displacement of a node by a unit force [m2/J2]
   for (std::size_t i = 0; i < 4; ++i) {
     Vec3& gradient = press.gradient[i];
-    gradient /= rest;
+    gradient *= kept.inverse_volume;
     press.level += gradient.dot(to[i]);
-    press.mobility[i] = step_ * step_ / 2 / model_->mass[corner.node[i]];
+    press.mobility[i] = step_ * step_ / 2 * inverse_mass_[corner.node[i]];
     const double square = gradient.squaredNorm();
     inertia += press.mobility[i] * square;
     most = std::max(most, press.mobility[i] * press.mobility[i] * square);
   }
-  if (!(inertia > 0)) return note(number, end);  // all four nodes in one place
-  const double stiffness = corner_stiffness(corner, rest);
+  press.law.stiffness = kept.stiffness;
   // Other corners or contacts pressed it after the look of the last step.
-  if (!resisted) loss_ -= penalty_energy(stiffness, press.before);
-  press.law = {.stiffness = stiffness,
-               .damping = std::sqrt(2 * kDampingRatio * kDampingRatio / (stiffness * inertia)),
-               .mobility = inertia};
-  press.largest_move = std::sqrt(most);
+  if (!resisted) loss_ -= penalty_energy(kept.stiffness, press.before);
+  if (inertia > 0) {  // else all four nodes are in one place, and no force moves them apart
+    press.law.damping = std::sqrt(2 * kDampingRatio * kDampingRatio / (kept.stiffness * inertia));
+    press.law.mobility = inertia;
+    press.move = std::sqrt(most);
+    press.most = kept.largest_move / press.move;
+  }
   presses_.push_back(press);
 }
 
-double StepCorners::linear_depth(const Press& press, const StepNodes& nodes) const {
+bool StepCorners::start(StepNodes& nodes) {
+  if (started_ == presses_.size()) return false;
+  for (; started_ < presses_.size(); ++started_) {
+    Press& press = presses_[started_];
+    press.force = std::min(press.most, kept_[press.corner].force);
+    if (press.force > 0) push(press, press.force, nodes);
+  }
+  return true;
+}
+
+double StepCorners::sweep(StepNodes& nodes) {
+  double largest_change = 0;
+  double largest = 0;
+  for (Press& press : presses_) {
+    if (press.most == 0) continue;
+    const double free = linear_depth(press, nodes) + press.law.mobility * press.force;
+    const double force = std::min(press.most, press.law.solve(press.before, free).force);
+    const double change = force - press.force;
+    if (change != 0) push(press, change, nodes);
+    press.force = force;
+    largest_change = std::max(largest_change, press.move * std::abs(change));
+    largest = std::max(largest, press.move * force);
+  }
+  return largest > 0 ? largest_change / largest : 0;
+}
+
+double StepCorners::linear_depth(const Press& press, const StepNodes& nodes) {
   double depth = press.level;
   for (std::size_t i = 0; i < 4; ++i) depth -= press.gradient[i].dot(nodes.at(press.slot[i]));
   return depth;
 }
 
-void StepCorners::sweep(StepNodes& nodes) {
-  for (Press& press : presses_) {
-    const double free = linear_depth(press, nodes) + press.law.mobility * press.force;
-    const double force = capped(press, press.law.solve(press.before, free).force);
-    const double change = force - press.force;
-    if (change == 0) continue;
-    press.force = force;
-    for (std::size_t i = 0; i < 4; ++i)
-      nodes.move(press.slot[i], change * press.mobility[i] * press.gradient[i]);
-  }
+void StepCorners::push(const Press& press, double force, StepNodes& nodes) {
+  for (std::size_t i = 0; i < 4; ++i)
+    nodes.move_by_corner(press.slot[i], force * press.mobility[i] * press.gradient[i]);
 }
 
-double StepCorners::capped(const Press& press, double force) {
-  const double move = force * press.largest_move;
-  if (move * move * move <= kLargestMove * kLargestMove * kLargestMove * press.rest_volume)
-    return force;
-  return kLargestMove * std::cbrt(press.rest_volume) / press.largest_move;
-}
-
-void StepCorners::finish(StepNodes& nodes) {
-  for (const Press& press : presses_) {
-    for (std::size_t i = 0; i < 4; ++i)
-      nodes.add_corners(press.slot[i], press.force * press.mobility[i] * press.gradient[i]);
-    book(press, nodes);
-  }
+void StepCorners::finish(const StepNodes& nodes) {
+  for (const Press& press : presses_) book(press, nodes);
 }
 
 // What the corner takes out of the motion is force * (linear depth at the end - at the start); the
-// rest of it that the corner does not store is lost to damping, the cap, cut short sweeps, and the
-// curvature of J.
+// rest of it that the corner does not store is lost to damping, the cap, the error of the sweeps,
+// and the curvature of J.
 void StepCorners::book(const Press& press, const StepNodes& nodes) {
   CornerNodes at;
   double work = 0;
@@ -122,7 +145,7 @@ void StepCorners::book(const Press& press, const StepNodes& nodes) {
     at[i] = nodes.at(press.slot[i]);
     work -= press.gradient[i].dot(at[i] - nodes.path(press.slot[i]).from);
   }
-  const double end = volume_at(at) / press.rest_volume;
+  const double end = volume_at(at) * kept_[press.corner].inverse_volume;
   loss_ += press.force * work - penalty_energy(press.law.stiffness, kCornerResists - end) +
            penalty_energy(press.law.stiffness, press.before);
   largest_change_ = std::max(largest_change_, std::abs(end - (kCornerResists - press.before)));

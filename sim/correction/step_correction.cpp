@@ -1,16 +1,26 @@
 #include "sim/correction/step_correction.hpp"
 
+#include <algorithm>
+
 namespace springlod::sim {
 namespace {
 
-// Sweeps over the corners in a step [1]. Corners that are cut short yield a little more within the
-// step; the ledger holds the difference as their loss.
-constexpr int kCornerSweeps = 2;
+// The sweeps over corners and contacts end when none of them moves a node by more than this
+// fraction of the largest displacement by a corner or contact [1]. Corners and contacts that press
+// against each other take many sweeps and undo each other when these are cut short; the ledger
+// holds the difference as a loss.
+constexpr double kTolerance = 1e-2;
+constexpr int kMostSweeps = 16;
+
+// Corners that are pressed by the last round are found in the next step, and the energy that they
+// got is booked as a gain [rounds].
+constexpr int kMostRounds = 3;
 
 }  // namespace
 
 void StepCorrection::begin(double step, const StepPaths& paths) {
   step_ = step;
+  rounds_ = 0;
   nodes_.begin(paths);
   contacts_.begin(step);
   corners_.begin(step);
@@ -23,14 +33,19 @@ void StepCorrection::solve_contacts() {
 }
 
 // The contacts come last, so that no corner presses a node into an obstacle.
-void StepCorrection::finish() {
-  if (!corners_.empty()) {
-    for (int i = 0; i < kCornerSweeps; ++i) {
-      corners_.sweep(nodes_);
-      if (!contacts_.empty()) contacts_.sweep(nodes_);
-    }
-    if (!contacts_.empty()) contacts_.solve(nodes_);
+bool StepCorrection::solve_corners() {
+  if (!corners_.start(nodes_)) return false;
+  double change = 1;
+  for (int i = 0; i < kMostSweeps && change > kTolerance; ++i) {
+    change = corners_.sweep(nodes_);
+    if (!contacts_.empty()) change = std::max(change, contacts_.sweep(nodes_));
+    if (!nodes_.shared()) break;
   }
+  solve_contacts();
+  return ++rounds_ < kMostRounds;
+}
+
+void StepCorrection::finish() {
   contacts_.finish(nodes_);
   corners_.finish(nodes_);
   nodes_.finish(step_, changes_);

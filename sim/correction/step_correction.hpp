@@ -19,6 +19,7 @@ namespace springlod::sim {
 ///   for each obstacle, for each point that may touch it: check_contact(...);
 ///   solve_contacts();
 ///   for each corner that is near inversion: check_corner(...);
+///   while (solve_corners()) for each corner that is near inversion now: check_corner(...);
 ///   finish();
 class StepCorrection {
  public:
@@ -48,12 +49,16 @@ class StepCorrection {
     contacts_.check(obstacle, point, was, path, nodes_);
   }
   void solve_contacts();
-  /// The nodes that the contacts moved.
+  /// The nodes, as the contacts and corners so far have moved them.
   const StepNodes& nodes() const { return nodes_; }
+  double take_travel() { return nodes_.take_travel(); }
   /// See StepCorners::check.
   void check_corner(std::uint32_t corner, bool resisted) {
     corners_.check(corner, resisted, nodes_);
   }
+  /// Solves the corners and the contacts together. Returns whether to look for further corners,
+  /// which the new ones may have pressed.
+  bool solve_corners();
   void finish();
 
   /// How the nodes change at the end of the step.
@@ -68,6 +73,7 @@ class StepCorrection {
 
  private:
   double step_ = 0;  // [s]
+  int rounds_ = 0;   // of solve_corners() with new corners
   StepNodes nodes_;
   StepContacts contacts_;
   StepCorners corners_;

@@ -1,5 +1,8 @@
 #include "sim/correction/step_nodes.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace springlod::sim {
 
 void StepNodes::begin(const StepPaths& paths) {
@@ -9,6 +12,7 @@ void StepNodes::begin(const StepPaths& paths) {
   node_.clear();
   paths_.clear();
   at_.clear();
+  seen_.clear();
   slide_.clear();
   corners_.clear();
 }
@@ -23,9 +27,19 @@ std::uint32_t StepNodes::slot(std::uint32_t node) {
   node_.push_back(node);
   paths_.push_back(of_step_->path(node));
   at_.push_back(paths_.back().to);
+  seen_.push_back(at_.back());
   slide_.emplace_back(Vec3::Zero());
   corners_.emplace_back(Vec3::Zero());
   return slot;
+}
+
+double StepNodes::take_travel() {
+  double most = 0;
+  for (std::size_t i = 0; i < at_.size(); ++i) {
+    most = std::max(most, (at_[i] - seen_[i]).squaredNorm());
+    seen_[i] = at_[i];
+  }
+  return std::sqrt(most);
 }
 
 void StepNodes::finish(double step, std::vector<NodeChange>& changes) const {

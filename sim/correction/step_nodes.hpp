@@ -63,9 +63,16 @@ class StepNodes {
   const Vec3& at(std::uint32_t slot) const { return at_[slot]; }
   Vec3 displacement(std::uint32_t slot) const { return at_[slot] - paths_[slot].to; }
   void move(std::uint32_t slot, const Vec3& displacement) { at_[slot] += displacement; }
-  /// The displacement by friction or by corners, once it is final.
+  /// Largest displacement of a node since the last call in this step [m].
+  double take_travel();
+  void move_by_corner(std::uint32_t slot, const Vec3& displacement) {
+    move(slot, displacement);
+    corners_[slot] += displacement;
+  }
+  /// Displacement by corners so far [m].
+  const Vec3& by_corners(std::uint32_t slot) const { return corners_[slot]; }
+  /// The displacement by friction, once it is final.
   void add_slide(std::uint32_t slot, const Vec3& slide) { slide_[slot] += slide; }
-  void add_corners(std::uint32_t slot, const Vec3& displacement) { corners_[slot] += displacement; }
   const Vec3& slide(std::uint32_t slot) const { return slide_[slot]; }
 
   /// Appends the change of each node in a step of length `step` [s].
@@ -81,6 +88,7 @@ class StepNodes {
   std::vector<std::uint32_t> node_;
   std::vector<StepPath> paths_;
   std::vector<Vec3> at_;       // at the end of the step, so far [m]
+  std::vector<Vec3> seen_;     // at_ at the last take_travel() [m]
   std::vector<Vec3> slide_;    // displacement by friction [m]
   std::vector<Vec3> corners_;  // displacement by corners [m]
 };

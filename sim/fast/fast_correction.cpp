@@ -19,6 +19,8 @@ FastCorrection::FastCorrection(const Shared& shared)
 void FastCorrection::correct_contacts(const FastStep& step) {
   paths_.begin(step);
   solver_.begin(step.length, paths_);
+  shown_.clear();
+  shift_ = 0;
   near_.check(step, solver_);
   solver_.solve_contacts();
 }
@@ -36,10 +38,8 @@ double FastCorrection::take_travel(const FastStep& step) {
     return path.to - path.from - step.length * velocity;
   };
   const StepNodes& nodes = solver_.nodes();
-  by_contacts_.clear();
   for (std::uint32_t i = 0; i < nodes.count(); ++i) {
-    by_contacts_.push_back(nodes.displacement(i));
-    most = std::max(most, (departure(nodes.path(i)) + by_contacts_.back()).squaredNorm());
+    most = std::max(most, (departure(nodes.path(i)) + nodes.displacement(i)).squaredNorm());
     pressed_at_[nodes.node(i)] = step.number;
   }
   for (const std::uint32_t node : pressed_) {
@@ -52,18 +52,27 @@ double FastCorrection::take_travel(const FastStep& step) {
     pressed_.push_back(nodes.node(i));
     shared_.body->count_departure(shared_.body->place(nodes.node(i)), false);
   }
+  solver_.take_travel();  // that of the contacts is counted
   return std::sqrt(most);
 }
 
 bool FastCorrection::corners_due(double travel) {
   looking_ = watch_.moved(travel);
   if (!looking_) return false;
-  // The look must find the nodes where the contacts have left them.
-  const StepNodes& nodes = solver_.nodes();
-  for (std::uint32_t i = 0; i < nodes.count(); ++i)
-    shared_.body->shift(shared_.body->place(nodes.node(i)), by_contacts_[i], Vec3::Zero());
+  show_nodes();
   look_ = {watch_.travel(), shared_.body->farthest_coordinate()};
   return true;
+}
+
+// A look must find the nodes where the contacts and corners have left them.
+void FastCorrection::show_nodes() {
+  const StepNodes& nodes = solver_.nodes();
+  shown_.resize(nodes.count(), Vec3::Zero());
+  for (std::uint32_t i = 0; i < nodes.count(); ++i) {
+    const Vec3 displacement = nodes.displacement(i);
+    shared_.body->shift(shared_.body->place(nodes.node(i)), displacement - shown_[i], Vec3::Zero());
+    shown_[i] = displacement;
+  }
 }
 
 void FastCorrection::look_at_corners(std::uint32_t block) {
@@ -77,34 +86,38 @@ void FastCorrection::finish_look() {
   looking_ = false;
 }
 
-void FastCorrection::correct_corners(const FastStep& step) {
-  const bool looked = looking_;
-  if (looked) finish_look();
+bool FastCorrection::solve_corners() {
+  if (looking_) finish_look();
   watch_.check(
       [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
+  return solver_.solve_corners() && corners_due(shifted());
+}
+
+double FastCorrection::shifted() {
+  const double shift = solver_.take_travel();
+  shift_ += shift;
+  return shift;
+}
+
+void FastCorrection::finish(const FastStep& step) {
   solver_.finish();
-  apply(step, looked);
+  watch_.corrected(shifted(), solver_.resisting());
+  apply(step);
   near_.check_walls(step);
   note_inversions(step);
 }
 
-// The changes have the order of StepNodes: the nodes that contacts moved come first.
-void FastCorrection::apply(const FastStep& step, bool looked) {
+void FastCorrection::apply(const FastStep& step) {
   double most = 0;
-  double after_contacts = 0;
-  by_contacts_.resize(solver_.changes().size(), Vec3::Zero());
-  auto by_contacts = by_contacts_.begin();
+  shown_.resize(solver_.changes().size(), Vec3::Zero());
+  auto shown = shown_.begin();  // in the order of StepNodes, as the changes
   for (const NodeChange& change : solver_.changes()) {
-    const Vec3 rest = change.displacement - *by_contacts++;
-    shared_.body->shift(shared_.body->place(change.node), looked ? rest : change.displacement,
+    shared_.body->shift(shared_.body->place(change.node), change.displacement - *shown++,
                         change.kick);
     paths_.shift(change.node, change.displacement);
     most = std::max(most, change.displacement.squaredNorm());
-    after_contacts = std::max(after_contacts, rest.squaredNorm());
   }
   near_.corrected(std::sqrt(most));
-  largest_shift_ = std::sqrt(after_contacts);
-  watch_.corrected(largest_shift_, solver_.resisting());
   if (!first_step_ && !contacts().empty()) first_step_ = step.number;
   if (!shared_.with_ledger) return;
   losses_.contact += solver_.losses().contact;

@@ -18,8 +18,11 @@ namespace springlod::sim {
 /// the corners are looked at by all. Calls for each drift, when all blocks have moved:
 ///
 ///   one thread:  correct_contacts(step); bool look = corners_due(take_travel(step));
-///   if (look) for each block, by any thread: look_at_corners(block);
-///   one thread:  correct_corners(step);
+///   do {
+///     if (look) for each block, by any thread: look_at_corners(block);
+///     one thread:  look = solve_corners();
+///   } while (look);
+///   one thread:  finish(step);
 class FastCorrection {
  public:
   /// Everything must outlive this.
@@ -45,8 +48,10 @@ class FastCorrection {
   /// `travel`: that.
   bool corners_due(double travel);
   void look_at_corners(std::uint32_t block);
+  /// Returns whether to look again: the corners may have pressed others.
+  bool solve_corners();
   /// Ends the correction.
-  void correct_corners(const FastStep& step);
+  void finish(const FastStep& step);
   /// Books the part of the losses that depends on the forces at the end of the last step. Call it
   /// when the body has collected them.
   void book_end();
@@ -60,8 +65,9 @@ class FastCorrection {
   const std::optional<std::uint64_t>& first_step() const { return first_step_; }
   /// The first point that tunnelled through a wall.
   const std::optional<Passage>& passage() const { return near_.passage(); }
-  /// The largest displacement of a node by correct_corners() in the last step [m].
-  double largest_shift() const { return largest_shift_; }
+  /// How far the corners and contacts of the last step moved a node at most after take_travel()
+  /// [m].
+  double shift() const { return shift_; }
   /// Largest change in one step of the J of a corner near inversion, since the last call [1].
   double largest_corner_change() const { return largest_corner_change_; }
   double take_largest_corner_change() { return std::exchange(largest_corner_change_, 0); }
@@ -70,9 +76,11 @@ class FastCorrection {
   const InversionLog& inversions() const { return inversions_; }
 
  private:
+  void show_nodes();
   void finish_look();
-  /// `looked`: the body is where the contacts have left it.
-  void apply(const FastStep& step, bool looked);
+  /// Adds to shift() what was solved since the last call, and returns it [m].
+  double shifted();
+  void apply(const FastStep& step);
   void note_inversions(const FastStep& step);
   /// Half the work of the elastic forces and of gravity on a node over a displacement [J].
   double half_work(std::uint32_t node, const Vec3& displacement) const;
@@ -83,7 +91,7 @@ class FastCorrection {
   NearPoints near_;
   CornerWatch watch_;
   bool looking_ = false;
-  std::vector<Vec3> by_contacts_;          // displacement of nodes by contacts, before corners [m]
+  std::vector<Vec3> shown_;  // displacement by the correction that the body has so far, by slot [m]
   std::vector<std::uint32_t> pressed_;     // nodes that contacts moved in the last step
   std::vector<std::uint64_t> pressed_at_;  // by node: number of the last step in which they did
   CornerLook look_;
@@ -92,7 +100,7 @@ class FastCorrection {
   StepCorrection solver_;
   double booked_step_ = 0;  // length of the step whose end is not booked yet; 0: none [s]
   StepCorrection::Losses losses_;
-  double largest_shift_ = 0;          // [m]
+  double shift_ = 0;                  // [m]
   double largest_corner_change_ = 0;  // [1]
   InversionLog inversions_;
   std::optional<std::uint64_t> first_step_;

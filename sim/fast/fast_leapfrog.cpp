@@ -184,8 +184,10 @@ MovingFrame FastLeapfrog::pass(const Pass& pass, Share& share, const MovingFrame
   find_and_move(pass, share);
   share.member.meet();
   if (share.member.number == 0 && pass.kick != 0) correction_.book_end();
-  if (pass.drift != 0) correct(drift_step(pass, frame), share);
-  share.member.meet();
+  if (pass.drift != 0)
+    correct(drift_step(pass, frame), share);
+  else
+    share.member.meet();
   return after(pass, frame);
 }
 
@@ -197,12 +199,20 @@ void FastLeapfrog::correct(const FastStep& step, const Share& share) {
     watch_.plan(step, correction_);
   }
   share.member.meet();
-  if (watch_.looks()) {
-    for (std::uint32_t b = share.first; b < share.end; ++b) watch_.look(b, *body_, correction_);
+  do {
+    if (watch_.looks()) {
+      for (std::uint32_t b = share.first; b < share.end; ++b) watch_.look(b, *body_, correction_);
+      share.member.meet();
+    }
+    if (one) end_look(step);
     share.member.meet();
-  }
-  if (!one) return;
-  if (correction_.needed()) correction_.correct_corners(step);
+  } while (watch_.looks());
+}
+
+void FastLeapfrog::end_look(const FastStep& step) {
+  watch_.solve_corners(correction_);
+  if (watch_.looks()) return;
+  if (correction_.needed()) correction_.finish(step);
   watch_.finish(step, *body_, correction_);
 }
 

@@ -88,6 +88,8 @@ class FastLeapfrog final : public Stepper {
   void find_and_move(const Pass& pass, Share& share);
   /// Corrects a drift for contacts and corners, when all blocks have moved.
   void correct(const FastStep& step, const Share& share);
+  /// Uses what the looks of all threads have found; ends the correction if no other look follows.
+  void end_look(const FastStep& step);
   /// Waits for the forces of the other blocks that this one needs.
   void wait_for_others(std::uint32_t block, const Share& share) const;
 

@@ -26,6 +26,7 @@ void FastWatch::plan(const FastStep& step, FastCorrection& correction) {
   travel_ += travel;
   at_corners_ = correction.corners_due(travel);
   at_springs_ = ++steps_ >= kLookEvery && largest_strain() > limits_.strain;
+  saw_springs_ = at_springs_;
 }
 
 // A spring becomes longer or shorter by at most twice the travel.
@@ -38,19 +39,24 @@ void FastWatch::look(std::uint32_t block, const FastBody& body, FastCorrection& 
   if (at_springs_) strains_[block] = body.largest_strain(block);
 }
 
+void FastWatch::solve_corners(FastCorrection& correction) {
+  at_springs_ = false;
+  at_corners_ = correction.solve_corners();
+}
+
 void FastWatch::finish(const FastStep& step, FastBody& body, const FastCorrection& correction) {
   if (step.number % kFollowEvery == 0) follow(body);
-  if (at_springs_) {
+  if (saw_springs_) {
     strain_ = *std::max_element(strains_.begin(), strains_.end());
     travel_ = 0;
     steps_ = 0;
   }
-  travel_ += correction.largest_shift();
+  travel_ += correction.shift();
   Vec3 most = Vec3::Zero();
   for (std::uint32_t b = 0; b < body.block_count(); ++b)
     most = most.cwiseMax(body.largest_displacement(b));
   const double speed = step.after.velocity.norm() + most.norm() / step.length;
-  stopped_ = speed > limits_.speed || (at_springs_ && strain_ > limits_.strain) ||
+  stopped_ = speed > limits_.speed || (saw_springs_ && strain_ > limits_.strain) ||
              correction.largest_corner_change() > limits_.corner_change;
 }
 

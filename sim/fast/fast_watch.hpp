@@ -15,8 +15,11 @@ namespace springlod::sim {
 /// all blocks have moved:
 ///
 ///   one thread, after the correction of contacts:  plan(step);
-///   if (looks()) for each block, by any thread: look(block);
-///   one thread, after the correction of corners:  finish(step);
+///   do {
+///     if (looks()) for each block, by any thread: look(block);
+///     one thread:  solve_corners();
+///   } while (looks());
+///   one thread, after the correction:  finish(step);
 class FastWatch {
  public:
   /// `shortest`: rest length of the shortest spring [m].
@@ -31,6 +34,7 @@ class FastWatch {
   void plan(const FastStep& step, FastCorrection& correction);
   bool looks() const { return at_corners_ || at_springs_; }
   void look(std::uint32_t block, const FastBody& body, FastCorrection& correction);
+  void solve_corners(FastCorrection& correction);
   void finish(const FastStep& step, FastBody& body, const FastCorrection& correction);
 
   /// Whether a limit was exceeded in the last step.
@@ -42,8 +46,9 @@ class FastWatch {
 
   RigidFit fit_;
   Stepper::Watch limits_;
-  double shortest_;  // [m]
-  bool at_corners_ = false, at_springs_ = false;
+  double shortest_;                               // [m]
+  bool at_corners_ = false, at_springs_ = false;  // at what to look next
+  bool saw_springs_ = false;                      // in this step
   bool stopped_ = false;
   // Travel since the springs were last looked at [m]; at the start they are not known.
   double travel_ = std::numeric_limits<double>::infinity();

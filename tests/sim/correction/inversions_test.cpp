@@ -100,7 +100,7 @@ TEST_CASE("Where corners resist, one that is inside out for two steps is reporte
         const MassSpringModel& model = chain.levels[level].model;
         const RunOptions options{.integrator = integrator,
                                  .skin = test::contacts_at(chain, level, at_surface)};
-        StepByStepRun run(model, test::bar_throw(12), options,
+        StepByStepRun run(model, test::bar_throw(20), options,
                           0.7 * step_limit(model, integrator).step);
         std::vector<std::uint32_t> before;
         std::uint32_t most = 0;

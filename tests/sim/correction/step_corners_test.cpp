@@ -176,6 +176,25 @@ TEST_CASE("A corner that is inside out at rest is turned back in some steps, and
   CHECK(body.momentum().norm() < 1e-12 * std::sqrt(2 * stored * mass_properties(model).mass));
 }
 
+TEST_CASE("A corner that another one presses resists in the same step") {
+  // Two corners back to back. The upper one is thrown together and presses the lower one, which
+  // would not resist by itself.
+  MassSpringModel model =
+      test::make_model({{0, 0, 0}, {kEdge, 0, 0}, {0, kEdge, 0}, {0, 0, kEdge}, {0, 0, -kEdge}},
+                       {{0, 1}, {0, 2}, {0, 3}, {0, 4}});
+  model.mass.assign(5, 1e-3);
+  model.corners = {Corner{{0, 1, 2, 3}, 2e5}, Corner{{0, 1, 4, 2}, 2e5}};
+  Loose body(model);
+  body.x[4].z() *= 1.001 * kCornerResists;
+  body.x[3].z() *= 1.001 * kCornerResists;
+  body.v[3].z() = -1;
+  const double energy = body.energy();
+  body.advance(2e-3);
+  CHECK(body.x[4].z() < -1.002 * kCornerResists * kEdge);
+  CHECK(body.ratio(1) > kCornerResists);
+  CHECK(body.energy() == Approx(energy).epsilon(1e-13));
+}
+
 TEST_CASE("The energy of a corner that resists at the start counts from the start") {
   const MassSpringModel model = one_corner();
   Loose body(model);
