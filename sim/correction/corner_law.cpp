@@ -5,10 +5,11 @@
 namespace springlod::sim {
 namespace {
 
-// K over E V0 / 8 [1]: a cell takes up 2.4 E V0 until it is flat, more than the kinetic energy of
-// its material at twice its wave speed. Softer corners let fast impacts through; stiffer ones lose
-// more energy where they are cut short by the cap on their displacement.
-constexpr double kStiffness = 30;
+// K over E V0 / 8 [1]: a cell takes up 8 E V0 until it is flat, more than the kinetic energy of its
+// material at four times its wave speed. With 30, strained springs hold single corners of merged
+// joints inside out; stiffer ones lose more energy where they are cut short by the cap on their
+// displacement.
+constexpr double kStiffness = 100;
 
 double energy_of(const MassSpringModel& model, const Corner& corner, const std::vector<Vec3>& x) {
   const double rest = corner_volume(corner, model.rest);
