@@ -25,7 +25,6 @@ class StepCorners {
   /// one of resisting() of the last step.
   void check(std::uint32_t corner, bool resisted, StepNodes& nodes);
 
-  bool empty() const { return presses_.empty(); }
   /// Gives the corners that were added since the last call their forces of the last step, to start
   /// from. Returns whether there are any.
   bool start(StepNodes& nodes);

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include "sim/correction/corner_watch.hpp"
 
 namespace springlod::sim {
 
@@ -22,7 +25,7 @@ struct CornerDues {
       : count(groups),
         travel((groups + kTogether - 1) / kTogether * kTogether,
                std::numeric_limits<double>::infinity()) {
-    for (std::size_t g = 0; g < groups; ++g) travel[g] = -std::numeric_limits<double>::infinity();
+    std::fill_n(travel.begin(), groups, kDueAtOnce);
   }
 
   std::size_t count;               ///< of groups

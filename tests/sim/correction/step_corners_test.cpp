@@ -63,12 +63,8 @@ struct Loose {
   }
   /// With the energy of the corners that the correction knows to resist [J].
   double energy() const {
-    MassSpringModel resisting = model;
-    resisting.corners.clear();
-    for (const std::uint32_t c : corners().resisting())
-      resisting.corners.push_back(model.corners[c]);
-    return kinetic() + corner_energy(resisting, x) + contact_energy(corners().now()) +
-           lost_corners + lost_contact;
+    return kinetic() + corner_energy(model, corners().resisting(), x) +
+           contact_energy(corners().now()) + lost_corners + lost_contact;
   }
   Vec3 momentum() const {
     Vec3 sum = Vec3::Zero();
