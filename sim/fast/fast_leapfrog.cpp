@@ -197,16 +197,15 @@ void FastLeapfrog::correct(const FastStep& step, const Share& share) {
     reached_ = step.number;
     if (correction_.needed()) correction_.correct_contacts(step);
     watch_.plan(step, correction_);
+    if (!watch_.looks()) end_look(step);
   }
   share.member.meet();
-  do {
-    if (watch_.looks()) {
-      for (std::uint32_t b = share.first; b < share.end; ++b) watch_.look(b, *body_, correction_);
-      share.member.meet();
-    }
+  while (watch_.looks()) {
+    for (std::uint32_t b = share.first; b < share.end; ++b) watch_.look(b, *body_, correction_);
+    share.member.meet();
     if (one) end_look(step);
     share.member.meet();
-  } while (watch_.looks());
+  }
 }
 
 void FastLeapfrog::end_look(const FastStep& step) {

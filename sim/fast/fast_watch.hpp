@@ -15,11 +15,12 @@ namespace springlod::sim {
 /// all blocks have moved:
 ///
 ///   one thread, after the correction of contacts:  plan(step);
-///   do {
-///     if (looks()) for each block, by any thread: look(block);
-///     one thread:  solve_corners();
-///   } while (looks());
+///   while (looks()):
+///     for each block, by any thread:  look(block);
+///     one thread:                     solve_corners();
 ///   one thread, after the correction:  finish(step);
+///
+/// solve_corners() is called at least once, and no thread reads looks() while one may change it.
 class FastWatch {
  public:
   /// `shortest`: rest length of the shortest spring [m].
