@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "base/error.hpp"
 #include "model/spring_rows.hpp"
 
 namespace springlod::lod {
@@ -44,23 +41,29 @@ Binding identity_binding(std::uint32_t count) {
 
 }  // namespace
 
-Binding fine_from_coarse(const MassSpringModel& fine, const MassSpringModel& coarse,
-                         const Groups& groups) {
+Binding points_from_groups(const std::vector<GroupPoint>& points, const MassSpringModel& coarse) {
   const SpringRows springs(coarse);
   Binding binding;
-  for (std::uint32_t i = 0; i < fine.node_count(); ++i)
-    append_bound_point(binding, fine.rest[i], coarse,
-                       nearest_neighbourhood(coarse, springs, groups.of[i], fine.rest[i]));
+  binding.start.push_back(0);
+  for (const GroupPoint& point : points)
+    append_bound_point(binding, point.rest, coarse,
+                       nearest_neighbourhood(coarse, springs, point.group, point.rest));
   return binding;
 }
 
+Binding fine_from_coarse(const MassSpringModel& fine, const MassSpringModel& coarse,
+                         const Groups& groups) {
+  std::vector<GroupPoint> points;
+  for (std::uint32_t i = 0; i < fine.node_count(); ++i)
+    points.push_back({fine.rest[i], groups.of[i]});
+  return points_from_groups(points, coarse);
+}
+
 Binding base_from_level(const LodChain& chain, std::uint32_t level) {
-  if (level >= chain.levels.size())
-    throw InputError(fmt::format("transfer: there is no level {}; use a level from 0 to {}", level,
-                                 chain.levels.size() - 1));
+  const Level& from = level_at(chain, level);
   const MassSpringModel& base = chain.levels[0].model;
   if (level == 0) return identity_binding(base.node_count());
-  return fine_from_coarse(base, chain.levels[level].model, chain.levels[level].of_base);
+  return fine_from_coarse(base, from.model, from.of_base);
 }
 
 }  // namespace springlod::lod

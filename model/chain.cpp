@@ -61,6 +61,13 @@ void Provenance::set(const std::string& key, const std::string& value) {
   entries.emplace_back(key, value);
 }
 
+const Level& level_at(const LodChain& chain, std::uint32_t level) {
+  if (level >= chain.levels.size())
+    throw InputError(fmt::format("chain: there is no level {}; use a level from 0 to {}", level,
+                                 chain.levels.size() - 1));
+  return chain.levels[level];
+}
+
 void validate(const LodAsset& asset) {
   if (asset.chain.levels.empty()) throw InputError("asset: the chain has no levels");
   const std::uint32_t base = asset.chain.levels[0].model.node_count();

@@ -46,6 +46,9 @@ struct LodChain {
   std::vector<Level> levels;
 };
 
+/// Throws InputError for a level that the chain does not have.
+const Level& level_at(const LodChain& chain, std::uint32_t level);
+
 /// Origin of an artefact: enough to make it again. Ordered, without clock times (the same input
 /// gives the same bits).
 struct Provenance {

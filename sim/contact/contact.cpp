@@ -106,29 +106,20 @@ void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>
 }
 
 FrictionLaw::FrictionLaw(const Contact& contact, double mass, double step)
-    : normal_(contact.normal), mass_(mass) {
-  if (contact.stick_stiffness == 0) {
-    gain_ = mass;
-    return;
-  }
+    : normal_(contact.normal), inverse_mass_(1 / mass) {
+  if (contact.stick_stiffness == 0) return;
   stick_ = contact.stick_stiffness;
   damping_ = contact.stick_damping;
   late_ = step + damping_;
-  gain_ = stick_ * step / (1 + stick_ * step * late_ / mass);
+  const double pull = stick_ * step * inverse_mass_;
+  gain_ = pull / (1 + pull * late_);
   start_ = along_face(contact.stretch);
   held_ = contact.stick_energy();
 }
 
-Vec3 FrictionLaw::slip_change(const Vec3& v, double most) const {
-  const Vec3 impulse = gain_ * (start_ + late_ * along_face(v));
-  const double square = impulse.squaredNorm();
-  const double factor = square > most * most ? most / std::sqrt(square) : 1;
-  return -factor / mass_ * impulse;
-}
-
 void FrictionLaw::finish(Contact& contact) const {
   if (stick_ == 0) return;
-  const Vec3 impulse = -mass_ * contact.slip_change;
+  const Vec3 impulse = -contact.slip_change / inverse_mass_;
   contact.stretch = (impulse / stick_ + damping_ * start_) / late_;
   contact.stick_gain = contact.stick_energy() - held_;
 }

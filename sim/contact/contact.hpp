@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -85,7 +86,12 @@ class FrictionLaw {
   /// The contact has the stretch of its stick spring at the start of the step.
   FrictionLaw(const Contact& contact, double mass, double step);
   /// Change of the velocity of a point that moves at v [m/s]; `most`: mu f_n dt [N s].
-  Vec3 slip_change(const Vec3& v, double most) const;
+  Vec3 slip_change(const Vec3& v, double most) const {
+    const Vec3 change = gain_ * (start_ + late_ * along_face(v));
+    const double square = change.squaredNorm();
+    const double largest = most * inverse_mass_;
+    return square > largest * largest ? Vec3(-largest / std::sqrt(square) * change) : Vec3(-change);
+  }
   /// Sets stretch and stick_gain from slip_change of the contact, at the end of the step.
   void finish(Contact& contact) const;
 
@@ -93,12 +99,12 @@ class FrictionLaw {
   Vec3 along_face(const Vec3& u) const { return u - normal_.dot(u) * normal_; }
 
   Vec3 normal_;
-  double mass_;                // [kg]
-  double gain_ = 0;            // impulse per stretch and late_ times slip [kg/s], or mass [kg]
-  double late_ = 1;            // dt + damping time [s]; 1 without a stick spring [1]
-  double stick_ = 0;           // stiffness of the stick spring [N/m]
-  double damping_ = 0;         // its damping time [s]
-  double held_ = 0;            // its energy at the start [J]
+  double inverse_mass_;  // [1/kg]
+  double gain_ = 1;      // change per stretch and late_ times slip [1/s]; 1 without spring [1]
+  double late_ = 1;      // dt + damping time [s]; 1 without a stick spring [1]
+  double stick_ = 0;     // stiffness of the stick spring [N/m]
+  double damping_ = 0;   // its damping time [s]
+  double held_ = 0;      // its energy at the start [J]
   Vec3 start_ = Vec3::Zero();  // its stretch at the start, along the face [m]
 };
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -31,29 +30,20 @@ std::vector<double> lost_freedom(const MassSpringModel& base, const Groups& grou
 // Stiffness of a node that lost no freedom [N/m].
 constexpr double kRigid = std::numeric_limits<double>::infinity();
 
-/// Binds the mean of the nodes of a patch, weighted by their areas; returns the area of all [m2].
-double bind_patch(const std::vector<std::uint32_t>& patch, const std::vector<double>& areas,
-                  const Binding& nodes, Binding& bound) {
-  double area = 0;
-  for (const std::uint32_t i : patch) area += areas[i];
-  std::map<std::uint32_t, double> weights;
-  for (const std::uint32_t i : patch)
-    for (std::uint32_t e = nodes.start[i]; e < nodes.start[i + 1]; ++e)
-      weights[nodes.node[e]] += areas[i] / area * nodes.weight[e];
-  for (const auto& [node, weight] : weights) {
-    bound.node.push_back(node);
-    bound.weight.push_back(weight);
-  }
-  bound.start.push_back(static_cast<std::uint32_t>(bound.node.size()));
-  return area;
+/// The mean of the nodes of a patch, weighted by their areas.
+lod::GroupPoint mean_of(const std::vector<std::uint32_t>& patch, const MassSpringModel& base,
+                        const Groups& groups, double area) {
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t i : patch) sum += base.contact_area[i] * base.rest[i];
+  return {sum / area, groups.of[patch.front()]};
 }
 
 }  // namespace
 
 ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
-  const Binding of_nodes = lod::base_from_level(chain, level);
+  const Level& skinned = level_at(chain, level);
   const MassSpringModel& base = chain.levels[0].model;
-  const Groups& groups = chain.levels[level].of_base;
+  const Groups& groups = skinned.of_base;
   const NodeSurface surface = node_surface(base);
   const std::vector<double> lost = lost_freedom(base, groups);
   std::vector<std::uint32_t> nodes;
@@ -64,20 +54,24 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
     points.push_back({groups.of[i], base.rest[i], surface.normal[i], base.contact_area[i]});
   }
   ContactSkin skin;
-  skin.of_nodes.start.push_back(0);
+  std::vector<lod::GroupPoint> means;
   for (std::vector<std::uint32_t> patch : flat_patches(points, mean_spring_length(base))) {
     for (std::uint32_t& member : patch) member = nodes[member];
+    double area = 0;
     double stiffness = 0;
     double yielding = 0;  // inverse compliance: the nodes yield in parallel [N/m]
     for (const std::uint32_t i : patch) {
+      area += base.contact_area[i];
       stiffness += surface.stiffness[i];
       yielding += lost[i] > 0 ? surface.stiffness[i] / lost[i] : kRigid;
     }
-    skin.area.push_back(bind_patch(patch, base.contact_area, of_nodes, skin.of_nodes));
+    means.push_back(mean_of(patch, base, groups, area));
+    skin.area.push_back(area);
     skin.base_node.push_back(patch.front());
     skin.stiffness.push_back(stiffness);
     skin.compliance.push_back(yielding > 0 ? 1 / yielding : 0);
   }
+  skin.of_nodes = lod::points_from_groups(means, skinned.model);
   return skin;
 }
 

@@ -24,11 +24,25 @@ inline double larger_root(double a, double b, double c) {
 /// takes out of the motion is the stored energy, for any step and stiffness. The damping force is
 /// the contact damping times the mean rate of the part of the depth inside the obstacle. The sum
 /// never pulls.
-struct NormalLaw {
-  double stiffness = 0;  ///< k [N/m] > 0
-  double damping = 0;    ///< damping time of the contact over the length of the step [1] >= 0
-  /// Displacement of the point by a unit force during the step, dt^2 / (2 m) [m/N] > 0.
-  double mobility = 0;
+class NormalLaw {
+ public:
+  struct Terms {
+    double stiffness = 0;  ///< k [N/m] > 0
+    double damping = 0;    ///< damping time of the contact over the length of the step [1] >= 0
+    /// Displacement of the point by a unit force during the step, dt^2 / (2 m) [m/N] > 0.
+    double mobility = 0;
+  };
+  NormalLaw() = default;
+  explicit NormalLaw(const Terms& terms)
+      : stiffness_(terms.stiffness),
+        mobility_(terms.mobility),
+        inverse_mobility_(1 / terms.mobility),
+        stiff_(terms.mobility * terms.stiffness),
+        late_(stiff_ * terms.damping),
+        inverse_inertia_(1 / (1 + stiff_ / 2 + late_)) {}
+
+  double stiffness() const { return stiffness_; }  ///< [N/m]
+  double mobility() const { return mobility_; }    ///< [m/N]
 
   struct Result {
     double force = 0;  ///< [N] >= 0
@@ -37,30 +51,35 @@ struct NormalLaw {
   /// `start`: depth at the start of the step [m], negative outside. `free`: depth at its end
   /// without the contact [m].
   Result solve(double start, double free) const;
+
+ private:
+  double stiffness_ = 0, mobility_ = 0;
+  double inverse_mobility_ = 0;  // [N/m]
+  double stiff_ = 0;             // a k, with a = mobility [1]
+  double late_ = 0;              // a k * damping [1]
+  double inverse_inertia_ = 1;   // 1 / (1 + stiff / 2 + late) [1]
 };
 
 // With e = free, a = mobility, the depth at the end is e - a force(start, end): one quadratic
 // equation for each of three cases. The force does not decrease with the end depth, so the solution
 // is unique.
 inline NormalLaw::Result NormalLaw::solve(double start, double free) const {
-  const double stiff = mobility * stiffness;  // [1]
-  const double late = stiff * damping;        // [1]
   const Result none{0, free};
+  const auto at = [&](double depth) -> Result {
+    return {(free - depth) * inverse_mobility_, depth};
+  };
   if (start <= 0) {
     if (free <= 0) return none;
     // comes in: (e - d)(d - start) = stiff d^2 / 2 + late d (d - start)
-    const double depth =
-        larger_root(1 + stiff / 2 + late, -(start * (1 + late) + free), free * start);
-    return {(free - depth) / mobility, depth};
+    return at(larger_root(1 + stiff_ / 2 + late_, -(start * (1 + late_) + free), free * start));
   }
   // stays inside: e - d = stiff (start + d) / 2 + late (d - start)
-  const double inside = (free - (stiff / 2 - late) * start) / (1 + stiff / 2 + late);
-  if (inside > 0) return free > inside ? Result{(free - inside) / mobility, inside} : none;
+  const double inside = (free - (stiff_ / 2 - late_) * start) * inverse_inertia_;
+  if (inside > 0) return free > inside ? at(inside) : none;
   // leaves: (e + late start - d)(start - d) = stiff start^2 / 2, and d = start - p with p > 0
-  const double gap = free + late * start - start;
-  const double p = larger_root(1, gap, -stiff / 2 * start * start);
-  const double depth = start - p;
-  return free > depth ? Result{(free - depth) / mobility, depth} : none;
+  const double gap = free + late_ * start - start;
+  const double depth = start - larger_root(1, gap, -stiff_ / 2 * start * start);
+  return free > depth ? at(depth) : none;
 }
 
 }  // namespace springlod::sim

@@ -17,6 +17,7 @@ constexpr int kMostSweeps = 100;
 
 void StepContacts::begin(double step) {
   step_ = step;
+  inverse_step_ = 1 / step;
   std::swap(contacts_, before_);
   contacts_.clear();
   touches_.clear();
@@ -32,9 +33,9 @@ void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const Cont
   if (was != nullptr) contact.stretch = was->stretch;
   const double mass = points_->mass(point);
   Touch touch{.contact = contact,
-              .law = {.stiffness = contact.stiffness,
-                      .damping = contact.damping / step_,
-                      .mobility = step_ * step_ / (2 * mass)},
+              .law = NormalLaw({.stiffness = contact.stiffness,
+                                .damping = contact.damping * inverse_step_,
+                                .mobility = step_ * step_ / (2 * mass)}),
               .friction = FrictionLaw(contact, mass, step_),
               .mass = mass,
               .path = path};
@@ -63,7 +64,7 @@ void StepContacts::start_from(const Contact& was, Touch& touch, StepNodes& nodes
   Contact& contact = touch.contact;
   contact.normal_force = was.normal_force;
   contact.slip_change = was.slip_change;
-  push(touch, touch.law.mobility * was.normal_force * contact.normal + step_ * was.slip_change,
+  push(touch, touch.law.mobility() * was.normal_force * contact.normal + step_ * was.slip_change,
        nodes);
 }
 
@@ -82,7 +83,7 @@ double StepContacts::sweep(StepNodes& nodes) {
   double largest = 0;
   for (Touch& touch : touches_) {
     largest_change = std::max(largest_change, update(touch, nodes));
-    largest = std::max(largest, touch.law.mobility * touch.contact.normal_force);
+    largest = std::max(largest, touch.law.mobility() * touch.contact.normal_force);
   }
   return largest > 0 ? largest_change / largest : 0;
 }
@@ -100,9 +101,9 @@ double StepContacts::update(Touch& touch, StepNodes& nodes) {
   Contact& contact = touch.contact;
   Vec3 at = position(touch, nodes);
   const double free =
-      touch.level - contact.normal.dot(at) + touch.law.mobility * contact.normal_force;
+      touch.level - contact.normal.dot(at) + touch.law.mobility() * contact.normal_force;
   const double force = touch.law.solve(touch.before, free).force;
-  const Vec3 pushed = touch.law.mobility * (force - contact.normal_force) * contact.normal;
+  const Vec3 pushed = touch.law.mobility() * (force - contact.normal_force) * contact.normal;
   contact.normal_force = force;
   at += pushed;
   const Vec3 slid = contact.friction > 0 ? update_friction(touch, at) : Vec3::Zero();
@@ -116,8 +117,9 @@ Vec3 StepContacts::update_friction(Touch& touch, const Vec3& at) const {
   Contact& contact = touch.contact;
   const Vec3 slip_before = contact.slip_change;
   if (contact.normal_force == 0 && slip_before.isZero(0)) return Vec3::Zero();
-  contact.slip_change = touch.friction.slip_change((at - touch.path.from) / step_ - slip_before,
-                                                   contact.friction * contact.normal_force * step_);
+  contact.slip_change =
+      touch.friction.slip_change(inverse_step_ * (at - touch.path.from) - slip_before,
+                                 contact.friction * contact.normal_force * step_);
   return step_ * (contact.slip_change - slip_before);
 }
 

@@ -80,7 +80,7 @@ class StepContacts {
 
   const ContactPoints* points_;
   ContactFinder* finder_;
-  double step_ = 0;  // [s]
+  double step_ = 0, inverse_step_ = 0;  // [s], [1/s]
   std::vector<Contact> contacts_, before_;
   std::vector<Touch> touches_;
   std::vector<Share> shares_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/correction/corner_law.hpp"
 
@@ -82,12 +83,12 @@ void StepCorners::check(std::uint32_t number, bool resisted, StepNodes& nodes) {
     inertia += press.mobility[i] * square;
     most = std::max(most, press.mobility[i] * press.mobility[i] * square);
   }
-  press.law.stiffness = kept.stiffness;
   // Other corners or contacts pressed it after the look of the last step.
   if (!resisted) loss_ -= penalty_energy(kept.stiffness, press.before);
   if (inertia > 0) {  // else all four nodes are in one place, and no force moves them apart
-    press.law.damping = std::sqrt(2 * kDampingRatio * kDampingRatio / (kept.stiffness * inertia));
-    press.law.mobility = inertia;
+    const double damping =
+        std::sqrt(2 * kDampingRatio * kDampingRatio / (kept.stiffness * inertia));
+    press.law = NormalLaw({.stiffness = kept.stiffness, .damping = damping, .mobility = inertia});
     press.move = std::sqrt(most);
     press.most = kept.largest_move / press.move;
   }
@@ -109,7 +110,7 @@ double StepCorners::sweep(StepNodes& nodes) {
   double largest = 0;
   for (Press& press : presses_) {
     if (press.most == 0) continue;
-    const double free = linear_depth(press, nodes) + press.law.mobility * press.force;
+    const double free = linear_depth(press, nodes) + press.law.mobility() * press.force;
     const double force = std::min(press.most, press.law.solve(press.before, free).force);
     const double change = force - press.force;
     if (change != 0) push(press, change, nodes);
@@ -121,14 +122,21 @@ double StepCorners::sweep(StepNodes& nodes) {
 }
 
 double StepCorners::linear_depth(const Press& press, const StepNodes& nodes) {
-  double depth = press.level;
-  for (std::size_t i = 0; i < 4; ++i) depth -= press.gradient[i].dot(nodes.at(press.slot[i]));
-  return depth;
+  const auto along = [&](std::size_t i) { return press.gradient[i].dot(nodes.at(press.slot[i])); };
+  return press.level - ((along(0) + along(1)) + (along(2) + along(3)));  // pairs: shorter chain
 }
 
 void StepCorners::push(const Press& press, double force, StepNodes& nodes) {
   for (std::size_t i = 0; i < 4; ++i)
-    nodes.move_by_corner(press.slot[i], force * press.mobility[i] * press.gradient[i]);
+    nodes.move(press.slot[i], force * press.mobility[i] * press.gradient[i]);
+}
+
+void StepCorners::count(StepNodes& nodes) {
+  for (Press& press : presses_) {
+    const double force = press.force - std::exchange(press.counted, press.force);
+    for (std::size_t i = 0; i < 4; ++i)
+      nodes.count_by_corner(press.slot[i], force * press.mobility[i] * press.gradient[i]);
+  }
 }
 
 void StepCorners::finish(const StepNodes& nodes) {
@@ -145,9 +153,10 @@ void StepCorners::book(const Press& press, const StepNodes& nodes) {
     at[i] = nodes.at(press.slot[i]);
     work -= press.gradient[i].dot(at[i] - nodes.path(press.slot[i]).from);
   }
-  const double end = volume_at(at) * kept_[press.corner].inverse_volume;
-  loss_ += press.force * work - penalty_energy(press.law.stiffness, kCornerResists - end) +
-           penalty_energy(press.law.stiffness, press.before);
+  const Kept& kept = kept_[press.corner];
+  const double end = volume_at(at) * kept.inverse_volume;
+  loss_ += press.force * work - penalty_energy(kept.stiffness, kCornerResists - end) +
+           penalty_energy(kept.stiffness, press.before);
   largest_change_ = std::max(largest_change_, std::abs(end - (kCornerResists - press.before)));
   note(press.corner, end);
 }

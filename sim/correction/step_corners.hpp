@@ -31,6 +31,8 @@ class StepCorners {
   /// Updates all corners once. Returns the largest change of a node's position over the largest
   /// displacement of a node by a corner [1].
   double sweep(StepNodes& nodes);
+  /// Ends the sweeps: counts the displacements by the corners at their nodes.
+  void count(StepNodes& nodes);
   /// Ends the step: the nodes are at their final positions.
   void finish(const StepNodes& nodes);
 
@@ -58,6 +60,7 @@ class StepCorners {
     double before = 0;                 // depth at the start of the step [1]
     double level = 0;                  // depth = level - sum of gradient . x [1]
     double force = 0;                  // so far [J]
+    double counted = 0;                // of it, see count() [J]
     double move = 0;                   // largest displacement of a node by a unit force [m/J]
     double most = 0;                   // largest force [J]
   };

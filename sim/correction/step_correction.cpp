@@ -41,6 +41,7 @@ bool StepCorrection::solve_corners() {
     if (!contacts_.empty()) change = std::max(change, contacts_.sweep(nodes_));
     if (!nodes_.shared()) break;
   }
+  corners_.count(nodes_);
   solve_contacts();
   return ++rounds_ < kMostRounds;
 }

@@ -65,11 +65,9 @@ class StepNodes {
   void move(std::uint32_t slot, const Vec3& displacement) { at_[slot] += displacement; }
   /// Largest displacement of a node since the last call in this step [m].
   double take_travel();
-  void move_by_corner(std::uint32_t slot, const Vec3& displacement) {
-    move(slot, displacement);
-    corners_[slot] += displacement;
-  }
-  /// Displacement by corners so far [m].
+  /// Counts a part of the displacement as one by corners.
+  void count_by_corner(std::uint32_t slot, const Vec3& part) { corners_[slot] += part; }
+  /// The part of the displacement that is counted as one by corners [m].
   const Vec3& by_corners(std::uint32_t slot) const { return corners_[slot]; }
   /// The displacement by friction, once it is final.
   void add_slide(std::uint32_t slot, const Vec3& slide) { slide_[slot] += slide; }

@@ -16,7 +16,7 @@ double decades(std::mt19937& random, double least, double most) {
 }
 
 /// The law's force between two depths, from its definition.
-double force_between(const NormalLaw& law, double start, double end) {
+double force_between(const NormalLaw::Terms& law, double start, double end) {
   const double inside = std::max(0.0, end) - std::max(0.0, start);
   const double gradient =
       end == start ? law.stiffness * std::max(0.0, end)
@@ -31,14 +31,14 @@ TEST_CASE("The normal force over a step solves its equation, for any stiffness a
   std::mt19937 random(1);
   std::uniform_real_distribution<double> depth(-1, 1);
   for (int i = 0; i < 20000; ++i) {
-    const NormalLaw law{.stiffness = decades(random, -4, 8),
-                        .damping = i % 2 == 0 ? 0 : decades(random, -3, 2),
-                        .mobility = decades(random, -4, 2)};
+    const NormalLaw::Terms law{.stiffness = decades(random, -4, 8),
+                               .damping = i % 2 == 0 ? 0 : decades(random, -3, 2),
+                               .mobility = decades(random, -4, 2)};
     const double scale = decades(random, -6, 1);
     const double start = scale * depth(random);
     const double free = scale * depth(random);
     CAPTURE(law.stiffness, law.damping, law.mobility, start, free);
-    const NormalLaw::Result step = law.solve(start, free);
+    const NormalLaw::Result step = NormalLaw(law).solve(start, free);
     REQUIRE(step.force >= 0);
     REQUIRE(step.depth == Approx(free - law.mobility * step.force).margin(1e-9 * scale));
     // Rounding of the depth, times the slope of the force.
@@ -56,8 +56,8 @@ TEST_CASE("Without damping, a contact stores what it takes from the motion, to r
   for (int i = 0; i < 200; ++i) {
     const double mass = decades(random, -3, 3);
     const double step = decades(random, -4, -1);
-    const NormalLaw law{.stiffness = mass / (step * step) * decades(random, -3, 6),
-                        .mobility = step * step / (2 * mass)};
+    const NormalLaw law({.stiffness = mass / (step * step) * decades(random, -3, 6),
+                         .mobility = step * step / (2 * mass)});
     double depth = -1e-3;
     double v = std::abs(speed(random)) + 0.1;  // into the obstacle
     const double before = 0.5 * mass * v * v;
@@ -66,7 +66,7 @@ TEST_CASE("Without damping, a contact stores what it takes from the motion, to r
       const NormalLaw::Result end = law.solve(depth, depth + step * v);
       v -= step * end.force / mass;
       depth = end.depth;
-      REQUIRE(0.5 * mass * v * v + penalty_energy(law.stiffness, depth) ==
+      REQUIRE(0.5 * mass * v * v + penalty_energy(law.stiffness(), depth) ==
               Approx(before).epsilon(1e-9));
       REQUIRE(++steps < 1000);
     }
@@ -76,14 +76,14 @@ TEST_CASE("Without damping, a contact stores what it takes from the motion, to r
 
 TEST_CASE("A very stiff contact lets a point in by almost nothing, and damping takes its speed") {
   const double step = 1e-3;
-  NormalLaw law{.stiffness = 1e15, .mobility = step * step / 2};
-  const NormalLaw::Result in = law.solve(-0.5e-3, 1.5e-3);
+  const double mobility = step * step / 2;
+  const NormalLaw stiff({.stiffness = 1e15, .mobility = mobility});
+  const NormalLaw::Result in = stiff.solve(-0.5e-3, 1.5e-3);
   CHECK(in.depth > 0);
   CHECK(in.depth < 1e-6);
-  law.stiffness = 1e6;
-  law.damping = 1e6;
-  const NormalLaw::Result damped = law.solve(0, 1e-3);
+  const NormalLaw overdamped({.stiffness = 1e6, .damping = 1e6, .mobility = mobility});
+  const NormalLaw::Result damped = overdamped.solve(0, 1e-3);
   CHECK(damped.depth < 1e-8);
   // Overdamped: the mean force stops the point at the end of the step.
-  CHECK(law.mobility * damped.force == Approx(1e-3).epsilon(1e-3));
+  CHECK(mobility * damped.force == Approx(1e-3).epsilon(1e-3));
 }
