@@ -1,28 +1,40 @@
 -- What contacts, corners and small bodies cost in a run, as ratios of processor time measured in
 -- one process: springlod run bench/run_costs.lua [-- MESH]
 --
--- A time per step is the difference between a long and a short run, so that what is done once per
--- run does not count. Each is the least of several.
+-- A time is the difference between a long and a short run, so that what is done once per run does
+-- not count. Runs that are compared take turns, and each time is the least of several.
 
 local s = require "springlod"
 
-local repeats = 3
+local repeats = 4
 local gravity = {0, 0, -9.81}
 
-local function least(count, measure)
-  local best = math.huge
-  for _ = 1, count do best = math.min(best, measure()) end
-  return best
+local function processor_time(case, duration)
+  local how = {frame_rate = 0, ledger = false, sleep = 0, quiet = true}
+  for name, value in pairs(case.options or {}) do how[name] = value end
+  local start = os.clock()
+  s.run(case.model, case.scene(duration), how)
+  return os.clock() - start
 end
 
-local function processor_time(model, scene, options)
-  local how = {frame_rate = 0, ledger = false, sleep = 0, quiet = true}
-  for name, value in pairs(options) do how[name] = value end
-  return least(repeats, function()
-    local start = os.clock()
-    s.run(model, scene, how)
-    return os.clock() - start
-  end)
+-- Processor times of the cases {model, scene, short, long, options} between the times `short` and
+-- `long` [s] of their runs, per simulated second.
+local function costs(cases)
+  local least = {}
+  for _ = 1, repeats do
+    for i, case in ipairs(cases) do
+      for _, until_then in ipairs{"short", "long"} do
+        local key = until_then .. i
+        local time = processor_time(case, case[until_then])
+        least[key] = math.min(least[key] or math.huge, time)
+      end
+    end
+  end
+  local times = {}
+  for i, case in ipairs(cases) do
+    times[i] = (least["long" .. i] - least["short" .. i]) / (case.long - case.short)
+  end
+  return times
 end
 
 -- Scenarios by duration. `height`: of the lowest point at the start, in sizes of the body.
@@ -33,12 +45,6 @@ local function scenes(model, height, throw, obstacle)
     obstacle.plane = {0, 0, 1, bounds.low[3] - height * size}
     return s.scenario{gravity = gravity, duration = duration, obstacles = {obstacle}, throw = throw}
   end
-end
-
--- Processor time per simulated second, from the time `settled` [s] on.
-local function cost(model, scene, settled, duration, options)
-  return (processor_time(model, scene(settled + duration), options)
-    - processor_time(model, scene(settled), options)) / duration
 end
 
 local function lattice(size, cell, young, more)
@@ -67,49 +73,71 @@ local function bodies(mesh)
   return list
 end
 
+-- Heights in sizes of the body.
+local bouncing = {height = 0.02, throw = {velocity = {0.2, 0, -1}}}
+local rolling = {height = 0.001, throw = {velocity = {0.5, 0, 0}, spin = {0, 5, 0}}}
+
+-- Levels touch with their own nodes or at the base's surface; the base's nodes are its surface.
+local function contacts_of(level)
+  return level == 0 and {"nodes"} or {"nodes", "surface"}
+end
+
 local function contact_costs(body, rows)
   local chain = levels(body.base)
   for level = 0, chain.coarsest do
     local model = chain[level]
-    local flight = cost(model, scenes(model, 1e4, {spin = {1, 2, 3}}, {}), 0.02, 0.3, {})
-    for _, contact in ipairs(level == 0 and {"nodes"} or {"nodes", "surface"}) do
+    local cases, kinds = {}, {}
+    local function add(height, throw, obstacle, contact)
+      cases[#cases + 1] = {model = model, scene = scenes(model, height, throw, obstacle),
+                           short = 0.05, long = 0.45, options = {contact = contact}}
+    end
+    add(1e4, {spin = {1, 2, 3}}, {})
+    for _, contact in ipairs(contacts_of(level)) do
       for _, stiffness in ipairs{"auto", 1e5, 1e7, 1e9} do
-        local function ratio(height, throw)
-          local obstacle = {friction = 0.5, stiffness = stiffness}
-          local c = cost(model, scenes(model, height, throw, obstacle), 0.05, 0.4,
-            {contact = contact})
-          return c / flight
+        kinds[#kinds + 1] = {contact = contact, stiffness = stiffness}
+        for _, way in ipairs{bouncing, rolling} do
+          add(way.height, way.throw, {friction = 0.5, stiffness = stiffness}, contact)
         end
-        rows[#rows + 1] = {
-          body = body.name, level = level, nodes = model.node_count, contact = contact,
-          stiffness = stiffness, bouncing = ratio(0.02, {velocity = {0.2, 0, -1}}),
-          rolling = ratio(0.001, {velocity = {0.5, 0, 0}, spin = {0, 5, 0}}),
-        }
       end
+    end
+    local times = costs(cases)
+    for i, kind in ipairs(kinds) do
+      rows[#rows + 1] = {
+        body = body.name, level = level, nodes = model.node_count, contact = kind.contact,
+        stiffness = kind.stiffness, bouncing = times[2 * i] / times[1],
+        rolling = times[2 * i + 1] / times[1],
+      }
     end
   end
 end
 
 local function volume_costs(rows)
-  local function chain(young, volumes)
+  local young, density = 0.2e6, 1000
+  local wave_speed = math.sqrt(young / density)
+  local cases = {
+    {name = "in flight", height = 100, throw = {spin = {1, 2, 3}}},
+    {name = "rolling", height = 0.001, throw = {velocity = {0.5, 0, 0}}},
+  }
+  for _, part in ipairs{0.05, 0.1, 0.2, 0.35} do
+    cases[#cases + 1] = {
+      name = ("thrown at %g of the wave speed"):format(part), height = 0.1,
+      throw = {velocity = {1, 0, -part * wave_speed}, spin = {1, 2, 3},
+               turn = {axis = {1, 0.5, 0.2}, angle = 0.6}},
+    }
+  end
+  local function chain(volumes)
     return levels(lattice({12, 12, 24}, 0.2 / 12, young, {volumes = volumes}))
   end
-  local cases = {
-    {name = "in flight", young = "1 MPa", height = 100, throw = {spin = {1, 2, 3}}},
-    {name = "rolling", young = "1 MPa", height = 0.001, throw = {velocity = {0.5, 0, 0}}},
-    {name = "thrown at 0.35 of the wave speed", young = "0.2 MPa", height = 0.1,
-     throw = {velocity = {1, 0, -5}, spin = {1, 2, 3},
-              turn = {axis = {1, 0.5, 0.2}, angle = 0.6}}},
-  }
+  local without, with = chain(false), chain(true)
   for _, case in ipairs(cases) do
-    local without, with = chain(case.young, false), chain(case.young, true)
     for level = 0, with.coarsest do
-      local function of(model)
-        local scene = scenes(model, case.height, case.throw, {friction = 0.5})
-        return cost(model, scene, 0.001, 0.15, {precision = "single"})
+      local function run_of(model)
+        return {model = model, scene = scenes(model, case.height, case.throw, {friction = 0.5}),
+                short = 0.001, long = 0.25, options = {precision = "single"}}
       end
+      local times = costs{run_of(without[level]), run_of(with[level])}
       rows[#rows + 1] = {case = case.name, level = level, nodes = with[level].node_count,
-                         ratio = of(with[level]) / of(without[level])}
+                         ratio = times[2] / times[1]}
     end
   end
 end
@@ -118,13 +146,16 @@ local function small_costs(rows)
   local small = levels(lattice({8, 8, 8}, 0.0125, "1 MPa"))[2]
   local large = levels(lattice({20, 20, 20}, 0.005, "1 MPa"))[1]
   for _, precision in ipairs{"single", "double"} do
-    local function of(model)
-      local scene = scenes(model, 1e4, {spin = {1, 2, 3}}, {})
-      local options = {precision = precision, step = 1e-4}
-      return cost(model, scene, 0.01, 2e4 / model.spring_count, options) / model.spring_count
+    local function run_of(model)
+      return {model = model, scene = scenes(model, 1e4, {spin = {1, 2, 3}}, {}),
+              short = 0.01, long = 0.01 + 2e4 / model.spring_count,
+              options = {precision = precision, step = 1e-4}}
     end
-    rows[#rows + 1] = {precision = precision, nodes = small.node_count, large = large.node_count,
-                       ratio = of(small) / of(large)}
+    local times = costs{run_of(small), run_of(large)}
+    rows[#rows + 1] = {
+      precision = precision, nodes = small.node_count, large = large.node_count,
+      ratio = times[1] / small.spring_count / (times[2] / large.spring_count),
+    }
   end
 end
 
