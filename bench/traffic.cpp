@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "sim/fast/quad_state.hpp"
+#include "sim/fast/quads/quad_state.hpp"
 
 namespace springlod::bench {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sim/fast/quad_layout.hpp"
-#include "sim/fast/row_layout.hpp"
+#include "sim/fast/quads/quad_layout.hpp"
+#include "sim/fast/rows/row_layout.hpp"
 
 namespace springlod::bench {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "sim/fast/quad_body.hpp"
-#include "sim/fast/row_body.hpp"
+#include "sim/fast/quads/quad_body.hpp"
+#include "sim/fast/rows/row_body.hpp"
 
 namespace springlod::sim {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/mass_spring.hpp"
-#include "sim/fast/quad_layout.hpp"
+#include "sim/fast/quads/quad_layout.hpp"
 
 namespace springlod::sim {
 

@@ -18,9 +18,9 @@
 #include "sim/fast/look/corner_dues-inl.hpp"
 #include "sim/fast/look/corner_margin.hpp"
 #include "sim/fast/look/stretch-inl.hpp"
-#include "sim/fast/quad_copies-inl.hpp"
-#include "sim/fast/quad_forces-inl.hpp"
-#include "sim/fast/quad_vectors-inl.hpp"
+#include "sim/fast/quads/quad_copies-inl.hpp"
+#include "sim/fast/quads/quad_forces-inl.hpp"
+#include "sim/fast/quads/quad_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {

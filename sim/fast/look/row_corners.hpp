@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/mass_spring.hpp"
-#include "sim/fast/row_layout.hpp"
+#include "sim/fast/rows/row_layout.hpp"
 
 namespace springlod::sim {
 

@@ -17,7 +17,7 @@
 #include "sim/fast/look/corner_dues-inl.hpp"
 #include "sim/fast/look/corner_margin.hpp"
 #include "sim/fast/look/stretch-inl.hpp"
-#include "sim/fast/row_vectors-inl.hpp"
+#include "sim/fast/rows/row_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {

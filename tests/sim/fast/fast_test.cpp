@@ -10,7 +10,7 @@
 #include "lod/build.hpp"
 #include "sim/contact/contact_skin.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
-#include "sim/fast/row_layout.hpp"
+#include "sim/fast/rows/row_layout.hpp"
 #include "sim/integrators/leapfrog.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/run.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sim/fast/kernels.hpp"
-#include "sim/fast/quad_layout.hpp"
+#include "sim/fast/quads/quad_layout.hpp"
 
 namespace springlod::sim {
 

@@ -14,9 +14,9 @@
 #include <hwy/highway.h>
 
 #include "sim/fast/inverse_root-inl.hpp"
-#include "sim/fast/quad_copies-inl.hpp"
-#include "sim/fast/quad_state.hpp"
-#include "sim/fast/quad_vectors-inl.hpp"
+#include "sim/fast/quads/quad_copies-inl.hpp"
+#include "sim/fast/quads/quad_state.hpp"
+#include "sim/fast/quads/quad_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "sim/fast/quad_state.hpp"
+#include "sim/fast/quads/quad_state.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sim/fast/quad_kernel.cpp"
+#define HWY_TARGET_INCLUDE "sim/fast/quads/quad_kernel.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, which includes this file again for every target.
 #include <hwy/cache_control.h>
@@ -12,8 +12,8 @@
 
 #include "sim/fast/look/quad_look-inl.hpp"
 #include "sim/fast/move-inl.hpp"
-#include "sim/fast/quad_copies-inl.hpp"
-#include "sim/fast/quad_forces-inl.hpp"
+#include "sim/fast/quads/quad_copies-inl.hpp"
+#include "sim/fast/quads/quad_forces-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {

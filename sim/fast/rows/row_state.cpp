@@ -1,4 +1,4 @@
-#include "sim/fast/row_state.hpp"
+#include "sim/fast/rows/row_state.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "sim/fast/row_layout.hpp"
+#include "sim/fast/rows/row_layout.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "sim/fast/quad_layout.hpp"
+#include "sim/fast/quads/quad_layout.hpp"
 
 #include <algorithm>
 #include <limits>

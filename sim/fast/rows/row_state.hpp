@@ -7,7 +7,7 @@
 #include <hwy/aligned_allocator.h>
 
 #include "sim/fast/kernels.hpp"
-#include "sim/fast/row_layout.hpp"
+#include "sim/fast/rows/row_layout.hpp"
 
 namespace springlod::sim {
 

@@ -1,4 +1,4 @@
-#include "sim/fast/row_body.hpp"
+#include "sim/fast/rows/row_body.hpp"
 
 #include <cassert>
 

@@ -1,9 +1,9 @@
 #include <limits>
 
-#include "sim/fast/row_state.hpp"
+#include "sim/fast/rows/row_state.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sim/fast/row_kernel.cpp"
+#define HWY_TARGET_INCLUDE "sim/fast/rows/row_kernel.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, which includes this file again for every target.
 #include <hwy/highway.h>
@@ -11,7 +11,7 @@
 #include "sim/fast/inverse_root-inl.hpp"
 #include "sim/fast/look/row_look-inl.hpp"
 #include "sim/fast/move-inl.hpp"
-#include "sim/fast/row_vectors-inl.hpp"
+#include "sim/fast/rows/row_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {

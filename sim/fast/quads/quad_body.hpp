@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/fast/laid_body.hpp"
-#include "sim/fast/quad_state.hpp"
+#include "sim/fast/quads/quad_state.hpp"
 
 namespace springlod::sim {
 

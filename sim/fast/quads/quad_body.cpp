@@ -1,4 +1,4 @@
-#include "sim/fast/quad_body.hpp"
+#include "sim/fast/quads/quad_body.hpp"
 
 #include <cassert>
 

@@ -11,7 +11,7 @@
 
 #include <hwy/highway.h>
 
-#include "sim/fast/row_state.hpp"
+#include "sim/fast/rows/row_state.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "sim/fast/laid_body.hpp"
-#include "sim/fast/row_state.hpp"
+#include "sim/fast/rows/row_state.hpp"
 
 namespace springlod::sim {
 
