@@ -1,5 +1,5 @@
 -- What contacts, corners and small bodies cost in a run, as ratios of processor time measured in
--- one process: springlod run bench/run_costs.lua [-- MESH]
+-- one process: springlod run bench/run_costs.lua [-- MESH [UNIT]]
 --
 -- A time is the difference between a long and a short run, so that what is done once per run does
 -- not count. Runs that are compared take turns, and each time is the least of several.
@@ -58,18 +58,22 @@ local function levels(base)
   return s.simplify(base, {levels = 2, grouping = "compact", seed = 1})
 end
 
-local function bodies(mesh)
+local function body_of(path, unit)
+  local mesh = s.import(path, {unit = unit})
+  local longest = 0
+  for axis = 1, 3 do longest = math.max(longest, mesh.max[axis] - mesh.min[axis]) end
+  local grid = s.voxelize(mesh, {
+    cell = longest / 32, materials = {default = {young = "1 MPa", density = 1000}},
+  })
+  return s.lattice(grid, {hinges = "fill"})
+end
+
+local function bodies(path, unit)
   local list = {
     {name = "block", base = lattice({16, 16, 16}, 0.0125, "1 MPa")},
     {name = "bar", base = lattice({10, 10, 40}, 0.01, "1 MPa")},
   }
-  if mesh then
-    local grid = s.voxelize(s.import(mesh), {
-      cell = s.import(mesh).bounds.diagonal / 40,
-      materials = {default = {young = "1 MPa", density = 1000}},
-    })
-    list[#list + 1] = {name = "mesh", base = s.lattice(grid, {hinges = "fill"})}
-  end
+  if path then list[#list + 1] = {name = "mesh", base = body_of(path, unit)} end
   return list
 end
 
@@ -165,7 +169,7 @@ local function print_rows(title, rows, columns)
 end
 
 local contacts, volumes, small = {}, {}, {}
-for _, body in ipairs(bodies(arg[1])) do contact_costs(body, contacts) end
+for _, body in ipairs(bodies(arg[1], arg[2])) do contact_costs(body, contacts) end
 print_rows("Time of a run with contact over that in flight", contacts,
   {"body", "level", "nodes", "contact", "stiffness", "bouncing", "rolling"})
 volume_costs(volumes)
