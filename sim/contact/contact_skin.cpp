@@ -30,14 +30,6 @@ std::vector<double> lost_freedom(const MassSpringModel& base, const Groups& grou
 // Stiffness of a node that lost no freedom [N/m].
 constexpr double kRigid = std::numeric_limits<double>::infinity();
 
-/// The mean of the nodes of a patch, weighted by their areas.
-lod::GroupPoint mean_of(const std::vector<std::uint32_t>& patch, const MassSpringModel& base,
-                        const Groups& groups, double area) {
-  Vec3 sum = Vec3::Zero();
-  for (const std::uint32_t i : patch) sum += base.contact_area[i] * base.rest[i];
-  return {sum / area, groups.of[patch.front()]};
-}
-
 }  // namespace
 
 ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
@@ -58,14 +50,16 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
   for (std::vector<std::uint32_t> patch : flat_patches(points, mean_spring_length(base))) {
     for (std::uint32_t& member : patch) member = nodes[member];
     double area = 0;
+    Vec3 moment = Vec3::Zero();  // sum of area times position [m3]
     double stiffness = 0;
     double yielding = 0;  // inverse compliance: the nodes yield in parallel [N/m]
     for (const std::uint32_t i : patch) {
       area += base.contact_area[i];
+      moment += base.contact_area[i] * base.rest[i];
       stiffness += surface.stiffness[i];
       yielding += lost[i] > 0 ? surface.stiffness[i] / lost[i] : kRigid;
     }
-    means.push_back(mean_of(patch, base, groups, area));
+    means.push_back({moment / area, groups.of[patch.front()]});
     skin.area.push_back(area);
     skin.base_node.push_back(patch.front());
     skin.stiffness.push_back(stiffness);
