@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "sim/fast/look/row_corners.hpp"
 #include "sim/fast/quads/quad_body.hpp"
 #include "sim/fast/rows/row_body.hpp"
 
@@ -28,8 +29,10 @@ template <class Real>
 std::unique_ptr<FastModel> lay_out(const MassSpringModel& model, Layout layout) {
   if (layout == Layout::fastest) {
     RowLayout<Real> rows = make_row_layout<Real>(model);
-    if (model.spring_count() >= kLeastFill * rows.rows.size())
+    if (model.spring_count() >= kLeastFill * rows.rows.size()) {
+      rows.corners = place_corners(model, rows);
       return std::make_unique<Laid<RowLayout<Real>, RowBody<Real>>>(std::move(rows));
+    }
   }
   return std::make_unique<Laid<QuadLayout<Real>, QuadBody<Real>>>(make_quad_layout<Real>(model));
 }

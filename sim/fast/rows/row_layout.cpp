@@ -5,7 +5,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "sim/fast/look/row_corners.hpp"
 #include "sim/fast/palette.hpp"
 
 namespace springlod::sim {
@@ -154,7 +153,6 @@ RowLayout<Real> make_row_layout(const MassSpringModel& model) {
   for (const RowProperties<Real>& each : layout.properties)
     layout.lengths.push_back(lengths_of(each));
   cut_blocks(layout);
-  layout.corners = place_corners(model, layout);
   return layout;
 }
 

@@ -90,7 +90,7 @@ struct RowLayout {
   std::vector<SpringRow> rows;           ///< in the order of the places
   std::vector<RowProperties<Real>> properties;
   std::vector<RowLengths<Real>> lengths;  ///< by the index of the properties
-  RowCorners<Real> corners;
+  RowCorners<Real> corners;               ///< see make_row_layout()
   std::vector<RowBlock> blocks;
   std::vector<Place> place;        ///< place of each node; N
   std::vector<Real> inverse_mass;  ///< by place, padded with 0 to a multiple of kRowLanes [1/kg]
@@ -105,6 +105,8 @@ struct RowLayout {
   }
 };
 
+/// Without corners, which place_corners() makes: few models that are laid out to count their rows
+/// run in them.
 template <class Real>
 RowLayout<Real> make_row_layout(const MassSpringModel& model);
 
