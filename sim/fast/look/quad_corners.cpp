@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "sim/fast/look/corner_margin.hpp"
@@ -58,6 +59,23 @@ void add_corner(const MassSpringModel& model, std::uint32_t number, const std::v
   block.corner_number.push_back(number);
 }
 
+/// The corners of the nodes of a block, those with the largest margin at rest first. Eight corners
+/// are looked at together when the first of them is due, so those with little margin are kept apart
+/// from the others.
+std::vector<std::uint32_t> by_margin(const MassSpringModel& model,
+                                     const std::vector<std::uint32_t>& first,
+                                     const std::vector<std::uint32_t>& nodes) {
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (const std::uint32_t node : nodes)
+    for (std::uint32_t c = first[node]; c < first[node + 1]; ++c)
+      order.emplace_back(-corner_margin(model.corners[c], model.rest, model.rest), c);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::uint32_t> corners;
+  for (const auto& [margin, corner] : order) corners.push_back(corner);
+  return corners;
+}
+
 }  // namespace
 
 template <class Real>
@@ -66,9 +84,8 @@ bool place_corners(const MassSpringModel& model, QuadLayout<Real>& layout) {
   for (std::uint32_t b = 0; b < layout.blocks.size(); ++b) {
     QuadBlock<Real>& block = layout.blocks[b];
     Indices<Real> indices(b, block);
-    for (const std::uint32_t node : block.node)
-      for (std::uint32_t c = first[node]; c < first[node + 1]; ++c)
-        add_corner(model, c, layout.place, indices, block);
+    for (const std::uint32_t corner : by_margin(model, first, block.node))
+      add_corner(model, corner, layout.place, indices, block);
     block.corner_number.resize(block.corners.size() * kEight, kNoCorner);
     if (block.indices() - 1 > std::numeric_limits<std::uint16_t>::max()) return false;
   }
