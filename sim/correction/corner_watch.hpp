@@ -55,13 +55,18 @@ class CornerWatch {
   void check(const Check& check) {
     if (!any_) return;
     for (std::size_t w = 0; w < found_.size(); ++w) {
-      for (std::uint64_t rest = found_[w] | resisted_[w]; rest != 0; rest &= rest - 1) {
-        const auto corner = static_cast<std::uint32_t>(kBits * w) +
-                            static_cast<std::uint32_t>(std::countr_zero(rest));
+      for_each_bit(w, found_[w] | resisted_[w], [&](std::uint32_t corner) {
         check(corner, is_first_ || (resisted_[w] & bit(corner)) != 0);
-      }
+      });
       found_[w] = 0;
     }
+  }
+  /// The same for those that resisted alone, before any look.
+  template <class Check>
+  void check_resisting(const Check& check) const {
+    if (resisting_.empty()) return;
+    for (std::size_t w = 0; w < resisted_.size(); ++w)
+      for_each_bit(w, resisted_[w], [&](std::uint32_t corner) { check(corner, true); });
   }
   /// Ends the step: how far it moved a node beyond moved() at most [m], and the corners that resist
   /// at its end.
@@ -78,6 +83,13 @@ class CornerWatch {
   static constexpr std::uint32_t kBits = 64;  // of a word
 
   static std::uint64_t bit(std::uint32_t corner) { return std::uint64_t{1} << corner % kBits; }
+  /// Calls take(corner) for the bits of a word.
+  template <class Take>
+  static void for_each_bit(std::size_t word, std::uint64_t bits, const Take& take) {
+    const auto first = static_cast<std::uint32_t>(kBits * word);
+    for (; bits != 0; bits &= bits - 1)
+      take(first + static_cast<std::uint32_t>(std::countr_zero(bits)));
+  }
   void add(double travel) {
     travel_ = std::nextafter(travel_ + travel, std::numeric_limits<double>::infinity());
   }

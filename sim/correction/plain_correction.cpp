@@ -29,6 +29,7 @@ PlainCorrection::PlainCorrection(const MassSpringModel& model, const ContactPoin
       points_(&points),
       obstacle_count_(obstacle_count),
       solver_(model, points, finder, volumes),
+      volumes_(volumes),
       watch_(model.corner_count()),
       due_(model.corner_count(), kDueAtOnce) {}
 
@@ -38,6 +39,11 @@ void PlainCorrection::correct(double step, const std::vector<Vec3>& x, std::vect
   solver_.begin(step, paths);
   check_contacts(x, x_next);
   solver_.solve_contacts();
+  if (volumes_) {
+    watch_.check_resisting(
+        [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
+    solver_.solve_together();
+  }
   if (!model_->corners.empty()) correct_corners(step, x, x_next);
   solver_.finish();
   for (const NodeChange& change : solver_.changes()) {

@@ -21,12 +21,16 @@ constexpr double kLargestMove = 0.25;
 
 StepCorners::StepCorners(const MassSpringModel& model, bool resist)
     : model_(&model), resist_(resist) {
+  double total = 0;  // volume [m3]
   for (const Corner& corner : model.corners) {
     const double volume = corner_volume(corner, model.rest);
     kept_.push_back({.inverse_volume = 1 / volume,
                      .stiffness = corner_stiffness(corner, volume),
                      .largest_move = kLargestMove * std::cbrt(volume)});
+    total += volume;
   }
+  for (Kept& kept : kept_)
+    kept.weight = std::min(1.0, static_cast<double>(kept_.size()) / (kept.inverse_volume * total));
   for (const double mass : model.mass) inverse_mass_.push_back(1 / mass);
 }
 
@@ -157,7 +161,10 @@ void StepCorners::book(const Press& press, const StepNodes& nodes) {
   const double end = volume_at(at) * kept.inverse_volume;
   loss_ += press.force * work - penalty_energy(kept.stiffness, kCornerResists - end) +
            penalty_energy(kept.stiffness, press.before);
-  largest_change_ = std::max(largest_change_, std::abs(end - (kCornerResists - press.before)));
+  const double depth = std::max(0.0, kCornerResists - end);
+  const double opened = end - (kCornerResists - press.before);
+  largest_change_ = std::max({largest_change_, std::abs(depth - std::max(0.0, press.before)),
+                              kept.weight * std::abs(opened)});
   note(press.corner, end);
 }
 

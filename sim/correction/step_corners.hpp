@@ -46,7 +46,9 @@ class StepCorners {
   /// Corners with J <= 0 at the start of the step that were not checked in the step before: others
   /// pressed them.
   const std::vector<std::uint32_t>& late_inverted() const { return late_inverted_; }
-  /// Largest change of the J of a corner that resisted in the step [1].
+  /// Largest change of a corner that resisted in the step [1]: of kCornerResists - J, where that is
+  /// positive, or of J times V0 over the mean of all corners, if that is less than 1. A large
+  /// corner that closes fast strains its springs; a small one has little energy until it resists.
   double largest_change() const { return largest_change_; }
 
  private:
@@ -69,6 +71,7 @@ class StepCorners {
     double inverse_volume = 0;  // 1 / V0 [1/m3]
     double stiffness = 0;       // [J]
     double largest_move = 0;    // of a node in a step [m]
+    double weight = 0;          // V0 over the mean of all corners, at most 1 [1]
     double force = 0;           // in the last step; 0 if it did not resist [J]
     bool is_pressed = false;    // in this step
   };

@@ -33,7 +33,7 @@ void StepCorrection::solve_contacts() {
 }
 
 // The contacts come last, so that no corner presses a node into an obstacle.
-bool StepCorrection::solve_corners() {
+bool StepCorrection::solve_together() {
   if (!corners_.start(nodes_)) return false;
   double change = 1;
   for (int i = 0; i < kMostSweeps && change > kTolerance; ++i) {
@@ -43,7 +43,11 @@ bool StepCorrection::solve_corners() {
   }
   corners_.count(nodes_);
   solve_contacts();
-  return ++rounds_ < kMostRounds;
+  return true;
+}
+
+bool StepCorrection::solve_corners() {
+  return solve_together() && ++rounds_ < kMostRounds;
 }
 
 void StepCorrection::finish() {

@@ -18,6 +18,8 @@ namespace springlod::sim {
 ///   begin(step, paths);
 ///   for each obstacle, for each point that may touch it: check_contact(...);
 ///   solve_contacts();
+///   for each corner that resisted in the last step: check_corner(...);
+///   solve_together();
 ///   for each corner that is near inversion: check_corner(...);
 ///   while (solve_corners()) for each corner that is near inversion now: check_corner(...);
 ///   finish();
@@ -49,6 +51,9 @@ class StepCorrection {
     contacts_.check(obstacle, point, was, path, nodes_);
   }
   void solve_contacts();
+  /// Solves the corners that were checked and the contacts together. Returns whether any corner is
+  /// new since the last call.
+  bool solve_together();
   /// The nodes, as the contacts and corners so far have moved them.
   const StepNodes& nodes() const { return nodes_; }
   double take_travel() { return nodes_.take_travel(); }

@@ -16,17 +16,21 @@ FastCorrection::FastCorrection(const Shared& shared)
       dues_(shared.body->block_count()),
       solver_(*shared.model, *shared.points.points, *shared.points.finder, shared.volumes) {}
 
-void FastCorrection::correct_contacts(const FastStep& step) {
+void FastCorrection::correct(const FastStep& step) {
   paths_.begin(step);
   solver_.begin(step.length, paths_);
   shown_.clear();
   shift_ = 0;
   near_.check(step, solver_);
   solver_.solve_contacts();
+  if (!shared_.volumes) return;
+  watch_.check_resisting(
+      [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
+  solver_.solve_together();
 }
 
-// A contact takes back most of the drift of a node that it presses, so the nodes that contacts
-// moved in the last step or in this one count with their displacement by both together.
+// A contact takes back most of the drift of a node that it presses, and so does a corner. The nodes
+// that they moved in the last step or in this one count with their displacement by all together.
 double FastCorrection::take_travel(const FastStep& step) {
   Vec3 largest = Vec3::Zero();
   for (std::uint32_t b = 0; b < shared_.body->block_count(); ++b)
@@ -52,7 +56,7 @@ double FastCorrection::take_travel(const FastStep& step) {
     pressed_.push_back(nodes.node(i));
     shared_.body->count_departure(shared_.body->place(nodes.node(i)), false);
   }
-  solver_.take_travel();  // that of the contacts is counted
+  solver_.take_travel();  // this part is counted
   return std::sqrt(most);
 }
 

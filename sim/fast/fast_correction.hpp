@@ -17,7 +17,7 @@ namespace springlod::sim {
 /// depend on nodes of several blocks, so one thread corrects the body while the others wait; only
 /// the corners are looked at by all. Calls for each drift, when all blocks have moved:
 ///
-///   one thread:  correct_contacts(step); bool look = corners_due(take_travel(step));
+///   one thread:  correct(step); bool look = corners_due(take_travel(step));
 ///   do {
 ///     if (look) for each block, by any thread: look_at_corners(block);
 ///     one thread:  look = solve_corners();
@@ -41,9 +41,10 @@ class FastCorrection {
   /// Whether there is anything to correct at all, in any step.
   bool needed() const { return needed_; }
 
-  void correct_contacts(const FastStep& step);
-  /// How far a node moved at most in the drift and by contacts together, relative to a rigid motion
-  /// [m]. Call it once.
+  /// Corrects for contacts, and for the corners that resisted in the last step.
+  void correct(const FastStep& step);
+  /// How far a node moved at most in the drift and by that correction together, relative to a rigid
+  /// motion [m]. Call it once.
   double take_travel(const FastStep& step);
   /// `travel`: that.
   bool corners_due(double travel);
@@ -68,7 +69,7 @@ class FastCorrection {
   /// How far the corners and contacts of the last step moved a node at most after take_travel()
   /// [m].
   double shift() const { return shift_; }
-  /// Largest change in one step of the J of a corner near inversion, since the last call [1].
+  /// Largest StepCorners::largest_change() of a step since the last call [1].
   double largest_corner_change() const { return largest_corner_change_; }
   double take_largest_corner_change() { return std::exchange(largest_corner_change_, 0); }
 
@@ -92,8 +93,8 @@ class FastCorrection {
   CornerWatch watch_;
   bool looking_ = false;
   std::vector<Vec3> shown_;  // displacement by the correction that the body has so far, by slot [m]
-  std::vector<std::uint32_t> pressed_;     // nodes that contacts moved in the last step
-  std::vector<std::uint64_t> pressed_at_;  // by node: number of the last step in which they did
+  std::vector<std::uint32_t> pressed_;     // nodes that were corrected in the last step
+  std::vector<std::uint64_t> pressed_at_;  // by node: number of the last step in which it was
   CornerLook look_;
   std::vector<std::vector<std::uint32_t>> found_;  // by block: corners without a margin
   std::vector<double> dues_;                       // by block: travel at which corners are due [m]

@@ -195,7 +195,7 @@ void FastLeapfrog::correct(const FastStep& step, const Share& share) {
   const bool one = share.member.number == 0;
   if (one) {
     reached_ = step.number;
-    if (correction_.needed()) correction_.correct_contacts(step);
+    if (correction_.needed()) correction_.correct(step);
     watch_.plan(step, correction_);
     if (!watch_.looks()) end_look(step);
   }

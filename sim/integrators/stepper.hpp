@@ -42,7 +42,8 @@ class Stepper {
   struct Watch {
     double speed = std::numeric_limits<double>::infinity();   ///< of the fastest node [m/s]
     double strain = std::numeric_limits<double>::infinity();  ///< of the most strained spring [1]
-    double corner_change = std::numeric_limits<double>::infinity();  ///< of J in a step [1]
+    double corner_change =
+        std::numeric_limits<double>::infinity();  ///< see StepCorners::largest_change [1]
   };
   /// From now on, advance() returns after a step in which one of these limits was exceeded.
   virtual void watch(const Watch& /*limits*/) {}

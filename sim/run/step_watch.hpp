@@ -21,15 +21,14 @@ class StepController {
   /// `step`: the step for the body at rest [s].
   StepController(const MassSpringModel& model, const StepLimit& limit, double step);
 
-  /// A step in which the J of a corner changes by more is too long [1]: it
-  /// would follow a corner near inversion too coarsely.
+  /// A step in which a corner changes by more, see StepCorners::largest_change(), is too long [1]:
+  /// it would follow a corner near inversion too coarsely.
   static constexpr double kCornerChange = 0.15;
 
   /// What a check found.
   struct Strained {
-    double strain = 0;  ///< the largest strain of the springs [1]; small ones do not count
-    double corner_change =
-        0;  ///< largest change of the J of a corner in a step since the last check
+    double strain = 0;         ///< the largest strain of the springs [1]; small ones do not count
+    double corner_change = 0;  ///< largest change of a corner in a step since the last check [1]
     std::uint64_t step_number = 0;
   };
   /// The step to take from here [s]: the initial step divided by a power of two, so that steps
