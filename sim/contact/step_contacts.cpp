@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace springlod::sim {
@@ -25,20 +26,51 @@ void StepContacts::begin(double step) {
   losses_ = {};
 }
 
-void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const Contact* was,
-                         const StepPath& path, StepNodes& nodes) {
-  const std::optional<Penetration> end = finder_->penetration(obstacle, point, path.to);
-  if (was == nullptr && !end) return;
-  Contact contact = finder_->contact(obstacle, point, end ? end->normal : was->normal);
-  if (was != nullptr) contact.stretch = was->stretch;
-  const double mass = points_->mass(point);
+void StepContacts::check(const Contact& before, StepNodes& nodes) {
+  const std::size_t first = shares_.size();
+  add_shares(before.point, nodes);
+  StepPath path;
+  for (std::size_t s = first; s < shares_.size(); ++s) {
+    const StepPath& of_node = nodes.path(shares_[s].slot);
+    path.from += shares_[s].weight * of_node.from;
+    path.to += shares_[s].weight * of_node.to;
+  }
+  const auto end = finder_->penetration(before.obstacle, before.point, path.to);
+  Contact contact =
+      finder_->contact(before.obstacle, before.point, end ? end->normal : before.normal);
+  contact.stretch = before.stretch;
+  touches_.push_back(touch(contact, &before, path, end));
+  start_from(before, touches_.back(), nodes);
+}
+
+void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const StepPath& path,
+                         StepNodes& nodes) {
+  const auto end = finder_->penetration(obstacle, point, path.to);
+  if (!end) return;
+  add_shares(point, nodes);
+  touches_.push_back(touch(finder_->contact(obstacle, point, end->normal), nullptr, path, end));
+}
+
+void StepContacts::add_shares(std::uint32_t point, StepNodes& nodes) {
+  for (const ContactPoints::Share& share : points_->shares(point))
+    shares_.push_back({nodes.slot(share.node), share.weight, share.kick});
+}
+
+StepContacts::Touch StepContacts::touch(const Contact& contact, const Contact* was,
+                                        const StepPath& path,
+                                        const std::optional<Penetration>& end) {
+  const double mass = points_->mass(contact.point);
+  const auto shares = static_cast<std::uint32_t>(points_->shares(contact.point).size());
+  const auto last = static_cast<std::uint32_t>(shares_.size());
   Touch touch{.contact = contact,
               .law = NormalLaw({.stiffness = contact.stiffness,
                                 .damping = contact.damping * inverse_step_,
                                 .mobility = step_ * step_ / (2 * mass)}),
               .friction = FrictionLaw(contact, mass, step_),
               .mass = mass,
-              .path = path};
+              .path = path,
+              .first = last - shares,
+              .end = last};
   // The depth of a contact that continues is known; geometry would give it with other rounding.
   const bool same_face = was != nullptr && was->normal == contact.normal;
   if (end) {
@@ -51,12 +83,7 @@ void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const Cont
   // A point on another face of a box than before, or that other contacts pushed in.
   losses_.contact += (was != nullptr ? penalty_energy(was->stiffness, was->depth) : 0) -
                      penalty_energy(contact.stiffness, touch.before);
-  touch.first = static_cast<std::uint32_t>(shares_.size());
-  for (const ContactPoints::Share& share : points_->shares(point))
-    shares_.push_back({nodes.slot(share.node), share.weight, share.kick});
-  touch.end = static_cast<std::uint32_t>(shares_.size());
-  if (was != nullptr) start_from(*was, touch, nodes);
-  touches_.push_back(std::move(touch));
+  return touch;
 }
 
 // The forces of the last step need fewer sweeps than none.

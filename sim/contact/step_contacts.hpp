@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,10 +34,11 @@ class StepContacts {
   void begin(double step);
   /// The contacts at the start of the step. All of them must be checked.
   const std::vector<Contact>& before() const { return before_; }
-  /// Adds the contact of a point with an obstacle, if they touch during the step. `was`: their
-  /// contact in before(), or null. `path`: of the point in the free step.
-  void check(std::uint32_t obstacle, std::uint32_t point, const Contact* was, const StepPath& path,
-             StepNodes& nodes);
+  /// Continues one of them.
+  void check(const Contact& before, StepNodes& nodes);
+  /// Adds the contact of a point with an obstacle that it did not touch at the start of the step,
+  /// if it does at the end. `path`: of the point in the free step.
+  void check(std::uint32_t obstacle, std::uint32_t point, const StepPath& path, StepNodes& nodes);
 
   bool empty() const { return touches_.empty(); }
   /// Updates all contacts once. Returns the largest change of a point's position over the largest
@@ -68,6 +70,12 @@ class StepContacts {
     double kick = 0;         // see ContactPoints::Share [1]
   };
 
+  /// Adds the nodes of a point to those of the step, and the point's shares in them.
+  void add_shares(std::uint32_t point, StepNodes& nodes);
+  /// A contact whose shares were added last. `was`: see before(), or null. `end`: at the end of
+  /// the path, if there is any.
+  Touch touch(const Contact& contact, const Contact* was, const StepPath& path,
+              const std::optional<Penetration>& end);
   void start_from(const Contact& was, Touch& touch, StepNodes& nodes) const;
   /// Moves the nodes of a point so that it moves by `change` [m].
   void push(const Touch& touch, const Vec3& change, StepNodes& nodes) const;

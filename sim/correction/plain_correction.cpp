@@ -58,9 +58,10 @@ void PlainCorrection::check_contacts(const std::vector<Vec3>& x, const std::vect
   for (std::uint32_t o = 0; o < obstacle_count_; ++o)
     for (std::uint32_t p = 0; p < points_->count(); ++p) {
       const bool touched = was != solver_.before().end() && was->obstacle == o && was->point == p;
-      solver_.check_contact(o, p, touched ? &*was : nullptr,
-                            {points_->interpolate(p, x), points_->interpolate(p, x_next)});
-      if (touched) ++was;
+      if (touched)
+        solver_.check_contact(*was++);
+      else
+        solver_.check_contact(o, p, {points_->interpolate(p, x), points_->interpolate(p, x_next)});
     }
 }
 

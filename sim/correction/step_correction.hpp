@@ -46,9 +46,9 @@ class StepCorrection {
   /// The contacts at the start of the step; all of them must be checked.
   const std::vector<Contact>& before() const { return contacts_.before(); }
   /// See StepContacts::check.
-  void check_contact(std::uint32_t obstacle, std::uint32_t point, const Contact* was,
-                     const StepPath& path) {
-    contacts_.check(obstacle, point, was, path, nodes_);
+  void check_contact(const Contact& before) { contacts_.check(before, nodes_); }
+  void check_contact(std::uint32_t obstacle, std::uint32_t point, const StepPath& path) {
+    contacts_.check(obstacle, point, path, nodes_);
   }
   void solve_contacts();
   /// Solves the corners that were checked and the contacts together. Returns whether any corner is

@@ -93,25 +93,33 @@ void NearPoints::check_points(const FastStep& step, std::uint32_t obstacle,
   View& view = views_[obstacle];
   const Obstacle& thing = (*shared_.obstacles)[obstacle];
   for (const Contact& contact : solver.before())
-    if (contact.obstacle == obstacle) check_point(step, obstacle, contact.point, &contact, solver);
+    if (contact.obstacle == obstacle) {
+      note_check(step, obstacle, contact.point);
+      solver.check_contact(contact);
+    }
   const bool is_box = std::holds_alternative<SolidBox>(thing.shape);
   view.schedule.check(view.travel, [&](std::uint32_t point) {
     if (view.checked_at[point] == step.number + 1) return 0.0;  // in contact
     const double distance = surface_distance(thing, point_to(point)).distance;
-    if (distance <= 0 || is_box) check_point(step, obstacle, point, nullptr, solver);
+    if (distance <= 0 || is_box) check_point(step, obstacle, point, solver);
     return distance / shared_.points->reach(point);
   });
 }
 
 void NearPoints::check_point(const FastStep& step, std::uint32_t obstacle, std::uint32_t point,
-                             const Contact* was, StepCorrection& solver) {
+                             StepCorrection& solver) {
+  const StepPath path = point_path(point);
+  if (views_[obstacle].checked_at[point] != step.number)
+    shared_.finder->take_sides(obstacle, point, path.from);
+  note_check(step, obstacle, point);
+  solver.check_contact(obstacle, point, path);
+}
+
+void NearPoints::note_check(const FastStep& step, std::uint32_t obstacle, std::uint32_t point) {
   View& view = views_[obstacle];
   if (std::holds_alternative<SolidBox>((*shared_.obstacles)[obstacle].shape))
     view.near.push_back(point);
-  const StepPath path = point_path(point);
-  if (view.checked_at[point] != step.number) shared_.finder->take_sides(obstacle, point, path.from);
   view.checked_at[point] = step.number + 1;
-  solver.check_contact(obstacle, point, was, path);
 }
 
 void NearPoints::check_walls(const FastStep& step) {

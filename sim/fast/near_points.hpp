@@ -51,9 +51,9 @@ class NearPoints {
   void arrive();
   void add_travel(const FastStep& step);
   void check_points(const FastStep& step, std::uint32_t obstacle, StepCorrection& solver);
-  /// `was`: its contact with the obstacle at the start of the step, or null.
   void check_point(const FastStep& step, std::uint32_t obstacle, std::uint32_t point,
-                   const Contact* was, StepCorrection& solver);
+                   StepCorrection& solver);
+  void note_check(const FastStep& step, std::uint32_t obstacle, std::uint32_t point);
   Vec3 point_to(std::uint32_t point) const;
   StepPath point_path(std::uint32_t point) const;
 
