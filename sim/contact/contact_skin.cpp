@@ -57,7 +57,10 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
       area += base.contact_area[i];
       moment += base.contact_area[i] * base.rest[i];
       stiffness += surface.stiffness[i];
-      yielding += lost[i] > 0 ? surface.stiffness[i] / lost[i] : kRigid;
+      if (lost[i] > 0)
+        yielding += surface.stiffness[i] / lost[i];
+      else
+        yielding = kRigid;
     }
     means.push_back({moment / area, groups.of[patch.front()]});
     skin.area.push_back(area);

@@ -23,7 +23,7 @@ class StepCorners {
   /// Adds a corner if it resists at the start of the step, or at its end as the contacts and the
   /// corners before have left it. A corner that has been added is left as it is. `resisted`: it is
   /// one of resisting() of the last step.
-  void check(std::uint32_t corner, bool resisted, StepNodes& nodes);
+  void check(std::uint32_t number, bool resisted, StepNodes& nodes);
 
   /// Gives the corners that were added since the last call their forces of the last step, to start
   /// from. Returns whether there are any.
