@@ -140,8 +140,10 @@ void check_tolerances(const CertifyOptions& options, const LodChain& chain, cons
 
 void certify(LodChain& chain, const CertifyOptions& options) {
   const MassSpringModel& base = chain.levels.front().model;
-  const ComparedLoads loads = compared_loads(
-      base, {.count = options.held_out_loads, .seed = options.seed, .within = options.within});
+  const ComparedLoads loads = compared_loads(base, {.count = options.held_out_loads,
+                                                    .seed = options.seed,
+                                                    .radius = options.radius,
+                                                    .within = options.within});
   Task task(options.progress, "certifying", chain.levels.size());
   const Measured of_base = measure(base, loads.all, loads.smooth, options.anchored, options.modes);
   task.advance();

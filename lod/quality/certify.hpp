@@ -14,6 +14,7 @@ struct CertifyOptions {
   std::uint32_t modes = 20;
   std::uint32_t held_out_loads = 40;         ///< number of pinches, and of pushes
   std::uint64_t seed = 1;                    ///< of the patches they act on
+  double radius = 3;                         ///< of the patches, see elastic::LocalLoadOptions
   std::vector<std::uint32_t> within = {};    ///< base nodes they act on; empty: the whole surface
   std::vector<std::uint32_t> anchored = {};  ///< base nodes that are held fixed
   /// Tolerance of the mean error of the ten lowest frequencies [1]; 0: as in FitOptions.
@@ -28,6 +29,8 @@ constexpr auto option_rows(const CertifyOptions*) {
              "number of pinches, and of pushes, on patches of the surface; calibration is fitted "
              "to neither (but to pushes on its `regions`)"),
       option("seed", &CertifyOptions::seed, "seed of the positions of the held-out loads"),
+      option("radius", &CertifyOptions::radius,
+             "radius of the patches of the held-out loads, in mean spring lengths of the base"),
       nodes_option("within", &CertifyOptions::within,
                    "nodes of the base whose surface the held-out loads act on, such as a region "
                    "given to calibration",
@@ -35,14 +38,14 @@ constexpr auto option_rows(const CertifyOptions*) {
       option("tolerance", &CertifyOptions::tolerance,
              "tolerance of the mean error of the ten lowest frequencies; levels outside tolerance "
              "are reported")
-          .by_default("0.002 sqrt(N0 / N)"),
+          .by_default("0.0033 sqrt(N0 / N)"),
       anchored_option(&CertifyOptions::anchored));
 }
 
 /// Measures every level and the base alike and stores the errors as the level's certificate
 /// (docs/method.md, eqs. 48 to 50). Loads act on base nodes and are summed over the groups. A level
 /// is outside tolerance if the mean error of the ten lowest frequencies exceeds the tolerance t,
-/// that of the other modes 4 t, of the smooth loads 8 t, of the held-out loads 12 t, or if it has
+/// that of the other modes 3 t, of the smooth loads 8 t, of the held-out loads 12 t, or if it has
 /// mechanisms or other moments of mass than the base.
 /// Results are bit-identical for any number of threads. Throws InputError where elastic_body does,
 /// and if no node of `within` is a border node.

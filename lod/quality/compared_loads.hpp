@@ -12,6 +12,7 @@ namespace springlod::lod {
 struct ComparedLoadOptions {
   std::uint32_t count = 40;  ///< number of pinches, and of pushes
   std::uint64_t seed = 1;    ///< of the patches they act on
+  double radius = 3;         ///< of the patches, see LocalLoadOptions
   /// Nodes that local loads act on, see LocalLoadOptions; empty: the whole surface.
   std::vector<std::uint32_t> within = {};
 };
