@@ -121,7 +121,23 @@ constexpr auto option_rows(const GuardOptions*) {
           "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T is below this"));
 }
 
-/// Moments of mass that a calibration keeps (docs/method.md, eqs. 35 and 36).
+/// Masses of a level's nodes in a calibration.
+enum class NodeMasses {
+  group,  ///< each node keeps the mass of its group
+  free    ///< fitted too; only the moments of mass are kept
+};
+
+inline constexpr Choice<NodeMasses> kNodeMasses[] = {
+    {NodeMasses::group, "group",
+     "each node keeps the mass of its group, so that blows give the velocities of the base"},
+    {NodeMasses::free, "free",
+     "masses are fitted as stiffnesses are: lower errors of frequencies, larger ones after a "
+     "blow"}};
+constexpr ChoiceTable<Choice<NodeMasses>> choices(NodeMasses) {
+  return {"masses", kNodeMasses};
+}
+
+/// Moments of mass that a calibration with NodeMasses::free keeps (docs/method.md, eqs. 35 and 36).
 enum class KeptMoments {
   body,   ///< those of the whole body
   pieces  ///< those of each material region of 20 nodes or more, and of the smaller ones together
@@ -178,10 +194,10 @@ struct TargetOptions {
   /// Number of patch pairs on the surface, see patch_pairs; empty: see patch_count. Without them a
   /// fit increases the error of loads that are not fitted.
   std::optional<std::uint32_t> patches = {};
-  double patch_weight = 0.2;  ///< of each patch pair, relative to a smooth load [1]
+  double patch_weight = 0.3;  ///< of each patch pair, relative to a smooth load [1]
   std::vector<TargetRegion> regions = {};
-  /// Factors on the weights of all modes and of all static loads [1].
-  double mode_weight = 1, load_weight = 1;
+  /// Factors on the weights of all frequencies, of the mode shapes and of all static loads [1].
+  double mode_weight = 1, shape_weight = 1, load_weight = 1;
   std::uint64_t seed = 1;                    ///< of the patches
   std::vector<std::uint32_t> anchored = {};  ///< base nodes that are held fixed
   // calibrate() sets these two to its own.
@@ -201,7 +217,12 @@ constexpr auto option_rows(const TargetOptions*) {
           .weight(),
       record_option("regions", &TargetOptions::regions, "Region",
                     "regions of the surface with load cases of their own", "none"),
-      option("mode_weight", &TargetOptions::mode_weight, "factor on the weight of modes").weight(),
+      option("mode_weight", &TargetOptions::mode_weight, "factor on the weight of frequencies")
+          .weight(),
+      option("shape_weight", &TargetOptions::shape_weight,
+             "factor on the weight of mode shapes, which are fitted by the static displacements "
+             "under the inertial forces of each mode; 0: shapes are not fitted")
+          .weight(),
       option("load_weight", &TargetOptions::load_weight, "factor on the weight of all static loads")
           .weight(),
       option("seed", &TargetOptions::seed, "seed of the patches"),
@@ -213,15 +234,18 @@ struct FitOptions {
   /// fit_steps.
   std::uint32_t iterations = 0;
   /// Tolerance t of the mean error of the ten lowest frequencies [1]; 0: see frequency_tolerance.
-  /// The tolerance of the other modes is 4 t, of smooth and region loads 8 t, of patch and piece
+  /// The tolerance of the other modes is 3 t, of smooth and region loads 8 t, of patch and piece
   /// loads 20 t (docs/method.md, eq. 44).
   double tolerance = 0;
   /// The fit ends when omega_max is at most this fraction of omega0_max (N / N0)^(1/3), that of a
   /// lattice with as many nodes (docs/method.md, eq. 46) [1]. A lower omega_max increases the error
   /// of local loads.
   double least_frequency = 0.85;
-  /// With KeptMoments::pieces stiff regions cannot take mass from the others. More accurate in
-  /// impacts; shorter stable time step.
+  /// With fixed masses, blows are as accurate as the groups are, and mass cannot move to where it
+  /// lengthens the step.
+  NodeMasses masses = NodeMasses::group;
+  /// Has an effect only if masses are free. With KeptMoments::pieces stiff regions cannot take mass
+  /// from the others. More accurate in impacts; shorter stable time step.
   KeptMoments moments = KeptMoments::body;
   /// At most two are used; results do not depend on it. calibrate() sets it to its own.
   std::uint32_t threads = 1;
@@ -229,9 +253,9 @@ struct FitOptions {
 constexpr auto option_rows(const FitOptions*) {
   return std::tuple(
       option("tolerance", &FitOptions::tolerance,
-             "tolerance of the mean error of the ten lowest frequencies; other modes have 4 times "
+             "tolerance of the mean error of the ten lowest frequencies; other modes have 3 times "
              "the tolerance, smooth loads and regions 8 times, patches 20 times")
-          .by_default("0.002 sqrt(N0 / N)"),
+          .by_default("0.0033 sqrt(N0 / N)"),
       option("iterations", &FitOptions::iterations,
              "maximum number of steps; the default is smaller, down to 10, for levels of more than "
              "500 nodes")
@@ -239,9 +263,10 @@ constexpr auto option_rows(const FitOptions*) {
       option("least_frequency", &FitOptions::least_frequency,
              "the fit ends when the highest frequency, which bounds the step, is at most this "
              "fraction of that of a lattice with as many nodes"),
+      option("masses", &FitOptions::masses, "masses of the nodes"),
       option("moments", &FitOptions::moments,
-             "moments of mass (mass, centre, second moments) that stay unchanged while masses "
-             "shift between nodes"));
+             "with masses = \"free\": moments of mass (mass, centre, second moments) that stay "
+             "unchanged while masses shift between nodes"));
 }
 
 /// Treatment of levels after merging.

@@ -19,7 +19,7 @@ namespace {
 
 /// Format version. Raise it whenever a fit continues differently from the same state or the format
 /// changes; files of other versions are ignored.
-constexpr std::uint32_t kFormat = 3;
+constexpr std::uint32_t kFormat = 4;
 constexpr std::size_t kChecksumSize = 16;  // of content_hash [bytes]
 
 const char* const kAbout =
@@ -81,7 +81,10 @@ void visit_members(State& state, const Visit& visit) {
   visit(state.finished);
   visit(state.bound);
   visit(state.damping);
+  visit(state.rejected);
   visit(state.tighten);
+  for (auto& slack : state.slack) visit(slack);
+  visit(state.stalled_merit);
   visit(state.now);
   visit(state.best);
   visit(state.best_frequency);
@@ -136,6 +139,8 @@ std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel&
   Packer all;
   all.add(targets.squared_frequency);
   all.add(targets.mode_weight);
+  for (const std::vector<Vec3>& force : targets.modal_forces) all.add(force);
+  all.add(targets.shape_weight);
   for (const LoadTarget& target : targets.loads) {
     all.add(static_cast<int>(target.kind));
     all.add(target.load.force);
@@ -171,6 +176,9 @@ std::optional<BaseMeasurements> CalibrationStore::measurements(
   Unpacker from(*payload);
   BaseMeasurements measured;
   measured.squared_frequency = from.take_list<double>();
+  const auto modes = from.take<std::uint64_t>();
+  for (std::uint64_t mode = 0; mode < modes; ++mode)
+    measured.modal_forces.push_back(from.take_vectors());
   measured.compliance = from.take_list<double>();
   measured.highest_frequency = from.take<double>();
   return measured;
@@ -180,6 +188,8 @@ void CalibrationStore::keep(std::size_t part, const std::string& fingerprint,
                             const BaseMeasurements& measured) const {
   Packer to;
   to.add(measured.squared_frequency);
+  to.add(static_cast<std::uint64_t>(measured.modal_forces.size()));
+  for (const std::vector<Vec3>& force : measured.modal_forces) to.add(force);
   to.add(measured.compliance);
   to.add(measured.highest_frequency);
   write(name_of_measurements(part), fingerprint, to.bytes());

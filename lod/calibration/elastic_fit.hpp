@@ -9,16 +9,18 @@
 
 #include "elastic/elastic_body.hpp"
 #include "lod/calibration/elastic_targets.hpp"
+#include "lod/calibration/modal_loads.hpp"
+#include "lod/options.hpp"
 #include "model/chain.hpp"
 #include "model/mass_spring.hpp"
 
 namespace springlod::lod {
 
 /// Weighted residuals r of a level against its targets and their Jacobian with respect to ln k of
-/// each spring and ln m of each node (docs/method.md, eqs. 30 to 34).
+/// each spring and, with NodeMasses::free, ln m of each node (docs/method.md, eqs. 30 to 34).
 struct ElasticResiduals {
   Eigen::VectorXd weighted;              ///< r, R [1]
-  Eigen::MatrixXd jacobian;              ///< G = -dr / d(ln k, ln m), (S + N) x R [1]
+  Eigen::MatrixXd jacobian;              ///< G = -dr / d(ln k, ln m), S or S + N, by R [1]
   std::vector<double> frequency_error;   ///< |omega / omega0 - 1| of each mode, unweighted [1]
   std::vector<double> compliance_error;  ///< the same of each load
 };
@@ -27,9 +29,10 @@ struct ElasticResiduals {
 /// fixed. The level must be connected.
 class ElasticFit {
  public:
-  /// With two threads or more, modes and loads are solved concurrently.
+  /// `level` has the masses of its groups. With two threads or more, modes and loads are solved
+  /// concurrently.
   ElasticFit(const MassSpringModel& level, const Groups& of_base, const ElasticTargets& targets,
-             std::uint32_t threads = 1);
+             const FitOptions& options = {});
 
   /// Modes are matched in ascending order of lambda = omega^2. The derivatives are
   ///   d ln lambda / d ln k = k (b.phi)^2 / lambda,   d ln lambda / d ln m = -m |phi|^2,
@@ -37,21 +40,29 @@ class ElasticFit {
   /// with the compliance c = f.u of a load f and the rigid acceleration a of the free body under f.
   /// Modes of nearly equal frequency (lambda within 1 %) are not differentiable one by one. Each
   /// pair of them adds a row with residual 0, which keeps the two modes from mixing.
+  ///
+  /// Shapes are compared by the compliances C_ij = f_j . u_i of each pair of modal loads, which are
+  /// differentiable for modes of equal frequency too:
+  ///   dC_ij / d ln k = -k (b.u_i)(b.u_j),   dC_ij / d ln m = -m (u_i.a_j + u_j.a_i).
   ElasticResiduals residuals(const MassSpringModel& level) const;
 
  private:
   /// Pairs (i, j >= i) of modes of nearly equal frequency; each mode is paired with itself.
   std::vector<std::pair<std::size_t, std::size_t>> mode_pairs() const;
-  /// Fill the rows of modes or loads from index `first` on.
+  /// Fill the rows of modes, loads or shapes from index `first` on.
   void add_modes(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
                  ElasticResiduals& all) const;
   void add_loads(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
                  ElasticResiduals& all) const;
+  void add_shapes(const MassSpringModel& level, const elastic::ElasticBody& body,
+                  Eigen::Index first, ElasticResiduals& all) const;
 
   const ElasticTargets& targets_;
   std::uint32_t threads_;
+  bool free_masses_;
   std::vector<std::uint32_t> anchored_;
   std::vector<elastic::StaticLoad> loads_;
+  ModalLoads modal_;
   Eigen::SparseMatrix<double, Eigen::RowMajor> stretch_;  // S x 3N: b of each spring
 };
 

@@ -31,6 +31,7 @@ void check(const TargetOptions& options) {
   check_weight("piece_weight", options.piece_weight);
   check_weight("patch_weight", options.patch_weight);
   check_weight("mode_weight", options.mode_weight);
+  check_weight("shape_weight", options.shape_weight);
   check_weight("load_weight", options.load_weight);
   for (const TargetRegion& region : options.regions)
     check_weight("weight of a region", region.weight);
@@ -39,7 +40,7 @@ void check(const TargetOptions& options) {
     throw InputError(
         "calibration: targets = \"modes\" excludes the loads of regions; leave out regions, or use "
         "targets = \"loads\" or \"both\"");
-  if ((mode_count(options) == 0 || options.mode_weight == 0) &&
+  if ((mode_count(options) == 0 || (options.mode_weight == 0 && options.shape_weight == 0)) &&
       (!any_load || options.load_weight == 0))
     throw InputError("calibration: no targets are left; use modes or loads with a weight above 0");
 }
@@ -133,8 +134,11 @@ BaseMeasurements measure_base(const MassSpringModel& base, const TargetOptions& 
     const std::uint32_t modes = mode_count(options);
     if (job == 0 && modes > 0)
       for (const elastic::Mode& mode :
-           elastic::lowest_modes(body, {.count = modes, .progress = options.progress}).modes)
+           elastic::lowest_modes(body, {.count = modes, .progress = options.progress}).modes) {
         measured.squared_frequency.push_back(mode.angular_frequency * mode.angular_frequency);
+        std::vector<Vec3>& force = measured.modal_forces.emplace_back(mode.shape);
+        for (std::uint32_t i = 0; i < base.node_count(); ++i) force[i] *= base.mass[i];
+      }
     if (job == 1) measured.compliance = compliances(body, loads, stopped);
   });
   measured.highest_frequency = elastic::largest_frequency(base);
@@ -146,6 +150,8 @@ ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& op
   ElasticTargets targets;
   targets.squared_frequency = measured.squared_frequency;
   targets.mode_weight = options.mode_weight;
+  targets.shape_weight = options.shape_weight;
+  if (options.shape_weight > 0) targets.modal_forces = measured.modal_forces;
   targets.loads = std::move(loads);
   for (std::size_t l = 0; l < targets.loads.size(); ++l)
     targets.loads[l].compliance = measured.compliance.at(l);

@@ -27,11 +27,15 @@ struct LoadTarget {
   double weight = 1;         ///< [1]
 };
 
-/// Targets of a fit: natural frequencies and static compliances of the base (docs/method.md, eq. 30
-/// and the table of weights below it).
+/// Targets of a fit: natural frequencies, mode shapes and static compliances of the base
+/// (docs/method.md, eq. 30 and the table of weights below it).
 struct ElasticTargets {
   std::vector<double> squared_frequency;  ///< omega^2 of the lowest modes, ascending [rad2/s2]
-  double mode_weight = 1;                 ///< factor on the default weight of each mode [1]
+  double mode_weight = 1;                 ///< factor on the default weight of each frequency [1]
+  /// Inertial forces M phi of each mode on the base's nodes [kg^1/2], which stand for its shape;
+  /// none if shape_weight is 0.
+  std::vector<std::vector<Vec3>> modal_forces;
+  double shape_weight = 1;  ///< factor on the default weight of the shapes [1]
   std::vector<LoadTarget> loads;
   double highest_frequency = 0;         ///< omega_max of the base [rad/s]
   std::uint32_t nodes = 0;              ///< number of nodes of the base
@@ -51,9 +55,10 @@ constexpr double kLoadBalance = 1e-8;
 
 /// Measured values of a base. Measuring a large base takes minutes.
 struct BaseMeasurements {
-  std::vector<double> squared_frequency;  ///< as in ElasticTargets [rad2/s2]
-  std::vector<double> compliance;         ///< of every target load; 0: it does not act [J]
-  double highest_frequency = 0;           ///< omega_max [rad/s]
+  std::vector<double> squared_frequency;        ///< as in ElasticTargets [rad2/s2]
+  std::vector<std::vector<Vec3>> modal_forces;  ///< as in ElasticTargets [kg^1/2]
+  std::vector<double> compliance;               ///< of every target load; 0: it does not act [J]
+  double highest_frequency = 0;                 ///< omega_max [rad/s]
 };
 
 /// Measures the targets of a base. Half of the loads of a region are patch pairs, if two patches

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <utility>
@@ -21,7 +22,8 @@ namespace {
 constexpr double kMostStep = 1, kMostRms = 0.15, kMostChange = 3;
 /// Damping relative to the mean diagonal of G^T G: initial value, least and largest.
 constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-5, kMostDamping = 1e6;
-/// Divisor of the damping after an accepted step, and factor on it after a rejected one.
+/// Divisor of the damping after an accepted step, unless the step before was rejected, and factor
+/// on it after a rejected step.
 constexpr double kDampingDecrease = 3, kDampingIncrease = 4;
 /// Penalty weight of a constraint, relative to a smooth load. In a level of more than 1000 nodes
 /// the constraints weigh as much as those of 1000 nodes; they would outweigh the residuals
@@ -36,6 +38,11 @@ constexpr int kRelinearizations = 4;
 /// root; the fit ends when the factor exceeds kLeastTighten.
 constexpr double kTighten = 0.8, kLeastTighten = 0.98;
 constexpr std::uint32_t kPatience = 10;
+/// A level that was never within tolerance counts as improving while its merit falls by a factor of
+/// kImprovement within kStalled steps. If it does not, the tolerances that it misses become its
+/// errors times kSlack.
+constexpr double kImprovement = 0.9, kSlack = 1.1;
+constexpr std::uint32_t kStalled = 5;
 /// Least ratio of the frequency bound to the largest squared node frequency. With a smaller ratio
 /// nearly all nodes would be constrained instead of the stiffest.
 constexpr double kLeastBound = 0.68;
@@ -60,14 +67,15 @@ class PartFit {
       : start_(level),
         targets_(targets),
         progress_(progress),
+        masses_(options.masses),
         steps_(fit_steps(options, level.node_count())),
         tolerance_(frequency_tolerance(options.tolerance, targets.nodes, level.node_count())),
         least_frequency_(options.least_frequency * targets.highest_frequency *
                          std::cbrt(static_cast<double>(level.node_count()) / targets.nodes)),
         constraint_weight_(kConstraintWeight *
                            std::sqrt(std::min(1.0, kConstraintNodes / level.node_count()))),
-        variables_(level, options.moments),
-        fit_(level, of_base, targets, options.threads) {}
+        variables_(level, options),
+        fit_(level, of_base, targets, options) {}
 
   MassSpringModel run() {
     if (progress_.from)
@@ -75,6 +83,7 @@ class PartFit {
     else
       begin();
     for (; !finished_ && iteration_ < steps_; report()) {
+      if (!best_) give_slack_if_stalled();
       if (within_tolerance(now_)) {
         keep_if_better();
         if (best_->highest_frequency <= least_frequency_) break;
@@ -104,6 +113,7 @@ class PartFit {
     ElasticResiduals residuals;  // Jacobian by theta, projected: see project_jacobian
     Eigen::MatrixXd normal;      // G^T G
   };
+  using Ratios = decltype(FitState::slack);
   struct Best {
     Eigen::VectorXd theta;
     MassSpringModel model;
@@ -121,7 +131,10 @@ class PartFit {
     finished_ = state.finished;
     bound_ = state.bound;
     damping_ = state.damping;
+    rejected_ = state.rejected;
     tighten_ = state.tighten;
+    slack_ = state.slack;
+    stalled_merit_ = state.stalled_merit;
     now_ = {state.now.theta, variables_.model(state.now), {}, {}};
     if (!finished_) measure(now_);
     if (state.best)
@@ -134,7 +147,10 @@ class PartFit {
                    .finished = finished_,
                    .bound = bound_,
                    .damping = damping_,
+                   .rejected = rejected_,
                    .tighten = tighten_,
+                   .slack = slack_,
+                   .stalled_merit = stalled_merit_,
                    .now = {now_.theta, now_.model.mass},
                    .best = {},
                    .best_frequency = best_ ? best_->highest_frequency : 0,
@@ -183,7 +199,7 @@ class PartFit {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(variables_.count());
     for (int i = 0; i < kRelinearizations && step.allFinite(); ++i) {
       const FrequencyConstraints constraints =
-          frequency_constraints(variables_.model(now_.theta + step), bound_, kMargin);
+          frequency_constraints(variables_.model(now_.theta + step), bound_, kMargin, masses_);
       const Eigen::SparseMatrix<double, Eigen::RowMajor> constraint_jacobian =
           variables_.scaled_jacobian(constraints.jacobian);
       const Eigen::VectorXd constraint_value = constraints.value - constraint_jacobian * step;
@@ -205,12 +221,14 @@ class PartFit {
   /// One step, rejected if it does not lower the merit. False once the damping is at its upper end.
   bool advance() {
     std::optional<Point> next = after(next_step());
-    if (next && merit(*next) < merit(now_)) {
+    const bool accepted = next && merit(*next) < merit(now_);
+    if (accepted) {
       now_ = *std::move(next);
-      damping_ = std::max(kLeastDamping, damping_ / kDampingDecrease);
+      if (!rejected_) damping_ = std::max(kLeastDamping, damping_ / kDampingDecrease);
     } else {
       damping_ *= kDampingIncrease;
     }
+    rejected_ = !accepted;
     return damping_ <= kMostDamping;
   }
 
@@ -225,15 +243,35 @@ class PartFit {
     return true;
   }
 
-  /// Whether the mean errors of all kinds are within tolerance (docs/method.md, eq. 44).
+  /// Whether the mean errors of all kinds are within tolerance (docs/method.md, eq. 44), or within
+  /// the slack.
   bool within_tolerance(const Point& point) const {
+    const Ratios ratios = over_tolerance(point);
+    return std::equal(ratios.begin(), ratios.end(), slack_.begin(), std::less_equal());
+  }
+
+  /// Mean errors of each kind over their tolerances.
+  Ratios over_tolerance(const Point& point) const {
     const std::vector<double>& frequency = point.residuals.frequency_error;
-    return mean(frequency, 0, kLowestModes) <= tolerance_ &&
-           mean(frequency, kLowestModes, frequency.size()) <= kHigherModesTolerance * tolerance_ &&
-           mean_of_loads(point, {LoadKind::smooth}) <= kSmoothLoadsTolerance * tolerance_ &&
-           mean_of_loads(point, {LoadKind::piece, LoadKind::patch}) <=
-               kPatchLoadsTolerance * tolerance_ &&
-           mean_of_loads(point, {LoadKind::region}) <= kRegionLoadsTolerance * tolerance_;
+    Ratios ratios{mean(frequency, 0, kLowestModes),
+                  mean(frequency, kLowestModes, frequency.size()) / kHigherModesTolerance,
+                  mean_of_loads(point, {LoadKind::smooth}) / kSmoothLoadsTolerance,
+                  mean_of_loads(point, {LoadKind::piece, LoadKind::patch}) / kPatchLoadsTolerance,
+                  mean_of_loads(point, {LoadKind::region}) / kRegionLoadsTolerance};
+    for (double& ratio : ratios) ratio /= tolerance_;
+    return ratios;
+  }
+
+  void give_slack_if_stalled() {
+    const double merit_now = merit(now_);
+    if (iteration_ == 0 || merit_now < kImprovement * stalled_merit_) {
+      stalled_merit_ = merit_now;
+      steps_outside_ = 0;
+    }
+    if (steps_outside_ < kStalled || !std::isfinite(merit_now)) return;
+    const Ratios ratios = over_tolerance(now_);
+    for (std::size_t kind = 0; kind < ratios.size(); ++kind)
+      slack_[kind] = std::max(1.0, kSlack * ratios[kind]);
   }
 
   /// Mean compliance error of the loads of some kinds [1]; 0 if there are none.
@@ -253,6 +291,7 @@ class PartFit {
   const MassSpringModel& start_;
   const ElasticTargets& targets_;
   const FitProgress& progress_;
+  NodeMasses masses_;
   std::uint32_t steps_;
   double tolerance_, least_frequency_, constraint_weight_;
   LevelVariables variables_;
@@ -261,7 +300,10 @@ class PartFit {
   std::optional<Best> best_;
   double bound_ = 0;  // on the squared frequencies of the nodes [rad2/s2]
   double damping_ = kFirstDamping;
+  bool rejected_ = false;
   double tighten_ = kTighten;
+  Ratios slack_{1, 1, 1, 1, 1};
+  double stalled_merit_ = 0;
   std::uint32_t iteration_ = 0;
   std::uint32_t steps_outside_ = 0;  // since the level was last within tolerance
   bool finished_ = false;

@@ -45,8 +45,9 @@ std::vector<double> node_bounds(const MassSpringModel& model) {
 
 }  // namespace
 
-FrequencyConstraints frequency_constraints(const MassSpringModel& model, double tau,
-                                           double margin) {
+FrequencyConstraints frequency_constraints(const MassSpringModel& model, double tau, double margin,
+                                           NodeMasses masses) {
+  const bool free_masses = masses == NodeMasses::free;
   const SpringRows springs(model);
   const std::vector<Mat3> held = elastic::node_stiffness(model);
   std::vector<double> values;
@@ -62,13 +63,14 @@ FrequencyConstraints frequency_constraints(const MassSpringModel& model, double 
       const double derivative = norm.gradient.dot(along.cwiseAbs2()) / norm.value;
       jacobian.emplace_back(row, static_cast<int>(s), model.stiffness[s] * derivative);
     });
-    jacobian.emplace_back(row, static_cast<int>(model.spring_count() + i), -1.0);
+    if (free_masses) jacobian.emplace_back(row, static_cast<int>(model.spring_count() + i), -1.0);
   }
   FrequencyConstraints constraints;
   constraints.value =
       Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  constraints.jacobian.resize(constraints.value.size(),
-                              static_cast<Eigen::Index>(model.spring_count()) + model.node_count());
+  const Eigen::Index unknowns =
+      model.spring_count() + static_cast<Eigen::Index>(free_masses ? model.node_count() : 0);
+  constraints.jacobian.resize(constraints.value.size(), unknowns);
   constraints.jacobian.setFromTriplets(jacobian.begin(), jacobian.end());
   return constraints;
 }

@@ -10,6 +10,11 @@ constexpr double kMassScale = 0.5;
 
 }  // namespace
 
+LevelVariables::LevelVariables(const MassSpringModel& start, const FitOptions& options)
+    : start_(start) {
+  if (options.masses == NodeMasses::free) moments_.emplace(start, options.moments);
+}
+
 MassSpringModel LevelVariables::with_springs(const Eigen::VectorXd& theta) const {
   MassSpringModel model = start_;
   for (std::uint32_t s = 0; s < start_.spring_count(); ++s) {
@@ -22,9 +27,9 @@ MassSpringModel LevelVariables::with_springs(const Eigen::VectorXd& theta) const
 
 MassSpringModel LevelVariables::model(const Eigen::VectorXd& theta) const {
   MassSpringModel model = with_springs(theta);
-  for (std::uint32_t i = 0; i < start_.node_count(); ++i)
-    model.mass[i] *= std::exp(kMassScale * theta[springs() + i]);
-  moments_.restore(model.mass);
+  for (Eigen::Index i = 0; i < masses(); ++i)
+    model.mass[static_cast<std::size_t>(i)] *= std::exp(kMassScale * theta[springs() + i]);
+  if (moments_) moments_->restore(model.mass);
   return model;
 }
 
@@ -36,21 +41,25 @@ MassSpringModel LevelVariables::model(const FitPoint& point) const {
 
 void LevelVariables::masses_to_theta(const std::vector<double>& mass,
                                      Eigen::VectorXd& theta) const {
-  for (std::uint32_t i = 0; i < start_.node_count(); ++i)
-    theta[springs() + i] = std::log(mass[i] / start_.mass[i]) / kMassScale;
+  for (Eigen::Index i = 0; i < masses(); ++i) {
+    const auto node = static_cast<std::size_t>(i);
+    theta[springs() + i] = std::log(mass[node] / start_.mass[node]) / kMassScale;
+  }
 }
 
 void LevelVariables::project_jacobian(const std::vector<double>& mass,
                                       Eigen::MatrixXd& jacobian) const {
-  auto by_mass = jacobian.bottomRows(nodes());
+  if (!moments_) return;
+  auto by_mass = jacobian.bottomRows(masses());
   by_mass *= kMassScale;
-  moments_.project(mass, by_mass);
+  moments_->project(mass, by_mass);
 }
 
 Eigen::SparseMatrix<double, Eigen::RowMajor> LevelVariables::scaled_jacobian(
-    const Eigen::SparseMatrix<double, Eigen::RowMajor>& jacobian) const {
+    Eigen::SparseMatrix<double, Eigen::RowMajor> jacobian) const {
+  if (!moments_) return jacobian;
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(count());
-  scale.tail(nodes()).setConstant(kMassScale);
+  scale.tail(masses()).setConstant(kMassScale);
   return jacobian * scale.asDiagonal();
 }
 

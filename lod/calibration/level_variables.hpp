@@ -1,33 +1,35 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include "lod/calibration/mass_moments.hpp"
+#include "lod/options.hpp"
 #include "model/mass_spring.hpp"
 
 namespace springlod::lod {
 
 /// A level during its fit, relative to the level before it.
 struct FitPoint {
-  Eigen::VectorXd theta;     ///< S + N, see LevelVariables
+  Eigen::VectorXd theta;     ///< see LevelVariables
   std::vector<double> mass;  ///< N [kg], those of theta; stored because exp(theta) rounds
 };
 
-/// Unknowns theta of a fit: the change of ln k of each spring, S, then the change of ln m of each
-/// node, N, in units of 0.5 (docs/method.md, eq. 29). The unit penalizes changes of mass more than
-/// changes of stiffness. c / k of each spring and the moments of mass are kept. Refers to the
-/// level, which must outlive it.
+/// Unknowns theta of a fit: the change of ln k of each spring, S; with NodeMasses::free then the
+/// change of ln m of each node, N, in units of 0.5 (docs/method.md, eq. 29). The unit penalizes
+/// changes of mass more than changes of stiffness. c / k of each spring and the moments of mass are
+/// kept; with NodeMasses::group each mass is, to the bit. Refers to the level, which must outlive
+/// it.
 class LevelVariables {
  public:
-  LevelVariables(const MassSpringModel& start, KeptMoments kept)
-      : start_(start), moments_(start, kept) {}
+  LevelVariables(const MassSpringModel& start, const FitOptions& options);
 
   Eigen::Index springs() const { return start_.spring_count(); }
-  Eigen::Index nodes() const { return start_.node_count(); }
-  Eigen::Index count() const { return springs() + nodes(); }
+  Eigen::Index masses() const { return moments_ ? start_.node_count() : 0; }
+  Eigen::Index count() const { return springs() + masses(); }
 
   /// The level at theta, with its moments of mass restored.
   MassSpringModel model(const Eigen::VectorXd& theta) const;
@@ -35,18 +37,18 @@ class LevelVariables {
   /// Sets the mass unknowns of theta from `mass`, N [kg].
   void masses_to_theta(const std::vector<double>& mass, Eigen::VectorXd& theta) const;
 
-  /// Turns derivatives by ln k and ln m, one row each, into derivatives by theta, projected onto
+  /// Turns derivatives by ln k and ln m, count() rows, into derivatives by theta, projected onto
   /// the changes that keep the moments of `mass` to first order (docs/method.md, eq. 35).
   void project_jacobian(const std::vector<double>& mass, Eigen::MatrixXd& jacobian) const;
-  /// Turns derivatives by ln k and ln m, one column each, into derivatives by theta.
+  /// Turns derivatives by ln k and ln m, count() columns, into derivatives by theta.
   Eigen::SparseMatrix<double, Eigen::RowMajor> scaled_jacobian(
-      const Eigen::SparseMatrix<double, Eigen::RowMajor>& jacobian) const;
+      Eigen::SparseMatrix<double, Eigen::RowMajor> jacobian) const;
 
  private:
   MassSpringModel with_springs(const Eigen::VectorXd& theta) const;
 
   const MassSpringModel& start_;
-  MassMoments moments_;
+  std::optional<MassMoments> moments_;  // with NodeMasses::free
 };
 
 }  // namespace springlod::lod

@@ -66,6 +66,14 @@ class Unpacker {
     if (count > 0) std::memcpy(values.data(), from, count * sizeof(T));
     return values;
   }
+  std::vector<Vec3> take_vectors() {
+    const auto count = take<std::uint64_t>();
+    const char* from = next(count, 3 * sizeof(double));
+    std::vector<Vec3> vectors(count);
+    for (std::size_t i = 0; i < count; ++i)
+      std::memcpy(vectors[i].data(), from + 3 * sizeof(double) * i, 3 * sizeof(double));
+    return vectors;
+  }
   std::string take_text() {
     const std::vector<char> text = take_list<char>();
     return {text.begin(), text.end()};

@@ -20,7 +20,7 @@ local methods = {
   {name = "compact plain", options = {grouping = "compact"}},
   {name = "compact calibrated", options = {grouping = "compact", calibrate = "modes"}},
   {name = "compact pieces", options = {
-    grouping = "compact", calibrate = "modes", calibration = {moments = "pieces"},
+    grouping = "compact", calibrate = "modes", calibration = {masses = "free", moments = "pieces"},
   }},
   {name = "METIS plain", options = {grouping = "metis"}},
   {name = "METIS calibrated", options = {grouping = "metis", calibrate = "modes"}},

@@ -64,7 +64,7 @@ function paper_runs.chain(base, variant, seed)
   chains[base][key] = chains[base][key] or s.simplify(base, {
     levels = not variant.keep and 2 or nil, keep = variant.keep, grouping = variant.grouping,
     border = variant.border, calibrate = variant.calibrate,
-    calibration = variant.moments and {moments = variant.moments}, seed = seed,
+    calibration = variant.moments and {masses = "free", moments = variant.moments}, seed = seed,
   })
   return chains[base][key]
 end

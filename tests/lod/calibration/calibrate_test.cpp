@@ -128,6 +128,7 @@ TEST_CASE("Rescaled moduli of one material are those of the base by eq. 2 of doc
 }
 
 TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
+  const NodeMasses masses = GENERATE(NodeMasses::group, NodeMasses::free);
   for (const bool anchored : {false, true}) {
     const MassSpringModel base = rods();
     TargetOptions options{.modes = 8, .patches = 6};
@@ -136,15 +137,19 @@ TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
         if (base.rest[i].z() < 0.1) options.anchored.push_back(i);
     const ElasticTargets targets = measure_targets(base, options);
     const Level level = plain_level(base, 0.4);
-    const ElasticFit fit(level.model, level.of_base, targets);
+    const ElasticFit fit(level.model, level.of_base, targets, {.masses = masses});
     const ElasticResiduals here = fit.residuals(level.model);
-    const Eigen::VectorXd direction = any_direction(level.model, 3);
+    Eigen::VectorXd direction = any_direction(level.model, 3);
+    if (masses == NodeMasses::group) direction.tail(level.model.node_count()).setZero();
     constexpr double h = 1e-4;
     const ElasticResiduals ahead = fit.residuals(moved(level.model, direction, h));
     const ElasticResiduals behind = fit.residuals(moved(level.model, direction, -h));
     const Eigen::VectorXd measured = (behind.weighted - ahead.weighted) / (2 * h);
-    const Eigen::VectorXd expected = here.jacobian.transpose() * direction;
+    const Eigen::VectorXd expected =
+        here.jacobian.transpose() * direction.head(here.jacobian.rows());
     REQUIRE(measured.size() == expected.size());
+    constexpr Eigen::Index kModes = 8;
+    CHECK(expected.tail(kModes * (kModes + 1) / 2).norm() > 0.01);  // rows of the shapes
     for (Eigen::Index r = 0; r < expected.size(); ++r)
       if (here.weighted[r] != 0)  // rows of mode pairs have residual 0 by definition
         CHECK(expected[r] == Approx(measured[r]).epsilon(2e-3).margin(1e-5));
@@ -153,15 +158,18 @@ TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
 
 TEST_CASE("The Jacobian of the frequency constraints agrees with finite differences") {
   const MassSpringModel level = plain_level(ball(), 0.4).model;
-  const FrequencyConstraints here = frequency_constraints(level, 1, 1e3);
+  const FrequencyConstraints here = frequency_constraints(level, 1, 1e3, NodeMasses::free);
   REQUIRE(here.value.size() == level.node_count());
   const Eigen::VectorXd direction = any_direction(level, 4);
   constexpr double h = 1e-5;
   const Eigen::VectorXd measured =
-      (frequency_constraints(moved(level, direction, h), 1, 1e3).value -
-       frequency_constraints(moved(level, direction, -h), 1, 1e3).value) /
+      (frequency_constraints(moved(level, direction, h), 1, 1e3, NodeMasses::free).value -
+       frequency_constraints(moved(level, direction, -h), 1, 1e3, NodeMasses::free).value) /
       (2 * h);
   CHECK((here.jacobian * direction - measured).cwiseAbs().maxCoeff() < 1e-6);
+  const Eigen::MatrixXd by_springs =
+      frequency_constraints(level, 1, 1e3, NodeMasses::group).jacobian;
+  CHECK(by_springs == Eigen::MatrixXd(here.jacobian).leftCols(level.spring_count()));
   const double bound = largest_node_bound(level);
   CHECK(std::log(bound) == Approx(here.value.maxCoeff()));
   CHECK(bound >= std::pow(elastic::frequency_bound(level), 2) * (1 - 1e-12));
@@ -184,12 +192,20 @@ TEST_CASE("Calibrated levels match frequencies and compliances of the base at a 
     const Certificate& after = *fitted.levels[level].certificate;
     validate(fitted.levels[level].model);
     CHECK(fitted.levels[level].model.node_count() == (level == 1 ? 126 : 56));
-    CHECK(mean_frequency_error(after, 0, 10) < frequency_tolerance(0, 281, level == 1 ? 126 : 56));
+    // With 56 nodes, no level of this ball has both its frequencies and its shapes: the fit stops
+    // improving outside the tolerance and goes on with some slack.
+    const double slack = level == 1 ? 1 : 1.25;
+    CHECK(mean_frequency_error(after, 0, 10) <
+          slack * frequency_tolerance(0, 281, level == 1 ? 126 : 56));
     CHECK(mean_frequency_error(before, 0, 10) > 0.02);
-    CHECK(mean_load_error(after, false) < 0.05);
+    CHECK(mean_load_error(after, false) < 0.07);
+    CHECK(mean_load_error(after, false) < mean_load_error(before, false));
     CHECK(mean_load_error(after, true) < mean_load_error(before, true));
     CHECK(after.highest_frequency < 0.75 * after.base_highest_frequency);
-    CHECK(after.cost < 0.5 * before.cost);
+    CHECK(after.cost < 0.6 * before.cost);
+    CHECK(fitted.levels[level].model.mass == plain.levels[level].model.mass);
+    CHECK(fitted.levels[level].model.volume == plain.levels[level].model.volume);
+    CHECK(fitted.levels[level].model.contact_area == plain.levels[level].model.contact_area);
     CHECK(std::abs(after.mass_error) < 1e-12);
     CHECK(after.center_shift < 1e-12);
     CHECK(after.second_moment_error < 1e-9);
@@ -198,9 +214,22 @@ TEST_CASE("Calibrated levels match frequencies and compliances of the base at a 
     REQUIRE(after.frequencies.size() == 20);
     double mac = 0;
     for (std::size_t i = 0; i < 10; ++i) mac += after.frequencies[i].mac / 10;
-    CHECK(mac > 0.6);  // a sphere has fivefold eigenvalues, whose mode shapes may mix
+    CHECK(mac > (level == 1 ? 0.9 : 0.8));
     CHECK(before.unmet.size() > after.unmet.size());
   }
+}
+
+TEST_CASE("Free masses are fitted too and keep the moments of the body") {
+  const MassSpringModel base = block(4, 4, 6);
+  SimplifyOptions options{.levels = 1, .keep = {0.4}, .grouping = {.grouping = Grouping::compact}};
+  const MassSpringModel merged = simplify(base, options).levels[1].model;
+  options.calibrate = Calibrate::modes;
+  options.calibration.fit = {.iterations = 4, .masses = NodeMasses::free};
+  const MassSpringModel fitted = simplify(base, options).levels[1].model;
+  CHECK(fitted.mass != merged.mass);
+  CHECK(mass_properties(fitted).mass == Approx(mass_properties(base).mass).epsilon(1e-13));
+  const Mat3 wanted = second_moments(base);
+  CHECK((second_moments(fitted) - wanted).norm() < 1e-11 * wanted.norm());
 }
 
 TEST_CASE("Calibration is bit-identical for any number of threads", "[threaded]") {
@@ -245,16 +274,22 @@ TEST_CASE("Calibration handles several components, a single node among them, and
   SimplifyOptions options{.levels = 1, .calibrate = Calibrate::modes};
   for (std::uint32_t i = first; i < first + 9; ++i)
     options.calibration.targets.anchored.push_back(i);
-  options.calibration.fit.iterations = 20;
+  options.calibration.fit.iterations = 30;
   LodChain chain = simplify(two, options);
   validate(chain.levels[1].model);
   options.calibration.targets.kinds = TargetKinds::modes;
   const ElasticTargets wanted = measure_targets(two, options.calibration.targets);
-  const ElasticFit fit(chain.levels[1].model, chain.levels[1].of_base, wanted);
-  const ElasticResiduals residuals = fit.residuals(chain.levels[1].model);
-  double mean = 0;
-  for (int i = 0; i < 10; ++i) mean += residuals.frequency_error[static_cast<std::size_t>(i)] / 10;
-  CHECK(mean < 0.01);
+  const auto mean_error = [&](const Level& level) {
+    const ElasticFit fit(level.model, level.of_base, wanted);
+    const ElasticResiduals residuals = fit.residuals(level.model);
+    double mean = 0;
+    for (std::size_t i = 0; i < 10; ++i) mean += residuals.frequency_error[i] / 10;
+    return mean;
+  };
+  // Components of 64 and 54 nodes have few springs for all targets.
+  const double plain = mean_error(simplify(two, {.levels = 1}).levels[1]);
+  CHECK(plain > 0.05);
+  CHECK(mean_error(chain.levels[1]) < 0.2 * plain);
 }
 
 TEST_CASE("Levels have exactly the number of nodes that keep requests") {

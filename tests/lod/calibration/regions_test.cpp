@@ -91,7 +91,7 @@ TEST_CASE("The targets have the requested kinds and weights") {
   }
 }
 
-TEST_CASE("Weights of modes and loads scale their residuals") {
+TEST_CASE("Weights of modes, shapes and loads scale their residuals") {
   const MassSpringModel base = block(4, 4, 5);
   const Level level = simplify(base, {.levels = 1}).levels[1];
   const auto residuals = [&](const TargetOptions& options) {
@@ -99,12 +99,13 @@ TEST_CASE("Weights of modes and loads scale their residuals") {
     return ElasticFit(level.model, level.of_base, targets).residuals(level.model).weighted;
   };
   const Eigen::VectorXd usual = residuals({.modes = 4, .patches = 2});
-  const Eigen::VectorXd both =
-      residuals({.modes = 4, .patches = 2, .mode_weight = 2, .load_weight = 0.5});
-  REQUIRE(usual.size() == both.size());
-  const Eigen::Index loads = 11;
-  CHECK(both.head(usual.size() - loads).isApprox(2 * usual.head(usual.size() - loads)));
-  CHECK(both.tail(loads).isApprox(0.5 * usual.tail(loads)));
+  const Eigen::VectorXd weighted = residuals(
+      {.modes = 4, .patches = 2, .mode_weight = 2, .shape_weight = 3, .load_weight = 0.5});
+  REQUIRE(usual.size() == weighted.size());
+  const Eigen::Index loads = 11, shapes = 4 * 5 / 2, modes = usual.size() - loads - shapes;
+  CHECK(weighted.head(modes).isApprox(2 * usual.head(modes)));
+  CHECK(weighted.segment(modes, loads).isApprox(0.5 * usual.segment(modes, loads)));
+  CHECK(weighted.tail(shapes).isApprox(3 * usual.tail(shapes)));
 }
 
 TEST_CASE("Weights below 0 and regions without free border nodes are errors") {

@@ -113,7 +113,13 @@ const fs::path kNoStore;
 }  // namespace
 
 TEST_CASE("A calibration that is stopped repeatedly ends bit-identical to an uninterrupted one") {
-  const LodChain whole = calibrated(options_with(kNoStore, nullptr));
+  const NodeMasses masses = GENERATE(NodeMasses::group, NodeMasses::free);
+  const auto options_of = [&](const fs::path& store, Progress* progress) {
+    CalibrateOptions options = options_with(store, progress);
+    options.fit.masses = masses;
+    return options;
+  };
+  const LodChain whole = calibrated(options_of(kNoStore, nullptr));
   for (const std::uint64_t advances : {2, 5, 12}) {  // stored steps of a level are one advance
     const TemporaryFolder folder;
     std::optional<LodChain> found;
@@ -121,7 +127,7 @@ TEST_CASE("A calibration that is stopped repeatedly ends bit-identical to an uni
     for (; !found && stops < 50; ++stops) {
       Watcher watcher(advances);
       try {
-        found = calibrated(options_with(folder / "store", &watcher));
+        found = calibrated(options_of(folder / "store", &watcher));
       } catch (const InterruptedError&) {
         CHECK_THAT(watcher.said, Contains("its state is saved in " + (folder / "store").string()));
       }
@@ -225,6 +231,22 @@ TEST_CASE("A store that cannot be written is an error before any measurement") {
   CHECK(watcher.tasks.empty());
 }
 
+TEST_CASE("Measurements of a base are read back as they were stored") {
+  const TemporaryFolder folder;
+  const CalibrationStore store(folder / "store", nullptr);
+  const BaseMeasurements measured{.squared_frequency = {1, 2},
+                                  .modal_forces = {{{1, 2, 3}, {4, 5, 6}}, {{7, 8, 9}, {0, 1, 0}}},
+                                  .compliance = {3, 4, 5},
+                                  .highest_frequency = 6};
+  store.keep(0, "fingerprint", measured);
+  const std::optional<BaseMeasurements> back = store.measurements(0, "fingerprint");
+  REQUIRE(back);
+  CHECK(back->squared_frequency == measured.squared_frequency);
+  CHECK(back->modal_forces == measured.modal_forces);
+  CHECK(back->compliance == measured.compliance);
+  CHECK(back->highest_frequency == 6);
+}
+
 TEST_CASE("A fit state is read back as it was stored") {
   const TemporaryFolder folder;
   const CalibrationStore store(folder / "store", nullptr);
@@ -232,7 +254,10 @@ TEST_CASE("A fit state is read back as it was stored") {
                  .steps_outside = 3,
                  .bound = 1.5,
                  .damping = 1e-3,
+                 .rejected = true,
                  .tighten = 0.9,
+                 .slack = {1, 1.7, 1, 1.2, 1},
+                 .stalled_merit = 0.3,
                  .now = {Eigen::VectorXd::LinSpaced(5, 0, 1), {1, 2, 3}},
                  .best = {},
                  .best_frequency = 12};
@@ -248,7 +273,10 @@ TEST_CASE("A fit state is read back as it was stored") {
     CHECK_FALSE(back->finished);
     CHECK(back->bound == state.bound);
     CHECK(back->damping == state.damping);
+    CHECK(back->rejected);
     CHECK(back->tighten == state.tighten);
+    CHECK(back->slack == state.slack);
+    CHECK(back->stalled_merit == state.stalled_merit);
     CHECK(back->best_frequency == 12);
     CHECK(back->now.theta == state.now.theta);
     CHECK(back->now.mass == state.now.mass);
