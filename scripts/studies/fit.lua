@@ -1,0 +1,253 @@
+-- Measure what the fit of levels gains: elasticity, velocities after a blow, and free vibration.
+
+local s = require "springlod"
+local bodies = require "studies.fit.bodies"
+local command = require "lib.command"
+local motion = require "studies.fit.motion"
+
+local keep = {0.45, 0.2}
+local patch_radius = 2.2 -- of the small patches [mean spring lengths]
+local waves = 6 -- of a velocity field
+local field_count = 3 -- velocity fields for each level
+local periods, samples = 5, 24 -- of f1, and frames in each
+-- Largest displacement over the size of the body, roughly: small enough that the nonlinearity of
+-- the springs is below the errors that are measured.
+local amplitude = 1e-4
+
+local variants = {
+  {name = "plain"},
+  {name = "free", calibration = {masses = "free"}},
+  {name = "default", calibration = {}},
+}
+
+local function names_of(list)
+  local names = {}
+  for i, one in ipairs(list) do names[i] = one.name end
+  return names
+end
+
+local parser = command.parser("fit", "Measure levels with 45 % and 20 % of the nodes of their "
+  .. "base, in compact groups: merged only (plain), fitted with free masses (free), and fitted by "
+  .. "default (default). Writes levels.csv and means.csv (means over bodies and seeds), and prints "
+  .. "the latter.")
+parser:argument("folder", "folder to write to"):default("out/fit")
+parser:option("--bodies", "any of " .. table.concat(names_of(bodies), ", ") .. ", or samples or "
+  .. "others for a set of them"):default("others")
+parser:option("--seeds", "number of seeds for each body"):default("2")
+  :convert(command.whole("--seeds", 1))
+parser:option("--variants", "Lua file that returns a list of {name = ..., calibration = {...}} to "
+  .. "measure in place of the three"):argname("<file.lua>")
+  :convert(command.table_file("--variants"))
+parser:flag("--quick", "use one seed of one small body and few steps; takes seconds")
+local args = parser:parse()
+if args.quick then args.bodies, args.seeds = "beam", 1 end
+
+local function chosen_bodies()
+  local known, chosen = {samples = true, others = true}, {}
+  for _, body in ipairs(bodies) do known[body.name] = true end
+  for word in (args.bodies .. ","):gmatch("%s*(.-)%s*,") do
+    if not known[word] then
+      error(("--bodies: '%s' must be samples, others or one of %s"):format(word,
+        table.concat(names_of(bodies), ", ")), 0)
+    end
+    for _, body in ipairs(bodies) do
+      if body.name == word or body.set == word then chosen[#chosen + 1] = body end
+    end
+  end
+  return chosen
+end
+
+-- The nodes of a model with their positions and masses as lists.
+local function nodes_of(model)
+  local nodes, places, masses = model:nodes(), {}, {}
+  for i, node in ipairs(nodes) do places[i], masses[i] = {node.x, node.y, node.z}, node.mass end
+  return {model = model, list = nodes, places = places, masses = masses}
+end
+
+local function displacements(frame, places)
+  local list = {}
+  for i, x in ipairs(frame.x) do
+    list[i] = {x[1] - places[i][1], x[2] - places[i][2], x[3] - places[i][3]}
+  end
+  return list
+end
+
+-- Free motion from rest with the given velocities, frame by frame.
+local function vibrate(nodes, velocities, period)
+  return s.run(nodes.model, {gravity = {0, 0, 0}, duration = periods * period},
+    {start = {v = velocities}, frame_rate = samples / period, ledger = false, quiet = true})
+end
+
+-- Velocity fields of the base without rigid motion, and the motion that follows from each. f1 in
+-- Hz.
+local function move_base(body, frequency)
+  body.nodes, body.period, body.fields = nodes_of(body.base), 1 / frequency, {}
+  local size = body.base.bounds
+  for number = 1, field_count do
+    local field, velocities = motion.smooth_field(size, number, waves), {}
+    for i, node in ipairs(body.nodes.list) do velocities[i] = field(node) end
+    local vibrating = motion.without_rigid(body.nodes.places, body.nodes.masses, velocities)
+    local factor = 2 * math.pi * frequency * amplitude * size.diagonal
+    for _, v in ipairs(vibrating) do for d = 1, 3 do v[d] = factor * v[d] end end
+    body.fields[number] = {velocities = velocities, vibrating = vibrating,
+      run = vibrate(body.nodes, vibrating, body.period)}
+  end
+end
+
+-- Errors of a level in motion [1]: of the velocities right after an impulse, of the first period,
+-- and of the following ones.
+local function motion_errors(body, chain, level)
+  local nodes, map = nodes_of(chain[level]), chain:group_map(level)
+  local ones = {}
+  for i = 1, #body.nodes.list do ones[i] = {1, 0, 0} end
+  local group_masses = {}
+  for g, sum in ipairs(motion.momenta(body.nodes.list, ones, map, #nodes.list)) do
+    group_masses[g] = sum[1]
+  end
+  local function means(field)
+    local momenta = motion.momenta(body.nodes.list, field, map, #nodes.list)
+    return motion.divided(momenta, group_masses), momenta
+  end
+  local squares, sizes = {impulse = 0, first = 0, later = 0}, {impulse = 0, first = 0, later = 0}
+  local function add(kind, difference, size)
+    squares[kind], sizes[kind] = squares[kind] + difference, sizes[kind] + size
+  end
+  for _, field in ipairs(body.fields) do
+    local wanted, momenta = means(field.velocities)
+    add("impulse", motion.squares(group_masses, motion.divided(momenta, nodes.masses), wanted))
+    local run = vibrate(nodes, (means(field.vibrating)), body.period)
+    for number = 2, field.run.frame_count do
+      local frame = field.run:frame(number)
+      local moved = motion.without_rigid(nodes.places, group_masses,
+        (means(displacements(frame, body.nodes.places))))
+      local found = motion.without_rigid(nodes.places, nodes.masses,
+        displacements(run:frame(number), nodes.places))
+      add(frame.time < 1.0001 * body.period and "first" or "later",
+        motion.squares(group_masses, found, moved))
+    end
+  end
+  local errors = {}
+  for kind, sum in pairs(squares) do errors[kind] = math.sqrt(sum / sizes[kind]) end
+  return errors
+end
+
+-- Young's modulus over the base's, of the material for which it is farthest from 1.
+local function worst_modulus(certificate)
+  local worst = 1
+  for _, m in ipairs(certificate.moduli) do
+    local ratio = m.young / m.base_young
+    if math.abs(math.log(ratio)) > math.abs(math.log(worst)) then worst = ratio end
+  end
+  return worst
+end
+
+local function mean_mac(certificate)
+  local sum, count = 0, math.min(10, #certificate.frequencies)
+  for i = 1, count do sum = sum + certificate.frequencies[i].mac end
+  return sum / count
+end
+
+-- The columns that describe a level; errors in percent. `l` has certificate, patches (a certificate
+-- with small patches), motion and seconds (of the fit of both levels).
+local measures = {
+  {"f1..10", function(l) return 100 * l.certificate.f1_10_error end},
+  {"f11..20", function(l) return 100 * (l.certificate.f11_20_error or 0) end},
+  {"MAC", function(l) return mean_mac(l.certificate) end},
+  {"smooth loads", function(l) return 100 * l.certificate.fitted_load_error end},
+  {"held-out loads", function(l) return 100 * l.certificate.held_out_load_error end},
+  {"small patches", function(l) return 100 * l.patches.held_out_load_error end},
+  {"modulus", function(l) return worst_modulus(l.certificate) end},
+  {"gain", function(l) return l.certificate.base_cost / l.certificate.cost end},
+  {"impulse", function(l) return 100 * l.motion.impulse end},
+  {"period 1", function(l) return 100 * l.motion.first end},
+  {"periods 2..5", function(l) return 100 * l.motion.later end},
+  {"seconds", function(l) return l.seconds end},
+}
+
+local function make_chain(body, variant, seed)
+  local options = {keep = keep, seed = seed, grouping = "compact"}
+  if variant.calibration then
+    options.calibrate, options.calibration = "modes", {}
+    for name, value in pairs(variant.calibration) do options.calibration[name] = value end
+    if args.quick then options.calibration.iterations = 3 end
+  end
+  local before = os.clock()
+  local chain = s.simplify(body.base, options)
+  return chain, os.clock() - before
+end
+
+local rows, sums = {}, {}
+
+local function note(body, variant, seed, level, values)
+  local row = {body.name, variant.name, seed, level}
+  table.move(values, 1, #values, #row + 1, row)
+  rows[#rows + 1] = row
+  local key = level .. " " .. variant.name
+  sums[key] = sums[key] or {count = 0}
+  local sum = sums[key]
+  sum.count = sum.count + 1
+  for i, value in ipairs(values) do sum[i] = (sum[i] or 0) + value end
+end
+
+local function measure(body, variant, seed)
+  local chain, seconds = make_chain(body, variant, seed)
+  local certified = s.info(s.certify(chain)).levels
+  local patches = s.info(s.certify(chain, {modes = 1, radius = patch_radius})).levels
+  for level = 1, #keep do
+    local of_level = {
+      certificate = certified[level + 1].certificate, patches = patches[level + 1].certificate,
+      motion = motion_errors(body, chain, level), seconds = seconds,
+    }
+    local values = {}
+    for i, one in ipairs(measures) do values[i] = one[2](of_level) end
+    note(body, variant, seed, level, values)
+  end
+end
+
+local function mean_rows()
+  local list = {}
+  for level = 1, #keep do
+    for _, variant in ipairs(args.variants or variants) do
+      local sum = sums[level .. " " .. variant.name]
+      local row = {level, variant.name, sum.count}
+      for i = 1, #measures do row[#row + 1] = sum[i] / sum.count end
+      list[#list + 1] = row
+    end
+  end
+  return list
+end
+
+local function show(list)
+  local texts = {}
+  for i, row in ipairs(list) do
+    texts[i] = {row[1], row[2]}
+    for k = 4, #row do texts[i][k - 1] = ("%.3g"):format(row[k]) end
+  end
+  local columns = {"level", "variant"}
+  for i, one in ipairs(measures) do columns[i + 2] = one[1] end
+  print("means over bodies and seeds; errors in percent")
+  print(s.format_table(texts, {columns = columns}))
+end
+
+local ok, failure = command.try(function()
+  for _, body in ipairs(chosen_bodies()) do
+    body.base = body.make()
+    move_base(body, s.modes(body.base, {count = 1})[1].frequency)
+    for seed = 1, args.seeds do
+      for _, variant in ipairs(args.variants or variants) do measure(body, variant, seed) end
+    end
+    s.say(("%s: %d nodes measured"):format(body.name, body.base.node_count))
+  end
+  local level_columns, mean_columns = {"body", "variant", "seed", "level"},
+    {"level", "variant", "levels"}
+  for _, one in ipairs(measures) do
+    level_columns[#level_columns + 1] = one[1]
+    mean_columns[#mean_columns + 1] = one[1]
+  end
+  s.csv(args.folder .. "/levels.csv", rows, {columns = level_columns})
+  local list = mean_rows()
+  s.csv(args.folder .. "/means.csv", list, {columns = mean_columns})
+  show(list)
+end)
+if not ok then command.fail("fit: %s", failure) end
+s.say("wrote " .. args.folder)

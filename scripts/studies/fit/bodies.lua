@@ -1,0 +1,62 @@
+-- The bodies of the fit study. Defaults of the fit were chosen on those of "samples" (meshes of
+-- samples/) and are reported for the others: those of the accuracy study that are no samples, and
+-- three with features that these lack (slender prongs, layers, holes).
+
+local s = require "springlod"
+local accuracy_bodies = require "studies.accuracy.bodies"
+
+local function sample(name, unit, cell, core)
+  return function()
+    local mesh = s.import(("%s/%s.obj"):format(s.samples, name), {unit = unit, up = "z"})
+    return s.lattice(s.voxelize(mesh, {
+      cell = cell, core = core, materials = dofile(("%s/%s_materials.lua"):format(s.samples, name)),
+      priority = name == "ball" and {"core"} or nil,
+    }), {hinges = "fill"})
+  end
+end
+
+local function filled(cell, size, materials, fill)
+  return function()
+    return s.lattice(s.grid{cell = cell, size = size, materials = materials, fill = fill})
+  end
+end
+
+local rubber = {young = "1 MPa", density = 1100, damping = "0.2 ms"}
+local steel = {young = "20 MPa", density = 2000, damping = "0.05 ms"}
+
+-- A fork: a handle and two slender prongs, 3 cells thick.
+local fork = filled(0.01, {24, 9, 3}, {rubber = rubber}, function(x, y)
+  return (x < 0.05 or y < 0.03 or y > 0.06) and "rubber" or nil
+end)
+
+-- A block of five layers, of which the second and the fourth are twenty times as stiff.
+local layers = filled(0.01, {12, 9, 10}, {rubber = rubber, steel = steel}, function(_, _, z)
+  local layer = math.floor(z / 0.02)
+  return layer % 2 == 1 and "steel" or "rubber"
+end)
+
+-- A thick plate with two holes and a stiff corner.
+local plate = filled(0.01, {18, 12, 4}, {rubber = rubber, steel = steel}, function(x, y)
+  if (x - 0.05) ^ 2 + (y - 0.06) ^ 2 < 0.025 ^ 2 then return nil end
+  if (x - 0.13) ^ 2 + (y - 0.05) ^ 2 < 0.02 ^ 2 then return nil end
+  return x > 0.14 and y > 0.08 and "steel" or "rubber"
+end)
+
+local bodies = {
+  {name = "beast sample", set = "samples", make = sample("beast", "cm", "6 mm", {
+    depth = "8 mm",
+    material = {name = "bone", young = "0.6 MPa", density = 1000, damping = "0.1 ms"},
+  })},
+  {name = "ball sample", set = "samples", make = sample("ball", "dm", "10 cm")},
+  {name = "dumbbell sample", set = "samples", make = sample("dumbbell", "dm", "10 cm")},
+}
+for _, body in ipairs(accuracy_bodies) do
+  if body.name ~= "beast" then
+    bodies[#bodies + 1] = {name = body.name, set = "others", make = body.make}
+  end
+end
+bodies[#bodies + 1] = {name = "fork", set = "others", make = fork}
+bodies[#bodies + 1] = {name = "layers", set = "others", make = layers}
+bodies[#bodies + 1] = {name = "plate", set = "others", make = plate}
+
+return bodies
