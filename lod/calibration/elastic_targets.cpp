@@ -116,9 +116,15 @@ std::vector<LoadTarget> target_loads(const MassSpringModel& base, const TargetOp
     add(LoadKind::piece, options.piece_weight, elastic::piece_loads(base));
   }
   const std::uint32_t patches = patch_count(options, base.node_count());
-  if (patches > 0 && border_count(base) > 0)
-    add(LoadKind::patch, options.patch_weight,
-        elastic::patch_pairs(base, {.count = patches, .seed = options.seed}));
+  if (patches > 0 && border_count(base) > 0) {
+    // A level is too stiff for each kind unless that kind is fitted: a third each.
+    const auto local = [&](std::uint32_t kind) {
+      return elastic::LocalLoadOptions{.count = (patches + 2 - kind) / 3, .seed = options.seed};
+    };
+    add(LoadKind::patch, options.patch_weight, elastic::patch_pairs(base, local(0)));
+    add(LoadKind::patch, options.patch_weight, elastic::pinches(base, local(1)));
+    add(LoadKind::patch, options.patch_weight, elastic::pushes(base, local(2)));
+  }
   for (std::size_t r = 0; r < options.regions.size(); ++r)
     add(LoadKind::region, options.regions[r].weight,
         region_loads(base, options.regions[r], options, r + 1));
