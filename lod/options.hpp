@@ -191,10 +191,10 @@ struct TargetOptions {
   TargetKinds kinds = TargetKinds::both;
   std::uint32_t modes = 20;
   double piece_weight = 0.3;  ///< of each of piece_loads, relative to a smooth load [1]
-  /// Number of patch pairs on the surface, see patch_pairs; empty: see patch_count. Without them a
-  /// fit increases the error of loads that are not fitted.
+  /// Number of loads on patches of the surface; empty: see patch_count. Without them a fit
+  /// increases the error of loads that are not fitted.
   std::optional<std::uint32_t> patches = {};
-  double patch_weight = 0.3;  ///< of each patch pair, relative to a smooth load [1]
+  double patch_weight = 0.3;  ///< of each of these, relative to a smooth load [1]
   std::vector<TargetRegion> regions = {};
   /// Factors on the weights of all frequencies, of the mode shapes and of all static loads [1].
   double mode_weight = 1, shape_weight = 1, load_weight = 1;
@@ -208,12 +208,13 @@ constexpr auto option_rows(const TargetOptions*) {
   return std::tuple(
       option("targets", &TargetOptions::kinds, "quantities fitted to the base"),
       option("modes", &TargetOptions::modes, "number of lowest frequencies"),
-      option(
-          "patches", &TargetOptions::patches,
-          "number of pairs of surface patches that are pulled apart, besides the nine smooth loads")
+      option("patches", &TargetOptions::patches,
+             "number of loads on surface patches, besides the nine smooth loads: a third each are "
+             "pairs "
+             "that are pulled apart, pinches, and pushes")
           .by_default("150; fewer, down to 60, for a base of more than 2000 nodes"),
       option("patch_weight", &TargetOptions::patch_weight,
-             "weight of each pair of patches; a smooth load has 1")
+             "weight of each load on patches; a smooth load has 1")
           .weight(),
       record_option("regions", &TargetOptions::regions, "Region",
                     "regions of the surface with load cases of their own", "none"),

@@ -25,7 +25,7 @@ struct Certificate {
   };
   struct Load {
     std::string name;
-    bool held_out = false;  ///< no calibration is fitted to loads of this kind
+    bool held_out = false;  ///< on patches that no calibration uses
     double compliance = 0;  ///< of the base, f.u [J]
     double error = 0;       ///< relative error of the compliance [1]
   };

@@ -15,7 +15,7 @@ namespace springlod::lod {
 enum class LoadKind {
   smooth,  ///< on the whole body: smooth_loads
   piece,   ///< on one material region: piece_loads
-  patch,   ///< on patches anywhere on the surface: patch_pairs
+  patch,   ///< on patches anywhere on the surface: patch_pairs, pinches and pushes
   region,  ///< within a TargetRegion of the surface: patch_pairs and pushes
 };
 
@@ -44,7 +44,7 @@ struct ElasticTargets {
 
 /// Number of modes to fit: 0 if options.kinds is loads.
 std::uint32_t mode_count(const TargetOptions& options);
-/// Number of patch pairs for a base of `nodes` nodes: options.patches if set, otherwise 150,
+/// Number of patch loads for a base of `nodes` nodes: options.patches if set, otherwise 150,
 /// falling to 60 for large bases (docs/method.md, eq. 31). Large models do not overfit to a few
 /// patches, so fewer patch load cases suffice.
 std::uint32_t patch_count(const TargetOptions& options, std::uint32_t nodes);

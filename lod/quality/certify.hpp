@@ -26,8 +26,8 @@ constexpr auto option_rows(const CertifyOptions*) {
   return std::tuple(
       option("modes", &CertifyOptions::modes, "number of lowest frequencies to compare"),
       option("held_out_loads", &CertifyOptions::held_out_loads,
-             "number of pinches, and of pushes, on patches of the surface; calibration is fitted "
-             "to neither (but to pushes on its `regions`)"),
+             "number of pinches, and of pushes, on patches of the surface, which are others than "
+             "those of a calibration"),
       option("seed", &CertifyOptions::seed, "seed of the positions of the held-out loads"),
       option("radius", &CertifyOptions::radius,
              "radius of the patches of the held-out loads, in mean spring lengths of the base"),
