@@ -48,7 +48,7 @@ TEST_CASE("scripts set regions of interest and weights") {
     refused{regions = {{nodes = foot}}, anchored = foot}
     refused{load_weight = -2}
     refused{store = "out/kept", keep_every = "-1 s"}
-    refused{mode_weight = 0, load_weight = 0}
+    refused{mode_weight = 0, shape_weight = 0, load_weight = 0}
     local many = {}
     for i = 1, 50 do many[i] = {nodes = {1}, patches = 1} end
     print("many", #s.info(fit{regions = many, iterations = 1}).levels)
