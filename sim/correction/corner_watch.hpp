@@ -61,12 +61,11 @@ class CornerWatch {
       found_[w] = 0;
     }
   }
-  /// The same for those that resisted alone, before any look.
+  /// Calls check(corner) for those that resisted at the end of the last step, before any look.
   template <class Check>
   void check_resisting(const Check& check) const {
     if (resisting_.empty()) return;
-    for (std::size_t w = 0; w < resisted_.size(); ++w)
-      for_each_bit(w, resisted_[w], [&](std::uint32_t corner) { check(corner, true); });
+    for (std::size_t w = 0; w < resisted_.size(); ++w) for_each_bit(w, resisted_[w], check);
   }
   /// Ends the step: how far it moved a node beyond moved() at most [m], and the corners that resist
   /// at its end.

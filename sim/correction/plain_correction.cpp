@@ -29,7 +29,6 @@ PlainCorrection::PlainCorrection(const MassSpringModel& model, const ContactPoin
       points_(&points),
       obstacle_count_(obstacle_count),
       solver_(model, points, finder, volumes),
-      volumes_(volumes),
       watch_(model.corner_count()),
       due_(model.corner_count(), kDueAtOnce) {}
 
@@ -39,11 +38,7 @@ void PlainCorrection::correct(double step, const std::vector<Vec3>& x, std::vect
   solver_.begin(step, paths);
   check_contacts(x, x_next);
   solver_.solve_contacts();
-  if (volumes_) {
-    watch_.check_resisting(
-        [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
-    solver_.solve_together();
-  }
+  solver_.solve_resisting(watch_);
   if (!model_->corners.empty()) correct_corners(step, x, x_next);
   solver_.finish();
   for (const NodeChange& change : solver_.changes()) {

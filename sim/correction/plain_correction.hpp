@@ -36,7 +36,6 @@ class PlainCorrection {
   const ContactPoints* points_;
   std::size_t obstacle_count_;
   StepCorrection solver_;
-  bool volumes_;  // whether corners resist
   CornerWatch watch_;
   std::vector<double> due_;           // travel at which each corner is due [m]
   std::vector<std::uint32_t> found_;  // by the last look

@@ -19,6 +19,9 @@ class StepCorners {
   /// `resist`: false: the corners are watched, and exert no force. The model must outlive this.
   StepCorners(const MassSpringModel& model, bool resist);
 
+  /// Whether corners exert forces.
+  bool resist() const { return resist_; }
+
   void begin(double step);
   /// Adds a corner if it resists at the start of the step, or at its end as the contacts and the
   /// corners before have left it. A corner that has been added is left as it is. `resisted`: it is

@@ -32,6 +32,12 @@ void StepCorrection::solve_contacts() {
   if (!contacts_.empty()) contacts_.solve(nodes_);
 }
 
+void StepCorrection::solve_resisting(const CornerWatch& watch) {
+  if (!corners_.resist()) return;
+  watch.check_resisting([&](std::uint32_t corner) { check_corner(corner, true); });
+  solve_together();
+}
+
 // The contacts come last, so that no corner presses a node into an obstacle.
 bool StepCorrection::solve_together() {
   if (!corners_.start(nodes_)) return false;

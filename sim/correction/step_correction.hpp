@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/contact/step_contacts.hpp"
+#include "sim/correction/corner_watch.hpp"
 #include "sim/correction/step_corners.hpp"
 #include "sim/correction/step_nodes.hpp"
 
@@ -18,8 +19,7 @@ namespace springlod::sim {
 ///   begin(step, paths);
 ///   for each obstacle, for each point that may touch it: check_contact(...);
 ///   solve_contacts();
-///   for each corner that resisted in the last step: check_corner(...);
-///   solve_together();
+///   solve_resisting(watch);
 ///   for each corner that is near inversion: check_corner(...);
 ///   while (solve_corners()) for each corner that is near inversion now: check_corner(...);
 ///   finish();
@@ -51,9 +51,9 @@ class StepCorrection {
     contacts_.check(obstacle, point, path, nodes_);
   }
   void solve_contacts();
-  /// Solves the corners that were checked and the contacts together. Returns whether any corner is
-  /// new since the last call.
-  bool solve_together();
+  /// Solves the corners that resisted at the end of the last step together with the contacts, if
+  /// corners resist at all.
+  void solve_resisting(const CornerWatch& watch);
   /// The nodes, as the contacts and corners so far have moved them.
   const StepNodes& nodes() const { return nodes_; }
   double take_travel() { return nodes_.take_travel(); }
@@ -77,6 +77,10 @@ class StepCorrection {
   double largest_corner_change() const { return corners_.largest_change(); }
 
  private:
+  /// Solves the corners that were checked and the contacts together. Returns whether any corner is
+  /// new since the last call.
+  bool solve_together();
+
   double step_ = 0;  // [s]
   int rounds_ = 0;   // of solve_corners() with new corners
   StepNodes nodes_;

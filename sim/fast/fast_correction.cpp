@@ -23,10 +23,7 @@ void FastCorrection::correct(const FastStep& step) {
   shift_ = 0;
   near_.check(step, solver_);
   solver_.solve_contacts();
-  if (!shared_.volumes) return;
-  watch_.check_resisting(
-      [&](std::uint32_t corner, bool resisted) { solver_.check_corner(corner, resisted); });
-  solver_.solve_together();
+  solver_.solve_resisting(watch_);
 }
 
 // A contact takes back most of the drift of a node that it presses, and so does a corner. The nodes
