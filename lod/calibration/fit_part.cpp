@@ -39,7 +39,7 @@ constexpr int kRelinearizations = 4;
 constexpr double kTighten = 0.8, kLeastTighten = 0.98;
 constexpr std::uint32_t kPatience = 10;
 /// A level that was never within tolerance counts as improving while its merit falls by a factor of
-/// kImprovement within kStalled steps. If it does not, the tolerances that it misses become its
+/// kImprovement within kStalled steps. If it does not, the tolerances that it exceeds become its
 /// errors times kSlack.
 constexpr double kImprovement = 0.9, kSlack = 1.1;
 constexpr std::uint32_t kStalled = 5;

@@ -51,9 +51,9 @@ std::uint32_t fit_steps(const FitOptions& options, std::uint32_t nodes);
 /// frequency is tightened step by step (docs/method.md, eqs. 39 to 46: the step in 40 to 42, the
 /// tolerance in 43 and 44, tightening in 45, stopping in 46). The masses (or, if they are free,
 /// their moments) and c / k of each spring are kept. If a level stops improving before it is
-/// within tolerance, the tolerances that it misses get as much slack as it needs, so that its bound
-/// is tightened too. Returns the level of lowest omega_max among those within tolerance; if there
-/// was none, the level of lowest merit. A step to a level that cannot be measured, or whose
+/// within tolerance, the tolerances that it exceeds get as much slack as it needs, so that its
+/// bound is tightened too. Returns the level of lowest omega_max among those within tolerance; if
+/// there was none, the level of lowest merit. A step to a level that cannot be measured, or whose
 /// residuals are not finite, is rejected.
 ///
 /// `level` must be connected and have springs.

@@ -11,7 +11,7 @@
 
 namespace springlod::lod {
 
-/// Mode shapes of the base as static loads on a level (docs/method.md, eqs. 32 and 33). The
+/// Mode shapes of the base as static loads on a level (docs/method.md, eqs. 30a and 30b). The
 /// inertial forces M phi of a mode displace the base by phi / omega^2, so a level with the same
 /// mode moves each node by the group mean of phi, over omega^2.
 struct ModalLoads {

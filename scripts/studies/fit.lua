@@ -217,16 +217,20 @@ local function mean_rows()
   return list
 end
 
+-- Names of columns, followed by those of the measures.
+local function with_measures(columns)
+  for _, one in ipairs(measures) do columns[#columns + 1] = one[1] end
+  return columns
+end
+
 local function show(list)
   local texts = {}
   for i, row in ipairs(list) do
     texts[i] = {row[1], row[2]}
     for k = 4, #row do texts[i][k - 1] = ("%.3g"):format(row[k]) end
   end
-  local columns = {"level", "variant"}
-  for i, one in ipairs(measures) do columns[i + 2] = one[1] end
   print("means over bodies and seeds; errors in percent")
-  print(s.format_table(texts, {columns = columns}))
+  print(s.format_table(texts, {columns = with_measures{"level", "variant"}}))
 end
 
 local ok, failure = command.try(function()
@@ -238,15 +242,11 @@ local ok, failure = command.try(function()
     end
     s.say(("%s: %d nodes measured"):format(body.name, body.base.node_count))
   end
-  local level_columns, mean_columns = {"body", "variant", "seed", "level"},
-    {"level", "variant", "levels"}
-  for _, one in ipairs(measures) do
-    level_columns[#level_columns + 1] = one[1]
-    mean_columns[#mean_columns + 1] = one[1]
-  end
-  s.csv(args.folder .. "/levels.csv", rows, {columns = level_columns})
+  s.csv(args.folder .. "/levels.csv", rows,
+    {columns = with_measures{"body", "variant", "seed", "level"}})
   local list = mean_rows()
-  s.csv(args.folder .. "/means.csv", list, {columns = mean_columns})
+  s.csv(args.folder .. "/means.csv", list,
+    {columns = with_measures{"level", "variant", "levels"}})
   show(list)
 end)
 if not ok then command.fail("fit: %s", failure) end

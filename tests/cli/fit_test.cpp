@@ -37,7 +37,7 @@ TEST_CASE("springlod fit measures elasticity, blows and vibration of levels", "[
   }
 }
 
-TEST_CASE("springlod fit takes other variants, and refuses bodies that it does not have") {
+TEST_CASE("springlod fit refuses bodies that it does not have") {
   const TemporaryFolder out;
   const Ran unknown = springlod_run({"fit", out.path().string(), "--bodies", "teapot"});
   CHECK(unknown.exit_code == 1);
