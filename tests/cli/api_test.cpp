@@ -3,6 +3,7 @@
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/help.hpp"
 #include "scripting/engine/state.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
@@ -22,7 +23,7 @@ TEST_CASE("everything a script can reach is described") {
 TEST_CASE("docs/api.md equals the output of the program") {
   const Ran ran = springlod_run({"-e", "print(require('springlod').api_markdown())"});
   CHECK(ran.exit_code == 0);
-  CHECK(ran.out == slurp(std::string(SPRINGLOD_SOURCE_DIR) + "/docs/api.md"));
+  CHECK(ran.out == slurp(test::source_folder() / "docs/api.md"));
 }
 
 TEST_CASE("every function of the module has help, and only these") {

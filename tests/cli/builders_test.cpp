@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
@@ -11,7 +12,7 @@ using springlod::test::springlod_run;
 namespace {
 
 const std::string kGrid = std::string("local s = require 'springlod'\nlocal mesh = s.import('") +
-                          SPRINGLOD_SOURCE_DIR +
+                          springlod::test::source_folder().string() +
                           "/samples/dumbbell.obj', {unit = 'dm'})\n"
                           "local grid = s.voxelize(mesh, {cell = '10 cm'})\n";
 

@@ -11,6 +11,7 @@
 
 #include "base/file.hpp"
 #include "model/asset/asset.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 using springlod::test::Ran;
@@ -96,7 +97,8 @@ TEST_CASE("The main job has the results whose hashes are kept") {
   const std::string kind = processor_kind();
   if (!kind.empty()) setenv("OPENBLAS_CORETYPE", "Haswell", 1);
   const TemporaryFolder scratch;
-  const std::string script = std::string(SPRINGLOD_SOURCE_DIR) + "/tests/golden/main_job.lua";
+  const std::string script =
+      (springlod::test::source_folder() / "tests/golden/main_job.lua").string();
   const Ran ran = springlod_run({"-q", "run", script, "--", scratch.path().string()});
   unsetenv("OPENBLAS_CORETYPE");
   CAPTURE(ran.err);
@@ -111,7 +113,7 @@ TEST_CASE("The main job has the results whose hashes are kept") {
         springlod::content_hash(slurp(scratch / "calibrated.csv"));
   }
 
-  const fs::path kept = fs::path(SPRINGLOD_SOURCE_DIR) / "tests" / "golden" / "results.txt";
+  const fs::path kept = springlod::test::source_folder() / "tests" / "golden" / "results.txt";
   Hashes wanted = read_hashes(kept);
   const char* bless = std::getenv("SPRINGLOD_BLESS");
   if (bless != nullptr && std::string(bless) == "1") {

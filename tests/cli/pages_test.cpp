@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kSource = SPRINGLOD_SOURCE_DIR;
+const fs::path kSource = source_folder();
 
 // The ```lua blocks of a page in order, to be run as one script, without blocks that are separate
 // files ("return {...}").

@@ -8,6 +8,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
@@ -53,7 +54,7 @@ void check_falling(const std::map<int, Errors>& by_cells) {
 Ran with_bar(const std::string& script) {
   return springlod_run({"-e", std::string("local s = require 'springlod'\n"
                                           "local mesh = s.import('") +
-                                  SPRINGLOD_SOURCE_DIR +
+                                  springlod::test::source_folder().string() +
                                   "/samples/dumbbell.obj', {unit = 'dm'})\n"
                                   "local bar = s.lattice(s.voxelize(mesh, {cell = '20 cm'}))\n"
                                   "local function held(node) return node.x < bar:node(1).x + 0.01 "

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "render/frames.hpp"
+#include "tests/support/paths.hpp"
 
 namespace springlod::test {
 
@@ -14,8 +15,7 @@ namespace springlod::test {
 /// differ by 3 of 255, and 0.5 % of the pixels (at edges) by more, as llvmpipe's results depend on
 /// the processor.
 inline void check_golden(const render::Image& picture, const std::string& name) {
-  const auto golden =
-      std::filesystem::path(SPRINGLOD_SOURCE_DIR) / "tests" / "golden" / (name + ".png");
+  const auto golden = source_folder() / "tests" / "golden" / (name + ".png");
   const char* bless = std::getenv("SPRINGLOD_BLESS");
   if (bless != nullptr && std::string(bless) == "1") {
     render::save_png(picture, golden);
@@ -29,8 +29,7 @@ inline void check_golden(const render::Image& picture, const std::string& name) 
   const render::ImageDifference found = render::difference(picture, wanted);
   const bool same = found.share_beyond <= 0.005;
   if (!same) {
-    const auto actual =
-        std::filesystem::path(SPRINGLOD_BINARY_DIR) / "golden_failures" / (name + ".png");
+    const auto actual = build_folder() / "golden_failures" / (name + ".png");
     render::save_png(picture, actual);
     FAIL("the picture differs from " << golden.string() << " in " << 100 * found.share_beyond
                                      << " % of its pixels (by up to " << found.largest

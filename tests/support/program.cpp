@@ -27,7 +27,7 @@ namespace {
 // Timeout for a program that hangs; far longer than any test takes [ms].
 constexpr int kPatience = 240'000;
 
-const std::string kProgram = std::string(SPRINGLOD_BINARY_DIR) + "/app/springlod";
+const std::string kProgram = (build_folder() / "app/springlod").string();
 
 struct Pipe {
   explicit Pipe(int flags = 0) {
@@ -72,7 +72,7 @@ class Child {
   enum class Stderr { free, held };  // held: the program blocks until each line has been read
 
   explicit Child(const std::vector<std::string>& arguments,
-                 const fs::path& folder = SPRINGLOD_SOURCE_DIR, Stderr of_program = Stderr::free)
+                 const fs::path& folder = source_folder(), Stderr of_program = Stderr::free)
       : err_(of_program == Stderr::held ? O_DIRECT : 0) {
     // The pipe has one page, and in packet mode (O_DIRECT) each write occupies a whole page.
     if (of_program == Stderr::held && fcntl(err_.write_end, F_SETPIPE_SZ, 1) < 0)
@@ -153,7 +153,7 @@ Ran springlod_run(const std::vector<std::string>& arguments, const std::string& 
 }
 
 Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark) {
-  Child child(arguments, SPRINGLOD_SOURCE_DIR, Child::Stderr::held);
+  Child child(arguments, source_folder(), Child::Stderr::held);
   child.give("");
   child.read_until(mark);
   child.interrupt();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace springlod::test {
@@ -17,7 +18,7 @@ struct Ran {
 
 /// Runs the built springlod in `folder` with `arguments`, and `input` on stdin.
 Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input = "",
-                  const std::filesystem::path& folder = SPRINGLOD_SOURCE_DIR);
+                  const std::filesystem::path& folder = source_folder());
 
 /// Runs it, interrupts it (SIGINT) as soon as `mark` appears on its stderr, and waits for its end.
 /// Its stderr is a pipe that holds one line. Even if the test reads slowly, the program is

@@ -11,6 +11,7 @@
 #include "base/file.hpp"
 #include "tests/model/asset/glb_text.hpp"
 #include "tests/support/assets.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace springlod {
@@ -151,8 +152,7 @@ TEST_CASE("Malformed corners are rejected") {
 
 TEST_CASE("An asset of format version 1 is read as one without corners") {
   // Written by version 0.1.0: four nodes, of which level 1 merges the first two.
-  const LodAsset asset =
-      load_asset(std::string(SPRINGLOD_SOURCE_DIR) + "/tests/golden/version_1.glb");
+  const LodAsset asset = load_asset(test::source_folder() / "tests/golden/version_1.glb");
   REQUIRE(asset.chain.levels.size() == 2);
   CHECK(asset.chain.levels[0].model.mass == std::vector<double>{1, 2, 3, 4});
   CHECK(asset.chain.levels[1].of_base.of == std::vector<std::uint32_t>{0, 0, 1, 2});
