@@ -120,9 +120,10 @@ TEST_CASE("Fast steps give the same bits on any number of threads", "[threaded]"
   REQUIRE(model.node_count() > 24'000);  // worth three threads
   const Scenario scene = rough_scene(model);
   constexpr std::uint64_t kFew = 70;  // includes a change of the frame
+  const std::shared_ptr<const FastModel> layout = make_fast_model(model, precision);
   const auto on = [&](std::uint32_t threads) {
-    return after<FastLeapfrog>(model, scene, kFew, {.precision = precision, .threads = threads},
-                               1000);
+    return after<FastLeapfrog>(
+        model, scene, kFew, {.precision = precision, .threads = threads, .layout = layout}, 1000);
   };
   const Outcome one = on(1);
   check_same_bits(one, on(2));
