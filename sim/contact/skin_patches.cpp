@@ -8,9 +8,12 @@
 namespace springlod::sim {
 namespace {
 
-// Smallest cosine of the angle between the normal of a point and that of its patch [1]: 60 degrees,
-// so that a patch does not reach around an edge.
-constexpr double kLeastCosine = 0.5;
+// Smallest cosine of the angle between the normal of a point and that of its patch [1]: 26 degrees.
+// The normal of a point on the edge of a box is 45 degrees from that of the face and 35 degrees
+// from that of the corner. Edges and corners so keep points of their own, which touch first when
+// the body lands on them; a patch that holds them too has its mean within the face, and touches
+// late.
+constexpr double kLeastCosine = 0.9;
 
 // Largest height of a point above or below the plane of its patch, over the spacing [1]. The plane
 // of the patch then touches an obstacle within a quarter of a cell of where its points would.

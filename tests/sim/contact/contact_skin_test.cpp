@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -69,6 +70,28 @@ double kinetic(const MassSpringModel& model, const std::vector<Vec3>& v) {
 }
 
 }  // namespace
+
+TEST_CASE("A level touches an obstacle where its base does, whichever way the body is turned") {
+  const LodChain chain = lod::simplify(
+      block(9, 8, 7, 0.1, material("m", 1e6, 1000, 0.002), voxelize::LatticeStyle::corners),
+      {.levels = 2});
+  const MassSpringModel& base = chain.levels[0].model;
+  const double spacing = mean_spring_length(base);
+  const auto lowest = [](const std::vector<Vec3>& points, const Vec3& up) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec3& point : points) least = std::min(least, up.dot(point));
+    return least;
+  };
+  for (std::uint32_t level = 1; level <= 2; ++level) {
+    const std::vector<Vec3> points =
+        interpolate(contact_skin(chain, level).of_nodes, chain.levels[level].model.rest);
+    for (const Vec3& direction : random_vectors(100, 1, 8)) {
+      const Vec3 up = direction.normalized();
+      CAPTURE(level, up.transpose());
+      CHECK(std::abs(lowest(points, up) - lowest(base.rest, up)) < 0.05 * spacing);
+    }
+  }
+}
 
 TEST_CASE("A level's skin carries every affine motion to the base's surface, areas and all") {
   const auto grouping = GENERATE(lod::Grouping::standard, lod::Grouping::compact);

@@ -37,7 +37,7 @@ TEST_CASE("Each point is in one patch, which is flat, of one group and led by it
   std::vector<SurfacePoint> points;
   for (int i = 0; i < 500; ++i)
     points.push_back(point(group(random), {at(random), at(random), at(random)},
-                           {at(random), at(random), at(random)}, 1.1 + at(random)));
+                           {0.5 * at(random), 0.5 * at(random), 1}, 1.1 + at(random)));
   std::vector<int> seen(points.size(), 0);
   std::size_t joined = 0;
   for (const auto& patch : flat_patches(points, 0.5)) {
@@ -47,10 +47,23 @@ TEST_CASE("Each point is in one patch, which is flat, of one group and led by it
       ++seen[p];
       CHECK(points[p].group == first.group);
       CHECK(points[p].area <= first.area);
-      CHECK(points[p].normal.dot(first.normal) >= 0.5);
+      CHECK(points[p].normal.dot(first.normal) >= 0.9);
       CHECK(std::abs(first.normal.dot(points[p].position - first.position)) <= 0.125);
     }
   }
   CHECK(std::count(seen.begin(), seen.end(), 1) == static_cast<std::ptrdiff_t>(points.size()));
   CHECK(joined > 20);
+}
+
+TEST_CASE("Edges and corners of a box keep patches of their own") {
+  std::vector<SurfacePoint> points;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      points.push_back(point(0, Vec3(i, j, 0), Vec3(i == 0 ? -1 : 0, j == 0 ? -1 : 0, 1)));
+  const auto patches = flat_patches(points, 1);
+  REQUIRE(patches.size() == 4);
+  CHECK(patches[0] == std::vector<std::uint32_t>{0});
+  CHECK(patches[1] == std::vector<std::uint32_t>{1, 2, 3});
+  CHECK(patches[2] == std::vector<std::uint32_t>{4, 8, 12});
+  CHECK(patches[3].size() == 9);
 }
