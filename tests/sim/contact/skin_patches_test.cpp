@@ -35,9 +35,9 @@ TEST_CASE("Each point is in one patch, which is flat, of one group and led by it
   std::uniform_real_distribution<double> at(-1, 1);
   std::uniform_int_distribution<std::uint32_t> group(0, 20);
   std::vector<SurfacePoint> points;
-  for (int i = 0; i < 500; ++i)
+  for (int i = 0; i < 2000; ++i)
     points.push_back(point(group(random), {at(random), at(random), at(random)},
-                           {0.5 * at(random), 0.5 * at(random), 1}, 1.1 + at(random)));
+                           {at(random), at(random), at(random)}, 1.1 + at(random)));
   std::vector<int> seen(points.size(), 0);
   std::size_t joined = 0;
   for (const auto& patch : flat_patches(points, 0.5)) {

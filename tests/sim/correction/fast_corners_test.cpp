@@ -110,6 +110,7 @@ TEST_CASE("Corners give the same bits on any number of threads", "[threaded]") {
     REQUIRE(one.contacts > 100);
     REQUIRE(one.ledger.lost_corners > 0);
     REQUIRE(least_ratio(model, one.state.x) < kCornerResists);
+    check_same_bits(one, on(2));
     check_same_bits(one, on(4));
   }
 }
