@@ -26,7 +26,7 @@ struct Certificate {
   struct Load {
     std::string name;
     bool held_out = false;  ///< on patches that no calibration uses
-    double compliance = 0;  ///< of the base, f.u [J]
+    double compliance = 0;  ///< of the means of the base over the groups of the level, f.u [J]
     double error = 0;       ///< relative error of the compliance [1]
   };
 

@@ -20,10 +20,12 @@
 namespace springlod::lod {
 namespace {
 
-/// A connected component of the base with its targets.
-struct PartTargets {
+/// A connected component of the base, and what the targets of every level are made of.
+struct MeasuredPart {
   ModelComponent part;
-  ElasticTargets targets;
+  TargetOptions options;
+  std::vector<LoadTarget> loads;  // without compliances
+  BaseMeasurements measured;      // for each level above the base
 };
 
 /// The chosen nodes that lie in the component, numbered within it.
@@ -66,30 +68,41 @@ TargetOptions options_of_part(const ModelComponent& part, const std::vector<std:
 
 BaseMeasurements measure_or_load(const MassSpringModel& part, std::size_t number,
                                  const TargetOptions& options, const std::vector<LoadTarget>& loads,
-                                 const CalibrationStore* store) {
-  if (store == nullptr) return measure_base(part, options, loads);
-  const std::string fingerprint = fingerprint_of(part, options);
+                                 const std::vector<Groups>& levels, const CalibrationStore* store) {
+  if (store == nullptr) return measure_base(part, options, loads, levels);
+  const std::string fingerprint = fingerprint_of(part, options, levels);
   if (std::optional<BaseMeasurements> kept = store->measurements(number, fingerprint)) return *kept;
-  BaseMeasurements measured = measure_base(part, options, loads);
+  BaseMeasurements measured = measure_base(part, options, loads, levels);
   store->keep(number, fingerprint, measured);
   return measured;
 }
 
-std::vector<PartTargets> measure_parts(const MassSpringModel& base, const CalibrateOptions& options,
-                                       const CalibrationStore* store) {
+/// The groups of each level above the base, of the nodes of a component of the base alone.
+std::vector<Groups> groups_of_levels(const ModelComponent& part, const LodChain& chain) {
+  std::vector<Groups> levels;
+  for (std::size_t level = 1; level < chain.levels.size(); ++level) {
+    const Groups& of_base = chain.levels[level].of_base;
+    Groups& groups = levels.emplace_back(Groups{{}, of_base.count});
+    for (const std::uint32_t node : part.nodes) groups.of.push_back(of_base.of[node]);
+  }
+  return levels;
+}
+
+std::vector<MeasuredPart> measure_parts(const LodChain& chain, const CalibrateOptions& options,
+                                        const CalibrationStore* store) {
+  const MassSpringModel& base = chain.levels.front().model;
   require_surface(base, options.targets);
   const std::vector<std::uint8_t> anchored = anchor_flags(base, options.targets.anchored);
   std::vector<std::vector<std::uint8_t>> regions;
   for (const TargetRegion& region : options.targets.regions)
     regions.push_back(anchor_flags(base, region.nodes));
-  std::vector<PartTargets> all;
+  std::vector<MeasuredPart> all;
   for (ModelComponent& part : split_components(base, connected_components(base))) {
     const TargetOptions of_part = options_of_part(part, anchored, regions, options);
     std::vector<LoadTarget> loads = target_loads(part.model, of_part);
-    const BaseMeasurements measured =
-        measure_or_load(part.model, all.size(), of_part, loads, store);
-    ElasticTargets targets = make_targets(part.model, of_part, std::move(loads), measured);
-    all.push_back({std::move(part), std::move(targets)});
+    BaseMeasurements measured = measure_or_load(part.model, all.size(), of_part, loads,
+                                                groups_of_levels(part, chain), store);
+    all.push_back({std::move(part), of_part, std::move(loads), std::move(measured)});
   }
   return all;
 }
@@ -165,7 +178,7 @@ class Calibrator {
       throw InputError(
           fmt::format("calibration: keep_every = {} must be 0 or more", options.keep_every));
     if (!options.store.empty()) store_.emplace(options.store, options.progress);
-    base_ = measure_parts(chain.levels.front().model, options, store_ ? &*store_ : nullptr);
+    base_ = measure_parts(chain, options, store_ ? &*store_ : nullptr);
   }
 
   void run() {
@@ -192,7 +205,7 @@ class Calibrator {
     const Components components = connected_components(level.model);
     const std::vector<ModelComponent> parts = split_components(level.model, components);
     for (std::size_t p = 0; p < base_.size(); ++p) {
-      const PartTargets& of_base = base_[p];
+      const MeasuredPart& of_base = base_[p];
       const std::uint32_t first = level.of_base.of[of_base.part.nodes.front()];
       const ModelComponent& part = parts[components.of_node[first]];
       if (part.springs.empty()) {
@@ -206,7 +219,9 @@ class Calibrator {
 
   MassSpringModel fit(std::size_t level, std::size_t part, const MassSpringModel& start,
                       const Groups& groups, const std::function<bool()>& stopped, Task& task) {
-    const ElasticTargets& targets = base_[part].targets;
+    const MeasuredPart& base = base_[part];
+    const ElasticTargets targets =
+        make_targets(base.part.model, base.options, base.loads, base.measured, level - 1);
     FitOptions options = options_.fit;
     options.iterations = steps_of(level);
     options.threads = options_.threads;
@@ -259,7 +274,7 @@ class Calibrator {
   LodChain& chain_;
   const CalibrateOptions& options_;
   std::optional<CalibrationStore> store_;
-  std::vector<PartTargets> base_;
+  std::vector<MeasuredPart> base_;
   std::atomic<bool> reported_store_{false}, resumed_{false};
 };
 

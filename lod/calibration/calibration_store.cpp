@@ -19,7 +19,7 @@ namespace {
 
 /// Format version. Raise it whenever a fit continues differently from the same state or the format
 /// changes; files of other versions are ignored.
-constexpr std::uint32_t kFormat = 4;
+constexpr std::uint32_t kFormat = 5;
 constexpr std::size_t kChecksumSize = 16;  // of content_hash [bytes]
 
 const char* const kAbout =
@@ -38,6 +38,11 @@ void pack(Packer& to, const MassSpringModel& model) {
   to.add(model.rest_length);
   to.add(model.stiffness);
   to.add(model.damping);
+}
+
+void pack(Packer& to, const Groups& groups) {
+  to.add(groups.of);
+  to.add(groups.count);
 }
 
 template <class Number>
@@ -125,12 +130,14 @@ std::string name_of_fit(std::size_t level, std::size_t part) {
 
 }  // namespace
 
-std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options) {
+std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options,
+                           const std::vector<Groups>& levels) {
   Packer all;
   pack(all, base_part);
   TargetOptions measured = options;
   measured.patches = patch_count(options, base_part.node_count());
   pack_options(all, measured, false);
+  for (const Groups& level : levels) pack(all, level);
   return content_hash(all.bytes());
 }
 
@@ -151,8 +158,7 @@ std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel&
   all.add(targets.nodes);
   all.add(targets.anchored);
   pack(all, level_part);
-  all.add(of_base.of);
-  all.add(of_base.count);
+  pack(all, of_base);
   pack_options(all, options, true);
   return content_hash(all.bytes());
 }
@@ -179,7 +185,9 @@ std::optional<BaseMeasurements> CalibrationStore::measurements(
   const auto modes = from.take<std::uint64_t>();
   for (std::uint64_t mode = 0; mode < modes; ++mode)
     measured.modal_forces.push_back(from.take_vectors());
-  measured.compliance = from.take_list<double>();
+  const auto levels = from.take<std::uint64_t>();
+  for (std::uint64_t level = 0; level < levels; ++level)
+    measured.compliance.push_back(from.take_list<double>());
   measured.highest_frequency = from.take<double>();
   return measured;
 }
@@ -190,7 +198,8 @@ void CalibrationStore::keep(std::size_t part, const std::string& fingerprint,
   to.add(measured.squared_frequency);
   to.add(static_cast<std::uint64_t>(measured.modal_forces.size()));
   for (const std::vector<Vec3>& force : measured.modal_forces) to.add(force);
-  to.add(measured.compliance);
+  to.add(static_cast<std::uint64_t>(measured.compliance.size()));
+  for (const std::vector<double>& of_level : measured.compliance) to.add(of_level);
   to.add(measured.highest_frequency);
   write(name_of_measurements(part), fingerprint, to.bytes());
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/progress.hpp"
 #include "lod/calibration/elastic_targets.hpp"
@@ -46,8 +47,9 @@ class CalibrationStore {
   Progress* progress_;
 };
 
-/// Hash of all inputs of the measurements of a component of the base.
-std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options);
+/// Hash of all inputs of the measurements of a component of the base for some levels.
+std::string fingerprint_of(const MassSpringModel& base_part, const TargetOptions& options,
+                           const std::vector<Groups>& levels);
 /// Hash of all inputs of the fit of a component of a level; `level_part` is the component before
 /// the fit.
 std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel& level_part,

@@ -13,6 +13,7 @@
 #include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
 #include "elastic/stable_step.hpp"
+#include "lod/group_means.hpp"
 #include "model/anchors.hpp"
 
 namespace springlod::lod {
@@ -60,18 +61,24 @@ std::vector<elastic::StaticLoad> region_loads(const MassSpringModel& base,
   return loads;
 }
 
-std::vector<double> compliances(const elastic::ElasticBody& body,
-                                const std::vector<LoadTarget>& targets,
-                                const std::function<bool()>& stopped) {
-  std::vector<double> all;
+/// LoadTarget::compliance of the loads for each level.
+std::vector<std::vector<double>> compliances(const MassSpringModel& base,
+                                             const elastic::ElasticBody& body,
+                                             const std::vector<LoadTarget>& targets,
+                                             const std::vector<Groups>& levels,
+                                             const std::function<bool()>& stopped) {
+  std::vector<std::vector<double>> all(levels.size());
   for (std::size_t first = 0; first < targets.size(); first += kTogether) {
     if (stopped()) throw InterruptedError();
     const std::size_t last = std::min(targets.size(), first + kTogether);
     std::vector<elastic::StaticLoad> loads;
     for (std::size_t l = first; l < last; ++l) loads.push_back(targets[l].load);
-    for (const elastic::StaticSolution& solution : elastic::solve_static(
-             body, loads, {.relative_tolerance = kLoadBalance, .balance_free_motions = true}))
-      all.push_back(solution.compliance);
+    const std::vector<elastic::StaticSolution> solved = elastic::solve_static(
+        body, loads, {.relative_tolerance = kLoadBalance, .balance_free_motions = true});
+    for (std::size_t level = 0; level < levels.size(); ++level)
+      for (std::size_t l = 0; l < loads.size(); ++l)
+        all[level].push_back(
+            work_on_means(loads[l].force, solved[l].displacement, base.mass, levels[level]));
   }
   return all;
 }
@@ -132,7 +139,8 @@ std::vector<LoadTarget> target_loads(const MassSpringModel& base, const TargetOp
 }
 
 BaseMeasurements measure_base(const MassSpringModel& base, const TargetOptions& options,
-                              const std::vector<LoadTarget>& loads) {
+                              const std::vector<LoadTarget>& loads,
+                              const std::vector<Groups>& levels) {
   const elastic::ElasticBody body =
       elastic::elastic_body(base, {.anchored = options.anchored, .progress = options.progress});
   BaseMeasurements measured;
@@ -145,14 +153,15 @@ BaseMeasurements measure_base(const MassSpringModel& base, const TargetOptions& 
         std::vector<Vec3>& force = measured.modal_forces.emplace_back(mode.shape);
         for (std::uint32_t i = 0; i < base.node_count(); ++i) force[i] *= base.mass[i];
       }
-    if (job == 1) measured.compliance = compliances(body, loads, stopped);
+    if (job == 1) measured.compliance = compliances(base, body, loads, levels, stopped);
   });
   measured.highest_frequency = elastic::largest_frequency(base);
   return measured;
 }
 
 ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& options,
-                            std::vector<LoadTarget> loads, const BaseMeasurements& measured) {
+                            std::vector<LoadTarget> loads, const BaseMeasurements& measured,
+                            std::size_t level) {
   ElasticTargets targets;
   targets.squared_frequency = measured.squared_frequency;
   targets.mode_weight = options.mode_weight;
@@ -160,8 +169,8 @@ ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& op
   if (options.shape_weight > 0) targets.modal_forces = measured.modal_forces;
   targets.loads = std::move(loads);
   for (std::size_t l = 0; l < targets.loads.size(); ++l)
-    targets.loads[l].compliance = measured.compliance.at(l);
-  // A load without effect on the base, such as a stretch across a flat model, is dropped.
+    targets.loads[l].compliance = measured.compliance.at(level).at(l);
+  // A load without effect on the groups is dropped, such as a stretch across a flat model.
   std::erase_if(targets.loads, [](const LoadTarget& target) { return !(target.compliance > 0); });
   targets.highest_frequency = measured.highest_frequency;
   targets.nodes = base.node_count();
@@ -169,10 +178,11 @@ ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& op
   return targets;
 }
 
-ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options) {
+ElasticTargets measure_targets(const MassSpringModel& base, const Groups& of_base,
+                               const TargetOptions& options) {
   std::vector<LoadTarget> loads = target_loads(base, options);
-  const BaseMeasurements measured = measure_base(base, options, loads);
-  return make_targets(base, options, std::move(loads), measured);
+  const BaseMeasurements measured = measure_base(base, options, loads, {of_base});
+  return make_targets(base, options, std::move(loads), measured, 0);
 }
 
 }  // namespace springlod::lod

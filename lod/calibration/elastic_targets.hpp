@@ -19,16 +19,20 @@ enum class LoadKind {
   region,  ///< within a TargetRegion of the surface: patch_pairs and pushes
 };
 
-/// A static load and the base's compliance to it.
+/// A static load, and the base's compliance to it as a level can have it.
 struct LoadTarget {
   LoadKind kind = LoadKind::smooth;
   elastic::StaticLoad load;  ///< on the base's nodes
-  double compliance = 0;     ///< of the base, f.u [J], above 0
-  double weight = 1;         ///< [1]
+  /// Work of the load along the means of the base's displacement over the groups of the level [J],
+  /// above 0: see work_on_means. A level that had the whole compliance f.u of the base would move
+  /// its nodes farther than their groups move, most of all where the surface is loaded at few
+  /// nodes.
+  double compliance = 0;
+  double weight = 1;  ///< [1]
 };
 
-/// Targets of a fit: natural frequencies, mode shapes and static compliances of the base
-/// (docs/method.md, eq. 30 and the table of weights below it).
+/// Targets of the fit of one level: natural frequencies, mode shapes and static compliances of the
+/// base (docs/method.md, eq. 30 and the table of weights below it).
 struct ElasticTargets {
   std::vector<double> squared_frequency;  ///< omega^2 of the lowest modes, ascending [rad2/s2]
   double mode_weight = 1;                 ///< factor on the default weight of each frequency [1]
@@ -57,23 +61,28 @@ constexpr double kLoadBalance = 1e-8;
 struct BaseMeasurements {
   std::vector<double> squared_frequency;        ///< as in ElasticTargets [rad2/s2]
   std::vector<std::vector<Vec3>> modal_forces;  ///< as in ElasticTargets [kg^1/2]
-  std::vector<double> compliance;               ///< of every target load; 0: it does not act [J]
-  double highest_frequency = 0;                 ///< omega_max [rad/s]
+  /// LoadTarget::compliance of every target load, by level; 0: the load does not act [J].
+  std::vector<std::vector<double>> compliance;
+  double highest_frequency = 0;  ///< omega_max [rad/s]
 };
 
-/// Measures the targets of a base. Half of the loads of a region are patch pairs, if two patches
-/// fit into it; the others push one patch against the inertia of the body or against its anchors. A
-/// region without free border nodes adds no loads.
-/// Throws InputError for weights below 0, and where elastic_body does.
-ElasticTargets measure_targets(const MassSpringModel& base, const TargetOptions& options = {});
+/// Measures the targets of a base for the level of groups `of_base`. Half of the loads of a region
+/// are patch pairs, if two patches fit into it; the others push one patch against the inertia of
+/// the body or against its anchors. A region without free border nodes adds no loads. Throws
+/// InputError for weights below 0, and where elastic_body does.
+ElasticTargets measure_targets(const MassSpringModel& base, const Groups& of_base,
+                               const TargetOptions& options = {});
 
 /// The three steps of measure_targets, for callers that store the measurements: the loads, with
-/// compliances still 0; the measurements, which do not depend on the weights; the targets.
+/// compliances still 0; the measurements for several levels, which do not depend on the weights;
+/// the targets of one of these levels, counted from 0.
 std::vector<LoadTarget> target_loads(const MassSpringModel& base, const TargetOptions& options);
 BaseMeasurements measure_base(const MassSpringModel& base, const TargetOptions& options,
-                              const std::vector<LoadTarget>& loads);
+                              const std::vector<LoadTarget>& loads,
+                              const std::vector<Groups>& levels);
 ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& options,
-                            std::vector<LoadTarget> loads, const BaseMeasurements& measured);
+                            std::vector<LoadTarget> loads, const BaseMeasurements& measured,
+                            std::size_t level);
 
 /// Nodes of the region that loads can act on: border nodes that are not anchored.
 std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const TargetRegion& region,

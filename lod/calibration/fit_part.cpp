@@ -51,7 +51,7 @@ constexpr double kMargin = 1;
 
 /// Tolerances of patch and piece loads, and of region loads, relative to that of the ten lowest
 /// frequencies (docs/method.md, eq. 44).
-constexpr double kPatchLoadsTolerance = 20, kRegionLoadsTolerance = 8;
+constexpr double kPatchLoadsTolerance = 8, kRegionLoadsTolerance = 8;
 
 double mean(const std::vector<double>& values, std::size_t begin, std::size_t end) {
   end = std::min(end, values.size());

@@ -16,8 +16,8 @@
 #include "lod/calibration/elastic_targets.hpp"
 #include "lod/calibration/second_moments.hpp"
 #include "lod/calibration/tolerance.hpp"
+#include "lod/group_means.hpp"
 #include "lod/quality/compared_loads.hpp"
-#include "lod/quality/group_means.hpp"
 
 namespace springlod::lod {
 namespace {
@@ -81,11 +81,14 @@ void compare_modes(const LodChain& chain, const Level& level,
   }
 }
 
-void compare_loads(const ComparedLoads& loads, const Measured& base, const Measured& found,
-                   Certificate& certificate) {
+/// Compares compliances of a level with the work of the loads on the means of the base over its
+/// groups, as a fit does.
+void compare_loads(const ComparedLoads& loads, const LodChain& chain, const Level& level,
+                   const Measured& base, const Measured& found, Certificate& certificate) {
   for (std::size_t l = 0; l < loads.all.size(); ++l) {
-    const double compliance = base.solutions[l].compliance;
-    if (!(compliance > 0)) continue;  // the load has no effect on the base
+    const double compliance = work_on_means(loads.all[l].force, base.solutions[l].displacement,
+                                            chain.levels.front().model.mass, level.of_base);
+    if (!(compliance > 0)) continue;  // the load has no effect on the groups
     certificate.loads.push_back({loads.all[l].name, loads.held_out(l), compliance,
                                  found.solutions[l].compliance / compliance - 1});
   }
@@ -160,7 +163,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
                          mapped_nodes(level.of_base, options.anchored), options.modes);
              Certificate c;
              compare_modes(chain, level, of_base.modes, found.modes, c);
-             compare_loads(loads, of_base, found, c);
+             compare_loads(loads, chain, level, of_base, found, c);
              compare_moduli(base, of_base, found, c);
              compare_masses(base, level.model, c);
              c.highest_frequency = found.highest_frequency;

@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 #include "base/script_number.hpp"
 #include "elastic/stiffness.hpp"
-#include "lod/quality/group_means.hpp"
+#include "lod/group_means.hpp"
 #include "lod/transfer.hpp"
 
 namespace springlod::lod {

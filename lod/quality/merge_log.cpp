@@ -14,9 +14,9 @@
 #include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
 #include "lod/calibration/elastic_targets.hpp"
+#include "lod/group_means.hpp"
 #include "lod/quality/compared_loads.hpp"
 #include "lod/quality/compliance_change.hpp"
-#include "lod/quality/group_means.hpp"
 #include "lod/transfer.hpp"
 
 namespace springlod::lod {

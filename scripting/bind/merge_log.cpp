@@ -97,7 +97,9 @@ void describe_records(Api& api) {
            result_field(
                "answers", "list of tables",
                "quantities compared: name, kind (mode, smooth, local), change (in this step; of ln "
-               "frequency, for loads of ln compliance), error (since the base)"),
+               "frequency, for loads of ln compliance), error (since the base; of the whole "
+               "compliance "
+               "of the loaded nodes, where a certificate compares the means of groups)"),
            result_field("merges", "list of MergeEntry",
                         "nodes of the level, those with the largest contribution first")},
       .example = "s.merge_log(chain)[1].merges[1].position"});

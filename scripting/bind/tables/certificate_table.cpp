@@ -82,7 +82,8 @@ void describe_certificate(Api& api) {
                               "assurance criterion, 0..1)"),
                  result_field("loads", "list of tables",
                               "static loads: name, held_out (true: calibration is not fitted to "
-                              "it), error of the compliance"),
+                              "it), error of the compliance (against the work of the load along "
+                              "the means of the base's displacement over the groups of nodes)"),
                  result_field("f1_10_error", "number",
                               "mean |error| of the ten lowest frequencies"),
                  result_field("f11_20_error", "number",

@@ -135,8 +135,8 @@ TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
     if (anchored)
       for (std::uint32_t i = 0; i < base.node_count(); ++i)
         if (base.rest[i].z() < 0.1) options.anchored.push_back(i);
-    const ElasticTargets targets = measure_targets(base, options);
     const Level level = plain_level(base, 0.4);
+    const ElasticTargets targets = measure_targets(base, level.of_base, options);
     const ElasticFit fit(level.model, level.of_base, targets, {.masses = masses});
     const ElasticResiduals here = fit.residuals(level.model);
     Eigen::VectorXd direction = any_direction(level.model, 3);
@@ -278,8 +278,8 @@ TEST_CASE("Calibration handles several components, a single node among them, and
   LodChain chain = simplify(two, options);
   validate(chain.levels[1].model);
   options.calibration.targets.kinds = TargetKinds::modes;
-  const ElasticTargets wanted = measure_targets(two, options.calibration.targets);
   const auto mean_error = [&](const Level& level) {
+    const ElasticTargets wanted = measure_targets(two, level.of_base, options.calibration.targets);
     const ElasticFit fit(level.model, level.of_base, wanted);
     const ElasticResiduals residuals = fit.residuals(level.model);
     double mean = 0;

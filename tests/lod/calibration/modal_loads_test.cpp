@@ -13,7 +13,7 @@
 #include "elastic/modes.hpp"
 #include "lod/build.hpp"
 #include "lod/calibration/elastic_fit.hpp"
-#include "lod/quality/group_means.hpp"
+#include "lod/group_means.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/models.hpp"
 
@@ -26,7 +26,7 @@ namespace {
 constexpr std::uint32_t kModes = 6;
 
 ElasticTargets targets_of(const MassSpringModel& base, std::vector<std::uint32_t> anchored = {}) {
-  return measure_targets(base,
+  return measure_targets(base, identity_groups(base.node_count()),
                          {.kinds = TargetKinds::modes, .modes = kModes, .anchored = anchored});
 }
 
@@ -122,9 +122,11 @@ TEST_CASE("Modal loads do not act on held nodes") {
 }
 
 TEST_CASE("A weight of 0 leaves the shapes out of the targets") {
+  const MassSpringModel base = block(3, 4, 6);
+  const Groups alone = identity_groups(base.node_count());
   const ElasticTargets targets =
-      measure_targets(block(3, 4, 6), {.modes = kModes, .patches = 4, .shape_weight = 0});
+      measure_targets(base, alone, {.modes = kModes, .patches = 4, .shape_weight = 0});
   CHECK(targets.modal_forces.empty());
-  CHECK_THROWS_WITH(measure_targets(block(3, 4, 6), {.shape_weight = -1}),
+  CHECK_THROWS_WITH(measure_targets(base, alone, {.shape_weight = -1}),
                     Catch::Contains("shape_weight = -1 must be 0 or more"));
 }

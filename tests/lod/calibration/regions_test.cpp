@@ -53,7 +53,9 @@ TEST_CASE("A target region reduces the error of held-out loads within it", "[lon
   const double without = error_within(base, face, {});
   const double with = error_within(base, face, {.regions = {{.nodes = face}}});
   CAPTURE(without, with);
-  CHECK(with < 0.6 * without);
+  // A fit without the region is 8 % off there.
+  CHECK(with < 0.75 * without);
+  CHECK(with < 0.06);
 }
 
 TEST_CASE("A target region next to an anchored end reduces the error as well", "[long]") {
@@ -71,12 +73,13 @@ TEST_CASE("The targets have the requested kinds and weights") {
   const MassSpringModel base = test::rods();
   const std::vector<std::uint32_t> end = below(base, 3 * kCell);
   const ElasticTargets targets =
-      measure_targets(base, {.modes = 2,
-                             .patches = 6,
-                             .patch_weight = 0.25,
-                             .regions = {{.nodes = end, .weight = 3, .patches = 8},
-                                         {.nodes = below(base, kCell), .patches = 4}},
-                             .load_weight = 2});
+      measure_targets(base, identity_groups(base.node_count()),
+                      {.modes = 2,
+                       .patches = 6,
+                       .patch_weight = 0.25,
+                       .regions = {{.nodes = end, .weight = 3, .patches = 8},
+                                   {.nodes = below(base, kCell), .patches = 4}},
+                       .load_weight = 2});
   CHECK(count_of(targets, LoadKind::smooth) == 9);
   CHECK(count_of(targets, LoadKind::piece) == 27);
   CHECK(count_of(targets, LoadKind::patch) == 6);
@@ -95,7 +98,7 @@ TEST_CASE("Weights of modes, shapes and loads scale their residuals") {
   const MassSpringModel base = block(4, 4, 5);
   const Level level = simplify(base, {.levels = 1}).levels[1];
   const auto residuals = [&](const TargetOptions& options) {
-    const ElasticTargets targets = measure_targets(base, options);
+    const ElasticTargets targets = measure_targets(base, level.of_base, options);
     return ElasticFit(level.model, level.of_base, targets).residuals(level.model).weighted;
   };
   const Eigen::VectorXd usual = residuals({.modes = 4, .patches = 2});
@@ -110,10 +113,12 @@ TEST_CASE("Weights of modes, shapes and loads scale their residuals") {
 
 TEST_CASE("Weights below 0 and regions without free border nodes are errors") {
   const MassSpringModel base = block(4, 4, 5);
-  CHECK_THROWS_WITH(measure_targets(base, {.mode_weight = -1}),
+  const Groups alone = identity_groups(base.node_count());
+  CHECK_THROWS_WITH(measure_targets(base, alone, {.mode_weight = -1}),
                     Catch::Contains("mode_weight = -1 must be 0 or more"));
-  CHECK_THROWS_WITH(measure_targets(base, {.regions = {{.nodes = {0}, .weight = std::nan("")}}}),
-                    Catch::Contains("weight of a region"));
+  CHECK_THROWS_WITH(
+      measure_targets(base, alone, {.regions = {{.nodes = {0}, .weight = std::nan("")}}}),
+      Catch::Contains("weight of a region"));
   LodChain chain = simplify(base, {.levels = 1});
   CalibrateOptions options;
   options.targets.regions = {{.nodes = {0}}, {.nodes = below(base, kCell)}};

@@ -236,7 +236,7 @@ TEST_CASE("Measurements of a base are read back as they were stored") {
   const CalibrationStore store(folder / "store", nullptr);
   const BaseMeasurements measured{.squared_frequency = {1, 2},
                                   .modal_forces = {{{1, 2, 3}, {4, 5, 6}}, {{7, 8, 9}, {0, 1, 0}}},
-                                  .compliance = {3, 4, 5},
+                                  .compliance = {{3, 4, 5}, {6, 7, 8}},
                                   .highest_frequency = 6};
   store.keep(0, "fingerprint", measured);
   const std::optional<BaseMeasurements> back = store.measurements(0, "fingerprint");
@@ -288,7 +288,7 @@ TEST_CASE("A fit state is read back as it was stored") {
 TEST_CASE("Steps with non-finite residuals are rejected") {
   const MassSpringModel base = block(4, 4, 6);
   const Level level = plain().levels[2];
-  ElasticTargets targets = measure_targets(base, {.modes = 10, .patches = 4});
+  ElasticTargets targets = measure_targets(base, level.of_base, {.modes = 10, .patches = 4});
   targets.loads.front().compliance = std::numeric_limits<double>::infinity();
   FitState last;
   FitProgress progress;
@@ -316,7 +316,8 @@ void change(std::vector<Element>& list) {
 
 TEST_CASE("A change of any option of the targets, but a weight, is another fingerprint") {
   const MassSpringModel base = block(4, 4, 6);
-  const std::string usual = fingerprint_of(base, TargetOptions{});
+  const Groups groups = identity_groups(base.node_count());
+  const std::string usual = fingerprint_of(base, TargetOptions{}, {groups});
   std::size_t rows = 0;
   const TargetOptions all;
   for_each_option(all, [&](const auto&, const auto&) { ++rows; });
@@ -331,6 +332,10 @@ TEST_CASE("A change of any option of the targets, but a weight, is another finge
       change(member);
     });
     CAPTURE(changed);
-    CHECK((fingerprint_of(base, options) != usual) == measured);
+    CHECK((fingerprint_of(base, options, {groups}) != usual) == measured);
   }
+  Groups others = groups;
+  others.of[1] = others.of[0];
+  CHECK(fingerprint_of(base, TargetOptions{}, {others}) != usual);
+  CHECK(fingerprint_of(base, TargetOptions{}, {groups, groups}) != usual);
 }
