@@ -99,8 +99,8 @@ struct PieceLoadOptions {
   std::size_t least_nodes = 20;  ///< in a region; smaller ones have hardly any stiffness alone
 };
 
-/// The nine smooth loads on each material region (connected nodes of one material) that reaches the
-/// surface: "stretch x of rod at node 0", ... They measure the stiffness of the region by itself;
+/// The nine smooth loads on each material region (connected nodes of one material), at the surface
+/// or inside: "stretch x of rod at node 0", ... They measure the stiffness of the region by itself;
 /// loads on the whole body hardly depend on stiff regions that soft ones connect. Returns none if
 /// the body is one region.
 std::vector<StaticLoad> piece_loads(const MassSpringModel& model,

@@ -12,19 +12,12 @@ namespace {
 
 using Nodes = std::vector<std::uint32_t>;
 
-bool reaches_surface(const MassSpringModel& model, const Nodes& region) {
-  return std::any_of(region.begin(), region.end(),
-                     [&](std::uint32_t i) { return model.border[i] != 0; });
-}
-
 }  // namespace
 
 std::vector<StaticLoad> piece_loads(const MassSpringModel& model, const PieceLoadOptions& options) {
   std::vector<Nodes> regions = material_regions(model);
   if (regions.size() == 1) return {};
-  std::erase_if(regions, [&](const Nodes& region) {
-    return region.size() < options.least_nodes || !reaches_surface(model, region);
-  });
+  std::erase_if(regions, [&](const Nodes& region) { return region.size() < options.least_nodes; });
   std::stable_sort(regions.begin(), regions.end(),
                    [](const Nodes& p, const Nodes& q) { return p.size() > q.size(); });
   regions.resize(std::min(regions.size(), options.most_regions));
