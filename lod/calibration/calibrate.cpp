@@ -23,6 +23,7 @@ namespace {
 /// A connected component of the base, and what the targets of every level are made of.
 struct MeasuredPart {
   ModelComponent part;
+  std::vector<Groups> groups;  // from its nodes to those of its part of each level above the base
   TargetOptions options;
   std::vector<LoadTarget> loads;  // without compliances
   BaseMeasurements measured;      // for each level above the base
@@ -77,15 +78,19 @@ BaseMeasurements measure_or_load(const MassSpringModel& part, std::size_t number
   return measured;
 }
 
-/// The groups of each level above the base, of the nodes of a component of the base alone.
-std::vector<Groups> groups_of_levels(const ModelComponent& part, const LodChain& chain) {
-  std::vector<Groups> levels;
+/// The maps from the nodes of a component of the base to those of the component that each level
+/// above the base makes of it, in ascending order.
+std::vector<Groups> groups_of_part(const ModelComponent& part, const LodChain& chain) {
+  std::vector<Groups> all;
   for (std::size_t level = 1; level < chain.levels.size(); ++level) {
     const Groups& of_base = chain.levels[level].of_base;
-    Groups& groups = levels.emplace_back(Groups{{}, of_base.count});
-    for (const std::uint32_t node : part.nodes) groups.of.push_back(of_base.of[node]);
+    const std::vector<std::uint32_t> nodes = mapped_nodes(of_base, part.nodes);
+    std::vector<std::uint32_t> place(of_base.count);
+    for (std::uint32_t i = 0; i < nodes.size(); ++i) place[nodes[i]] = i;
+    Groups& groups = all.emplace_back(Groups{{}, static_cast<std::uint32_t>(nodes.size())});
+    for (const std::uint32_t node : part.nodes) groups.of.push_back(place[of_base.of[node]]);
   }
-  return levels;
+  return all;
 }
 
 std::vector<MeasuredPart> measure_parts(const LodChain& chain, const CalibrateOptions& options,
@@ -100,21 +105,13 @@ std::vector<MeasuredPart> measure_parts(const LodChain& chain, const CalibrateOp
   for (ModelComponent& part : split_components(base, connected_components(base))) {
     const TargetOptions of_part = options_of_part(part, anchored, regions, options);
     std::vector<LoadTarget> loads = target_loads(part.model, of_part);
-    BaseMeasurements measured = measure_or_load(part.model, all.size(), of_part, loads,
-                                                groups_of_levels(part, chain), store);
-    all.push_back({std::move(part), of_part, std::move(loads), std::move(measured)});
+    std::vector<Groups> groups = groups_of_part(part, chain);
+    BaseMeasurements measured =
+        measure_or_load(part.model, all.size(), of_part, loads, groups, store);
+    all.push_back(
+        {std::move(part), std::move(groups), of_part, std::move(loads), std::move(measured)});
   }
   return all;
-}
-
-/// The map from the nodes of a component of the base to those of the level's component.
-Groups groups_of_part(const ModelComponent& base, const ModelComponent& level,
-                      const Groups& of_base) {
-  Groups groups{{}, level.model.node_count()};
-  std::vector<std::uint32_t> place(of_base.count);
-  for (std::uint32_t i = 0; i < level.nodes.size(); ++i) place[level.nodes[i]] = i;
-  for (const std::uint32_t node : base.nodes) groups.of.push_back(place[of_base.of[node]]);
-  return groups;
 }
 
 void write_back(const ModelComponent& part, const MassSpringModel& fitted, MassSpringModel& level) {
@@ -212,14 +209,14 @@ class Calibrator {
         task.advance(steps_of(number));
         continue;
       }
-      const Groups groups = groups_of_part(of_base.part, part, level.of_base);
-      write_back(part, fit(number, p, part.model, groups, stopped, task), level.model);
+      write_back(part, fit(number, p, part.model, stopped, task), level.model);
     }
   }
 
   MassSpringModel fit(std::size_t level, std::size_t part, const MassSpringModel& start,
-                      const Groups& groups, const std::function<bool()>& stopped, Task& task) {
+                      const std::function<bool()>& stopped, Task& task) {
     const MeasuredPart& base = base_[part];
+    const Groups& groups = base.groups[level - 1];
     const ElasticTargets targets =
         make_targets(base.part.model, base.options, base.loads, base.measured, level - 1);
     FitOptions options = options_.fit;
