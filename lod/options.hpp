@@ -255,7 +255,7 @@ constexpr auto option_rows(const FitOptions*) {
   return std::tuple(
       option("tolerance", &FitOptions::tolerance,
              "tolerance of the mean error of the ten lowest frequencies; other modes have 3 times "
-             "the tolerance, smooth loads and regions 8 times, patches 20 times")
+             "the tolerance, loads 8 times")
           .by_default("0.0033 sqrt(N0 / N)"),
       option("iterations", &FitOptions::iterations,
              "maximum number of steps; the default is smaller, down to 10, for levels of more than "
