@@ -189,6 +189,7 @@ void check(const SimplifyOptions& options) {
 LodChain simplify(MassSpringModel base, const SimplifyOptions& options) {
   check(options);
   LodChain chain;
+  chain.contact = options.contact;
   const std::uint32_t nodes = base.node_count();
   chain.levels.push_back({std::move(base), identity_groups(nodes), "base"});
   {

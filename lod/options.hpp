@@ -340,8 +340,9 @@ struct SimplifyOptions {
   bool straight = false;
   MassRule mass = MassRule::proportional;
   bool guards = true;
-  GuardOptions guard{};  ///< its border rule is taken from `grouping`
-  GroupMaker groups{};   ///< optional
+  GuardOptions guard{};                  ///< its border rule is taken from `grouping`
+  GroupMaker groups{};                   ///< optional
+  ContactAt contact = ContactAt::nodes;  ///< LodChain::contact
   Calibrate calibrate = Calibrate::none;
   CalibrateOptions calibration{};  ///< for Calibrate::modes
   std::string made_by{};           ///< Level::made_by; empty: a summary of the options
@@ -366,7 +367,9 @@ constexpr auto option_rows(const SimplifyOptions*) {
                     "limits at which nodes count as coincident or floppy", "those of Guard"),
       option("calibrate", &SimplifyOptions::calibrate, "calibration of the levels after merging"),
       record_option("calibration", &SimplifyOptions::calibration, "Calibration",
-                    "targets of calibrate = \"modes\"", "those of Calibration"));
+                    "targets of calibrate = \"modes\"", "those of Calibration"),
+      option("contact", &SimplifyOptions::contact,
+             "contact points of the levels in runs that do not set it; saved with the chain"));
 }
 
 }  // namespace springlod::lod

@@ -12,6 +12,9 @@
 namespace springlod::inline model {
 namespace {
 
+// Number of the modes whose errors are averaged.
+constexpr std::size_t kLowestModes = 10;
+
 void check_finite(std::initializer_list<double> numbers, const std::string& owner) {
   for (const double number : numbers)
     if (!std::isfinite(number))
@@ -27,7 +30,7 @@ void validate(const Certificate& c) {
   for (std::size_t i = 0; i < c.frequencies.size(); ++i) {
     const Certificate::Frequency& f = c.frequencies[i];
     const std::string owner = fmt::format("frequency {}", script_number(i));
-    check_finite({f.level, f.base, f.mac}, owner);
+    check_finite({f.level, f.base, f.mac, f.decay, f.base_decay}, owner);
     if (f.base <= 0)
       throw InputError(
           fmt::format("certificate: {} of the base is {} Hz; it must be above 0; leave out "
@@ -40,6 +43,9 @@ void validate(const Certificate& c) {
   check_finite({c.highest_frequency, c.base_highest_frequency}, "a highest frequency");
   check_finite({c.stable_step, c.base_stable_step}, "a stable time step");
   check_finite({c.cost, c.base_cost}, "a cost");
+  check_finite({c.blow_error.value_or(0), c.first_period_error.value_or(0)},
+               "an error of the motion");
+  check_finite({c.contact_ratio.value_or(0)}, "the contact area over mass");
   check_finite({c.tolerance}, "the tolerance");
 }
 
@@ -50,6 +56,26 @@ double mean_frequency_error(const Certificate& certificate, std::uint32_t first,
   double sum = 0;
   for (std::uint32_t i = first; i < last; ++i) sum += std::abs(all[i].level / all[i].base - 1);
   return last > first ? sum / (last - first) : 0;
+}
+
+std::optional<double> mean_mac(const Certificate& certificate) {
+  const std::size_t count = std::min(kLowestModes, certificate.frequencies.size());
+  if (count == 0) return std::nullopt;
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += certificate.frequencies[i].mac;
+  return sum / static_cast<double>(count);
+}
+
+std::optional<double> mean_decay_error(const Certificate& certificate) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < std::min(kLowestModes, certificate.frequencies.size()); ++i) {
+    const Certificate::Frequency& f = certificate.frequencies[i];
+    if (!(f.base_decay > 0)) continue;
+    sum += std::abs(f.decay / f.base_decay - 1);
+    ++count;
+  }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 double mean_load_error(const Certificate& certificate, bool held_out) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Certificate {
     /// Modal assurance criterion 0..1 (docs/method.md, eq. 49): the fraction of the level's mode
     /// within the base's modes of this frequency, plus or minus 5 %.
     double mac = 0;
+    double decay = 0, base_decay = 0;  ///< rate at which damping makes the amplitude fall [1/s]
   };
   struct Load {
     std::string name;
@@ -41,9 +43,16 @@ struct Certificate {
   /// Number of springs / stable time step: the work for a simulated second [1/s].
   double cost = 0, base_cost = 0;
   std::uint32_t zero_modes = 0, expected_zero_modes = 0;
-  /// Requested bound of the mean error of the ten lowest frequencies [1].
+  /// Errors of motions that the lowest modes of the base make up, empty in assets of earlier
+  /// versions (docs/method.md, eqs. 50a and 50b): of the velocities right after a blow, and of the
+  /// displacements in the first period of free vibration [1].
+  std::optional<double> blow_error, first_period_error;
+  /// Largest contact area over mass of a node of the level over that of the base [1], which raises
+  /// the frequency of its contacts. Empty without contact area, and in assets of earlier versions.
+  std::optional<double> contact_ratio;
+  /// Requested bound of the mean error of the ten lowest frequencies [1]; 0: none was requested.
   double tolerance = 0;
-  /// Descriptions of the targets outside tolerance; empty: all are within tolerance.
+  /// Descriptions of what exceeds the requested bound.
   std::vector<std::string> unmet;
 };
 
@@ -55,6 +64,10 @@ void validate(const Certificate& certificate);
 /// skipped; 0 without any.
 double mean_frequency_error(const Certificate& certificate, std::uint32_t first,
                             std::uint32_t last);
+/// Mean MAC of the ten lowest modes; empty without any.
+std::optional<double> mean_mac(const Certificate& certificate);
+/// Mean |error| of the decay rates of the ten lowest modes; empty if the base has no damping.
+std::optional<double> mean_decay_error(const Certificate& certificate);
 /// Mean |error| of the loads that were, or were not, held out of the calibration; 0
 /// without any.
 double mean_load_error(const Certificate& certificate, bool held_out);

@@ -8,6 +8,7 @@
 
 #include "model/binding.hpp"
 #include "model/certificate.hpp"
+#include "model/contact_at.hpp"
 #include "model/mass_spring.hpp"
 #include "model/mesh.hpp"
 
@@ -44,6 +45,7 @@ struct Level {
 /// Levels from fine to coarse; level 0 is the base.
 struct LodChain {
   std::vector<Level> levels;
+  ContactAt contact = ContactAt::nodes;  ///< where its levels touch obstacles, unless a run asks
 };
 
 /// Throws InputError for a level that the chain does not have.

@@ -17,7 +17,7 @@ struct CertifyOptions {
   double radius = 3;                         ///< of the patches, see elastic::LocalLoadOptions
   std::vector<std::uint32_t> within = {};    ///< base nodes they act on; empty: the whole surface
   std::vector<std::uint32_t> anchored = {};  ///< base nodes that are held fixed
-  /// Tolerance of the mean error of the ten lowest frequencies [1]; 0: as in FitOptions.
+  /// Largest accepted mean error of the ten lowest frequencies [1]; 0: no bound.
   double tolerance = 0;
   std::uint32_t threads = 1;     ///< 0: all cores
   Progress* progress = nullptr;  ///< may be null
@@ -36,17 +36,15 @@ constexpr auto option_rows(const CertifyOptions*) {
                    "given to calibration",
                    "anywhere"),
       option("tolerance", &CertifyOptions::tolerance,
-             "tolerance of the mean error of the ten lowest frequencies; levels outside tolerance "
-             "are reported")
-          .by_default("0.0033 sqrt(N0 / N)"),
+             "largest accepted mean error of the ten lowest frequencies; the certificate names "
+             "levels that exceed it")
+          .by_default("none"),
       anchored_option(&CertifyOptions::anchored));
 }
 
 /// Measures every level and the base alike and stores the errors as the level's certificate
-/// (docs/method.md, eqs. 48 to 50). Loads act on base nodes and are summed over the groups. A level
-/// is outside tolerance if the mean error of the ten lowest frequencies exceeds the tolerance t,
-/// that of the other modes 3 t, of the smooth loads 8 t, of the held-out loads 12 t, or if it has
-/// mechanisms or other moments of mass than the base.
+/// (docs/method.md, eqs. 48 to 50b). Loads act on base nodes and are summed over the groups. Only
+/// what the caller asks for can be outside tolerance; quality/grade.hpp tells the errors in words.
 /// Results are bit-identical for any number of threads. Throws InputError where elastic_body does,
 /// and if no node of `within` is a border node.
 void certify(LodChain& chain, const CertifyOptions& options = {});

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,6 +28,12 @@ constexpr std::array<std::pair<const char*, double Certificate::*>, 10> kNumbers
      {"baseCost", &Certificate::base_cost},
      {"tolerance", &Certificate::tolerance}}};
 
+/// Those that not every level has.
+constexpr std::array<std::pair<const char*, std::optional<double> Certificate::*>, 3>
+    kOptionalNumbers{{{"blowError", &Certificate::blow_error},
+                      {"firstPeriodError", &Certificate::first_period_error},
+                      {"contactRatio", &Certificate::contact_ratio}}};
+
 /// A JSON object read with strict types: the JSON library would convert true to 1 and 2.5 to 2.
 class FieldReader {
  public:
@@ -37,6 +44,9 @@ class FieldReader {
 
   double number(const char* key) const {
     return field(key, &json::is_number, "a number").get<double>();
+  }
+  std::optional<double> optional_number(const char* key) const {
+    return object_.contains(key) ? std::optional(number(key)) : std::nullopt;
   }
   bool flag(const char* key) const {
     return field(key, &json::is_boolean, "true or false").get<bool>();
@@ -83,7 +93,11 @@ Certificate::Moduli read_moduli(const FieldReader& from) {
 }
 
 Certificate::Frequency read_frequency(const FieldReader& from) {
-  return {.level = from.number("level"), .base = from.number("base"), .mac = from.number("mac")};
+  return {.level = from.number("level"),
+          .base = from.number("base"),
+          .mac = from.number("mac"),
+          .decay = from.optional_number("decay").value_or(0),
+          .base_decay = from.optional_number("baseDecay").value_or(0)};
 }
 
 Certificate::Load read_load(const FieldReader& from) {
@@ -99,6 +113,8 @@ json certificate_json(const Certificate& certificate) {
   json object{{"zeroModes", certificate.zero_modes},
               {"expectedZeroModes", certificate.expected_zero_modes}};
   for (const auto& [key, member] : kNumbers) object[key] = certificate.*member;
+  for (const auto& [key, member] : kOptionalNumbers)
+    if (certificate.*member) object[key] = *(certificate.*member);
   for (const Certificate::Moduli& m : certificate.moduli)
     object["moduli"].push_back({{"material", m.material},
                                 {"young", m.young},
@@ -106,7 +122,11 @@ json certificate_json(const Certificate& certificate) {
                                 {"poisson", m.poisson},
                                 {"basePoisson", m.base_poisson}});
   for (const Certificate::Frequency& f : certificate.frequencies)
-    object["frequencies"].push_back({{"level", f.level}, {"base", f.base}, {"mac", f.mac}});
+    object["frequencies"].push_back({{"level", f.level},
+                                     {"base", f.base},
+                                     {"mac", f.mac},
+                                     {"decay", f.decay},
+                                     {"baseDecay", f.base_decay}});
   for (const Certificate::Load& load : certificate.loads)
     object["loads"].push_back({{"name", load.name},
                                {"heldOut", load.held_out},
@@ -134,6 +154,8 @@ Certificate read_certificate(const json& object, const std::string& owner) {
     certificate.unmet.push_back(entry.get<std::string>());
   });
   for (const auto& [key, member] : kNumbers) certificate.*member = from.number(key);
+  for (const auto& [key, member] : kOptionalNumbers)
+    certificate.*member = from.optional_number(key);
   certificate.zero_modes = from.count("zeroModes");
   certificate.expected_zero_modes = from.count("expectedZeroModes");
   return certificate;

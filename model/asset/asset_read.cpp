@@ -33,6 +33,7 @@ class ExactReader {
       for (const json& entry : extension.at("provenance"))
         asset.provenance.entries.emplace_back(entry.at(0).get<std::string>(),
                                               entry.at(1).get<std::string>());
+    if (extension.contains("contact")) asset.chain.contact = read_contact(extension.at("contact"));
     has_corners_ = extension.at("version").get<std::int64_t>() >= asset_format::kVersionWithCorners;
     for (const json& level : extension.at("levels"))
       asset.chain.levels.push_back(read_level(level, asset.chain.levels.size()));
@@ -65,6 +66,12 @@ class ExactReader {
     std::vector<T> array(bytes.size() / sizeof(T));
     if (!bytes.empty()) std::memcpy(static_cast<void*>(array.data()), bytes.data(), bytes.size());
     return array;
+  }
+
+  static ContactAt read_contact(const json& word) {
+    const auto contact = from_string<ContactAt>(word.get<std::string>());
+    if (!contact) throw Damage("its contact points are of an unknown kind");
+    return *contact;
   }
 
   static Material read_material(const json& object) {

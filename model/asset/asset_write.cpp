@@ -34,6 +34,8 @@ class ExactWriter {
     // Empty lists are omitted, here and below.
     for (const auto& [key, value] : asset.provenance.entries)
       extension["provenance"].push_back({key, value});
+    if (asset.chain.contact != ContactAt::nodes)
+      extension["contact"] = to_string(asset.chain.contact);
     for (const Level& level : asset.chain.levels) extension["levels"].push_back(describe(level));
     if (!asset.surface.positions.empty() || !asset.surface.parts.empty() ||
         !asset.surface_of_base.start.empty())

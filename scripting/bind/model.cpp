@@ -145,7 +145,8 @@ void push_provenance(lua_State* L, const Provenance& provenance) {
   for (const auto& [key, entry] : provenance.entries) set_field(L, key.c_str(), entry);
 }
 
-void push_level_info(lua_State* L, const Level& level, std::size_t number) {
+void push_level_info(lua_State* L, const LodChain& chain, std::size_t number) {
+  const Level& level = chain.levels[number];
   const MassSpringModel& model = level.model;
   const MassProperties properties = mass_properties(model);
   begin_table(L);
@@ -168,7 +169,7 @@ void push_level_info(lua_State* L, const Level& level, std::size_t number) {
   push_materials(L, model.materials);
   end_field(L, "materials");
   if (level.certificate) {
-    push_certificate(L, *level.certificate);
+    push_certificate(L, chain.levels.front().model, level);
     end_field(L, "certificate");
   }
 }
@@ -179,10 +180,11 @@ int info_binding(Call& call) {
   begin_table(L);
   begin_list(L, asset->chain.levels.size());
   for (std::size_t i = 0; i < asset->chain.levels.size(); ++i) {
-    push_level_info(L, asset->chain.levels[i], i);
+    push_level_info(L, asset->chain, i);
     end_list_entry(L, i + 1);
   }
   end_field(L, "levels");
+  set_field(L, "contact", to_string(asset->chain.contact));
   push_provenance(L, asset->provenance);
   end_field(L, "provenance");
   set_field(L, "surface_triangles", asset->surface.triangles.size());

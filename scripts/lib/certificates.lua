@@ -1,42 +1,40 @@
--- Prints the certificates of levels: errors relative to the base and the verdict.
+-- Prints the certificates of levels: the grade in words, errors relative to the base, and the cost.
 
 local s = require "springlod"
 
 local certificates = {}
 
-local columns = {"level", "f1..10", "f11..20", "fitted loads", "held-out loads", "lowest MAC",
-                 "omega_max / base", "cost / base", "second moments", "zero modes", "verdict"}
+local columns = {"level", "f1..10", "f11..20", "MAC", "local loads", "blows", "first period",
+                 "decay", "area / mass", "cost / base", "time / base"}
 
 -- `fraction` is nil if the quantity was not measured.
 local function percent(fraction)
-  return fraction and ("%.2f %%"):format(100 * fraction) or "-"
+  if not fraction then return "-" end
+  local value = 100 * fraction
+  return (value < 1 and "%.2f %%" or value < 10 and "%.1f %%" or "%.0f %%"):format(value)
 end
 
-local function ratio(value, reference)
-  return value and reference and reference > 0 and ("%.3g"):format(value / reference) or "-"
-end
-
-local function lowest_mac(frequencies)
-  local lowest
-  for _, frequency in ipairs(frequencies) do
-    lowest = math.min(lowest or frequency.mac, frequency.mac)
-  end
-  return lowest and ("%.3f"):format(lowest) or "-"
-end
+local function number(value, pattern) return value and pattern:format(value) or "-" end
 
 local function row(level)
   local c = level.certificate
-  return {level.level, percent(c.f1_10_error), percent(c.f11_20_error),
-          percent(c.fitted_load_error), percent(c.held_out_load_error), lowest_mac(c.frequencies),
-          ratio(c.highest_frequency, c.base_highest_frequency), ratio(c.cost, c.base_cost),
-          percent(c.second_moment_error), ("%d of %d"):format(c.zero_modes, c.expected_zero_modes),
-          #c.misses == 0 and "within tolerance" or "outside tolerance"}
+  return {level.level, percent(c.f1_10_error), percent(c.f11_20_error), number(c.mac, "%.3f"),
+          percent(c.held_out_load_error), percent(c.blow_error), percent(c.first_period_error),
+          percent(c.decay_error), number(c.contact_ratio, "%.2f"), number(c.cost_ratio, "%.3g"),
+          number(c.seconds_ratio, "%.3g")}
 end
 
-local function moduli_line(level, m)
-  return ("level %d, %s: E %.4g Pa (base %.4g, %+.2f %%), nu %.3f (base %.3f)"):format(
-    level.level, m.material, m.young, m.base_young, 100 * (m.young / m.base_young - 1), m.poisson,
-    m.base_poisson)
+local function modulus(m)
+  return ("%s E %.4g Pa (%.2f of the base), nu %.2f (%.2f)"):format(m.material, m.young,
+    m.young / m.base_young, m.poisson, m.base_poisson)
+end
+
+-- What a level is worth, in words.
+local function sentence(level)
+  local c = level.certificate
+  return ("level %d is %s; %s"):format(level.level, c.summary, c.seconds_ratio and
+    ("a simulated second takes an estimated %.3g s in %s (base: %.3g s in %s)"):format(c.seconds,
+      c.kernel, c.base_seconds, c.base_kernel) or "it has no springs")
 end
 
 -- `levels`: those of s.info. Prints nothing if no level has a certificate.
@@ -51,13 +49,17 @@ function certificates.print(levels)
   if #rows == 0 then return end
   print("\ncertificate (mean errors relative to the base):")
   print(s.format_table(rows, {columns = columns}))
+  for _, level in ipairs(measured) do print(sentence(level)) end
   for _, level in ipairs(measured) do
-    for _, m in ipairs(level.certificate.moduli) do print(moduli_line(level, m)) end
+    local moduli = {}
+    for i, m in ipairs(level.certificate.moduli) do moduli[i] = modulus(m) end
+    if #moduli > 0 then
+      print(("level %d, moduli: %s"):format(level.level, table.concat(moduli, "; ")))
+    end
   end
   for _, level in ipairs(measured) do
-    local misses = level.certificate.misses
-    if #misses > 0 then
-      print(("level %d is outside tolerance: %s"):format(level.level, table.concat(misses, "; ")))
+    for _, text in ipairs(level.certificate.misses) do
+      print(("level %d is outside tolerance: %s"):format(level.level, text))
     end
   end
 end

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/choice.hpp"
 #include "model/binding.hpp"
 #include "model/chain.hpp"
 
@@ -23,20 +22,6 @@ struct ContactSkin {
   /// spring (stick spring) of the same compliance with friction.
   std::vector<double> compliance;
 };
-
-/// Contact points of the levels of a chain.
-enum class ContactAt {
-  nodes,   ///< the level's own nodes
-  surface  ///< points of the base's surface: see contact_skin
-};
-
-inline constexpr Choice<ContactAt> kContacts[] = {
-    {ContactAt::nodes, "nodes", "the level's own nodes, which lie inside the base's surface"},
-    {ContactAt::surface, "surface",
-     "points of the base's surface, interpolated from the level's nodes"}};
-constexpr ChoiceTable<Choice<ContactAt>> choices(ContactAt) {
-  return {"contact", kContacts};
-}
 
 /// The skin of level `level`; that of level 0 is the base's own nodes. Throws InputError if there
 /// is no such level.

@@ -26,10 +26,15 @@ class Laid final : public FastModel {
 };
 
 template <class Real>
+bool fills_rows(const MassSpringModel& model, const RowLayout<Real>& rows) {
+  return model.spring_count() >= kLeastFill * rows.rows.size();
+}
+
+template <class Real>
 std::unique_ptr<FastModel> lay_out(const MassSpringModel& model, Layout layout) {
   if (layout == Layout::fastest) {
     RowLayout<Real> rows = make_row_layout<Real>(model);
-    if (model.spring_count() >= kLeastFill * rows.rows.size()) {
+    if (fills_rows(model, rows)) {
       rows.corners = place_corners(model, rows);
       return std::make_unique<Laid<RowLayout<Real>, RowBody<Real>>>(std::move(rows));
     }
@@ -43,6 +48,10 @@ std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precisi
                                            Layout layout) {
   return precision == Precision::single_precision ? lay_out<float>(model, layout)
                                                   : lay_out<double>(model, layout);
+}
+
+bool fits_rows(const MassSpringModel& model) {
+  return fills_rows(model, make_row_layout<float>(model));
 }
 
 }  // namespace springlod::sim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct CompareOptions {
   std::uint32_t threads =
       0;                ///< runs are spread over threads; 0: all cores. Never changes the result
   RunOptions run = {};  ///< options for all levels; each level has its own skin
-  ContactAt contact = ContactAt::nodes;
+  std::optional<ContactAt> contact = {};  ///< empty: that of the chain
   /// Errors are averaged from t = 0 to this long after the base's first contact [s].
   double error_window = 0.25;
   /// Part of the labels of the levels: "hb" gives "LOD-hb-1"; empty: "LOD-1".

@@ -49,6 +49,27 @@ TEST_CASE("a level with contact on the surface reaches the floor at the same tim
   CHECK(ran.out == "true\ttrue\ntrue\ttrue\ntrue\ttrue\ntrue\ntrue\n3\n");
 }
 
+TEST_CASE("a chain carries its contact points, and so does its asset") {
+  const Ran ran = with_ball(R"(
+    local skinned = s.simplify(ball, {grouping = "compact", keep = {0.3, 0.1}, contact = "surface"})
+    print(s.info(chain).contact, s.info(skinned).contact)
+    local path = os.tmpname()
+    s.save(path, skinned)
+    local loaded = s.load(path)
+    os.remove(path)
+    print(s.info(loaded).contact, s.info(s.certify(loaded, {modes = 1})).contact)
+    print(touches(loaded[2]) == touches(chain[2], "surface"),
+          touches(loaded[2], "nodes") == touches(chain[2]))
+    local function distance(...) return s.ensemble(...)[1].distance end
+    print(distance(loaded[1], drop) == distance(chain[1], drop, {contact = "surface"}))
+    local function steps(...) return s.inspect((s.compare(...):table())) end
+    print(steps(loaded, drop) == steps(chain, drop, {contact = "surface"}))
+  )");
+  CAPTURE(ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK(ran.out == "nodes\tsurface\nsurface\tsurface\ntrue\ttrue\ntrue\ntrue\n");
+}
+
 TEST_CASE("an invalid contact is refused with the valid choices") {
   const Ran ran = with_ball(R"(touches(chain[1], "skin"))");
   CHECK(ran.exit_code != 0);

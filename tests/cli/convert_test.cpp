@@ -250,19 +250,24 @@ TEST_CASE("info prints the certificates of levels") {
   CHECK(c.at("expected_zero_modes") == 6);
   CHECK(c.at("tolerance") == 0.05);
   CHECK(c.at("misses").size() == 2);
+  CHECK(c.at("grade") == "faulty");
+  CHECK_THAT(
+      c.at("summary").get<std::string>(),
+      Contains("7 zero modes instead of 6") && Contains("rubber has 0.14 of its Young's modulus"));
+  CHECK(c.at("decay_error").get<double>() == Approx(((1 - 1 / 7.0 / 0.15) + 0.5) / 2));
   for (const char* key : {"mass_error", "center_shift", "second_moment_error", "highest_frequency",
-                          "stable_step", "cost"})
+                          "stable_step", "cost", "mac", "blow_error", "first_period_error",
+                          "contact_ratio", "kernel", "seconds", "seconds_ratio"})
     CHECK(c.contains(key));
   CHECK_FALSE(levels.at(2).at("certificate").contains("fitted_load_error"));
 
   const Ran text = springlod_run({"info", path});
   CAPTURE(text.out, text.err);
   REQUIRE(text.exit_code == 0);
-  CHECK_THAT(text.out, Contains("omega_max / base") && Contains("within tolerance"));
-  CHECK_THAT(text.out, Contains("0.67 %") && Contains("10.00 %") && Contains("7 of 6"));
-  CHECK_THAT(text.out, Contains("level 1, rubber: E 1.429e+04 Pa (base 1e+05, -85.71 %), nu 0.100 "
-                                "(base 0.200)"));
-  CHECK_THAT(text.out, Contains("level 1 is outside tolerance: 7 zero modes instead of 6; f1..10"));
+  CHECK_THAT(text.out, Contains("first period") && Contains("0.33 %") && Contains("10 %"));
+  CHECK_THAT(text.out, Contains("level 1 is faulty: 7 zero modes instead of 6, frequencies"));
+  CHECK_THAT(text.out, Contains("rubber E 1.429e+04 Pa (0.14 of the base), nu 0.10 (0.20)"));
+  CHECK_THAT(text.out, Contains("level 1 is outside tolerance: f1..10"));
   CHECK_THAT(text.out, !Contains("level 2 is outside"));
 }
 

@@ -57,7 +57,7 @@ inline LodAsset sample_asset() {
 inline Certificate sample_certificate() {
   Certificate c;
   c.moduli = {{"steel", 2e11 / 3, 2.1e11 / 3, 0.7 / 3, 0.25}, {"rubber", 1e5 / 7, 1e5, 0.1, 0.2}};
-  c.frequencies = {{10.0 / 3, 3.3, 1.0 / 1.01}, {0.1 / 0.3, 0.35, 0.2}};
+  c.frequencies = {{10.0 / 3, 3.3, 1.0 / 1.01, 1.0 / 7, 0.15}, {0.1 / 0.3, 0.35, 0.2, 0.3, 0.2}};
   c.loads = {{"stretch x", false, 1e-7 / 3, -0.02 / 3}, {"pinch \"1\"", true, 2, 0.1}};
   c.mass_error = 1e-17;
   c.center_shift = 2e-3 / 7;
@@ -70,6 +70,9 @@ inline Certificate sample_certificate() {
   c.base_cost = 1e10;
   c.zero_modes = 7;
   c.expected_zero_modes = 6;
+  c.blow_error = 0.01 / 3;
+  c.first_period_error = 0.7 / 3;
+  c.contact_ratio = 4.0 / 3;
   c.tolerance = 0.05;
   c.unmet = {"7 zero modes instead of 6", "f1..10: error 4.9 %, tolerance 3 %: \xC3\xBC"};
   return c;

@@ -7,19 +7,21 @@ namespace springlod::scripting {
 Parameter contact_parameter() {
   return {.name = "contact",
           .type = "one of",
-          .fallback = "\"nodes\"",
+          .fallback = "that of the chain",
           .help = "contact points of a level",
-          .choices = words_of<sim::ContactAt>()};
+          .choices = words_of<ContactAt>()};
 }
 
-sim::ContactAt read_contact(TableReader& reader) {
-  sim::ContactAt contact = sim::ContactAt::nodes;
+std::optional<ContactAt> read_contact(TableReader& reader) {
+  std::optional<ContactAt> contact;
   reader.read("contact", contact);
   return contact;
 }
 
-std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::ContactAt contact) {
-  if (contact == sim::ContactAt::nodes || !model.chain || model.level == 0) return nullptr;
+std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model,
+                                                std::optional<ContactAt> contact) {
+  if (!model.chain || model.level == 0) return nullptr;
+  if (contact.value_or(model.chain->chain.contact) == ContactAt::nodes) return nullptr;
   return std::make_shared<sim::ContactSkin>(sim::contact_skin(model.chain->chain, model.level));
 }
 

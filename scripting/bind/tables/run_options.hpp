@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,11 @@ namespace springlod::scripting {
 
 /// Describes the option `contact` of functions that run a level of a chain.
 Parameter contact_parameter();
-sim::ContactAt read_contact(TableReader& reader);
-/// For RunOptions: where the model touches obstacles. A model without a chain is its own base.
-std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model, sim::ContactAt contact);
+std::optional<ContactAt> read_contact(TableReader& reader);
+/// For RunOptions: where the model touches obstacles; without `contact`, as its chain says. A model
+/// without a chain is its own base.
+std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model,
+                                                std::optional<ContactAt> contact);
 
 /// "to 12 % of that without damping (...); ...", and what to do: for a run whose step is limited by
 /// damping.

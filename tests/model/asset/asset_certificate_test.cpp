@@ -42,6 +42,8 @@ void check_same(const Certificate& a, const Certificate& b) {
     CHECK(a.frequencies[i].level == b.frequencies[i].level);
     CHECK(a.frequencies[i].base == b.frequencies[i].base);
     CHECK(a.frequencies[i].mac == b.frequencies[i].mac);
+    CHECK(a.frequencies[i].decay == b.frequencies[i].decay);
+    CHECK(a.frequencies[i].base_decay == b.frequencies[i].base_decay);
   }
   REQUIRE(a.loads.size() == b.loads.size());
   for (std::size_t i = 0; i < a.loads.size(); ++i) {
@@ -61,6 +63,9 @@ void check_same(const Certificate& a, const Certificate& b) {
   CHECK(a.base_cost == b.base_cost);
   CHECK(a.zero_modes == b.zero_modes);
   CHECK(a.expected_zero_modes == b.expected_zero_modes);
+  CHECK(a.blow_error == b.blow_error);
+  CHECK(a.first_period_error == b.first_period_error);
+  CHECK(a.contact_ratio == b.contact_ratio);
   CHECK(a.tolerance == b.tolerance);
   CHECK(a.unmet == b.unmet);
 }
@@ -87,6 +92,16 @@ TEST_CASE("A certificate with empty lists is restored") {
   const LodAsset read = load_asset(folder / "asset.glb");
   REQUIRE(read.chain.levels[2].certificate);
   check_same(*read.chain.levels[2].certificate, bare);
+}
+
+TEST_CASE("A certificate without the errors of motion is read: earlier versions had none") {
+  const TemporaryFolder folder;
+  LodAsset asset = certified_asset();
+  Certificate& certificate = *asset.chain.levels[1].certificate;
+  certificate.blow_error = certificate.first_period_error = certificate.contact_ratio = {};
+  save_asset(asset, folder / "asset.glb");
+  CHECK(read_file(folder / "asset.glb").find("firstPeriodError") == std::string::npos);
+  check_same(*load_asset(folder / "asset.glb").chain.levels[1].certificate, certificate);
 }
 
 TEST_CASE("An asset without certificates has no certificate entry in its JSON") {

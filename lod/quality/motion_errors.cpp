@@ -1,0 +1,98 @@
+#include "lod/quality/motion_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace springlod::lod {
+namespace {
+
+// Times in the first period at which displacements are compared.
+constexpr int kSamples = 24;
+
+std::size_t motion_count(const ModalMotion& motion) {
+  return std::min({kMotionModes, motion.base_modes.size(), motion.shapes.size()});
+}
+
+std::vector<double> group_masses(const MassSpringModel& base, const Groups& groups) {
+  std::vector<double> mass(groups.count, 0);
+  for (std::uint32_t i = 0; i < base.node_count(); ++i) mass[groups.of[i]] += base.mass[i];
+  return mass;
+}
+
+double product(const std::vector<double>& mass, const std::vector<Vec3>& x,
+               const std::vector<Vec3>& y) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mass.size(); ++i) sum += mass[i] * x[i].dot(y[i]);
+  return sum;
+}
+
+/// A free vibration of the level in its own modes.
+struct Vibration {
+  const std::vector<elastic::Mode>& modes;
+  std::vector<double> velocities;  ///< of the modes at t = 0 [m/s kg^1/2]
+
+  double amplitude(std::size_t mode, double t) const {
+    const double omega = modes[mode].angular_frequency;
+    return velocities[mode] * std::sin(omega * t) / omega;
+  }
+};
+
+}  // namespace
+
+double blow_error(const ModalMotion& motion) {
+  const std::vector<double> mass = group_masses(motion.base, motion.level.of_base);
+  double error = 0;
+  double size = 0;
+  for (std::size_t i = 0; i < motion_count(motion); ++i)
+    for (std::size_t g = 0; g < mass.size(); ++g) {
+      const double square = mass[g] * motion.shapes[i][g].squaredNorm();
+      const double ratio = mass[g] / motion.level.model.mass[g] - 1;  // of velocities
+      error += ratio * ratio * square;
+      size += square;
+    }
+  return size > 0 ? std::sqrt(error / size) : 0;
+}
+
+// |P phi - sum a_j phi_j|^2 needs the products of the shapes alone: the level's modes are
+// orthonormal.
+double first_period_error(const ModalMotion& motion) {
+  const std::vector<double>& mass = motion.level.model.mass;
+  double error = 0;
+  double size = 0;
+  for (std::size_t i = 0; i < motion_count(motion); ++i) {
+    const std::vector<Vec3>& shape = motion.shapes[i];
+    Vibration level{motion.level_modes, {}};
+    for (const elastic::Mode& mode : motion.level_modes)
+      level.velocities.push_back(product(mass, mode.shape, shape));
+    const double square = product(mass, shape, shape);
+    const double omega = motion.base_modes[i].angular_frequency;
+    for (int k = 1; k <= kSamples; ++k) {
+      const double t =
+          2 * std::numbers::pi / motion.base_modes.front().angular_frequency * k / kSamples;
+      const double wanted = std::sin(omega * t) / omega;
+      error += wanted * wanted * square;
+      for (std::size_t j = 0; j < motion.level_modes.size(); ++j) {
+        const double amplitude = level.amplitude(j, t);
+        error += amplitude * (amplitude - 2 * wanted * level.velocities[j]);
+      }
+      size += wanted * wanted * square;
+    }
+  }
+  return size > 0 ? std::sqrt(std::max(0.0, error) / size) : 0;
+}
+
+double decay_rate(const MassSpringModel& model, const elastic::Mode& mode) {
+  double power = 0;
+  double mass = 0;
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    const Vec3 along = (model.rest[model.b[s]] - model.rest[model.a[s]]).normalized();
+    const double rate = along.dot(mode.shape[model.b[s]] - mode.shape[model.a[s]]);
+    power += model.damping[s] * rate * rate;
+  }
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    mass += model.mass[i] * mode.shape[i].squaredNorm();
+  return power / (2 * mass);
+}
+
+}  // namespace springlod::lod
