@@ -2,10 +2,14 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local conversion = require "lib.conversion"
+local simplify_options = require "lib.simplify_options"
 
 local parser = command.parser("compare", "Run every level of an asset under one scenario. "
   .. "Writes table.csv, starts.csv, chart.svg, chart.png, frames/frame_0000.png ..., "
-  .. "comparison.mp4 and timings.csv (wall-clock times, the only output that varies between runs).")
+  .. "comparison.mp4 and timings.csv (wall-clock times, the only output that varies between runs). "
+  .. "With options of levels, such as --grouping standard, the levels are made anew from the base "
+  .. "of the asset; those that are not given are as convert has them.")
 parser:argument("asset", "a .glb asset, written by convert or s.save")
 parser:option("--scenario", "Lua file that returns a table for s.scenario")
   :argname("<file.lua>"):count(1)
@@ -29,7 +33,17 @@ parser:option("--camera", "fixed camera, or one that follows the body")
   :choices(s.choices.camera):default("fixed")
 parser:option("--video", "file name of the video, .mp4 or .gif"):default("comparison.mp4")
 parser:flag("--springs", "draw the springs under a transparent surface")
+simplify_options.add(parser, conversion.presets.best.simplify)
 local args = parser:parse()
+
+-- The levels of the asset, or others of its base. --contact alone changes the runs only.
+local function levels_of(asset)
+  local given = simplify_options.given(args)
+  if #given == 0 or #given == 1 and args.contact then return asset end
+  local options = simplify_options.read(args, conversion.presets.best.simplify)
+  if options.calibrate == "modes" then conversion.announce_fit(asset[0]) end
+  return s.simplify(asset[0], options)
+end
 
 local function animate(runs)
   local folder = args.out .. "/frames"
@@ -42,11 +56,11 @@ local function animate(runs)
 end
 
 local function compare()
-  local chain = s.load(args.asset)
+  local chain = levels_of(s.load(args.asset))
   local scene = s.scenario(command.load_table(args.scenario))
   local runs = s.compare(chain, scene, {
     starts = args.starts, jitter = args.jitter, seed = s.seed, threads = s.threads,
-    variant = args.variant, frame_rate = args.frame_rate * args.slow,
+    variant = args.variant, frame_rate = args.frame_rate * args.slow, contact = args.contact,
   })
   local rows, columns = runs:table()
   s.csv(args.out .. "/table.csv", rows, {columns = columns})

@@ -3,55 +3,37 @@
 local s = require "springlod"
 local command = require "lib.command"
 local certificates = require "lib.certificates"
+local conversion = require "lib.conversion"
+local simplify_options = require "lib.simplify_options"
 
 local parser = command.parser("convert", "Convert meshes to LOD assets. Each asset is one .glb "
-  .. "with the base model, its coarser levels and the mesh. Several meshes, or a folder, form a "
-  .. "batch, which continues after a failed file. An interrupted calibration resumes when the same "
-  .. "command is run again.")
+  .. "with the base model, its coarser levels and the mesh. By default, the levels are compact "
+  .. "groups of nodes, fitted to the base, and touch obstacles at its surface. Several meshes, or "
+  .. "a folder, form a batch, which continues after a failed file. An interrupted fit resumes when "
+  .. "the same command is run again.")
 parser:argument("mesh", "mesh files, or a folder of mesh files"):args("+")
 parser:option("-o", "asset to write, NAME.glb; in a batch, a folder")
   :target("output"):argname("<asset>"):count(1)
-parser:option("--cell", "cell size, such as 2mm (default: longest side / 32)")
-  :convert(command.quantity("--cell", "length"))
-parser:option("--unit", "length unit of the file (default: as the file declares, else m)")
-  :choices(s.choices.unit)
-parser:option("--up", "up axis of the file (default: as the file or its format defines)")
-  :choices(s.choices.up)
-parser:option("--materials", "Lua file that returns {part = {young = ..., density = ...}, ...}")
-  :argname("<file.lua>")
-parser:option("--lattice", "place nodes at cell corners or cell centers")
-  :choices(s.choices.lattice):default("corners")
-parser:option("--hinges", "treatment of cells that touch only along an edge or at a corner")
-  :choices(s.choices.hinges):default("report")
-parser:flag("--no-volumes", "build the model from springs alone; by default, the corners of its "
-  .. "cells keep the signs of their volumes, so that soft bodies do not turn inside out")
-parser:option("--levels", "number of coarser levels (default: 2, or one per --keep value)")
-  :convert(command.whole("--levels", 0))
-parser:option("--grouping", "how nodes are grouped for merging")
-  :choices(s.choices.grouping):default("standard")
-parser:option("--border", "merging rule for border nodes")
-  :choices(s.choices.border):default("none")
-parser:option("--keep", "node count of each level as a fraction of the base, reached exactly, "
-  .. "such as 0.45,0.2 (default: determined by the grouping)")
-  :argname("<fractions>"):convert(command.numbers("--keep", 0))
-parser:option("--calibrate", "fit the coarser levels to the base. moduli: to its elastic moduli. "
-  .. "modes: to its natural frequencies and static compliances at the longest possible stable "
-  .. "step; also certifies the levels")
-  :choices(s.choices.calibrate):default("none")
-parser:option("--tolerance", "allowed mean relative error of the ten lowest frequencies of a "
-  .. "calibrated level, such as 0.005 (default: 0.002 * sqrt(base nodes / nodes))")
-  :convert(command.number("--tolerance", 0))
-parser:option("--resume", "folder for the intermediate results of --calibrate modes; it is kept "
-  .. "(default: NAME.calibration beside the asset, removed when the asset is written)")
+parser:mutex(
+  parser:flag("--fast", "only merge: no fit and no certificate"),
+  parser:flag("--paper", "do what the paper does: nodes at cell centers, no volumes, standard "
+    .. "grouping, no fit, contact at the nodes"))
+conversion.add_body_options(parser)
+parser:option("--resume", "folder for the intermediate results of the fit; it is kept (default: "
+  .. "NAME.calibration beside the asset, removed when the asset is written)")
   :argname("<folder>")
+simplify_options.add(parser, conversion.presets.best.simplify)
 local args = parser:parse()
-if args.resume and args.calibrate ~= "modes" then
+local preset = conversion.presets[args.paper and "paper" or args.fast and "fast" or "best"]
+local options = simplify_options.read(args, preset.simplify)
+if args.resume and options.calibrate ~= "modes" then
   parser:error("--resume needs --calibrate modes")
 end
+conversion.load_materials(args)
 
 -- The folder that stores the calibration of an asset while it runs.
 local function store_of(asset)
-  if args.calibrate ~= "modes" then return nil end
+  if options.calibrate ~= "modes" then return nil end
   if not args.resume then return (asset:gsub("%.glb$", "")) .. ".calibration" end
   return args.resume:gsub("/*$", "") .. "/" .. command.stem(asset)
 end
@@ -69,19 +51,14 @@ local function remove_store(store)
 end
 
 -- The whole conversion: mesh -> cells -> lattice -> levels -> asset.
-local function convert(path, asset, materials)
-  local mesh = s.import(path, {unit = args.unit, up = args.up})
-  local grid = s.voxelize(mesh, {cell = args.cell, materials = materials})
-  local base = s.lattice(grid, {
-    style = args.lattice, hinges = args.hinges, volumes = not args.no_volumes,
-  })
+local function convert(path, asset)
+  local base = conversion.base(args, preset, path)
   local store = store_of(asset)
-  local chain = s.simplify(base, {
-    levels = args.levels or not args.keep and 2 or nil, keep = args.keep,
-    grouping = args.grouping, border = args.border, seed = s.seed, calibrate = args.calibrate,
-    calibration = {tolerance = args.tolerance, store = store},
-  })
-  s.save(asset, chain)
+  options.calibration = options.calibration or {}
+  options.calibration.store = store
+  if store then conversion.announce_fit(base) end
+  local chain = s.simplify(base, options)
+  s.save(asset, chain, {command = conversion.command_line(arg, args, path)})
   if store and not args.resume then remove_store(store) end
   return chain
 end
@@ -141,19 +118,12 @@ local function asset_names(paths)
   return names
 end
 
-local materials
-if args.materials then
-  local ok, result = command.try(command.load_table, args.materials)
-  if not ok then command.fail("cannot read --materials: %s", result) end
-  materials = result
-end
-
 local paths, batch = find_meshes()
 if not batch then
   if not args.output:lower():find("%.glb$") then
     parser:error(("-o '%s' must end in .glb"):format(args.output))
   end
-  local ok, chain = command.try(convert, paths[1], args.output, materials)
+  local ok, chain = command.try(convert, paths[1], args.output)
   if not ok then command.fail("cannot convert %s: %s", paths[1], chain) end
   print(s.format_table(level_rows(chain), {columns = level_columns}))
   certificates.print(s.info(chain).levels)
@@ -167,7 +137,7 @@ end
 local rows, failed, assets = {}, 0, asset_names(paths)
 for i, path in ipairs(paths) do
   s.say(path)
-  local ok, result = command.try(convert, path, assets[i], materials)
+  local ok, result = command.try(convert, path, assets[i])
   if not ok then failed = failed + 1 end
   rows[i] = {path, ok and "converted" or "failed", ok and node_counts(result) or "",
              ok and assets[i] or result}

@@ -28,6 +28,8 @@ print()
 print(s.format_table(rows, {columns = {"level", "nodes", "springs", "ends", "corners", "border",
                                        "mass [kg]", "stable step [s]", "without damping [s]",
                                        "limited by", "made by"}}))
+print(("\ncontact points of the levels: %s (%s)"):format(info.contact,
+  s.choices.contact[info.contact].help))
 certificates.print(info.levels)
 local base = info.levels[1]
 print()
@@ -42,4 +44,8 @@ end
 local keys = {}
 for key in pairs(info.provenance) do keys[#keys + 1] = key end
 table.sort(keys)
-for _, key in ipairs(keys) do print(("%-14s  %s"):format(key, info.provenance[key])) end
+for _, key in ipairs(keys) do
+  local entry = info.provenance[key]
+  if key == "command" then entry = entry .. " " .. command.shell_line{"-o", args.asset} end
+  print(("%-14s  %s"):format(key, entry))
+end

@@ -132,7 +132,17 @@ int stable_step_binding(Call& call) {
 
 int save_binding(Call& call) {
   const auto chain = call.value<LodAsset>(2);
-  save_asset(*chain, call.path(1));
+  TableReader options = call.options(3);
+  std::optional<std::string> command;
+  options.read("command", command);
+  options.finish();
+  if (!command) {
+    save_asset(*chain, call.path(1));
+    return 0;
+  }
+  LodAsset told = *chain;
+  told.provenance.set("command", *command);
+  save_asset(told, call.path(1));
   return 0;
 }
 
@@ -374,6 +384,11 @@ void describe_assets(Api& api) {
       .group = kFiles,
       .summary = "Writes a chain as one .glb asset that any glTF viewer shows.",
       .arguments = {{.name = "path", .type = "string", .help = "file to write, NAME.glb"}, chain},
+      .options = {{.name = "command",
+                   .type = "string",
+                   .fallback = "none",
+                   .help = "command that makes the chain again; it becomes the entry command of "
+                           "its provenance, which springlod info prints"}},
       .returns = "nothing",
       .errors = "The file cannot be written.",
       .example = "s.save(\"out/dumbbell.glb\", chain)",

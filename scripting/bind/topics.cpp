@@ -7,6 +7,7 @@ namespace springlod::scripting {
 std::unique_ptr<Api> make_api() {
   auto api = std::make_unique<Api>();
   describe_session(*api);
+  describe_options_of(*api);
   describe_files(*api);
   describe_voxelize(*api);
   describe_model(*api);

@@ -11,6 +11,7 @@ std::unique_ptr<Api> make_api();
 
 // One function for each file of this folder: registers the functions and types of its topic.
 void describe_session(Api& api);
+void describe_options_of(Api& api);
 void describe_files(Api& api);
 void describe_model(Api& api);
 void describe_elastic(Api& api);

@@ -125,13 +125,34 @@ function command.load_table(path)
   return value
 end
 
--- A converter: the path of a Lua file as the table that it returns.
-function command.table_file(option)
+local function file_converter(option, load)
   return function(path)
-    local ok, value = command.try(command.load_table, path)
+    local ok, value = command.try(load, path)
     if ok then return value end
     return nil, option .. ": " .. value
   end
+end
+
+-- A converter: the path of a Lua file as the table that it returns.
+function command.table_file(option) return file_converter(option, command.load_table) end
+
+-- A converter: the path of a Lua file as the value that it returns.
+function command.lua_file(option)
+  return file_converter(option, function(path)
+    local chunk, message = loadfile(path)
+    local value = chunk and chunk()
+    if value == nil then error(message or path .. " returns nothing", 0) end
+    return value
+  end)
+end
+
+-- Words as one line for a shell.
+function command.shell_line(words)
+  local quoted = {}
+  for i, word in ipairs(words) do
+    quoted[i] = word:find("^[%w%%+,./:=@_-]+$") and word or "'" .. word:gsub("'", "'\\''") .. "'"
+  end
+  return table.concat(quoted, " ")
 end
 
 -- Writes s.chart to stem.svg and stem.png.

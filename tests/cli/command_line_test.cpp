@@ -45,7 +45,7 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
   wrong({"convert", "a.obj", "-o", "a.glb", "--cell", "2kg"}, "--cell: \"2kg\"");
   wrong({"convert", "a.obj", "-o", "a.glb", "--levels", "-1"}, "--levels");
   wrong({"convert", "a.obj", "-o", "a.txt"}, "must end in .glb");
-  wrong({"convert", "a.obj", "-o", "a.glb", "--resume", "x"}, "--calibrate modes");
+  wrong({"convert", "a.obj", "-o", "a.glb", "--fast", "--resume", "x"}, "--calibrate modes");
   wrong({"compare", "a.glb", "--out", "x"}, "--scenario");
   wrong({"mergelog"}, "missing argument 'asset'");
   wrong({"mergelog", "a.glb", "--least", "1"}, "--least must be below 1");

@@ -1,3 +1,7 @@
+#include <map>
+#include <set>
+#include <sstream>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -84,7 +88,7 @@ TEST_CASE("convert gives the levels corners unless it is told to leave them out"
   const auto corners = [&](std::vector<std::string> options) {
     const std::string asset = (scratch / "bar.glb").string();
     options.insert(options.begin(), {"convert", (scratch / "bar.obj").string(), "-o", asset,
-                                     "--cell", "1cm", "--unit", "cm"});
+                                     "--cell", "1cm", "--unit", "cm", "--fast"});
     const Ran ran = springlod_run(options);
     CAPTURE(ran.err);
     REQUIRE(ran.exit_code == 0);
@@ -119,36 +123,159 @@ TEST_CASE("convert writes identical files for any number of threads") {
   CHECK(first == convert("three.glb", "2"));
 }
 
-TEST_CASE("convert calibrates and certifies levels with --calibrate") {
+TEST_CASE("convert fits and certifies levels by default, and only merges with --fast or --paper") {
   const TemporaryFolder scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));
   const auto convert = [&](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"convert", (scratch / "bar.obj").string(), "-o",
-                                       (scratch / name).string(), "-q"};
+    std::vector<std::string> arguments{
+        "convert", (scratch / "bar.obj").string(), "-o", (scratch / name).string(), "-q", "--cell",
+        "25cm"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return springlod_run(arguments);
+    const Ran ran = springlod_run(arguments);
+    CAPTURE(ran.err);
+    CHECK(ran.exit_code == 0);
+    return ran.out;
   };
-  CHECK(convert("plain.glb", {}).exit_code == 0);
-  CHECK(convert("none.glb", {"--calibrate", "none"}).exit_code == 0);
-  CHECK(slurp(scratch / "plain.glb") == slurp(scratch / "none.glb"));
-  const Ran calibrated =
-      convert("modes.glb", {"--calibrate", "modes", "--grouping", "compact", "--keep", "0.4,0.15",
-                            "--tolerance", "0.01", "--cell", "20cm"});
-  CHECK(calibrated.exit_code == 0);
-  CHECK_THAT(calibrated.out, Contains("f1..10"));
-  const Ran info = springlod_run({"info", (scratch / "modes.glb").string()});
-  CHECK_THAT(info.out, Contains("compact, border none, seed 1, calibrated") && Contains("f1..10"));
-  CHECK(convert("moduli.glb", {"--calibrate", "moduli"}).exit_code == 0);
-  const Ran refused = convert("full.glb", {"--calibrate", "full"});
+  const auto info = [&](const std::string& name) {
+    return json::parse(springlod_run({"info", (scratch / name).string(), "--json"}).out);
+  };
+  CHECK_THAT(convert("best.glb", {}), Contains("f1..10") && Contains("level 1 is "));
+  CHECK(info("best.glb").at("contact") == "surface");
+  CHECK(info("best.glb").at("levels").at(1).at("made_by") ==
+        "compact, border none, seed 1, calibrated");
+  CHECK(info("best.glb").at("levels").at(2).contains("certificate"));
+  convert("fast.glb", {"--fast"});
+  CHECK(info("fast.glb").at("contact") == "surface");
+  CHECK(info("fast.glb").at("levels").at(1).at("made_by") == "compact, border none, seed 1");
+  CHECK_FALSE(info("fast.glb").at("levels").at(1).contains("certificate"));
+  convert("paper.glb", {"--paper", "--border", "weak"});
+  CHECK(info("paper.glb").at("contact") == "nodes");
+  CHECK(info("paper.glb").at("levels").at(1).at("made_by") == "standard, border weak, seed 1");
+  CHECK(info("paper.glb").at("levels").at(0).at("corners") == 0);
+  CHECK(info("paper.glb").at("levels").at(0).at("nodes") == 8 * 4 * 4);
+  convert("moduli.glb", {"--calibrate", "moduli", "--keep", "0.4", "--contact", "nodes"});
+  CHECK(info("moduli.glb").at("contact") == "nodes");
+  CHECK(info("moduli.glb").at("levels").size() == 2);
+  const Ran refused = springlod_run({"convert", (scratch / "bar.obj").string(), "-o",
+                                     (scratch / "full.glb").string(), "--calibrate", "full"});
   CHECK(refused.exit_code == 2);
   CHECK_FALSE(fs::exists(scratch / "full.glb"));
+}
+
+TEST_CASE("convert takes every option of simplify") {
+  const Ran ran = springlod_run({"-e", R"(
+    local s = require "springlod"
+    for _, record in ipairs{"simplify", "Calibration", "Guard"} do
+      for _, option in ipairs(s.options_of(record)) do
+        local on = option.type == "boolean" and option.default == "true"
+        print((on and "--no-" or "--") .. option.name:gsub("_", "-"))
+      end
+    end
+  )"});
+  REQUIRE(ran.exit_code == 0);
+  const std::string convert = springlod_run({"convert", "--help"}).out;
+  const std::string compare = springlod_run({"compare", "--help"}).out;
+  std::istringstream names(ran.out);
+  int count = 0;
+  // Tables, whose keys are options; and what has another name.
+  const std::set<std::string> other{"--calibration", "--guard", "--seed", "--store",
+                                    "--keep-every"};
+  for (std::string name; std::getline(names, name); ++count) {
+    if (other.contains(name)) continue;
+    CAPTURE(name);
+    CHECK_THAT(convert, Contains("   " + name));
+    CHECK_THAT(compare, Contains("   " + name));
+  }
+  CHECK(count > 25);
+}
+
+TEST_CASE("options of convert reach simplify") {
+  const TemporaryFolder scratch;
+  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 3}}));
+  spit(scratch / "cost.lua", "return function(a, b) return math.abs(a.z - b.z) end");
+  spit(scratch / "regions.lua",
+       "return {{nodes = function(node) return node.x < 0.01 end, patches = 4}}");
+  const auto convert = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.begin(), {"convert", (scratch / "bar.obj").string(), "-o",
+                               (scratch / name).string(), "-q", "--cell", "25cm"});
+    const Ran ran = springlod_run(more);
+    CAPTURE(ran.err);
+    CHECK(ran.exit_code == 0);
+  };
+  convert("cli.glb", {"--keep", "0.4", "--masses", "free", "--iterations", "3", "--patches", "6",
+                      "--regions", (scratch / "regions.lua").string(), "--grading", "0.2"});
+  convert("cost.glb", {"--fast", "--grouping", "standard", "--levels", "1", "--pair-cost",
+                       (scratch / "cost.lua").string(), "--no-guards"});
+  spit(scratch / "same.lua", R"(
+    local s = require "springlod"
+    local base = s.lattice(s.voxelize(s.import(arg[1] .. "/bar.obj"), {cell = "25cm"}))
+    local function same(name, options)
+      options.contact = "surface"
+      print(s.inspect(s.load(arg[1] .. "/" .. name)[1]:springs()) ==
+            s.inspect(s.simplify(base, options)[1]:springs()))
+    end
+    same("cli.glb", {keep = {0.4}, grouping = "compact", calibrate = "modes", grading = 0.2,
+      calibration = {masses = "free", iterations = 3, patches = 6,
+                     regions = dofile(arg[1] .. "/regions.lua")}})
+    same("cost.glb", {levels = 1, pair_cost = dofile(arg[1] .. "/cost.lua"), guards = false})
+  )");
+  const Ran same =
+      springlod_run({"run", (scratch / "same.lua").string(), "--", scratch.path().string()});
+  CAPTURE(same.err);
+  CHECK(same.out == "true\ntrue\n");
+}
+
+TEST_CASE("an asset tells the command that makes it again, to the same bytes") {
+  const TemporaryFolder scratch;
+  spit(scratch / "two bars/bar.obj", obj_of_boxes({{"bar", 0, 2}}));
+  spit(scratch / "two bars/other.obj", obj_of_boxes({{"bar", 0, 3}}));
+  const std::string folder = (scratch / "two bars").string();
+  const Ran ran = springlod_run({"convert", folder, "-o", (scratch / "out").string(), "--fast",
+                                 "--cell", "25cm", "--keep=0.4,0.2", "--seed", "5", "-q"});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  const std::string asset = (scratch / "out/bar.glb").string();
+  const json info = json::parse(springlod_run({"info", asset, "--json"}).out);
+  const std::string command = info.at("provenance").at("command").get<std::string>();
+  CHECK(command ==
+        "springlod convert '" + folder + "/bar.obj' --fast --cell 25cm --keep=0.4,0.2 --seed 5");
+  CHECK_THAT(springlod_run({"info", asset}).out, Contains(command + " -o " + asset));
+  const Ran again =
+      springlod_run({"convert", folder + "/bar.obj", "--fast", "--cell", "25cm", "--keep=0.4,0.2",
+                     "--seed", "5", "-o", (scratch / "again.glb").string(), "-q"});
+  REQUIRE(again.exit_code == 0);
+  CHECK(slurp(scratch / "again.glb") == slurp(asset));
+}
+
+TEST_CASE("convert puts a core of a material under a shell") {
+  const TemporaryFolder scratch;
+  spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 1}}));
+  spit(scratch / "materials.lua", "return {skin = {young = '1 MPa'}, bone = {young = '9 MPa'}}");
+  const auto convert = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"convert", (scratch / "bar.obj").string(), "-o",
+                               (scratch / "bar.glb").string(), "-q", "--fast", "--cell", "125mm",
+                               "--materials", (scratch / "materials.lua").string()});
+    return springlod_run(more);
+  };
+  const Ran ran = convert({"--core", "bone", "--shell", "30cm"});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  const json info =
+      json::parse(springlod_run({"info", (scratch / "bar.glb").string(), "--json"}).out);
+  std::map<std::string, double> young;
+  for (const json& material : info.at("levels").at(0).at("materials"))
+    young[material.at("name")] = material.at("young");
+  CHECK(young == std::map<std::string, double>{{"bone", 9e6}, {"default", 1e6}});
+  CHECK_THAT(convert({"--core", "bone"}).err, Contains("--shell THICKNESS belong together"));
+  CHECK_THAT(convert({"--core", "bine", "--shell", "1cm"}).err,
+             Contains("has no material of this name"));
 }
 
 TEST_CASE("convert prints the default cell size and unit") {
   const TemporaryFolder scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 2}}));
   const Ran ran = springlod_run({"convert", (scratch / "bar.obj").string(), "-o",
-                                 (scratch / "bar.glb").string(), "--levels", "1"});
+                                 (scratch / "bar.glb").string(), "--levels", "1", "--fast"});
   CHECK(ran.exit_code == 0);
   CHECK_THAT(ran.err, Contains("62.5 mm"));
   CHECK_THAT(ran.err, Contains("1 unit = 1 m"));

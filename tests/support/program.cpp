@@ -251,7 +251,8 @@ std::string obj_of_boxes(const std::vector<BoxPart>& parts, double width) {
 void make_bar_asset(const fs::path& asset, double length, const std::vector<std::string>& options) {
   const fs::path mesh = fs::path(asset).replace_extension("obj");
   spit(mesh, obj_of_boxes({{"bar", 0, length}}));
-  std::vector<std::string> arguments{"convert", mesh.string(), "-o", asset.string(), "-q"};
+  std::vector<std::string> arguments{"convert", mesh.string(), "-o",       asset.string(), "-q",
+                                     "--fast",  "--grouping",  "standard", "--contact",    "nodes"};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const Ran ran = springlod_run(arguments);
   if (ran.exit_code != 0)
