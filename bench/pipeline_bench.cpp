@@ -97,7 +97,7 @@ void animate_60_frames(benchmark::State& state) {
   const sim::Comparison runs = sim::compare(asset.chain, scene, {.run = {.frame_rate = 30}});
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        report::animate(asset, runs, folder, {.frame_rate = 30, .frames = 60}));
+        report::animate({{asset, runs}}, folder, {.frame_rate = 30, .frames = 60}));
     report::encode_video(folder, 30, folder / "bench.mp4");
   }
   std::filesystem::remove_all(folder);

@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void require_matching(const LodAsset& asset, const sim::Comparison& comparison) {
+void require_matching(const ComparedChain& chain) {
+  const auto& [asset, comparison] = chain;
   if (comparison.levels.empty()) throw InputError("animation: the comparison has no runs");
   const std::vector<Level>& levels = asset.chain.levels;
   for (const sim::LevelRuns& runs : comparison.levels) {
@@ -51,11 +52,34 @@ void require_sane(const AnimateOptions& options) {
                                  options.frame_rate, options.slow));
 }
 
+/// A run that is drawn in a panel of its own.
+struct DrawnRun {
+  ComparedChain chain;
+  const sim::LevelRuns& runs;
+};
+
+/// The base of the first chain, and the levels of all.
+std::vector<DrawnRun> drawn_runs(const std::vector<ComparedChain>& chains,
+                                 const std::vector<std::uint32_t>& levels) {
+  std::vector<DrawnRun> drawn;
+  for (const ComparedChain& chain : chains) {
+    require_matching(chain);
+    for (const sim::LevelRuns& runs : chain.comparison.levels) {
+      const bool again = runs.level == 0 && &chain != chains.data();
+      const bool chosen =
+          levels.empty() || std::find(levels.begin(), levels.end(), runs.level) != levels.end();
+      if (chosen && !again) drawn.push_back({chain, runs});
+    }
+  }
+  if (drawn.empty()) throw InputError("animation: levels has none of the levels of the runs");
+  return drawn;
+}
+
 /// The times of the frames [s].
-std::vector<double> picture_times(const sim::Comparison& comparison,
+std::vector<double> picture_times(const std::vector<DrawnRun>& drawn,
                                   const AnimateOptions& options) {
   double end = 0;
-  for (const sim::LevelRuns& runs : comparison.levels)
+  for (const auto& [chain, runs] : drawn)
     end = std::max({end, runs.first.frames.back().time, runs.base_frames.back().time});
   const double apart = 1 / (options.frame_rate * options.slow);
   // Rounding errors in the sum of time steps must not lose the last frame.
@@ -98,8 +122,9 @@ std::vector<Colour> part_colours(const LodAsset& asset) {
 }
 
 /// What all frames of one panel share.
-render::Panel panel_frame(const LodAsset& asset, const sim::Comparison& comparison,
-                          const sim::LevelRuns& runs) {
+render::Panel panel_frame(const DrawnRun& drawn) {
+  const auto& [asset, comparison] = drawn.chain;
+  const sim::LevelRuns& runs = drawn.runs;
   const MassSpringModel& model = asset.chain.levels[runs.level].model;
   render::Panel panel;
   panel.title =
@@ -136,18 +161,20 @@ double surface_margin(const LodAsset& asset) {
 }
 
 /// Bounds of the whole motion, with the floor below it and nearby walls and boxes.
-Box3 action_bounds(const LodAsset& asset, const sim::Comparison& comparison,
-                   const std::vector<double>& times) {
+Box3 action_bounds(const std::vector<DrawnRun>& drawn, const std::vector<double>& times) {
   Box3 box;
-  for (const sim::LevelRuns& runs : comparison.levels)
+  double beyond = 0;
+  for (const auto& [chain, runs] : drawn) {
     for (const double t : times) box.extend(bounds(positions_at(runs.base_frames, t)));
-  const Vec3 margin = Vec3::Constant(surface_margin(asset));
+    beyond = std::max(beyond, surface_margin(chain.asset));
+  }
+  const Vec3 margin = Vec3::Constant(beyond);
   box.min() -= margin;
   box.max() += margin;
   constexpr double kNear = 0.5;  // fraction of the size of the motion
   const double near = kNear * box.diagonal().norm();
   const Box3 action = box;
-  for (const sim::Obstacle& obstacle : comparison.scenario.obstacles) {
+  for (const sim::Obstacle& obstacle : drawn.front().chain.comparison.scenario.obstacles) {
     if (const auto* plane = std::get_if<sim::Plane>(&obstacle.shape)) {
       const double height = plane->normal.dot(action.center()) - plane->offset;
       const Vec3 foot = action.center() - height * plane->normal;
@@ -197,16 +224,14 @@ double azimuth_of(const sim::Scenario& scenario, const AnimateOptions& options) 
   return best;
 }
 
-/// The cameras of one panel, one per frame.
-std::vector<render::Camera> cameras_of(const LodAsset& asset, const sim::Comparison& comparison,
-                                       const sim::LevelRuns& runs, const std::vector<double>& times,
-                                       const AnimateOptions& options) {
+/// A camera that keeps the body of the run in the middle, one per frame.
+std::vector<render::Camera> following_cameras(const DrawnRun& drawn,
+                                              const std::vector<double>& times,
+                                              const AnimateOptions& options) {
+  const auto& [asset, comparison] = drawn.chain;
+  const sim::LevelRuns& runs = drawn.runs;
   const double aspect = static_cast<double>(options.width) / options.height;
   const double azimuth = azimuth_of(comparison.scenario, options);
-  if (options.camera == CameraMode::fixed)
-    return std::vector<render::Camera>(
-        times.size(), render::frame_box(action_bounds(asset, comparison, times), azimuth,
-                                        options.elevation, aspect));
   const MassSpringModel& base = asset.chain.levels[0].model;
   std::vector<Vec3> path;
   for (const double t : times)
@@ -226,6 +251,23 @@ std::vector<render::Camera> cameras_of(const LodAsset& asset, const sim::Compari
   return cameras;
 }
 
+/// The cameras of each run, one per frame.
+std::vector<std::vector<render::Camera>> cameras_of(const std::vector<DrawnRun>& drawn,
+                                                    const std::vector<double>& times,
+                                                    const AnimateOptions& options) {
+  std::vector<std::vector<render::Camera>> cameras;
+  if (options.camera == CameraMode::follow) {
+    for (const DrawnRun& run : drawn) cameras.push_back(following_cameras(run, times, options));
+    return cameras;
+  }
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const render::Camera fixed = render::frame_box(
+      action_bounds(drawn, times), azimuth_of(drawn.front().chain.comparison.scenario, options),
+      options.elevation, aspect);
+  cameras.assign(drawn.size(), std::vector<render::Camera>(times.size(), fixed));
+  return cameras;
+}
+
 render::DrawStyle style_for(const LodAsset& asset, render::DrawStyle style) {
   if (asset.surface.triangles.empty()) style.surface = false;
   if (!style.surface && !style.nodes && !style.springs && !style.bold_inner_nodes)
@@ -236,17 +278,17 @@ render::DrawStyle style_for(const LodAsset& asset, render::DrawStyle style) {
 /// One panel of the animation; owns the data that the drawn body points to.
 class PanelPlayer {
  public:
-  PanelPlayer(const LodAsset& asset, const sim::Comparison& comparison, const sim::LevelRuns& runs,
-              const std::vector<double>& times, const AnimateOptions& options)
-      : asset_(asset),
-        runs_(runs),
-        panel_(panel_frame(asset, comparison, runs)),
-        cameras_(cameras_of(asset, comparison, runs, times, options)) {
-    body_.style = style_for(asset, options.style);
-    body_.model = &asset.chain.levels[runs.level].model;
+  PanelPlayer(const DrawnRun& drawn, std::vector<render::Camera> cameras,
+              const render::DrawStyle& style)
+      : asset_(drawn.chain.asset),
+        runs_(drawn.runs),
+        panel_(panel_frame(drawn)),
+        cameras_(std::move(cameras)) {
+    body_.style = style_for(asset_, style);
+    body_.model = &asset_.chain.levels[runs_.level].model;
     if (!body_.style.surface) return;
-    body_.surface = &asset.surface;
-    body_.part_colours = part_colours(asset);
+    body_.surface = &asset_.surface;
+    body_.part_colours = part_colours(asset_);
   }
 
   render::Panel at(std::size_t picture, double t) {
@@ -294,17 +336,18 @@ void remove_stale_frames(const fs::path& folder, std::size_t count) {
 
 }  // namespace
 
-Animation animate(const LodAsset& asset, const sim::Comparison& comparison, const fs::path& folder,
+Animation animate(const std::vector<ComparedChain>& chains, const fs::path& folder,
                   const AnimateOptions& options) {
-  require_matching(asset, comparison);
+  const std::vector<DrawnRun> drawn = drawn_runs(chains, options.levels);
   require_sane(options);
-  const std::vector<double> times = picture_times(comparison, options);
+  const std::vector<double> times = picture_times(drawn, options);
   render::Renderer renderer({.panel_width = options.width,
                              .panel_height = options.height,
-                             .panel_count = static_cast<std::uint32_t>(comparison.levels.size())});
+                             .panel_count = static_cast<std::uint32_t>(drawn.size())});
+  std::vector<std::vector<render::Camera>> cameras = cameras_of(drawn, times, options);
   std::vector<PanelPlayer> players;
-  for (const sim::LevelRuns& runs : comparison.levels)
-    players.emplace_back(asset, comparison, runs, times, options);
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    players.emplace_back(drawn[i], std::move(cameras[i]), options.style);
 
   Task task(options.progress, "drawing frames", times.size());
   render::FrameWriter writer;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "base/choice.hpp"
 #include "base/option.hpp"
@@ -22,6 +23,12 @@ constexpr ChoiceTable<Choice<CameraMode>> choices(CameraMode) {
   return {"camera", kCameraModes};
 }
 
+/// The runs of one chain.
+struct ComparedChain {
+  const LodAsset& asset;
+  const sim::Comparison& comparison;
+};
+
 struct AnimateOptions {
   std::uint32_t width = 640;  ///< of one panel [px]
   std::uint32_t height = 480;
@@ -34,6 +41,8 @@ struct AnimateOptions {
   double elevation = 15;
   /// Mirrors the azimuth if a wall would hide the motion from the camera.
   bool avoid_walls = true;
+  /// Levels to draw of each chain, 0 for the base; empty: all.
+  std::vector<std::uint32_t> levels = {};
   render::DrawStyle style = {};
   Progress* progress = nullptr;
 };
@@ -50,7 +59,9 @@ constexpr auto option_rows(const AnimateOptions*) {
              "azimuth of the camera about the vertical, from x, in degrees"),
       option("elevation", &Options::elevation, "elevation of the camera, in degrees"),
       option("avoid_walls", &Options::avoid_walls,
-             "mirror the azimuth if a wall would hide the motion"));
+             "mirror the azimuth if a wall would hide the motion"),
+      option("levels", &Options::levels, "levels to draw of each chain; 0 is the base")
+          .by_default("all"));
 }
 
 struct Animation {
@@ -58,12 +69,13 @@ struct Animation {
   std::filesystem::path folder;
 };
 
-/// Draws base and levels side by side, synchronized, as folder/frame_0000.png ... Positions between
+/// Draws the base of the first chain and the levels of all chains side by side, synchronized, as
+/// folder/frame_0000.png ... The chains must have been run in one scenario. Positions between
 /// the frames of a trajectory are interpolated linearly; a run that ended early keeps its last
 /// frame. If the style shows only things that the asset lacks (such as a surface), nodes and
 /// springs are drawn. Removes surplus frame_*.png of an earlier, longer animation. Throws
 /// InputError (no runs, or runs of another asset) and IoError.
-Animation animate(const LodAsset& asset, const sim::Comparison& comparison,
-                  const std::filesystem::path& folder, const AnimateOptions& options = {});
+Animation animate(const std::vector<ComparedChain>& chains, const std::filesystem::path& folder,
+                  const AnimateOptions& options = {});
 
 }  // namespace springlod::report

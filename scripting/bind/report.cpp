@@ -1,6 +1,7 @@
 // Animations, videos, charts and tables.
 
 #include <fmt/format.h>
+#include <lua.hpp>
 
 #include "report/animate.hpp"
 #include "report/chart.hpp"
@@ -22,16 +23,36 @@ namespace {
 
 constexpr const char* kGroup = "Pictures and reports";
 
+/// A Comparison or a list of them.
+std::vector<std::shared_ptr<const ComparisonValue>> comparisons_at(Call& call, int number) {
+  if (auto one = call.try_value<ComparisonValue>(number)) return {std::move(one)};
+  const std::string rule = "a Comparison, or a list of Comparisons";
+  lua_State* L = call.lua();
+  if (!lua_istable(L, call.index(number))) call.refuse(number, rule);
+  std::vector<std::shared_ptr<const ComparisonValue>> all;
+  for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, call.index(number))); ++i) {
+    lua_rawgeti(L, call.index(number), i);
+    all.push_back(std::static_pointer_cast<const ComparisonValue>(
+        boxed_at(L, lua_gettop(L), &kValueName<ComparisonValue>)));
+    lua_pop(L, 1);
+    if (!all.back()) call.refuse(number, rule);
+  }
+  if (all.empty()) call.refuse(number, rule);
+  return all;
+}
+
 int animate_binding(Call& call) {
-  const auto comparison = call.value<ComparisonValue>(2);
+  const auto comparisons = comparisons_at(call, 2);
   report::AnimateOptions options;
   TableReader reader = call.options(3);
   read_options(call, reader, options);
   read_style(call, reader, options.style);
   reader.finish();
   options.progress = call.progress();
-  const report::Animation animation =
-      report::animate(*comparison->chain, comparison->comparison, call.path(1), options);
+  std::vector<report::ComparedChain> chains;
+  for (const auto& comparison : comparisons)
+    chains.push_back({*comparison->chain, comparison->comparison});
+  const report::Animation animation = report::animate(chains, call.path(1), options);
   return call.give(animation.frames);
 }
 
@@ -107,11 +128,15 @@ void describe_film(Api& api) {
       .group = kGroup,
       .summary = "Draws base and levels side by side, synchronized, as frame_0000.png ...",
       .arguments = {{.name = "folder", .type = "string", .help = "folder for the frames"},
-                    {.name = "comparison", .type = "Comparison", .help = "result of compare"}},
+                    {.name = "comparison",
+                     .type = "Comparison or list of Comparison",
+                     .help = "result of compare; of several, all levels are drawn and the base of "
+                             "the first one"}},
       .options = animate_parameters(),
       .returns = "integer: number of frames",
       .errors = "A size beyond the largest picture; a file cannot be written.",
-      .example = "s.animate(\"out/frames\", runs, {frames = 60})",
+      .example = "s.animate(\"out/frames\", runs, {frames = 60})\n"
+                 "s.animate(\"out/both\", {merged, fitted}, {levels = {0, 2}})",
       .call = animate_binding});
   api.add(FunctionEntry{
       .name = "video",

@@ -127,9 +127,12 @@ TEST_CASE("the demo reports correct node counts and writes table, chart, video a
   CHECK_THAT(counts, Contains("LOD-hb-2,"));
   for (const char* file :
        {"table.csv", "timings.csv", "chart.svg", "chart.png", "lod-chain.glb", "lod-b-chain.glb",
-        "lod-h-chain.glb", "lod-hb-chain.glb", "frames/frame_0059.png"})
+        "lod-h-chain.glb", "lod-hb-chain.glb", "lod-fit-chain.glb", "frames/frame_0059.png"})
     CHECK(fs::file_size(folder / file) > 0);
   CHECK_FALSE(fs::exists(folder / "frames/frame_0060.png"));  // 60 by default
   const std::string table = slurp(folder / "table.csv");
-  CHECK(std::count(table.begin(), table.end(), '\n') == 1 + 1 + 8);  // head, base, 4 x 2 levels
+  CHECK(std::count(table.begin(), table.end(), '\n') == 1 + 1 + 10);  // head, base, 5 x 2 levels
+  CHECK_THAT(ran.out, Contains("Merged as in the paper, level 2 needs ") &&
+                          Contains("Fitted to the base, with contact at its surface, level 2") &&
+                          Contains("By the clock of this machine"));
 }

@@ -82,7 +82,7 @@ TEST_CASE("smoothing keeps straight paths and their ends") {
 TEST_CASE("base and level are drawn side by side, synchronized") {
   const TemporaryFolder folder;
   const Film film;
-  const Animation animation = animate(film.asset, film.comparison, folder.path(), small());
+  const Animation animation = animate({{film.asset, film.comparison}}, folder.path(), small());
   CHECK(animation.frames == 16);  // 0.5 s at 30 frames per second, first and last included
   CHECK(files_in(folder.path()) == 16);
   const render::Image first = render::load_png(render::frame_path(folder.path(), 0));
@@ -92,6 +92,24 @@ TEST_CASE("base and level are drawn side by side, synchronized") {
   CHECK(render::difference(first, last).share_beyond > 0.01);
 }
 
+TEST_CASE("several chains share the base of the first one, and levels can be chosen") {
+  const TemporaryFolder folder;
+  const Film film;
+  const Film other;
+  const auto panels = [&](const std::vector<std::uint32_t>& levels) {
+    AnimateOptions options = small();
+    options.frames = 1;
+    options.levels = levels;
+    animate({{film.asset, film.comparison}, {other.asset, other.comparison}}, folder.path(),
+            options);
+    return render::load_png(render::frame_path(folder.path(), 0)).width / 160;
+  };
+  CHECK(panels({}) == 3);  // base, level 1 of both
+  CHECK(panels({1}) == 2);
+  CHECK(panels({0}) == 1);
+  CHECK_THROWS_WITH(panels({7}), Catch::Contains("levels has none of the levels of the runs"));
+}
+
 TEST_CASE("a frame of an animation matches its golden image") {
   const TemporaryFolder folder;
   const Film film;
@@ -99,7 +117,7 @@ TEST_CASE("a frame of an animation matches its golden image") {
   options.width = 240;
   options.height = 180;
   options.frame_rate = 4;
-  animate(film.asset, film.comparison, folder.path(), options);
+  animate({{film.asset, film.comparison}}, folder.path(), options);
   check_golden(render::load_png(render::frame_path(folder.path(), 1)), "animation");
 }
 
@@ -110,10 +128,10 @@ TEST_CASE("slow motion makes more frames, a limit fewer, and surplus old frames 
   options.width = 32;
   options.height = 24;
   options.slow = 2;
-  CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 31);
+  CHECK(animate({{film.asset, film.comparison}}, folder.path(), options).frames == 31);
   render::save_png(render::Image{1, 1, {0, 0, 0}}, folder.path() / "frame_other.png");
   options.frames = 5;
-  CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 5);
+  CHECK(animate({{film.asset, film.comparison}}, folder.path(), options).frames == 5);
   CHECK(files_in(folder.path()) == 6);
   CHECK(std::filesystem::exists(folder.path() / "frame_other.png"));
   CHECK_FALSE(std::filesystem::exists(render::frame_path(folder.path(), 5)));
@@ -125,7 +143,7 @@ TEST_CASE("a run that ended early holds its last frame") {
   film.comparison.levels[1].first.frames.resize(3);
   film.comparison.levels[1].base_frames.resize(3);
   AnimateOptions options = small();
-  animate(film.asset, film.comparison, folder.path(), options);
+  animate({{film.asset, film.comparison}}, folder.path(), options);
   const render::Image a = render::load_png(render::frame_path(folder.path(), 8));
   const render::Image b = render::load_png(render::frame_path(folder.path(), 14));
   std::size_t left = 0;
@@ -149,10 +167,10 @@ TEST_CASE("follow camera, nodes and springs, and an asset without surface can be
   AnimateOptions options = small();
   options.camera = CameraMode::follow;
   options.frames = 2;
-  CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 2);
+  CHECK(animate({{film.asset, film.comparison}}, folder.path(), options).frames == 2);
   options.style.spring_colour = render::SpringColour::strain;
   options.style.springs = true;
-  CHECK(animate(film.asset, film.comparison, folder.path(), options).frames == 2);
+  CHECK(animate({{film.asset, film.comparison}}, folder.path(), options).frames == 2);
 }
 
 TEST_CASE("the camera avoids a wall that would hide the motion") {
@@ -160,11 +178,11 @@ TEST_CASE("the camera avoids a wall that would hide the motion") {
   const Film film;  // its wall is at +x, facing -x; the default eye is at +x
   AnimateOptions options = small();
   options.frames = 1;
-  animate(film.asset, film.comparison, folder.path() / "round", options);
+  animate({{film.asset, film.comparison}}, folder.path() / "round", options);
   options.avoid_walls = false;
-  animate(film.asset, film.comparison, folder.path() / "behind", options);
+  animate({{film.asset, film.comparison}}, folder.path() / "behind", options);
   options.azimuth = -110;
-  animate(film.asset, film.comparison, folder.path() / "mirrored", options);
+  animate({{film.asset, film.comparison}}, folder.path() / "mirrored", options);
   const render::Image round = render::load_png(render::frame_path(folder.path() / "round", 0));
   CHECK(round.rgb == render::load_png(render::frame_path(folder.path() / "mirrored", 0)).rgb);
   CHECK(round.rgb != render::load_png(render::frame_path(folder.path() / "behind", 0)).rgb);
@@ -174,7 +192,7 @@ TEST_CASE("runs that do not fit the asset are refused") {
   const TemporaryFolder folder;
   const Film film;
   const auto refused = [&](const sim::Comparison& comparison, const char* why) {
-    CHECK_THROWS_WITH(animate(film.asset, comparison, folder.path(), small()),
+    CHECK_THROWS_WITH(animate({{film.asset, comparison}}, folder.path(), small()),
                       Catch::Contains(why));
   };
   sim::Comparison wrong = film.comparison;
@@ -191,9 +209,9 @@ TEST_CASE("runs that do not fit the asset are refused") {
   refused(wrong, "no frames");
   AnimateOptions options = small();
   options.frame_rate = 0;
-  CHECK_THROWS_AS(animate(film.asset, film.comparison, folder.path(), options), InputError);
+  CHECK_THROWS_AS(animate({{film.asset, film.comparison}}, folder.path(), options), InputError);
   options.frame_rate = 1e12;
-  CHECK_THROWS_WITH(animate(film.asset, film.comparison, folder.path(), options),
+  CHECK_THROWS_WITH(animate({{film.asset, film.comparison}}, folder.path(), options),
                     Catch::Contains("frame_rate"));
 }
 
@@ -202,8 +220,8 @@ TEST_CASE("a frame that cannot be written ends the animation with its name") {
   const Film film;
   // A folder that is not empty cannot be replaced by a file.
   std::filesystem::create_directories(render::frame_path(folder.path(), 3) / "in the way");
-  CHECK_THROWS_AS(animate(film.asset, film.comparison, folder.path(), small()), IoError);
-  CHECK_THROWS_WITH(animate(film.asset, film.comparison, folder.path(), small()),
+  CHECK_THROWS_AS(animate({{film.asset, film.comparison}}, folder.path(), small()), IoError);
+  CHECK_THROWS_WITH(animate({{film.asset, film.comparison}}, folder.path(), small()),
                     Catch::Matchers::Contains("frame_0003.png"));
   CHECK(std::filesystem::exists(render::frame_path(folder.path(), 2)));
   CHECK_FALSE(std::filesystem::exists(render::frame_path(folder.path(), 4)));
