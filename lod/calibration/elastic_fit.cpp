@@ -91,105 +91,154 @@ std::vector<std::pair<std::size_t, std::size_t>> ElasticFit::mode_pairs() const 
   return pairs;
 }
 
+ElasticFit::Rows ElasticFit::rows() const {
+  const auto shapes = static_cast<Eigen::Index>(modal_.loads.size());
+  Rows rows;
+  rows.loads = static_cast<Eigen::Index>(mode_pairs().size());
+  rows.shapes = rows.loads + static_cast<Eigen::Index>(loads_.size());
+  rows.end = rows.shapes + shapes * (shapes + 1) / 2;
+  return rows;
+}
+
 ElasticResiduals ElasticFit::residuals(const MassSpringModel& level) const {
   const elastic::ElasticBody body = elastic::elastic_body(level, {.anchored = anchored_});
-  const auto of_modes = static_cast<Eigen::Index>(mode_pairs().size());
-  const auto of_loads = static_cast<Eigen::Index>(loads_.size());
-  const auto shapes = static_cast<Eigen::Index>(modal_.loads.size());
-  const Eigen::Index rows = of_modes + of_loads + shapes * (shapes + 1) / 2;
-  const Eigen::Index masses = free_masses_ ? level.node_count() : 0;
   ElasticResiduals all;
-  all.weighted = Eigen::VectorXd::Zero(rows);
-  all.jacobian = Eigen::MatrixXd::Zero(level.spring_count() + masses, rows);
+  all.weighted = Eigen::VectorXd::Zero(rows().end);
   run_jobs(2, threads_, [&](std::uint64_t job, const std::function<bool()>&) {
-    if (job == 0 && of_modes > 0) add_modes(level, body, 0, all);
-    if (job == 0 && shapes > 0) add_shapes(level, body, of_modes + of_loads, all);
-    if (job == 1 && of_loads > 0) add_loads(level, body, of_modes, all);
+    if (job == 0 && !targets_.squared_frequency.empty()) solve_modes(body, all);
+    if (job == 0 && !modal_.loads.empty()) solve_shapes(body, all);
+    if (job == 1 && !loads_.empty()) solve_loads(body, all);
   });
   return all;
 }
 
-void ElasticFit::add_modes(const MassSpringModel& level, const elastic::ElasticBody& body,
-                           Eigen::Index first, ElasticResiduals& all) const {
+void ElasticFit::jacobian(const MassSpringModel& level, const ElasticResiduals& of_level,
+                          Eigen::MatrixXd& into) const {
+  into.resize(level.spring_count() + (free_masses_ ? level.node_count() : 0), rows().end);
+  run_jobs(2, threads_, [&](std::uint64_t job, const std::function<bool()>&) {
+    if (job == 0) add_modes(level, of_level, into);
+    if (job == 0) add_shapes(level, of_level, into);
+    if (job == 1) add_loads(level, of_level, into);
+  });
+}
+
+void ElasticFit::solve_modes(const elastic::ElasticBody& body, ElasticResiduals& all) const {
   const std::vector<double>& wanted = targets_.squared_frequency;
-  const std::vector<elastic::Mode> found =
-      elastic::lowest_modes(
-          body, {.count = static_cast<std::uint32_t>(wanted.size()), .accuracy = kAccuracy})
-          .modes;
-  std::vector<Eigen::VectorXd> stretch;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    stretch.emplace_back(stretch_ * flat(found[i].shape));
-    all.frequency_error.push_back(std::abs(found[i].angular_frequency / std::sqrt(wanted[i]) - 1));
-  }
-  const auto k = as_vector(level.stiffness).array();
-  const auto m = as_vector(level.mass).array();
-  Eigen::Index row = first;
+  all.modes = elastic::lowest_modes(
+                  body, {.count = static_cast<std::uint32_t>(wanted.size()), .accuracy = kAccuracy})
+                  .modes;
+  for (std::size_t i = 0; i < all.modes.size(); ++i)
+    all.frequency_error.push_back(
+        std::abs(all.modes[i].angular_frequency / std::sqrt(wanted[i]) - 1));
+  Eigen::Index row = 0;
   for (const auto& [i, j] : mode_pairs()) {
-    if (j >= found.size()) break;  // a level of very few nodes has fewer modes
-    const double scale = found[i].angular_frequency * found[j].angular_frequency;
-    const double weight = targets_.mode_weight * mode_weight(i);
-    all.jacobian.col(row).head(k.size()) =
-        weight / scale * k * stretch[i].array() * stretch[j].array();
-    if (free_masses_)
-      all.jacobian.col(row).tail(m.size()) =
-          -weight * m * dots(found[i].shape, found[j].shape).array();
-    if (i == j) all.weighted[row] = weight * std::log(wanted[i] / scale);
+    if (i == j && i < all.modes.size())  // a level of very few nodes has fewer modes
+      all.weighted[row] =
+          targets_.mode_weight * mode_weight(i) *
+          std::log(wanted[i] / (all.modes[i].angular_frequency * all.modes[i].angular_frequency));
     ++row;
   }
 }
 
-void ElasticFit::add_loads(const MassSpringModel& level, const elastic::ElasticBody& body,
-                           Eigen::Index first, ElasticResiduals& all) const {
-  const std::vector<elastic::StaticSolution> solved = elastic::solve_static(
-      body, loads_, {.relative_tolerance = kLoadBalance, .balance_free_motions = true});
+void ElasticFit::add_modes(const MassSpringModel& level, const ElasticResiduals& of_level,
+                           Eigen::MatrixXd& into) const {
+  const std::vector<elastic::Mode>& found = of_level.modes;
+  std::vector<Eigen::VectorXd> stretch;
+  for (const elastic::Mode& mode : found) stretch.emplace_back(stretch_ * flat(mode.shape));
   const auto k = as_vector(level.stiffness).array();
   const auto m = as_vector(level.mass).array();
-  for (std::size_t l = 0; l < loads_.size(); ++l) {
-    const LoadTarget& target = targets_.loads[l];
-    const double c = solved[l].compliance;
-    all.compliance_error.push_back(std::abs(c / target.compliance - 1));
-    if (!(c > 0)) continue;  // the forces cancel within the groups
-    const Eigen::VectorXd stretch = stretch_ * flat(solved[l].displacement);
-    const Eigen::Index row = first + static_cast<Eigen::Index>(l);
-    all.jacobian.col(row).head(k.size()) = -target.weight / c * k * stretch.array().square();
+  Eigen::Index row = 0;
+  for (const auto& [i, j] : mode_pairs()) {
+    auto column = into.col(row++);
+    if (j >= found.size()) {
+      column.setZero();
+      continue;
+    }
+    const double scale = found[i].angular_frequency * found[j].angular_frequency;
+    const double weight = targets_.mode_weight * mode_weight(i);
+    column.head(k.size()) = weight / scale * k * stretch[i].array() * stretch[j].array();
     if (free_masses_)
-      all.jacobian.col(row).tail(m.size()) =
-          -2 * target.weight / c * m *
-          dots(solved[l].displacement, rigid_acceleration(body, loads_[l])).array();
-    all.weighted[row] = target.weight * std::log(target.compliance / c);
+      column.tail(m.size()) = -weight * m * dots(found[i].shape, found[j].shape).array();
   }
 }
 
-void ElasticFit::add_shapes(const MassSpringModel& level, const elastic::ElasticBody& body,
-                            Eigen::Index first, ElasticResiduals& all) const {
-  const std::vector<elastic::StaticSolution> solved = elastic::solve_static(
-      body, modal_.loads, {.relative_tolerance = kLoadBalance, .balance_free_motions = true});
-  std::vector<Eigen::VectorXd> stretch;
-  std::vector<std::vector<Vec3>> acceleration;
-  for (std::size_t i = 0; i < solved.size(); ++i) {
-    stretch.emplace_back(stretch_ * flat(solved[i].displacement));
-    if (free_masses_) acceleration.push_back(rigid_acceleration(body, modal_.loads[i]));
+void ElasticFit::solve_loads(const elastic::ElasticBody& body, ElasticResiduals& all) const {
+  all.loads = elastic::solve_static(
+      body, loads_, {.relative_tolerance = kLoadBalance, .balance_free_motions = true});
+  for (std::size_t l = 0; l < loads_.size(); ++l) {
+    const LoadTarget& target = targets_.loads[l];
+    const double c = all.loads[l].compliance;
+    all.compliance_error.push_back(std::abs(c / target.compliance - 1));
+    if (free_masses_) all.load_acceleration.push_back(rigid_acceleration(body, loads_[l]));
+    if (c > 0)  // otherwise the forces cancel within the groups
+      all.weighted[rows().loads + static_cast<Eigen::Index>(l)] =
+          target.weight * std::log(target.compliance / c);
   }
+}
+
+void ElasticFit::add_loads(const MassSpringModel& level, const ElasticResiduals& of_level,
+                           Eigen::MatrixXd& into) const {
   const auto k = as_vector(level.stiffness).array();
   const auto m = as_vector(level.mass).array();
-  Eigen::Index row = first;
+  for (std::size_t l = 0; l < loads_.size(); ++l) {
+    auto column = into.col(rows().loads + static_cast<Eigen::Index>(l));
+    const elastic::StaticSolution& solved = of_level.loads[l];
+    const double c = solved.compliance;
+    const double weight = targets_.loads[l].weight;
+    if (!(c > 0)) {
+      column.setZero();
+      continue;
+    }
+    const Eigen::VectorXd stretch = stretch_ * flat(solved.displacement);
+    column.head(k.size()) = -weight / c * k * stretch.array().square();
+    if (free_masses_)
+      column.tail(m.size()) =
+          -2 * weight / c * m * dots(solved.displacement, of_level.load_acceleration[l]).array();
+  }
+}
+
+// The compliance of the lower mode is the unit: two modes that mix by an angle then have a residual
+// of about that angle, however far apart their frequencies are.
+double ElasticFit::shape_weight(std::size_t i, std::size_t j) const {
+  return targets_.shape_weight * (i == j ? kShape * std::sqrt(0.5) : kShape) *
+         targets_.squared_frequency[i];
+}
+
+void ElasticFit::solve_shapes(const elastic::ElasticBody& body, ElasticResiduals& all) const {
+  all.shapes = elastic::solve_static(
+      body, modal_.loads, {.relative_tolerance = kLoadBalance, .balance_free_motions = true});
+  Eigen::Index row = rows().shapes;
+  for (std::size_t i = 0; i < all.shapes.size(); ++i) {
+    if (free_masses_) all.shape_acceleration.push_back(rigid_acceleration(body, modal_.loads[i]));
+    for (std::size_t j = i; j < all.shapes.size(); ++j) {
+      const double compliance = flat(modal_.loads[j].force).dot(flat(all.shapes[i].displacement));
+      all.weighted[row++] = shape_weight(i, j) * (modal_.compliance(static_cast<Eigen::Index>(i),
+                                                                    static_cast<Eigen::Index>(j)) -
+                                                  compliance);
+    }
+  }
+}
+
+void ElasticFit::add_shapes(const MassSpringModel& level, const ElasticResiduals& of_level,
+                            Eigen::MatrixXd& into) const {
+  const std::vector<elastic::StaticSolution>& solved = of_level.shapes;
+  const std::vector<std::vector<Vec3>>& acceleration = of_level.shape_acceleration;
+  std::vector<Eigen::VectorXd> stretch;
+  for (const elastic::StaticSolution& one : solved)
+    stretch.emplace_back(stretch_ * flat(one.displacement));
+  const auto k = as_vector(level.stiffness).array();
+  const auto m = as_vector(level.mass).array();
+  Eigen::Index row = rows().shapes;
   for (std::size_t i = 0; i < solved.size(); ++i)
     for (std::size_t j = i; j < solved.size(); ++j) {
-      // The compliance of the lower mode is the unit: two modes that mix by an angle then have a
-      // residual of about that angle, however far apart their frequencies are.
-      const double weight = targets_.shape_weight * (i == j ? kShape * std::sqrt(0.5) : kShape) *
-                            targets_.squared_frequency[i];
-      const double compliance = flat(modal_.loads[j].force).dot(flat(solved[i].displacement));
-      all.jacobian.col(row).head(k.size()) = -weight * k * stretch[i].array() * stretch[j].array();
+      const double weight = shape_weight(i, j);
+      auto column = into.col(row++);
+      column.head(k.size()) = -weight * k * stretch[i].array() * stretch[j].array();
       if (free_masses_)
-        all.jacobian.col(row).tail(m.size()) = -weight * m *
-                                               (dots(solved[i].displacement, acceleration[j]) +
-                                                dots(solved[j].displacement, acceleration[i]))
-                                                   .array();
-      all.weighted[row] =
-          weight * (modal_.compliance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) -
-                    compliance);
-      ++row;
+        column.tail(m.size()) = -weight * m *
+                                (dots(solved[i].displacement, acceleration[j]) +
+                                 dots(solved[j].displacement, acceleration[i]))
+                                    .array();
     }
 }
 

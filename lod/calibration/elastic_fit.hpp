@@ -8,6 +8,8 @@
 #include <Eigen/SparseCore>
 
 #include "elastic/elastic_body.hpp"
+#include "elastic/loads.hpp"
+#include "elastic/modes.hpp"
 #include "lod/calibration/elastic_targets.hpp"
 #include "lod/calibration/modal_loads.hpp"
 #include "lod/options.hpp"
@@ -16,13 +18,16 @@
 
 namespace springlod::lod {
 
-/// Weighted residuals r of a level against its targets and their Jacobian with respect to ln k of
-/// each spring and, with NodeMasses::free, ln m of each node (docs/method.md, eqs. 30 to 34).
+/// Weighted residuals r of a level against its targets, with the solutions that they follow from
+/// (docs/method.md, eqs. 30 to 34).
 struct ElasticResiduals {
   Eigen::VectorXd weighted;              ///< r, R [1]
-  Eigen::MatrixXd jacobian;              ///< G = -dr / d(ln k, ln m), S or S + N, by R [1]
   std::vector<double> frequency_error;   ///< |omega / omega0 - 1| of each mode, unweighted [1]
   std::vector<double> compliance_error;  ///< the same of each load
+  std::vector<elastic::Mode> modes;
+  std::vector<elastic::StaticSolution> loads, shapes;  ///< shapes: under the modal loads
+  /// Rigid accelerations under the loads and the modal loads, N each [m/s2]; with NodeMasses::free.
+  std::vector<std::vector<Vec3>> load_acceleration, shape_acceleration;
 };
 
 /// Evaluates the residuals of one level for any stiffnesses and masses; positions and springs are
@@ -34,7 +39,11 @@ class ElasticFit {
   ElasticFit(const MassSpringModel& level, const Groups& of_base, const ElasticTargets& targets,
              const FitOptions& options = {});
 
-  /// Modes are matched in ascending order of lambda = omega^2. The derivatives are
+  /// Modes are matched in ascending order of lambda = omega^2.
+  ElasticResiduals residuals(const MassSpringModel& level) const;
+
+  /// Sets G = -dr / d(ln k, ln m), S rows, or S + N with NodeMasses::free, by R [1]; its memory is
+  /// used again. The derivatives are
   ///   d ln lambda / d ln k = k (b.phi)^2 / lambda,   d ln lambda / d ln m = -m |phi|^2,
   ///   d ln c / d ln k = -k (b.u)^2 / c,              d ln c / d ln m = -2 m u.a / c,
   /// with the compliance c = f.u of a load f and the rigid acceleration a of the free body under f.
@@ -44,18 +53,29 @@ class ElasticFit {
   /// Shapes are compared by the compliances C_ij = f_j . u_i of each pair of modal loads, which are
   /// differentiable for modes of equal frequency too:
   ///   dC_ij / d ln k = -k (b.u_i)(b.u_j),   dC_ij / d ln m = -m (u_i.a_j + u_j.a_i).
-  ElasticResiduals residuals(const MassSpringModel& level) const;
+  void jacobian(const MassSpringModel& level, const ElasticResiduals& of_level,
+                Eigen::MatrixXd& into) const;
 
  private:
   /// Pairs (i, j >= i) of modes of nearly equal frequency; each mode is paired with itself.
   std::vector<std::pair<std::size_t, std::size_t>> mode_pairs() const;
-  /// Fill the rows of modes, loads or shapes from index `first` on.
-  void add_modes(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
-                 ElasticResiduals& all) const;
-  void add_loads(const MassSpringModel& level, const elastic::ElasticBody& body, Eigen::Index first,
-                 ElasticResiduals& all) const;
-  void add_shapes(const MassSpringModel& level, const elastic::ElasticBody& body,
-                  Eigen::Index first, ElasticResiduals& all) const;
+  /// First row of each kind; `end`: R.
+  struct Rows {
+    Eigen::Index loads = 0, shapes = 0, end = 0;
+  };
+  Rows rows() const;
+  /// Fill the residuals of modes, loads or shapes.
+  void solve_modes(const elastic::ElasticBody& body, ElasticResiduals& all) const;
+  void solve_loads(const elastic::ElasticBody& body, ElasticResiduals& all) const;
+  void solve_shapes(const elastic::ElasticBody& body, ElasticResiduals& all) const;
+  /// Fill their rows of the Jacobian.
+  void add_modes(const MassSpringModel& level, const ElasticResiduals& of_level,
+                 Eigen::MatrixXd& into) const;
+  void add_loads(const MassSpringModel& level, const ElasticResiduals& of_level,
+                 Eigen::MatrixXd& into) const;
+  void add_shapes(const MassSpringModel& level, const ElasticResiduals& of_level,
+                  Eigen::MatrixXd& into) const;
+  double shape_weight(std::size_t i, std::size_t j) const;
 
   const ElasticTargets& targets_;
   std::uint32_t threads_;

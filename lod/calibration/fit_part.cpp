@@ -110,8 +110,12 @@ class PartFit {
   struct Point {
     Eigen::VectorXd theta;
     MassSpringModel model;
-    ElasticResiduals residuals;  // Jacobian by theta, projected: see project_jacobian
-    Eigen::MatrixXd normal;      // G^T G
+    ElasticResiduals residuals;
+  };
+  /// Derivatives of the residuals at now_, the only point that steps start from.
+  struct Linearized {
+    Eigen::MatrixXd jacobian;  // G by theta, projected: see project_jacobian
+    Eigen::MatrixXd normal;    // G^T G
   };
   using Ratios = decltype(FitState::slack);
   struct Best {
@@ -121,7 +125,7 @@ class PartFit {
   };
 
   void begin() {
-    now_ = at(Eigen::VectorXd::Zero(variables_.count()));
+    start_from(at(Eigen::VectorXd::Zero(variables_.count())));
     bound_ = largest_node_bound(start_);
   }
 
@@ -135,8 +139,11 @@ class PartFit {
     tighten_ = state.tighten;
     slack_ = state.slack;
     stalled_merit_ = state.stalled_merit;
-    now_ = {state.now.theta, variables_.model(state.now), {}, {}};
-    if (!finished_) measure(now_);
+    now_ = {state.now.theta, variables_.model(state.now), {}};
+    if (!finished_) {
+      now_.residuals = fit_.residuals(now_.model);
+      start_from(std::move(now_));
+    }
     if (state.best)
       best_ = Best{state.best->theta, variables_.model(*state.best), state.best_frequency};
   }
@@ -163,18 +170,19 @@ class PartFit {
     if (progress_.on_iteration) progress_.on_iteration(state());
   }
 
-  void measure(Point& point) const {
-    point.residuals = fit_.residuals(point.model);
-    variables_.project_jacobian(point.model.mass, point.residuals.jacobian);
-    point.normal = elastic::gram(point.residuals.jacobian);
-  }
-
   Point at(Eigen::VectorXd theta) const {
-    Point point{std::move(theta), {}, {}, {}};
+    Point point{std::move(theta), {}, {}};
     point.model = variables_.model(point.theta);
     variables_.masses_to_theta(point.model.mass, point.theta);
-    measure(point);
+    point.residuals = fit_.residuals(point.model);
     return point;
+  }
+
+  void start_from(Point point) {
+    now_ = std::move(point);
+    fit_.jacobian(now_.model, now_.residuals, linear_.jacobian);
+    variables_.project_jacobian(now_.model.mass, linear_.jacobian);
+    linear_.normal = elastic::gram(linear_.jacobian);
   }
 
   /// The level after a step; none if it cannot be measured or is not finite.
@@ -182,7 +190,7 @@ class PartFit {
     if (!step.allFinite()) return std::nullopt;
     try {
       Point point = at((now_.theta + step).cwiseMax(-kMostChange).cwiseMin(kMostChange));
-      if (point.theta.allFinite() && point.normal.allFinite()) return point;
+      if (point.theta.allFinite() && point.residuals.weighted.allFinite()) return point;
     } catch (const InputError&) {
       // The stiffnesses are too far apart for the factorization or the eigensolver.
     }
@@ -203,8 +211,8 @@ class PartFit {
       const Eigen::SparseMatrix<double, Eigen::RowMajor> constraint_jacobian =
           variables_.scaled_jacobian(constraints.jacobian);
       const Eigen::VectorXd constraint_value = constraints.value - constraint_jacobian * step;
-      step = damped_step({.jacobian = now_.residuals.jacobian,
-                          .normal = now_.normal,
+      step = damped_step({.jacobian = linear_.jacobian,
+                          .normal = linear_.normal,
                           .residual = now_.residuals.weighted,
                           .constraint_jacobian = constraint_jacobian,
                           .constraint_value = constraint_value,
@@ -223,7 +231,7 @@ class PartFit {
     std::optional<Point> next = after(next_step());
     const bool accepted = next && merit(*next) < merit(now_);
     if (accepted) {
-      now_ = *std::move(next);
+      start_from(*std::move(next));
       if (!rejected_) damping_ = std::max(kLeastDamping, damping_ / kDampingDecrease);
     } else {
       damping_ *= kDampingIncrease;
@@ -237,7 +245,7 @@ class PartFit {
   bool back_off() {
     tighten_ = std::sqrt(tighten_);
     if (tighten_ > kLeastTighten) return false;
-    now_ = at(best_->theta);
+    start_from(at(best_->theta));
     bound_ = tighten_ * largest_node_bound(now_.model);
     damping_ = kFirstDamping;
     return true;
@@ -297,6 +305,7 @@ class PartFit {
   LevelVariables variables_;
   ElasticFit fit_;
   Point now_;
+  Linearized linear_;
   std::optional<Best> best_;
   double bound_ = 0;  // on the squared frequencies of the nodes [rad2/s2]
   double damping_ = kFirstDamping;

@@ -140,14 +140,15 @@ TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
     const ElasticTargets targets = measure_targets(base, level.of_base, options);
     const ElasticFit fit(level.model, level.of_base, targets, {.masses = masses});
     const ElasticResiduals here = fit.residuals(level.model);
+    Eigen::MatrixXd jacobian;
+    fit.jacobian(level.model, here, jacobian);
     Eigen::VectorXd direction = any_direction(level.model, 3);
     if (masses == NodeMasses::group) direction.tail(level.model.node_count()).setZero();
     constexpr double h = 1e-4;
     const ElasticResiduals ahead = fit.residuals(moved(level.model, direction, h));
     const ElasticResiduals behind = fit.residuals(moved(level.model, direction, -h));
     const Eigen::VectorXd measured = (behind.weighted - ahead.weighted) / (2 * h);
-    const Eigen::VectorXd expected =
-        here.jacobian.transpose() * direction.head(here.jacobian.rows());
+    const Eigen::VectorXd expected = jacobian.transpose() * direction.head(jacobian.rows());
     REQUIRE(measured.size() == expected.size());
     constexpr Eigen::Index kModes = 8;
     CHECK(expected.tail(kModes * (kModes + 1) / 2).norm() > 0.01);  // rows of the shapes
