@@ -29,25 +29,32 @@ HWY_INLINE Real* force_at(NodeVector<Real>* forces, std::size_t index) {
   return reinterpret_cast<Real*>(reinterpret_cast<char*>(forces) + 4 * index);
 }
 
-// Pairs computed together, each stage for all of them [1]. A processor looks ahead about 300
-// instructions, less than three pairs: if pairs were computed one after another, each would wait
-// for the results of the one before.
-constexpr std::size_t kBatch = 16;
-// Prefetch distance: 3 batches take longer than an access to main memory. [pairs]
-constexpr std::size_t kPairsAhead = 3 * kBatch;
+// A pair passes three stages: its lengths are measured, its forces follow from them, and are added
+// to the nodes. Each turn does one stage of three pairs that are this far apart [pairs]: the stages
+// of a turn do not wait for each other, so the processor overlaps the root and the division of one
+// pair with the loads and stores of the others.
+constexpr std::size_t kApart = 2;
+constexpr std::size_t kSlots = 8;  // more than 2 kApart, a power of two
+// Prefetch distance: these pairs take longer than an access to main memory. [pairs]
+constexpr std::size_t kPairsAhead = 48;
 
-/// One number for each spring of a batch.
+/// One number for each spring of the pairs between the stages, by the number of the pair modulo
+/// kSlots.
 template <class Real>
-struct SpringNumbers {
-  alignas(64) Real of[kBatch][2 * kQuad];
+using SpringNumbers = Real[kSlots][2 * kQuad];
+template <class Real>
+struct InFlight {
+  alignas(64) SpringNumbers<Real> square;   ///< of the length [m2]
+  alignas(64) SpringNumbers<Real> x_dot_v;  ///< length times its rate [m2/s]
+  alignas(64) SpringNumbers<Real> both;     ///< force over length [N/m]
+  alignas(64) SpringNumbers<Real> damping;  ///< the damping part of it
 };
 
-/// Data shared by all pairs of a batch.
+/// The pairs of a block.
 template <class Real>
-struct Batch {
+struct Stream {
   const QuadPair<Real>* pairs = nullptr;
   std::size_t count = 0;
-  std::size_t ahead = 0;                                 // pairs to prefetch
   const std::array<Real, 2 * kQuad>* damping = nullptr;  // null if c = damping_time k
   Real damping_time = 0;
 };
@@ -150,67 +157,60 @@ void scatter(const std::uint16_t* other, std::uint16_t own, const Real* over_len
 
 /// Squares of lengths [m2] and l dl/dt [m2/s].
 template <class Real>
-HWY_INLINE void measure(const Batch<Real>& batch, const NodeRecord<Real>* records,
-                        SpringNumbers<Real>& square, SpringNumbers<Real>& x_dot_v) {
-  for (std::size_t n = 0; n < batch.count; ++n) {
-    const QuadPair<Real>* pair = batch.pairs + n;
-    for (std::size_t byte = 0; byte < sizeof(*pair); byte += kCacheLine)
-      hwy::Prefetch(reinterpret_cast<const char*>(pair + batch.ahead) + byte);
-    measure(*pair, records, square.of[n], x_dot_v.of[n]);
-  }
+HWY_INLINE void measure(const Stream<Real>& stream, std::size_t n, const NodeRecord<Real>* records,
+                        InFlight<Real>& springs) {
+  const QuadPair<Real>* ahead = stream.pairs + std::min(n + kPairsAhead, stream.count - 1);
+  for (std::size_t byte = 0; byte < sizeof(*ahead); byte += kCacheLine)
+    hwy::Prefetch(reinterpret_cast<const char*>(ahead) + byte);
+  measure(stream.pairs[n], records, springs.square[n % kSlots], springs.x_dot_v[n % kSlots]);
 }
 
 /// Force / length of each spring [N/m]: total and, if requested, of the damping alone.
 template <bool with_damping, class Real>
-HWY_INLINE void pull(const Batch<Real>& batch, const SpringNumbers<Real>& square,
-                     const SpringNumbers<Real>& x_dot_v, SpringNumbers<Real>& both,
-                     SpringNumbers<Real>& damping) {
+HWY_INLINE void pull(const Stream<Real>& stream, std::size_t n, InFlight<Real>& springs) {
   const hn::CappedTag<Real, 2 * kQuad> d;
-  const auto beta = hn::Set(d, batch.damping_time);
-  for (std::size_t n = 0; n < batch.count; ++n)
-    for (std::size_t lane = 0; lane < 2 * kQuad; lane += hn::Lanes(d)) {
-      const auto inverse = inverse_root(d, hn::Load(d, square.of[n] + lane));
-      const auto stiffness = hn::LoadU(d, batch.pairs[n].stiffness + lane);
-      const auto rest_force = hn::LoadU(d, batch.pairs[n].rest_force + lane);
-      const auto elastic = hn::NegMulAdd(rest_force, inverse, stiffness);
-      const auto rate = hn::Mul(hn::Load(d, x_dot_v.of[n] + lane), hn::Mul(inverse, inverse));
-      const auto c = batch.damping == nullptr ? hn::Mul(beta, stiffness)
-                                              : hn::LoadU(d, batch.damping[n].data() + lane);
-      const auto damped = hn::Mul(c, rate);
-      hn::Store(hn::Add(elastic, damped), d, both.of[n] + lane);
-      if constexpr (with_damping) hn::Store(damped, d, damping.of[n] + lane);
-    }
+  const auto beta = hn::Set(d, stream.damping_time);
+  const std::size_t slot = n % kSlots;
+  for (std::size_t lane = 0; lane < 2 * kQuad; lane += hn::Lanes(d)) {
+    const auto inverse = inverse_root(d, hn::Load(d, springs.square[slot] + lane));
+    const auto stiffness = hn::LoadU(d, stream.pairs[n].stiffness + lane);
+    const auto rest_force = hn::LoadU(d, stream.pairs[n].rest_force + lane);
+    const auto elastic = hn::NegMulAdd(rest_force, inverse, stiffness);
+    const auto rate = hn::Mul(hn::Load(d, springs.x_dot_v[slot] + lane), hn::Mul(inverse, inverse));
+    const auto c = stream.damping == nullptr ? hn::Mul(beta, stiffness)
+                                             : hn::LoadU(d, stream.damping[n].data() + lane);
+    const auto damped = hn::Mul(c, rate);
+    hn::Store(hn::Add(elastic, damped), d, springs.both[slot] + lane);
+    if constexpr (with_damping) hn::Store(damped, d, springs.damping[slot] + lane);
+  }
 }
 
 /// Subtracts the forces at one end and adds them at the other.
 template <class Real>
-HWY_INLINE void scatter(const Batch<Real>& batch, const SpringNumbers<Real>& over_length,
+HWY_INLINE void scatter(const QuadPair<Real>& pair, const Real* over_length,
                         const NodeRecord<Real>* records, NodeVector<Real>* forces) {
-  for (std::size_t n = 0; n < batch.count; ++n)
-    for (std::size_t q = 0; q < 2; ++q)
-      scatter(batch.pairs[n].other + q * kQuad, batch.pairs[n].own[q],
-              over_length.of[n] + q * kQuad, records, forces);
+  for (std::size_t q = 0; q < 2; ++q)
+    scatter(pair.other + q * kQuad, pair.own[q], over_length + q * kQuad, records, forces);
 }
 
 template <bool with_damping, class Real>
 void add_forces(const QuadBlock<Real>& block, Real damping_time, QuadBlockState<Real>& state) {
   const NodeRecord<Real>* records = state.records.data();
-  SpringNumbers<Real> square;
-  SpringNumbers<Real> x_dot_v;
-  SpringNumbers<Real> both;
-  SpringNumbers<Real> damping;
-  for (std::size_t first = 0; first < block.pairs.size(); first += kBatch) {
-    const std::size_t left = block.pairs.size() - first;
-    const std::size_t count = std::min(kBatch, left);
-    const Batch<Real> batch{.pairs = block.pairs.data() + first,
+  const std::size_t count = block.pairs.size();
+  const Stream<Real> stream{.pairs = block.pairs.data(),
                             .count = count,
-                            .ahead = std::min(kPairsAhead, left - count),
-                            .damping = block.damping.empty() ? nullptr : &block.damping[first],
+                            .damping = block.damping.empty() ? nullptr : block.damping.data(),
                             .damping_time = damping_time};
-    measure(batch, records, square, x_dot_v);
-    pull<with_damping>(batch, square, x_dot_v, both, damping);
-    scatter(batch, both, records, state.forces.data());
-    if constexpr (with_damping) scatter(batch, damping, records, state.damping_forces.data());
+  InFlight<Real> springs;
+  for (std::size_t n = 0; n < count + 2 * kApart; ++n) {
+    if (n < count) measure(stream, n, records, springs);
+    if (n >= kApart && n - kApart < count) pull<with_damping>(stream, n - kApart, springs);
+    if (n < 2 * kApart) continue;
+    const std::size_t done = n - 2 * kApart;
+    scatter(stream.pairs[done], springs.both[done % kSlots], records, state.forces.data());
+    if constexpr (with_damping)
+      scatter(stream.pairs[done], springs.damping[done % kSlots], records,
+              state.damping_forces.data());
   }
 }
 
