@@ -1,8 +1,10 @@
--- Measure what the fit of levels gains: elasticity, velocities after a blow, and free vibration.
+-- Measure what the fit of levels gains: elasticity, velocities after a blow, free vibration, and
+-- landings on a floor.
 
 local s = require "springlod"
 local bodies = require "studies.fit.bodies"
 local command = require "lib.command"
+local landing = require "studies.fit.landing"
 local motion = require "studies.fit.motion"
 
 local keep = {0.45, 0.2}
@@ -28,26 +30,31 @@ end
 
 local parser = command.parser("fit", "Measure levels with 45 % and 20 % of the nodes of their "
   .. "base, in compact groups: merged only (plain), fitted with free masses (free), and fitted by "
-  .. "default (default). Writes levels.csv and means.csv (means over bodies and seeds), and prints "
-  .. "the latter.")
+  .. "default (default). The last two columns are errors against the base after it was thrown at a "
+  .. "floor with friction, with contact at the surface: rms over the first 50 ms after the first "
+  .. "contact, and over the next 150 ms, in percent of the body's diagonal. Writes "
+  .. "levels.csv and means.csv (means over bodies and seeds), and prints the latter.")
 parser:argument("folder", "folder to write to"):default("out/fit")
-parser:option("--bodies", "any of " .. table.concat(names_of(bodies), ", ") .. ", or samples or "
-  .. "others for a set of them"):default("others")
+parser:option("--bodies", "any of " .. table.concat(names_of(bodies), ", ") .. ", or samples, "
+  .. "others or firm for a set of them"):default("others")
 parser:option("--seeds", "number of seeds for each body"):default("2")
   :convert(command.whole("--seeds", 1))
 parser:option("--variants", "Lua file that returns a list of {name = ..., calibration = {...}} to "
   .. "measure in place of the three"):argname("<file.lua>")
   :convert(command.table_file("--variants"))
+parser:option("--landings", "number of directions from which each body lands; 0: none")
+  :default("4"):convert(command.whole("--landings", 0))
+parser:flag("--landings-only", "measure only landings")
 parser:flag("--quick", "use one seed of one small body and few steps; takes seconds")
 local args = parser:parse()
-if args.quick then args.bodies, args.seeds = "beam", 1 end
+if args.quick then args.bodies, args.seeds, args.landings = "beam", 1, 1 end
 
 local function chosen_bodies()
-  local known, chosen = {samples = true, others = true}, {}
+  local known, chosen = {samples = true, others = true, firm = true}, {}
   for _, body in ipairs(bodies) do known[body.name] = true end
   for word in (args.bodies .. ","):gmatch("%s*(.-)%s*,") do
     if not known[word] then
-      error(("--bodies: '%s' must be samples, others or one of %s"):format(word,
+      error(("--bodies: '%s' must be samples, others, firm or one of %s"):format(word,
         table.concat(names_of(bodies), ", ")), 0)
     end
     for _, body in ipairs(bodies) do
@@ -148,8 +155,8 @@ local function mean_mac(certificate)
 end
 
 -- The columns that describe a level; errors in percent. `l` has certificate, patches (a certificate
--- with small patches), motion and seconds (of the fit of both levels).
-local measures = {
+-- with small patches), motion, landing, and seconds (of the fit of both levels).
+local elastic_measures = {
   {"f1..10", function(l) return 100 * l.certificate.f1_10_error end},
   {"f11..20", function(l) return 100 * (l.certificate.f11_20_error or 0) end},
   {"MAC", function(l) return mean_mac(l.certificate) end},
@@ -161,8 +168,20 @@ local measures = {
   {"impulse", function(l) return 100 * l.motion.impulse end},
   {"period 1", function(l) return 100 * l.motion.first end},
   {"periods 2..5", function(l) return 100 * l.motion.later end},
-  {"seconds", function(l) return l.seconds end},
 }
+local landing_measures = {
+  {"landing 0..50 ms", function(l) return 100 * l.landing.early end},
+  {"landing 50..200 ms", function(l) return 100 * l.landing.late end},
+}
+
+local measures = {}
+if not args.landings_only then
+  table.move(elastic_measures, 1, #elastic_measures, 1, measures)
+end
+if args.landings > 0 then
+  table.move(landing_measures, 1, #landing_measures, #measures + 1, measures)
+end
+measures[#measures + 1] = {"seconds", function(l) return l.seconds end}
 
 local function make_chain(body, variant, seed)
   local options = {keep = keep, seed = seed, grouping = "compact"}
@@ -191,13 +210,19 @@ end
 
 local function measure(body, variant, seed)
   local chain, seconds = make_chain(body, variant, seed)
-  local certified = s.info(s.certify(chain)).levels
-  local patches = s.info(s.certify(chain, {modes = 1, radius = patch_radius})).levels
+  local certified, patches
+  if not args.landings_only then
+    certified = s.info(s.certify(chain)).levels
+    patches = s.info(s.certify(chain, {modes = 1, radius = patch_radius})).levels
+  end
   for level = 1, #keep do
-    local of_level = {
-      certificate = certified[level + 1].certificate, patches = patches[level + 1].certificate,
-      motion = motion_errors(body, chain, level), seconds = seconds,
-    }
+    local of_level = {seconds = seconds}
+    if certified then
+      of_level.certificate = certified[level + 1].certificate
+      of_level.patches = patches[level + 1].certificate
+      of_level.motion = motion_errors(body, chain, level)
+    end
+    if body.landings then of_level.landing = landing.errors(chain[level], body.landings) end
     local values = {}
     for i, one in ipairs(measures) do values[i] = one[2](of_level) end
     note(body, variant, seed, level, values)
@@ -236,7 +261,15 @@ end
 local ok, failure = command.try(function()
   for _, body in ipairs(chosen_bodies()) do
     body.base = body.make()
-    move_base(body, s.modes(body.base, {count = 1})[1].frequency)
+    if not args.landings_only then
+      move_base(body, s.modes(body.base, {count = 1})[1].frequency)
+    end
+    if args.landings > 0 then
+      body.landings = landing.of_base(body.base, args.landings)
+      local noise = body.landings.noise
+      s.say(("%s: the base at half its step differs by %.2g %% in the first 50 ms after landing, "
+        .. "%.2g %% later"):format(body.name, 100 * noise.early, 100 * noise.late))
+    end
     for seed = 1, args.seeds do
       for _, variant in ipairs(args.variants or variants) do measure(body, variant, seed) end
     end

@@ -34,6 +34,9 @@ TEST_CASE("springlod fit measures elasticity, blows and vibration of levels", "[
     CHECK(number(row, "periods 2..5") > 1);
     CHECK(number(row, "MAC") > 0.5);
     CHECK(number(row, "MAC") <= 1);
+    CHECK(number(row, "landing 0..50 ms") > 0);
+    CHECK(number(row, "landing 0..50 ms") < number(row, "landing 50..200 ms"));
+    CHECK(number(row, "landing 50..200 ms") < 100);
   }
 }
 
@@ -41,5 +44,5 @@ TEST_CASE("springlod fit refuses bodies that it does not have") {
   const TemporaryFolder out;
   const Ran unknown = springlod_run({"fit", out.path().string(), "--bodies", "teapot"});
   CHECK(unknown.exit_code == 1);
-  CHECK_THAT(unknown.err, Contains("'teapot' must be samples, others or one of"));
+  CHECK_THAT(unknown.err, Contains("'teapot' must be samples, others, firm or one of"));
 }

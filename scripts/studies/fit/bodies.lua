@@ -1,6 +1,7 @@
 -- The bodies of the fit study. Defaults of the fit were chosen on those of "samples" (meshes of
 -- samples/) and are reported for the others: those of the accuracy study that are no samples, and
--- three with features that these lack (slender prongs, layers, holes).
+-- three with features that these lack (slender prongs, layers, holes). Those of "firm" are for
+-- landings: so stiff that the motion of a level after an impact depends on its contact.
 
 local s = require "springlod"
 local accuracy_bodies = require "studies.accuracy.bodies"
@@ -42,6 +43,17 @@ local plate = filled(0.01, {18, 12, 4}, {rubber = rubber, steel = steel}, functi
   return x > 0.14 and y > 0.08 and "steel" or "rubber"
 end)
 
+local firm = {young = "20 MPa", density = 1000, damping = "0.1 ms"}
+local softer = {young = "5 MPa", density = 1000, damping = "0.1 ms"}
+
+local function firm_block(size)
+  return filled(0.01, size, {firm = firm}, function() return "firm" end)
+end
+
+local two_material_bar = filled(0.01, {7, 7, 30}, {firm = firm, softer = softer}, function(_, _, z)
+  return z < 0.15 and "firm" or "softer"
+end)
+
 local bodies = {
   {name = "beast sample", set = "samples", make = sample("beast", "cm", "6 mm", {
     depth = "8 mm",
@@ -58,5 +70,8 @@ end
 bodies[#bodies + 1] = {name = "fork", set = "others", make = fork}
 bodies[#bodies + 1] = {name = "layers", set = "others", make = layers}
 bodies[#bodies + 1] = {name = "plate", set = "others", make = plate}
+bodies[#bodies + 1] = {name = "bar", set = "firm", make = firm_block{7, 7, 30}}
+bodies[#bodies + 1] = {name = "block", set = "firm", make = firm_block{12, 12, 12}}
+bodies[#bodies + 1] = {name = "two-material bar", set = "firm", make = two_material_bar}
 
 return bodies
