@@ -1,6 +1,15 @@
 #include "lod/group_means.hpp"
 
+#include <cmath>
+
 namespace springlod::lod {
+namespace {
+
+// A smaller part of the work along the nodes' own displacements is rounding: the forces on each
+// group cancel [1].
+constexpr double kRounding = 1e-9;
+
+}  // namespace
 
 std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<double>& mass,
                               const Groups& groups) {
@@ -18,8 +27,12 @@ double work_on_means(const std::vector<Vec3>& force, const std::vector<Vec3>& di
                      const std::vector<double>& mass, const Groups& groups) {
   const std::vector<Vec3> means = group_means(displacement, mass, groups);
   double work = 0;
-  for (std::size_t i = 0; i < force.size(); ++i) work += force[i].dot(means[groups.of[i]]);
-  return work;
+  double along_nodes = 0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    work += force[i].dot(means[groups.of[i]]);
+    along_nodes += std::abs(force[i].dot(displacement[i]));
+  }
+  return work > kRounding * along_nodes ? work : 0;
 }
 
 }  // namespace springlod::lod

@@ -12,7 +12,7 @@ std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<
 
 /// Work of `force`, N [N], along the mean displacement of each node's group, N [m]: what a level
 /// whose nodes move as their groups do takes as its compliance, since it knows the sum of the
-/// forces on a group alone [J].
+/// forces on a group alone [J]. 0 if the forces on each group cancel.
 double work_on_means(const std::vector<Vec3>& force, const std::vector<Vec3>& displacement,
                      const std::vector<double>& mass, const Groups& groups);
 

@@ -11,10 +11,10 @@ namespace springlod::lod {
 enum class Grade { good, fair, rough, faulty };
 
 inline constexpr Choice<Grade> kGrades[] = {
-    {Grade::good, "good", "the errors that a calibration of 45 % of the nodes usually leaves"},
+    {Grade::good, "good", "errors of levels that were fitted well"},
     {Grade::fair, "fair", "errors up to about three times those of a good level"},
     {Grade::rough, "rough", "larger errors, as of levels that are only merged"},
-    {Grade::faulty, "faulty", "mechanisms that the base lacks, or another mass"}};
+    {Grade::faulty, "faulty", "mechanisms, or another mass than the base"}};
 constexpr ChoiceTable<Choice<Grade>> choices(Grade) {
   return {"grade", kGrades};
 }

@@ -22,6 +22,12 @@ TEST_CASE("A load does its work along the means of the groups, weighted by mass"
   CHECK(work_on_means(force, displacement, mass, {{0, 0, 1}, 2}) == Approx(2 * 2 + 3 * 5));
 }
 
+TEST_CASE("A load whose forces cancel within the groups does no work along their means") {
+  const std::vector<Vec3> force{{0.1, 0, 0}, {0.2, 0, 0}, {-0.3, 0, 0}};  // sum: 5.6e-17
+  const std::vector<Vec3> displacement{{4, 0, 0}, {5, 0, 0}, {7, 0, 0}};
+  CHECK(work_on_means(force, displacement, {1, 1, 1}, {{0, 0, 0}, 1}) == 0);
+}
+
 TEST_CASE("The means of groups move less under a load on a few nodes than the nodes do") {
   const MassSpringModel base = block(6, 6, 6);
   const Groups groups =
