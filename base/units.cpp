@@ -117,7 +117,7 @@ std::string_view si_unit(Dimension dimension) {
 double parse_quantity(std::string_view text, Dimension dimension, std::string_view what) {
   const auto units = units_of(dimension);
   const auto expected = [&] {
-    if (units.empty()) return std::string("write a plain number, such as 5 or 1e3");
+    if (units.empty()) return std::string("write a plain number, such as 5 or 1e3, or 2%");
     return fmt::format("write a number and one of {}; a bare number is in {}", names(units),
                        units.front().name);
   };
@@ -132,6 +132,7 @@ double parse_quantity(std::string_view text, Dimension dimension, std::string_vi
         fmt::format("{}: \"{}\" does not start with a number; {}", what, text, expected()));
   const std::string_view name = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
   if (name.empty()) return number;
+  if (units.empty() && name == "%") return number / 100;
   const Unit* unit = find_unit(units, name);
   if (unit == nullptr)
     throw InputError(

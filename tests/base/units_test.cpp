@@ -24,6 +24,8 @@ TEST_CASE("Quantities are parsed with their unit, with or without a space") {
   CHECK(parse_quantity("3 t", Dimension::mass, "mass") == 3000);
   CHECK(parse_quantity("1 in", Dimension::length, "cell") == 0.0254);
   CHECK(parse_quantity("0.25", Dimension::number, "safety") == 0.25);
+  CHECK(parse_quantity("2 %", Dimension::number, "error") == 0.02);
+  CHECK(parse_quantity("150%", Dimension::number, "error") == 1.5);
   CHECK(parse_quantity("2e-3", Dimension::length, "cell") == 0.002);
 }
 
