@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/processor_time.hpp"
 #include "sim/fast/fast_model.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/run/integration.hpp"
@@ -119,7 +120,9 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Sta
   trajectory.step = chosen.step;
   trajectory.limited_by = chosen.limited_by;
   require_step_count(scenario.duration, trajectory.step);
+  const double processor_begin = processor_seconds();
   integrate(model, scenario, start, options, plan, trajectory);
+  trajectory.processor_seconds = processor_seconds() - processor_begin;
   trajectory.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return trajectory;

@@ -48,6 +48,9 @@ struct RunOptions {
   /// The surface at which the body touches obstacles; none: its own nodes, which in a coarse level
   /// lie deep inside the base's surface. See contact_skin.
   std::shared_ptr<const ContactSkin> skin = nullptr;
+  /// Ends the run this long after the first contact [s]; none: at the end of the scenario. Not an
+  /// option of scripts.
+  std::optional<double> stop_after_contact = std::nullopt;
   Progress* progress = nullptr;
 };
 constexpr auto option_rows(const RunOptions*) {
@@ -108,6 +111,7 @@ struct Trajectory {
   double simulated = 0;                 ///< [s]; below the duration if a stop rule ended the run
   double wall_seconds = 0;              ///< measured; never part of a result that must repeat
   double planning_seconds = 0;          ///< of these, the time before the first step (plan_runs)
+  double processor_seconds = 0;         ///< of the calling thread from the first step on; measured
   std::vector<Frame> frames;            ///< at the frame times, first and last included
   std::vector<LedgerEntry> ledger;      ///< one per frame; empty if not requested
   std::optional<double> first_contact;  ///< [s]

@@ -42,6 +42,7 @@ class Integration {
         springs_(model, start),
         stop_(scenario.stop),
         sleep_(model, scenario, options.sleep),
+        stop_after_contact_(options.stop_after_contact),
         task_(options.progress, "simulate", steps_left()) {
     body_->prepare();
     energy_.emplace(model, *body_, corners_resist(model, options), options.precision,
@@ -77,7 +78,7 @@ class Integration {
   bool check() {
     check_energy();
     springs_.check(body_->state());
-    if (stop_.check(*body_)) return true;
+    if (stop_.check(*body_) || contact_is_over()) return true;
     const double strain = springs_.largest_strain();
     const bool strained = strain > StepController::kSmallStrain;
     next_check_ = body_->step_number() + (strained || !fast_ ? kCheckOftenEvery : kCheckEvery);
@@ -88,6 +89,11 @@ class Integration {
     watch(strained);
     report();
     return false;
+  }
+
+  bool contact_is_over() const {
+    return stop_after_contact_ && body_->first_contact() &&
+           body_->time() > *body_->first_contact() + *stop_after_contact_;
   }
 
   /// What the scheme looks for until the next check. A strained body is checked often anyway.
@@ -144,6 +150,7 @@ class Integration {
   SpringCheck springs_;
   StopCriterion stop_;
   RestCriterion sleep_;
+  std::optional<double> stop_after_contact_;  // [s]
   Task task_;
   std::optional<EnergyCheck> energy_;
   std::optional<StepController> step_;

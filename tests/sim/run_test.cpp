@@ -152,6 +152,25 @@ TEST_CASE("A stop rule ends the run once the body has been slow for long enough"
   CHECK(run(model, scene).simulated == Approx(1));
 }
 
+TEST_CASE("A run may end a given time after the first contact, with the same frames until then") {
+  const auto& model = test::small_chain().levels[1].model;
+  const Scenario scene = test::small_scene(1.5);
+  const auto whole = run(model, scene);
+  const auto cut = run(model, scene, {.stop_after_contact = 0.1});
+  REQUIRE(whole.first_contact);
+  CHECK(cut.first_contact == whole.first_contact);
+  CHECK(cut.simulated > *cut.first_contact + 0.1);
+  CHECK(cut.simulated < *cut.first_contact + 0.2);
+  for (std::size_t f = 0; f + 1 < cut.frames.size(); ++f)
+    CHECK((cut.frames[f].x == whole.frames[f].x));
+  CHECK(cut.processor_seconds > 0);
+  CHECK(cut.processor_seconds <= cut.wall_seconds);
+
+  Scenario flight = scene;
+  flight.obstacles.clear();
+  CHECK(run(model, flight, {.stop_after_contact = 0.1}).simulated == Approx(1.5));
+}
+
 TEST_CASE("The distance is measured from the named obstacle or along the ground") {
   Scenario scene = test::rods_scene();
   CHECK(measured_distance(scene, {0, 0, 2}, {-1.5, 3, 0.2}) == Approx(3.5));
