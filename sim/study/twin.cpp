@@ -1,0 +1,63 @@
+#include "sim/study/twin.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "lod/transfer.hpp"
+#include "sim/contact/node_surface.hpp"
+
+namespace springlod::sim {
+namespace {
+
+/// For each node of a finer level, the coarse node that contains the nearest base node of its
+/// group. If the coarse level was merged from the finer one, it contains the whole group.
+std::vector<std::uint32_t> coarse_of_fine(const LodChain& chain, std::uint32_t level,
+                                          std::uint32_t coarse) {
+  const MassSpringModel& base = chain.levels[0].model;
+  const MassSpringModel& fine = chain.levels[level].model;
+  const Groups& to_fine = chain.levels[level].of_base;
+  const Groups& to_coarse = chain.levels[coarse].of_base;
+  std::vector<double> nearest(fine.node_count(), std::numeric_limits<double>::infinity());
+  std::vector<std::uint32_t> group(fine.node_count(), 0);
+  for (std::uint32_t i = 0; i < base.node_count(); ++i) {
+    const std::uint32_t node = to_fine.of[i];
+    const double distance = (base.rest[i] - fine.rest[node]).squaredNorm();
+    if (distance >= nearest[node]) continue;
+    nearest[node] = distance;
+    group[node] = to_coarse.of[i];
+  }
+  return group;
+}
+
+}  // namespace
+
+ContactSkin nodes_of_level_as_skin(const LodChain& chain, std::uint32_t level,
+                                   std::uint32_t coarse) {
+  const MassSpringModel& fine = level_at(chain, level).model;
+  const MassSpringModel& body = level_at(chain, coarse).model;
+  const std::vector<std::uint32_t> group = coarse_of_fine(chain, level, coarse);
+  const NodeSurface surface = node_surface(fine);
+  ContactSkin skin;
+  std::vector<lod::GroupPoint> points;
+  for (std::uint32_t i = 0; i < fine.node_count(); ++i) {
+    if (!(fine.contact_area[i] > 0)) continue;
+    points.push_back({fine.rest[i], group[i]});
+    skin.area.push_back(fine.contact_area[i]);
+    skin.base_node.push_back(i);
+    skin.stiffness.push_back(surface.stiffness[i]);
+    const double lost = std::max(0.0, 1 - fine.mass[i] / body.mass[group[i]]);
+    skin.compliance.push_back(surface.stiffness[i] > 0 ? lost / surface.stiffness[i] : 0);
+  }
+  skin.of_nodes = lod::points_from_groups(points, body);
+  return skin;
+}
+
+MassSpringModel stiffened(const MassSpringModel& model, double factor) {
+  MassSpringModel changed = model;
+  for (double& k : changed.stiffness) k *= factor;
+  for (double& c : changed.damping) c *= factor;
+  return changed;
+}
+
+}  // namespace springlod::sim
