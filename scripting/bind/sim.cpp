@@ -255,6 +255,7 @@ void describe_sim(Api& api) {
       .call = run_binding});
   describe_compare(api);
   describe_deviation(api);
+  describe_pick(api);
 }
 
 }  // namespace springlod::scripting

@@ -25,6 +25,7 @@ void describe_merge_log(Api& api);
 void describe_sim(Api& api);
 void describe_compare(Api& api);    // of sim too, called by describe_sim
 void describe_deviation(Api& api);  // likewise
+void describe_pick(Api& api);       // likewise
 void describe_stability(Api& api);  // of sim too
 void describe_render(Api& api);
 void describe_report(Api& api);
