@@ -18,8 +18,8 @@ parser:mutex(
 parser:flag("--measure", "run the base and all levels: measures errors and costs")
 parser:option("--frame-rate", "frames per second")
   :convert(command.number("--frame-rate", 0)):default("60")
-parser:option("--contact", "contact points of the levels")
-  :choices(s.choices.contact):default("nodes")
+parser:option("--contact", "contact points of the levels (default: as in the asset)")
+  :choices(s.choices.contact)
 parser:option("--error-window", "time after the first contact up to which errors are averaged "
   .. "(default: 0.25s)"):convert(command.quantity("--error-window", "time"))
 parser:flag("--json", "print JSON")

@@ -54,7 +54,7 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
 
 TEST_CASE("every command has help") {
   for (const char* command :
-       {"convert", "info", "compare", "demo", "mergelog", "pareto", "pick", "stability"}) {
+       {"convert", "info", "compare", "demo", "mergelog", "pareto", "pick", "picks", "stability"}) {
     const Ran ran = springlod_run({command, "--help"});
     CAPTURE(command);
     CHECK(ran.exit_code == 0);

@@ -142,14 +142,12 @@ TEST_CASE("A window of no time after a contact at the start has no error") {
 
 TEST_CASE("A level without springs is never picked for its error") {
   LodChain chain = certified_chain();
-  MassSpringModel node = chain.levels[2].model;
-  node = MassSpringModel{.rest = {Vec3::Zero()},
-                         .mass = {1},
-                         .volume = {1},
-                         .contact_area = {1},
-                         .border = {1},
-                         .material = {0},
-                         .materials = node.materials};
+  MassSpringModel node;
+  node.rest = {Vec3::Zero()};
+  node.mass = node.volume = node.contact_area = {1};
+  node.border = {1};
+  node.material = {0};
+  node.materials = chain.levels[2].model.materials;
   const std::vector<std::uint32_t> all(chain.levels[0].model.node_count(), 0);
   chain.levels.push_back({.model = node, .of_base = {all, 1}, .made_by = "by hand"});
   const Pick pick = pick_level(chain, scene(), {.error = 0.9});
