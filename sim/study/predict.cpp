@@ -26,8 +26,8 @@ namespace {
 // error of a level, so that the response is still linear.
 constexpr double kStiffnessChange = 0.02;
 
-// Error of the stiffness that acts in a scene, over the mean error of the held-out compliances of
-// the certificate [1]. Above 1, because errors of compliances do not cancel in a scene as they do
+// Error of the stiffness that acts in a scene, over that of the held-out compliances of the
+// certificate [1]. Above 1, because errors of compliances do not cancel in a scene as they do
 // in a mean: measured 1 to 4 in free flight with spin.
 constexpr double kStiffnessPerCompliance = 2;
 
@@ -43,6 +43,21 @@ constexpr double kSafety = 1.1;
 
 // Tolerance by which a frame at the end of the window may seem to be later [s].
 constexpr double kRounding = 1e-9;
+
+// Smallest compliance of a level over the base's that counts [1]: its logarithm diverges at 0.
+constexpr double kLeastCompliance = 1e-3;
+
+/// Mean |ln(c / c0)| of the held-out compliances: the error of the stiffness that they show [1].
+double stiffness_error(const Certificate& certificate) {
+  double sum = 0;
+  int count = 0;
+  for (const Certificate::Load& load : certificate.loads) {
+    if (!load.held_out) continue;
+    sum += std::abs(std::log(std::max(kLeastCompliance, 1 + load.error)));
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
 
 /// One run of the coarsest level.
 struct ProbeRun {
@@ -181,8 +196,8 @@ class Predicting {
       e.contact = distance(runs_[kFirstTwin + level - 1]);
     e.inertia = rotation_difference(chain_.levels[0].model, own.model, scenario_.start, result_.end,
                                     options_.run.frame_rate);
-    e.elastic = kStiffnessPerCompliance * mean_load_error(*own.certificate, true) *
-                distance(runs_[kStiffer]) / kStiffnessChange;
+    e.elastic = kStiffnessPerCompliance * stiffness_error(*own.certificate) *
+                distance(runs_[kStiffer]) / std::log1p(kStiffnessChange);
     e.impulse = (at_nodes() ? kImpulseError : kImpulseErrorAtSurface) * distance(runs_[kFlight]);
     e.error = kSafety * std::sqrt(e.contact * e.contact + e.inertia * e.inertia +
                                   e.elastic * e.elastic + e.impulse * e.impulse);
