@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/contact/normal_law.hpp"
-
 namespace springlod::sim {
 namespace {
 
@@ -56,13 +54,15 @@ void ContactFinder::take_sides(std::size_t obstacle, std::uint32_t point, const 
 }
 
 void ContactFinder::find(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
-                         std::vector<Contact>& contacts) {
+                         const std::vector<Vec3>& frames, std::vector<Contact>& contacts) {
+  const auto position = [&](std::uint32_t node) -> const Vec3& { return frames[node]; };
   contacts.clear();
   for (std::size_t o = 0; o < obstacles_->size(); ++o)
     for (std::uint32_t p = 0; p < points_->count(); ++p) {
       const std::optional<Penetration> at = penetration(o, p, points_->interpolate(p, x));
       if (!at) continue;
-      Contact& found = contacts.emplace_back(contact(o, p, at->normal));
+      Contact& found =
+          contacts.emplace_back(contact(o, p, at->normal, points_->frame(p, position)));
       found.depth = at->depth;
       const double elastic = found.stiffness * found.depth;
       const double rate = -found.normal.dot(points_->interpolate(p, v));
@@ -80,19 +80,27 @@ std::optional<Penetration> ContactFinder::penetration(std::size_t obstacle, std:
                           : depth_in(std::get<SolidBox>(thing.shape), sides_[obstacle][point], x);
 }
 
-Contact ContactFinder::contact(std::size_t obstacle, std::uint32_t point,
-                               const Vec3& normal) const {
+Contact ContactFinder::contact(std::size_t obstacle, std::uint32_t point, const Vec3& normal,
+                               const Mat3& frame) const {
   const Obstacle& thing = (*obstacles_)[obstacle];
+  const ContactPoints::Yielding yielding = points_->yielding(point, normal, frame);
   Contact contact;
   contact.obstacle = static_cast<std::uint32_t>(obstacle);
   contact.point = point;
-  contact.stiffness = points_->stiffness(point, thing);
-  contact.damping = points_->damping(point, thing);
+  contact.stiffness = points_->stiffness(point, thing, yielding.normal);
+  contact.damping = points_->damping(point, thing, yielding.normal);
   contact.friction = thing.friction;
   contact.normal = normal;
-  if (points_->compliance(point) > 0) contact.stick_stiffness = 1 / points_->compliance(point);
+  if (yielding.tangential > 0) contact.stick_stiffness = 1 / yielding.tangential;
+  contact.sideways = yielding.sideways;
   contact.stick_damping = points_->compliance_damping(point);
   return contact;
+}
+
+void Contact::continue_from(const Contact& before) {
+  yield = before.normal_force * sideways;
+  stretch = before.stretch;
+  if (friction > 0) stretch += yield - before.yield;
 }
 
 void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>& now) {
@@ -101,7 +109,7 @@ void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>
   for (Contact& c : now) {
     while (was != before.end() && place(*was) < place(c)) ++was;
     if (was == before.end()) return;
-    if (place(*was) == place(c)) c.stretch = was->stretch;
+    if (place(*was) == place(c)) c.continue_from(*was);
   }
 }
 
@@ -145,8 +153,7 @@ double apply_friction(const ContactPoints& points, double step, std::vector<Cont
 
 double contact_energy(const std::vector<Contact>& contacts) {
   double energy = 0;
-  for (const Contact& c : contacts)
-    energy += penalty_energy(c.stiffness, c.depth) + c.stick_energy();
+  for (const Contact& c : contacts) energy += c.energy();
   return energy;
 }
 

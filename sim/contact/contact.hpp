@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/contact/contact_points.hpp"
+#include "sim/contact/normal_law.hpp"
 #include "sim/scenario.hpp"
 
 namespace springlod::sim {
@@ -24,12 +25,19 @@ struct Contact {
   Vec3 normal = Vec3::UnitZ();      ///< outward normal of the obstacle
   Vec3 slip_change = Vec3::Zero();  ///< change of the point's velocity by friction [m/s]
 
-  /// Stiffness of the tangential contact spring (stick spring), 1 / ContactPoints::compliance
-  /// [N/m]; 0: friction acts on the point directly.
+  /// Stiffness of the tangential contact spring (stick spring), 1 / Yielding::tangential [N/m]; 0:
+  /// friction acts on the point directly.
   double stick_stiffness = 0;
-  double stick_damping = 0;     ///< damping time of the stick spring [s]
-  Vec3 stretch = Vec3::Zero();  ///< stretch of the stick spring; its force is opposite [m]
-  double stick_gain = 0;        ///< energy that the stick spring stored in this step [J]
+  double stick_damping = 0;      ///< damping time of the stick spring [s]
+  Vec3 stretch = Vec3::Zero();   ///< stretch of the stick spring; its force is opposite [m]
+  double stick_gain = 0;         ///< energy that the stick spring stored in this step [J]
+  Vec3 sideways = Vec3::Zero();  ///< see ContactPoints::Yielding [m/N]
+  /// Displacement of the surface along the face by the normal force of the last step [m].
+  Vec3 yield = Vec3::Zero();
+  /// Continues the contact of the same point with the same obstacle in the last step: takes over
+  /// the stretch of the stick spring, whose anchor the yield moves.
+  void continue_from(const Contact& before);
+  double energy() const { return penalty_energy(stiffness, depth) + stick_energy(); }    ///< [J]
   double stick_energy() const { return 0.5 * stick_stiffness * stretch.squaredNorm(); }  ///< [J]
 
   /// Derivative of normal_force with respect to depth, if the depth grows over a step of length dt
@@ -54,12 +62,17 @@ class ContactFinder {
                 const std::vector<Vec3>& x);
   /// Contacts for node positions x and velocities v (for contact damping), ordered by obstacle,
   /// then by point.
-  void find(const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Contact>& contacts);
+  /// `frames`: node positions that show how the surface is turned, which may be those at the start
+  /// of a step.
+  void find(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& frames,
+            std::vector<Contact>& contacts);
 
   /// Penetration of one point at x into one obstacle; none outside.
   std::optional<Penetration> penetration(std::size_t obstacle, std::uint32_t point, const Vec3& x);
-  /// A contact of depth 0 and without force between a point and a face of an obstacle.
-  Contact contact(std::size_t obstacle, std::uint32_t point, const Vec3& normal) const;
+  /// A contact of depth 0 and without force between a point and a face of an obstacle. `frame`: of
+  /// the point.
+  Contact contact(std::size_t obstacle, std::uint32_t point, const Vec3& normal,
+                  const Mat3& frame) const;
   /// Updates the sides of a point that was not checked in the last steps and is at x, outside the
   /// obstacle.
   void take_sides(std::size_t obstacle, std::uint32_t point, const Vec3& x);

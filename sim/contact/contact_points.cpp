@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "base/script_number.hpp"
@@ -17,6 +19,10 @@ constexpr double kAutomaticStiffness = 4;
 
 // The same for a node without springs, which has no stiffness [N/m3].
 constexpr double kLooseStiffness = 1e6;
+
+// Smallest moment of the nodes of a point about their mean over the largest [1]: of nodes nearer to
+// a plane than a tenth of their extent, small displacements would turn the surface.
+constexpr double kLeastMoment = 1e-2;
 
 /// Mean damping time of the springs of each node [s], N; 0 for a node without springs.
 std::vector<double> damping_times(const MassSpringModel& model) {
@@ -56,6 +62,7 @@ ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& sk
   }
   const std::vector<double> damping = damping_times(model);
   for (std::uint32_t p = 0; p < count(); ++p) {
+    set_gradients(model, p);
     compliance_damping_[p] = 0;
     for (const Share& share : shares(p))
       compliance_damping_[p] += std::abs(share.weight) / reach_[p] * damping[share.node];
@@ -80,10 +87,46 @@ void ContactPoints::end_point(const MassSpringModel& model, std::uint32_t number
   automatic_stiffness_.push_back(surface.stiffness > 0 ? kAutomaticStiffness * surface.stiffness
                                                        : kLooseStiffness * surface.area);
   compliance_.push_back(surface.compliance);
+  turns_.push_back(0);
   compliance_damping_.push_back(0);
   mass_.push_back(mass);
   reach_.push_back(reach);
   number_.push_back(number);
+}
+
+// The gradients of a linear fit to the nodes: they reproduce every affine motion.
+void ContactPoints::set_gradients(const MassSpringModel& model, std::uint32_t point) {
+  if (!yields(point)) return;
+  const std::span<Share> of_point(shares_.data() + start_[point],
+                                  start_[point + 1] - start_[point]);
+  Vec3 center = Vec3::Zero();
+  for (const Share& share : of_point)
+    center += model.rest[share.node] / static_cast<double>(of_point.size());
+  Mat3 moments = Mat3::Zero();
+  for (const Share& share : of_point) {
+    const Vec3 arm = model.rest[share.node] - center;
+    moments += arm * arm.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(moments);
+  if (!(axes.eigenvalues()[0] > kLeastMoment * axes.eigenvalues()[2])) {
+    // The nodes of the point do not show how the surface turns.
+    compliance_[point] = compliance_[point].trace() / 3 * Mat3::Identity();
+    return;
+  }
+  turns_[point] = 1;
+  const Mat3 inverse = moments.inverse();
+  for (Share& share : of_point) share.gradient = inverse * (model.rest[share.node] - center);
+}
+
+ContactPoints::Yielding ContactPoints::yielding(std::size_t point, const Vec3& normal,
+                                                const Mat3& frame) const {
+  if (!yields(point)) return {};
+  const Mat3 compliance = frame * compliance_[point] * frame.transpose();
+  const Vec3 yield = compliance * normal;
+  const double along = normal.dot(yield);
+  return {.normal = along,
+          .tangential = (compliance.trace() - along) / 2,
+          .sideways = yield - along * normal};
 }
 
 std::string ContactPoints::name(std::size_t point) const {

@@ -20,6 +20,16 @@ class ContactPoints {
     std::uint32_t node = 0;
     double weight = 0;  ///< w_i [1]
     double kick = 0;    ///< change of the node's velocity when an impulse changes the point's [1]
+    /// The sum of x_i gradient_i^T is the deformation gradient at the point. Zero for points of
+    /// which turns() is false [1/m].
+    Vec3 gradient = Vec3::Zero();
+  };
+
+  /// How the surface yields at a point, in world axes.
+  struct Yielding {
+    double normal = 0;             ///< along the normal by a unit normal force [m/N]
+    double tangential = 0;         ///< along the face by a unit force along it, mean [m/N]
+    Vec3 sideways = Vec3::Zero();  ///< along the face by a unit normal force [m/N]
   };
 
   /// The nodes with a contact area, in ascending order.
@@ -29,22 +39,37 @@ class ContactPoints {
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(area_.size()); }
   std::uint32_t node_count() const { return node_count_; }
-  double area(std::size_t point) const { return area_[point]; }              ///< [m2]
-  double compliance(std::size_t point) const { return compliance_[point]; }  ///< s_p [m/N]
+  double area(std::size_t point) const { return area_[point]; }  ///< [m2]
+  /// Whether the surface yields at the point, beyond what the nodes do.
+  bool yields(std::size_t point) const { return !compliance_[point].isZero(0); }
+  /// Whether its compliance turns with the body.
+  bool turns(std::size_t point) const { return turns_[point] != 0; }
+  /// The deformation gradient at the point, the identity at rest; `position`: of each node. Of use
+  /// only to yielding(): the identity for points that do not yield.
+  template <class Position>
+  Mat3 frame(std::size_t point, const Position& position) const {
+    if (!turns(point)) return Mat3::Identity();
+    Mat3 frame = Mat3::Zero();
+    for (const Share& share : shares(point))
+      frame += position(share.node) * share.gradient.transpose();
+    return frame;
+  }
+  /// Its compliance under a face with the outward normal `normal`: eq. 65c of docs/method.md.
+  Yielding yielding(std::size_t point, const Vec3& normal, const Mat3& frame) const;
   /// Damping time of the compliance: mean of the springs of the nodes of the point [s].
   double compliance_damping(std::size_t point) const { return compliance_damping_[point]; }
-  /// Stiffness of its contact with an obstacle, in series with the compliance: k_n in eq. 64 of
+  /// Stiffness of its contact with an obstacle, in series with a compliance [m/N]: k_n in eq. 64 of
   /// docs/method.md [N/m]. Without a stiffness of the obstacle, the contact without compliance is
   /// kAutomaticStiffness times as stiff as the surface of the body there.
-  double stiffness(std::size_t point, const Obstacle& obstacle) const {
+  double stiffness(std::size_t point, const Obstacle& obstacle, double compliance) const {
     const double bare =
         obstacle.stiffness ? *obstacle.stiffness * area_[point] : automatic_stiffness_[point];
-    return bare / (1 + bare * compliance_[point]);
+    return bare / (1 + bare * compliance);
   }
   /// Damping time of that contact [s]: beta_n in eq. 64.
-  double damping(std::size_t point, const Obstacle& obstacle) const {
+  double damping(std::size_t point, const Obstacle& obstacle, double compliance) const {
     const double given =
-        stiffness(point, obstacle) * compliance_[point];  // fraction of the depth [1]
+        stiffness(point, obstacle, compliance) * compliance;  // fraction of the depth [1]
     return (1 - given) * obstacle.damping + given * compliance_damping_[point];
   }
   /// Effective mass for an impulse at the point, 1 / sum (w_i^2 / m_i) [kg].
@@ -78,10 +103,11 @@ class ContactPoints {
  private:
   /// The properties of a point that is complete but for them.
   struct Surface {
-    double area = 0;        // [m2]
-    double stiffness = 0;   // see NodeSurface [N/m]
-    double compliance = 0;  // [m/N]
+    double area = 0;                 // [m2]
+    double stiffness = 0;            // see NodeSurface [N/m]
+    Mat3 compliance = Mat3::Zero();  // at rest [m/N]
   };
+  void set_gradients(const MassSpringModel& model, std::uint32_t point);
   void end_point(const MassSpringModel& model, std::uint32_t number, const Surface& surface);
 
   std::uint32_t node_count_ = 0;
@@ -89,7 +115,9 @@ class ContactPoints {
   std::vector<std::uint32_t> start_{0};
   std::vector<Share> shares_;
   std::vector<double> area_, automatic_stiffness_;
-  std::vector<double> compliance_, compliance_damping_, mass_, reach_;
+  std::vector<Mat3> compliance_;  // at rest [m/N]
+  std::vector<std::uint8_t> turns_;
+  std::vector<double> compliance_damping_, mass_, reach_;
   std::vector<std::uint32_t> number_;
 };
 

@@ -2,12 +2,15 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
 #include "lod/transfer.hpp"
+#include "sim/contact/lost_compliance.hpp"
 #include "sim/contact/node_surface.hpp"
 #include "sim/contact/skin_patches.hpp"
 
@@ -30,6 +33,26 @@ std::vector<double> lost_freedom(const MassSpringModel& base, const Groups& grou
 // Stiffness of a node that lost no freedom [N/m].
 constexpr double kRigid = std::numeric_limits<double>::infinity();
 
+// Smallest compliance of a point in any direction over the estimate of eq. 65 [1]. A level is more
+// compliant than its base where the nodes of a point happen to be soft.
+constexpr double kLeastCompliance = 0.2;
+
+/// The symmetric matrix with no eigenvalue below `least`.
+Mat3 at_least(double least, const Mat3& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(matrix);
+  const Vec3 along = axes.eigenvalues().cwiseMax(least);
+  return axes.eigenvectors() * along.asDiagonal() * axes.eigenvectors().transpose();
+}
+
+bool is_compliance(const Mat3& compliance) {
+  constexpr double kRounding = 1e-9;  // over the largest entry [1]
+  if (!compliance.allFinite()) return false;
+  const double rounding = kRounding * compliance.cwiseAbs().maxCoeff();
+  return (compliance - compliance.transpose()).cwiseAbs().maxCoeff() <= rounding &&
+         Eigen::SelfAdjointEigenSolver<Mat3>(compliance, Eigen::EigenvaluesOnly).eigenvalues()[0] >=
+             -rounding;
+}
+
 }  // namespace
 
 ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
@@ -47,6 +70,9 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
   }
   ContactSkin skin;
   std::vector<lod::GroupPoint> means;
+  Binding of_base;
+  of_base.start.push_back(0);
+  std::vector<double> estimate;  // of the compliance [m/N]
   for (std::vector<std::uint32_t> patch : flat_patches(points, mean_spring_length(base))) {
     for (std::uint32_t& member : patch) member = nodes[member];
     double area = 0;
@@ -62,13 +88,27 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
       else
         yielding = kRigid;
     }
+    for (const std::uint32_t i : patch) {
+      of_base.node.push_back(i);
+      of_base.weight.push_back(base.contact_area[i] / area);
+    }
+    of_base.start.push_back(static_cast<std::uint32_t>(of_base.node.size()));
     means.push_back({moment / area, groups.of[patch.front()]});
     skin.area.push_back(area);
     skin.base_node.push_back(patch.front());
     skin.stiffness.push_back(stiffness);
-    skin.compliance.push_back(yielding > 0 ? 1 / yielding : 0);
+    estimate.push_back(yielding > 0 ? 1 / yielding : 0);
   }
   skin.of_nodes = lod::points_from_groups(means, skinned.model);
+  skin.compliance.assign(means.size(), Mat3::Zero());
+  if (level == 0) return skin;
+  const std::vector<std::optional<Mat3>> removed =
+      lost_compliance(chain, level, {of_base, skin.of_nodes, means});
+  for (std::size_t p = 0; p < means.size(); ++p) {
+    if (!(estimate[p] > 0)) continue;
+    skin.compliance[p] = removed[p] ? at_least(kLeastCompliance * estimate[p], *removed[p])
+                                    : Mat3(estimate[p] * Mat3::Identity());
+  }
   return skin;
 }
 
@@ -90,10 +130,11 @@ void validate(const ContactSkin& skin, std::uint32_t node_count) {
       throw InputError(
           fmt::format("contact skin: the stiffness of point {} is {}; it must be 0 or more",
                       script_number(p), skin.stiffness[p]));
-    if (!(std::isfinite(skin.compliance[p]) && skin.compliance[p] >= 0))
+    if (!is_compliance(skin.compliance[p]))
       throw InputError(
-          fmt::format("contact skin: the compliance of point {} is {}; it must be 0 or more",
-                      script_number(p), skin.compliance[p]));
+          fmt::format("contact skin: the compliance of point {} must be finite, symmetric and "
+                      "positive semidefinite",
+                      script_number(p)));
     if (skin.of_nodes.start[p] == skin.of_nodes.start[p + 1])
       throw InputError(fmt::format("contact skin: point {} is bound to no node", script_number(p)));
   }

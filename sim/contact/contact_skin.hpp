@@ -5,6 +5,7 @@
 
 #include "model/binding.hpp"
 #include "model/chain.hpp"
+#include "model/vec.hpp"
 
 namespace springlod::sim {
 
@@ -17,10 +18,10 @@ struct ContactSkin {
   std::vector<double> area;              ///< [m2] > 0, P
   std::vector<std::uint32_t> base_node;  ///< largest base node of each patch, ascending, P
   std::vector<double> stiffness;         ///< sum of NodeSurface::stiffness [N/m] >= 0, P
-  /// Local surface compliance that merging removed, neighbours held [m/N] >= 0, P: eq. 65 of
-  /// docs/method.md. It is added in series with the contact penalty, and as a tangential contact
-  /// spring (stick spring) of the same compliance with friction.
-  std::vector<double> compliance;
+  /// Local surface compliance that merging removed [m/N], P: symmetric positive semidefinite, in
+  /// the axes of the body at rest; eq. 65a of docs/method.md. It turns with the body: see
+  /// ContactPoints::yielding.
+  std::vector<Mat3> compliance;
 };
 
 /// The skin of level `level`; that of level 0 is the base's own nodes. Throws InputError if there

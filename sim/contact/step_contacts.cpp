@@ -36,9 +36,9 @@ void StepContacts::check(const Contact& before, StepNodes& nodes) {
     path.to += shares_[s].weight * of_node.to;
   }
   const auto end = finder_->penetration(before.obstacle, before.point, path.to);
-  Contact contact =
-      finder_->contact(before.obstacle, before.point, end ? end->normal : before.normal);
-  contact.stretch = before.stretch;
+  Contact contact = finder_->contact(before.obstacle, before.point,
+                                     end ? end->normal : before.normal, frame(before.point, nodes));
+  contact.continue_from(before);
   touches_.push_back(touch(contact, &before, path, end));
   start_from(before, touches_.back(), nodes);
 }
@@ -48,12 +48,20 @@ void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const Step
   const auto end = finder_->penetration(obstacle, point, path.to);
   if (!end) return;
   add_shares(point, nodes);
-  touches_.push_back(touch(finder_->contact(obstacle, point, end->normal), nullptr, path, end));
+  touches_.push_back(touch(finder_->contact(obstacle, point, end->normal, frame(point, nodes)),
+                           nullptr, path, end));
 }
 
 void StepContacts::add_shares(std::uint32_t point, StepNodes& nodes) {
   for (const ContactPoints::Share& share : points_->shares(point))
     shares_.push_back({nodes.slot(share.node), share.weight, share.kick});
+}
+
+// The nodes of the point were added last.
+Mat3 StepContacts::frame(std::uint32_t point, const StepNodes& nodes) const {
+  auto share = shares_.end() - static_cast<std::ptrdiff_t>(points_->shares(point).size());
+  return points_->frame(
+      point, [&](std::uint32_t) -> const Vec3& { return nodes.path((share++)->slot).from; });
 }
 
 StepContacts::Touch StepContacts::touch(const Contact& contact, const Contact* was,
@@ -80,9 +88,10 @@ StepContacts::Touch StepContacts::touch(const Contact& contact, const Contact* w
     touch.before = was->depth;
     touch.level = was->depth + contact.normal.dot(path.from);
   }
-  // A point on another face of a box than before, or that other contacts pushed in.
-  losses_.contact += (was != nullptr ? penalty_energy(was->stiffness, was->depth) : 0) -
-                     penalty_energy(contact.stiffness, touch.before);
+  // A point on another face of a box than before, that other contacts pushed in, or where the
+  // surface has turned.
+  losses_.contact += (was != nullptr ? was->energy() : 0) -
+                     penalty_energy(contact.stiffness, touch.before) - contact.stick_energy();
   return touch;
 }
 

@@ -72,6 +72,8 @@ class StepContacts {
 
   /// Adds the nodes of a point to those of the step, and the point's shares in them.
   void add_shares(std::uint32_t point, StepNodes& nodes);
+  /// See ContactPoints::frame; at the start of the step, of the point whose shares were added last.
+  Mat3 frame(std::uint32_t point, const StepNodes& nodes) const;
   /// A contact whose shares were added last. `was`: see before(), or null. `end`: at the end of
   /// the path, if there is any.
   Touch touch(const Contact& contact, const Contact* was, const StepPath& path,

@@ -61,7 +61,7 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
       v_minus_(start.v),
       v_plus_(start.v),
       v_step_(start.v) {
-  finder_.find(x_, start.v, contacts_);
+  finder_.find(x_, start.v, x_, contacts_);
   correction_.start(contacts_);
 }
 

@@ -109,7 +109,7 @@ double BackwardEuler::energy(const std::vector<Vec3>& x) {
     trial_velocity_[i] = (x[i] - x_[i]) / step_;
   }
   ContactFinder finder = finder_;  // a trial must not change the side from which a node came
-  finder.find(x, trial_velocity_, trial_contacts_);
+  finder.find(x, trial_velocity_, x_, trial_contacts_);
   for (const Contact& c : trial_contacts_)
     energy += c.normal_force * c.normal_force / (2 * c.implicit_stiffness(step_));
   spring_updates_ += model_->spring_count();

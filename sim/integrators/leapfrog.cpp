@@ -24,7 +24,7 @@ Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const
       x_next_(start.x),
       v_next_(start.v),
       booked_corners_(volumes_ ? corner_energy(model, start.x) : 0) {
-  finder_.find(x_, start.v, contacts_);
+  finder_.find(x_, start.v, x_, contacts_);
   correction_.solver().set(contacts_);
   find_forces(false);
   for (std::size_t i = 0; i < x_.size(); ++i)

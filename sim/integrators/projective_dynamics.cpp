@@ -42,7 +42,7 @@ double ProjectiveDynamics::held_by(const Contact& contact,
 void ProjectiveDynamics::take_contacts() {
   for (std::size_t i = 0; i < x_.size(); ++i) v_next_[i] = (x_next_[i] - x_[i]) / step_;
   ContactFinder finder = finder_;  // a trial must not change the side from which a node came
-  finder.find(x_next_, v_next_, trial_contacts_);
+  finder.find(x_next_, v_next_, x_, trial_contacts_);
   std::vector<double> touching(model_->node_count(), 0.0);
   for (const Contact& c : trial_contacts_)
     for (const ContactPoints::Share& share : points_.shares(c.point))

@@ -19,7 +19,7 @@ WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, con
       volumes_(options.volumes && !implicit_),
       correction_(model, points_, finder_, obstacle_count_, options.volumes),
       booked_corners_(volumes_ ? corner_energy(model, start.x) : 0) {
-  finder_.find(x_, v_, contacts_);
+  finder_.find(x_, v_, x_, contacts_);
   correction_.solver().set(contacts_);
 }
 
@@ -76,7 +76,7 @@ double WholeStep::gain_by_shift(const std::vector<Vec3>& free_x, const std::vect
 }
 
 void WholeStep::find_contacts() {
-  finder_.find(x_next_, v_next_, next_contacts_);
+  finder_.find(x_next_, v_next_, x_, next_contacts_);
   keep_stick_springs(contacts_, next_contacts_);
   add_friction();
   for (const Contact& c : next_contacts_)

@@ -57,7 +57,7 @@ void Xpbd::solve() {
     v_next_[i] = v_[i] + step_ * gravity_;
     x_next_[i] = x_[i] + step_ * v_next_[i];
   }
-  finder_.find(x_next_, v_next_, candidates_);
+  finder_.find(x_next_, v_next_, x_, candidates_);
   found_at_.clear();
   for (const Contact& c : candidates_) found_at_.push_back(points_.interpolate(c.point, x_next_));
   contact_multiplier_.assign(candidates_.size(), 0.0);

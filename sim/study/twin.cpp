@@ -47,7 +47,8 @@ ContactSkin nodes_of_level_as_skin(const LodChain& chain, std::uint32_t level,
     skin.base_node.push_back(i);
     skin.stiffness.push_back(surface.stiffness[i]);
     const double lost = std::max(0.0, 1 - fine.mass[i] / body.mass[group[i]]);
-    skin.compliance.push_back(surface.stiffness[i] > 0 ? lost / surface.stiffness[i] : 0);
+    skin.compliance.emplace_back((surface.stiffness[i] > 0 ? lost / surface.stiffness[i] : 0) *
+                                 Mat3::Identity());
   }
   skin.of_nodes = lod::points_from_groups(points, body);
   return skin;

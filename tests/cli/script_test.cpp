@@ -94,6 +94,7 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     local second = s.jittered(scene, base, {number = 2})
     assert(#s.deviation(s.run(chain[1], second), s.run(base, second)) > 1)
     assert(s.options_of("Guard")[2].name == "least_springs")
+    assert(s.pick(chain, scene, {error = "90 %", measure = true}).level == 2)
     local modes = s.modes(chain[1], {count = 3, seed = 2})
     assert(#modes == 3 and modes[1].frequency > 0 and #modes[1].shape == chain[1].node_count)
     assert(s.deflect(base, {force = {[1] = {1, 0, 0}}}).compliance > 0)

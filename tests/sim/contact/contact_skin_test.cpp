@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
@@ -58,7 +59,7 @@ struct Pressed {
   std::vector<Contact> contacts_at(const std::vector<Vec3>& at) const {
     ContactFinder finder(points, obstacles, x);
     std::vector<Contact> contacts;
-    finder.find(at, std::vector<Vec3>(at.size(), Vec3::Zero()), contacts);
+    finder.find(at, std::vector<Vec3>(at.size(), Vec3::Zero()), x, contacts);
     return contacts;
   }
 };
@@ -146,20 +147,30 @@ TEST_CASE("The contact of the skin has the surface compliance that merging remov
   const ContactSkin skin = contact_skin(chain, 1);
   // The mean spring direction of node 0 is (1, 0, -3) / sqrt(10), and its stiffness along it is
   // (100 + 9 * 300) / 10 N/m. It lost 3/4 of its degrees of freedom; the pair keeps the rest.
-  CHECK(skin.compliance[0] == Approx(0.75 / 280));
-  CHECK(skin.compliance[2] == 0);
+  const Mat3& compliance = skin.compliance[0];
+  CHECK((compliance - compliance.transpose()).norm() < 1e-12 * compliance.norm());
+  CHECK(Eigen::SelfAdjointEigenSolver<Mat3>(compliance).eigenvalues()[0] >= 0.19 * 0.75 / 280);
+  CHECK(skin.compliance[2].isZero(0));
+  // The two nodes of the point do not show how it turns: its compliance is the mean of all
+  // directions.
+  const double mean = compliance.trace() / 3;
   const ContactPoints points(level, skin);
+  const ContactPoints::Yielding yielding = points.yielding(0, Vec3::UnitX(), Mat3::Identity());
+  CHECK(yielding.normal == Approx(mean));
+  CHECK(yielding.tangential == Approx(mean));
+  CHECK(yielding.sideways.norm() < 1e-12 * mean);
+  CHECK(points.yielding(2, Vec3::UnitX(), Mat3::Identity()).normal == 0);
   Obstacle mat;
   mat.stiffness = 1000;
   mat.damping = 0.002;
-  CHECK(points.stiffness(0, mat) == Approx(1 / (1 / 100. + skin.compliance[0])));
-  CHECK(points.stiffness(2, mat) == Approx(100));
-  const double given = points.stiffness(0, mat) * skin.compliance[0];
-  CHECK(points.damping(0, mat) == Approx((1 - given) * 0.002 + given * 0.01));
-  CHECK(points.damping(2, mat) == 0.002);
+  CHECK(points.stiffness(0, mat, mean) == Approx(1 / (1 / 100. + mean)));
+  CHECK(points.stiffness(2, mat, 0) == Approx(100));
+  const double given = points.stiffness(0, mat, mean) * mean;
+  CHECK(points.damping(0, mat, mean) == Approx((1 - given) * 0.002 + given * 0.01));
+  CHECK(points.damping(2, mat, 0) == 0.002);
   mat.stiffness.reset();  // from the body
-  CHECK(points.stiffness(0, mat) == Approx(1 / (1 / (4 * 280.) + skin.compliance[0])));
-  for (const double compliance : contact_skin(chain, 0).compliance) CHECK(compliance == 0);
+  CHECK(points.stiffness(0, mat, mean) == Approx(1 / (1 / (4 * 280.) + mean)));
+  for (const Mat3& of_base : contact_skin(chain, 0).compliance) CHECK(of_base.isZero(0));
 }
 
 TEST_CASE("A force on the skin is the same force and torque on the nodes") {
@@ -308,8 +319,8 @@ TEST_CASE("The predicted step of a level with a skin holds on a stiff floor") {
   scene.start.spin = {0.2, 0.3, 0};
   scene.duration = 0.3;
   ContactSkin hard = contact_skin(chain, 2);
-  std::fill(hard.compliance.begin(), hard.compliance.end(),
-            0.0);  // only the stiffness of the contact
+  // Only the stiffness of the contact.
+  std::fill(hard.compliance.begin(), hard.compliance.end(), Mat3(Mat3::Zero()));
   const auto skin = std::make_shared<ContactSkin>(hard);
   const MassSpringModel& model = chain.levels[2].model;
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::runge_kutta_4);
@@ -370,7 +381,10 @@ TEST_CASE("A skin of another model or of no level is refused") {
   skin.area[0] = 0;
   CHECK_THROWS_AS(validate(skin, chain.levels[1].model.node_count()), InputError);
   skin = contact_skin(chain, 1);
-  skin.compliance[0] = -1;
+  skin.compliance[0](1, 1) = -1;
+  CHECK_THROWS_AS(validate(skin, chain.levels[1].model.node_count()), InputError);
+  skin = contact_skin(chain, 1);
+  skin.compliance[0](0, 1) += 1;
   CHECK_THROWS_AS(validate(skin, chain.levels[1].model.node_count()), InputError);
   skin = contact_skin(chain, 1);
   skin.base_node.pop_back();

@@ -44,7 +44,7 @@ TEST_CASE("A node is pushed out by kappa times area times depth, damping never p
   ContactFinder finder(points, obstacles, x);
   std::vector<Contact> contacts;
   const auto force_at = [&](double vz) {
-    finder.find(x, {Vec3(1, 2, vz)}, contacts);
+    finder.find(x, {Vec3(1, 2, vz)}, x, contacts);
     REQUIRE(contacts.size() == 1);
     return contacts[0].normal_force;
   };
@@ -54,7 +54,7 @@ TEST_CASE("A node is pushed out by kappa times area times depth, damping never p
   CHECK(force_at(3) == 0);
   CHECK(contacts[0].damping_force == Approx(-10));
   CHECK(contact_energy(contacts) == Approx(0.025));  // 1/2 * 2000 * 0.005^2
-  finder.find({Vec3(0, 0, 1e-9)}, {Vec3::Zero()}, contacts);
+  finder.find({Vec3(0, 0, 1e-9)}, {Vec3::Zero()}, x, contacts);
   CHECK(contacts.empty());
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("A node pressed past the middle of a thin box goes back where it came 
   ContactFinder finder(points, obstacles, {0.02 * out});
   std::vector<Contact> contacts;
   for (const double height : {0.011, 0.009, 0.003, -0.003, -0.009, -0.012}) {
-    finder.find({height * out}, {Vec3::Zero()}, contacts);
+    finder.find({height * out}, {Vec3::Zero()}, {height * out}, contacts);
     REQUIRE(contacts.size() == (height < 0.01 ? 1 : 0));
     if (contacts.empty()) continue;
     CHECK(contacts[0].depth == Approx(0.01 - height));
@@ -170,7 +170,7 @@ TEST_CASE("A node pressed past the middle of a thin box goes back where it came 
   }
   // A point that started below the same plate is pushed down.
   ContactFinder from_below(points, obstacles, {-0.02 * out});
-  from_below.find({-0.003 * out}, {Vec3::Zero()}, contacts);
+  from_below.find({-0.003 * out}, {Vec3::Zero()}, {-0.003 * out}, contacts);
   REQUIRE(contacts.size() == 1);
   CHECK((contacts[0].normal + out).norm() < 1e-12);
 }
@@ -187,7 +187,7 @@ TEST_CASE("The depth in a box never jumps while a node slides across its top and
   std::vector<Contact> contacts;
   double before = 0;
   const auto go_on = [&] {
-    finder.find({at}, {Vec3::Zero()}, contacts);
+    finder.find({at}, {Vec3::Zero()}, {at}, contacts);
     const double depth = contacts.empty() ? 0 : contacts[0].depth;
     CHECK(std::abs(depth - before) <= 1.5 * step);
     before = depth;
