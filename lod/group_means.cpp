@@ -11,14 +11,17 @@ constexpr double kRounding = 1e-9;
 
 }  // namespace
 
+std::vector<double> group_masses(const std::vector<double>& mass, const Groups& groups) {
+  std::vector<double> sum(groups.count, 0);
+  for (std::size_t i = 0; i < mass.size(); ++i) sum[groups.of[i]] += mass[i];
+  return sum;
+}
+
 std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<double>& mass,
                               const Groups& groups) {
   std::vector<Vec3> sum(groups.count, Vec3::Zero());
-  std::vector<double> weight(groups.count, 0);
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    sum[groups.of[i]] += mass[i] * field[i];
-    weight[groups.of[i]] += mass[i];
-  }
+  const std::vector<double> weight = group_masses(mass, groups);
+  for (std::size_t i = 0; i < field.size(); ++i) sum[groups.of[i]] += mass[i] * field[i];
   for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= weight[g];
   return sum;
 }

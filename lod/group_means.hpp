@@ -6,6 +6,9 @@
 
 namespace springlod::lod {
 
+/// Mass of each group [kg], from that of the fine nodes, N [kg].
+std::vector<double> group_masses(const std::vector<double>& mass, const Groups& groups);
+
 /// Means of a field on the fine nodes, N, over each group, weighted by `mass`, N [kg].
 std::vector<Vec3> group_means(const std::vector<Vec3>& field, const std::vector<double>& mass,
                               const Groups& groups);

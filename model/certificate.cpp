@@ -12,9 +12,6 @@
 namespace springlod::inline model {
 namespace {
 
-// Number of the modes whose errors are averaged.
-constexpr std::size_t kLowestModes = 10;
-
 void check_finite(std::initializer_list<double> numbers, const std::string& owner) {
   for (const double number : numbers)
     if (!std::isfinite(number))

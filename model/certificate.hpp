@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace springlod::inline model {
+
+/// Number of lowest modes over which a certificate averages; they carry most of a motion.
+inline constexpr std::size_t kLowestModes = 10;
 
 /// Measured properties of a level beside those of its base, stored with it in the asset
 /// (docs/method.md, section 6). Relative errors are level / base - 1. All values are those of the

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
+
+#include "model/certificate.hpp"
 
 namespace springlod::lod {
 
-/// Number of lowest frequencies that the tolerance applies to without a factor.
-inline constexpr std::size_t kLowestModes = 10;
-/// Tolerances of the higher modes and of the smooth loads, relative to that of the lowest
-/// frequencies (docs/method.md, eq. 44).
+/// Tolerances of the higher modes and of the smooth loads, relative to that of the kLowestModes
+/// lowest frequencies (docs/method.md, eq. 44).
 inline constexpr double kHigherModesTolerance = 3, kSmoothLoadsTolerance = 8;
 
 /// Tolerance of the mean error of the lowest frequencies [1]: `requested` if above 0, otherwise

@@ -26,9 +26,11 @@ namespace {
 /// Base frequencies within this fraction of each other count as one multiple eigenvalue, such as a
 /// sphere has. The mode shapes of a multiple eigenvalue are not unique.
 constexpr double kSameFrequency = 0.05;
+
 /// Values measured of the base and of each level.
 struct Measured {
   std::vector<elastic::Mode> modes;
+  std::vector<double> decay;  // of the modes [1/s]
   std::vector<elastic::StaticSolution> solutions;
   std::vector<elastic::MaterialModuli> moduli;
   double highest_frequency = 0, stable_step = 0, cost = 0;
@@ -40,6 +42,8 @@ Measured measure(const MassSpringModel& model, const std::vector<elastic::Static
   const elastic::ElasticBody body = elastic::elastic_body(model, {.anchored = anchored});
   Measured measured;
   measured.modes = elastic::lowest_modes(body, {.count = modes}).modes;
+  for (const elastic::Mode& mode : measured.modes)
+    measured.decay.push_back(decay_rate(model, mode));
   measured.solutions = elastic::solve_static(body, loads, {.balance_free_motions = true});
   measured.moduli = elastic::measured_moduli(
       model, {measured.solutions.begin(),
@@ -51,28 +55,20 @@ Measured measure(const MassSpringModel& model, const std::vector<elastic::Static
   return measured;
 }
 
-double dot(const MassSpringModel& model, const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
-  double sum = 0;
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) sum += model.mass[i] * x[i].dot(y[i]);
-  return sum;
-}
-
-void compare_modes(const ModalMotion& motion, Certificate& certificate) {
-  const std::vector<elastic::Mode>& base = motion.base_modes;
-  const std::vector<elastic::Mode>& found = motion.level_modes;
-  const std::vector<std::vector<Vec3>>& shapes = motion.shapes;
-  const MassSpringModel& model = motion.level.model;
-  for (std::size_t i = 0; i < std::min(base.size(), found.size()); ++i) {
+void compare_modes(const Measured& base, const Measured& found,
+                   const std::vector<std::vector<Vec3>>& shapes, const std::vector<double>& mass,
+                   Certificate& certificate) {
+  for (std::size_t i = 0; i < std::min(base.modes.size(), found.modes.size()); ++i) {
     Certificate::Frequency& frequency = certificate.frequencies.emplace_back();
-    frequency.level = found[i].frequency();
-    frequency.base = base[i].frequency();
-    frequency.decay = decay_rate(model, found[i]);
-    frequency.base_decay = decay_rate(motion.base, base[i]);
-    for (std::size_t j = 0; j < base.size(); ++j) {
-      const double ratio = base[j].angular_frequency / base[i].angular_frequency;
+    frequency.level = found.modes[i].frequency();
+    frequency.base = base.modes[i].frequency();
+    frequency.decay = found.decay[i];
+    frequency.base_decay = base.decay[i];
+    for (std::size_t j = 0; j < base.modes.size(); ++j) {
+      const double ratio = base.modes[j].angular_frequency / base.modes[i].angular_frequency;
       if (std::abs(ratio - 1) > kSameFrequency) continue;
-      const double along = dot(model, shapes[j], found[i].shape);
-      frequency.mac += along * along / dot(model, shapes[j], shapes[j]);
+      const double along = mass_product(mass, shapes[j], found.modes[i].shape);
+      frequency.mac += along * along / mass_product(mass, shapes[j], shapes[j]);
     }
     frequency.mac = std::min(1.0, frequency.mac);
   }
@@ -80,11 +76,12 @@ void compare_modes(const ModalMotion& motion, Certificate& certificate) {
 
 void compare_motion(const LodChain& chain, const Level& level, const Measured& base,
                     const Measured& found, Certificate& certificate) {
+  const MassSpringModel& base_model = chain.levels.front().model;
   std::vector<std::vector<Vec3>> shapes;
   for (const elastic::Mode& mode : base.modes)
-    shapes.push_back(group_means(mode.shape, chain.levels.front().model.mass, level.of_base));
-  const ModalMotion motion{chain.levels.front().model, level, base.modes, found.modes, shapes};
-  compare_modes(motion, certificate);
+    shapes.push_back(group_means(mode.shape, base_model.mass, level.of_base));
+  compare_modes(base, found, shapes, level.model.mass, certificate);
+  const ModalMotion motion{base_model, level, base.modes, found.modes, shapes};
   certificate.blow_error = blow_error(motion);
   certificate.first_period_error = first_period_error(motion);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lod/group_means.hpp"
+
 namespace springlod::lod {
 namespace {
 
@@ -11,20 +13,7 @@ namespace {
 constexpr int kSamples = 24;
 
 std::size_t motion_count(const ModalMotion& motion) {
-  return std::min({kMotionModes, motion.base_modes.size(), motion.shapes.size()});
-}
-
-std::vector<double> group_masses(const MassSpringModel& base, const Groups& groups) {
-  std::vector<double> mass(groups.count, 0);
-  for (std::uint32_t i = 0; i < base.node_count(); ++i) mass[groups.of[i]] += base.mass[i];
-  return mass;
-}
-
-double product(const std::vector<double>& mass, const std::vector<Vec3>& x,
-               const std::vector<Vec3>& y) {
-  double sum = 0;
-  for (std::size_t i = 0; i < mass.size(); ++i) sum += mass[i] * x[i].dot(y[i]);
-  return sum;
+  return std::min({kLowestModes, motion.base_modes.size(), motion.shapes.size()});
 }
 
 /// A free vibration of the level in its own modes.
@@ -40,8 +29,15 @@ struct Vibration {
 
 }  // namespace
 
+double mass_product(const std::vector<double>& mass, const std::vector<Vec3>& x,
+                    const std::vector<Vec3>& y) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mass.size(); ++i) sum += mass[i] * x[i].dot(y[i]);
+  return sum;
+}
+
 double blow_error(const ModalMotion& motion) {
-  const std::vector<double> mass = group_masses(motion.base, motion.level.of_base);
+  const std::vector<double> mass = group_masses(motion.base.mass, motion.level.of_base);
   double error = 0;
   double size = 0;
   for (std::size_t i = 0; i < motion_count(motion); ++i)
@@ -64,8 +60,8 @@ double first_period_error(const ModalMotion& motion) {
     const std::vector<Vec3>& shape = motion.shapes[i];
     Vibration level{motion.level_modes, {}};
     for (const elastic::Mode& mode : motion.level_modes)
-      level.velocities.push_back(product(mass, mode.shape, shape));
-    const double square = product(mass, shape, shape);
+      level.velocities.push_back(mass_product(mass, mode.shape, shape));
+    const double square = mass_product(mass, shape, shape);
     const double omega = motion.base_modes[i].angular_frequency;
     for (int k = 1; k <= kSamples; ++k) {
       const double t =
@@ -84,15 +80,12 @@ double first_period_error(const ModalMotion& motion) {
 
 double decay_rate(const MassSpringModel& model, const elastic::Mode& mode) {
   double power = 0;
-  double mass = 0;
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    const Vec3 along = (model.rest[model.b[s]] - model.rest[model.a[s]]).normalized();
-    const double rate = along.dot(mode.shape[model.b[s]] - mode.shape[model.a[s]]);
+    const double rate =
+        spring_direction(model, s).dot(mode.shape[model.b[s]] - mode.shape[model.a[s]]);
     power += model.damping[s] * rate * rate;
   }
-  for (std::uint32_t i = 0; i < model.node_count(); ++i)
-    mass += model.mass[i] * mode.shape[i].squaredNorm();
-  return power / (2 * mass);
+  return power / 2;  // shapes are mass-normalised
 }
 
 }  // namespace springlod::lod

@@ -5,11 +5,13 @@
 #include "elastic/modes.hpp"
 #include "model/chain.hpp"
 
-// Errors of a level in motions that its base's lowest modes make up, without running either.
+// Errors of a level in motions that its base's kLowestModes lowest modes make up, without running
+// either.
 namespace springlod::lod {
 
-/// Largest number of the base's modes that the motions are made of.
-inline constexpr std::size_t kMotionModes = 10;
+/// Sum of m x . y over the nodes of a model.
+double mass_product(const std::vector<double>& mass, const std::vector<Vec3>& x,
+                    const std::vector<Vec3>& y);
 
 /// A level and its base with their lowest modes. `shapes`: means of the base's shapes over the
 /// groups of the level (group_means).

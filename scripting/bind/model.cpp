@@ -155,8 +155,9 @@ void push_provenance(lua_State* L, const Provenance& provenance) {
   for (const auto& [key, entry] : provenance.entries) set_field(L, key.c_str(), entry);
 }
 
-void push_level_info(lua_State* L, const LodChain& chain, std::size_t number) {
-  const Level& level = chain.levels[number];
+/// `base_time`: as for push_certificate; needed only for a level with a certificate.
+void push_level_info(lua_State* L, const Level& level, std::size_t number,
+                     const std::optional<sim::StepTime>& base_time) {
   const MassSpringModel& model = level.model;
   const MassProperties properties = mass_properties(model);
   begin_table(L);
@@ -179,18 +180,23 @@ void push_level_info(lua_State* L, const LodChain& chain, std::size_t number) {
   push_materials(L, model.materials);
   end_field(L, "materials");
   if (level.certificate) {
-    push_certificate(L, chain.levels.front().model, level);
+    push_certificate(L, level, *base_time);
     end_field(L, "certificate");
   }
 }
 
 int info_binding(Call& call) {
   const auto asset = call.value<LodAsset>(1);
+  const std::vector<Level>& levels = asset->chain.levels;
+  std::optional<sim::StepTime> base_time;
+  if (std::any_of(levels.begin(), levels.end(),
+                  [](const Level& level) { return level.certificate.has_value(); }))
+    base_time = sim::step_time(levels.front().model, sim::Precision::double_precision);
   lua_State* L = call.lua();
   begin_table(L);
-  begin_list(L, asset->chain.levels.size());
-  for (std::size_t i = 0; i < asset->chain.levels.size(); ++i) {
-    push_level_info(L, asset->chain, i);
+  begin_list(L, levels.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    push_level_info(L, levels[i], i, base_time);
     end_list_entry(L, i + 1);
   }
   end_field(L, "levels");

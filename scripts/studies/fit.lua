@@ -148,18 +148,12 @@ local function worst_modulus(certificate)
   return worst
 end
 
-local function mean_mac(certificate)
-  local sum, count = 0, math.min(10, #certificate.frequencies)
-  for i = 1, count do sum = sum + certificate.frequencies[i].mac end
-  return sum / count
-end
-
 -- The columns that describe a level; errors in percent. `l` has certificate, patches (a certificate
 -- with small patches), motion, landing, and seconds (of the fit of both levels).
 local elastic_measures = {
   {"f1..10", function(l) return 100 * l.certificate.f1_10_error end},
   {"f11..20", function(l) return 100 * (l.certificate.f11_20_error or 0) end},
-  {"MAC", function(l) return mean_mac(l.certificate) end},
+  {"MAC", function(l) return l.certificate.mac end},
   {"smooth loads", function(l) return 100 * l.certificate.fitted_load_error end},
   {"held-out loads", function(l) return 100 * l.certificate.held_out_load_error end},
   {"small patches", function(l) return 100 * l.patches.held_out_load_error end},

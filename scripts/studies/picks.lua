@@ -37,14 +37,10 @@ local function chosen_bodies()
 end
 
 local function make_chain(body)
-  local base = body.make()
-  local chain
-  if args.plain or args.quick then
-    chain = s.simplify(base, {keep = args.keep, grouping = "compact"})
-  else
-    chain = s.simplify(base, {keep = args.keep, grouping = "compact", calibrate = "modes"})
-  end
-  return (args.plain or args.quick) and s.certify(chain) or chain, base
+  local base, plain = body.make(), args.plain or args.quick
+  local chain = s.simplify(base,
+    {keep = args.keep, grouping = "compact", calibrate = plain and "none" or "modes"})
+  return plain and s.certify(chain) or chain, base
 end
 
 local level_rows, pick_rows = {}, {}

@@ -6,7 +6,6 @@
 
 #include "lod/quality/grade.hpp"
 #include "scripting/engine/result_table.hpp"
-#include "sim/fast/step_time.hpp"
 
 namespace springlod::scripting {
 namespace {
@@ -47,10 +46,9 @@ void set_optional(lua_State* L, const char* name, const std::optional<double>& n
 
 /// Processor time of a simulated second on the reference machine, by the kernel that runs the model
 /// in double precision.
-void set_run_time(lua_State* L, const MassSpringModel& base, const Level& level) {
+void set_run_time(lua_State* L, const Level& level, const sim::StepTime& base_time) {
   const Certificate& certificate = *level.certificate;
   const sim::StepTime time = sim::step_time(level.model, sim::Precision::double_precision);
-  const sim::StepTime base_time = sim::step_time(base, sim::Precision::double_precision);
   set_field(L, "kernel", to_string(time.kernel));
   set_field(L, "base_kernel", to_string(base_time.kernel));
   if (!(certificate.stable_step > 0 && certificate.base_stable_step > 0)) return;
@@ -74,7 +72,7 @@ void set_means(lua_State* L, const Certificate& certificate) {
 
 }  // namespace
 
-void push_certificate(lua_State* L, const MassSpringModel& base, const Level& level) {
+void push_certificate(lua_State* L, const Level& level, const sim::StepTime& base_time) {
   const Certificate& certificate = *level.certificate;
   begin_table(L);
   set_field(L, "grade", to_string(lod::grade(certificate)));
@@ -97,7 +95,7 @@ void push_certificate(lua_State* L, const MassSpringModel& base, const Level& le
   set_field(L, "base_cost", certificate.base_cost);
   if (certificate.base_cost > 0)
     set_field(L, "cost_ratio", certificate.cost / certificate.base_cost);
-  set_run_time(L, base, level);
+  set_run_time(L, level, base_time);
   set_field(L, "zero_modes", certificate.zero_modes);
   set_field(L, "expected_zero_modes", certificate.expected_zero_modes);
   if (certificate.tolerance > 0) set_field(L, "tolerance", certificate.tolerance);

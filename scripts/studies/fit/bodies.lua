@@ -3,23 +3,14 @@
 -- three with features that these lack (slender prongs, layers, holes). Those of "firm" are for
 -- landings: so stiff that the motion of a level after an impact depends on its contact.
 
-local s = require "springlod"
 local accuracy_bodies = require "studies.accuracy.bodies"
+local lattices = require "lib.lattices"
+
+local filled = lattices.filled
 
 local function sample(name, unit, cell, core)
-  return function()
-    local mesh = s.import(("%s/%s.obj"):format(s.samples, name), {unit = unit, up = "z"})
-    return s.lattice(s.voxelize(mesh, {
-      cell = cell, core = core, materials = dofile(("%s/%s_materials.lua"):format(s.samples, name)),
-      priority = name == "ball" and {"core"} or nil,
-    }), {hinges = "fill"})
-  end
-end
-
-local function filled(cell, size, materials, fill)
-  return function()
-    return s.lattice(s.grid{cell = cell, size = size, materials = materials, fill = fill})
-  end
+  return lattices.sample(name,
+    {unit = unit, cell = cell, core = core, materials = name .. "_materials"})
 end
 
 local rubber = {young = "1 MPa", density = 1100, damping = "0.2 ms"}

@@ -1,22 +1,12 @@
 -- The bodies of the picks study. The constants of the prediction were chosen on those of the set
 -- "tuning"; the others check it. They are small, so that the base runs quickly.
 
-local s = require "springlod"
+local lattices = require "lib.lattices"
+
+local filled = lattices.filled
 
 local function sample(name, materials)
-  return function()
-    local mesh = s.import(("%s/%s.obj"):format(s.samples, name), {unit = "dm", up = "z"})
-    return s.lattice(s.voxelize(mesh, {
-      cell = "14 cm", materials = dofile(("%s/%s.lua"):format(s.samples, materials)),
-      priority = name == "ball" and {"core"} or nil,
-    }), {hinges = "fill"})
-  end
-end
-
-local function filled(cell, size, materials, fill)
-  return function()
-    return s.lattice(s.grid{cell = cell, size = size, materials = materials, fill = fill})
-  end
+  return lattices.sample(name, {unit = "dm", cell = "14 cm", materials = materials})
 end
 
 local rubber = {young = "1 MPa", density = 1100, damping = "0.3 ms"}
