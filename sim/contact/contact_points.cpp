@@ -12,14 +12,6 @@
 namespace springlod::sim {
 namespace {
 
-// Automatic stiffness of a contact over that of the body's surface [1]. A body of height h at rest
-// sinks in by less than rho g h / (4 E) of the length of a spring: 0.5 % where its own weight
-// compresses it by 2 %. A stiffer contact is not more accurate, because the surface yields first.
-constexpr double kAutomaticStiffness = 4;
-
-// The same for a node without springs, which has no stiffness [N/m3].
-constexpr double kLooseStiffness = 1e6;
-
 // Smallest moment of the nodes of a point about their mean over the largest [1]: of nodes nearer to
 // a plane than a tenth of their extent, small displacements would turn the surface.
 constexpr double kLeastMoment = 1e-2;
@@ -41,11 +33,11 @@ std::vector<double> damping_times(const MassSpringModel& model) {
 }  // namespace
 
 ContactPoints::ContactPoints(const MassSpringModel& model) : node_count_(model.node_count()) {
-  const std::vector<double> stiffness = node_surface(model).stiffness;
+  const std::vector<double> contact = node_surface(model).contact;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     if (!(model.contact_area[i] > 0)) continue;
     shares_.push_back({.node = i, .weight = 1});
-    end_point(model, i, {.area = model.contact_area[i], .stiffness = stiffness[i]});
+    end_point(model, i, {.area = model.contact_area[i], .contact = contact[i]});
   }
 }
 
@@ -56,9 +48,8 @@ ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& sk
   for (std::uint32_t p = 0; p < of_nodes.point_count(); ++p) {
     for (std::uint32_t e = of_nodes.start[p]; e < of_nodes.start[p + 1]; ++e)
       shares_.push_back({.node = of_nodes.node[e], .weight = of_nodes.weight[e]});
-    end_point(
-        model, skin.base_node[p],
-        {.area = skin.area[p], .stiffness = skin.stiffness[p], .compliance = skin.compliance[p]});
+    end_point(model, skin.base_node[p],
+              {.area = skin.area[p], .contact = skin.contact[p], .compliance = skin.compliance[p]});
   }
   const std::vector<double> damping = damping_times(model);
   for (std::uint32_t p = 0; p < count(); ++p) {
@@ -84,8 +75,7 @@ void ContactPoints::end_point(const MassSpringModel& model, std::uint32_t number
   for (std::size_t e = first; e < shares_.size(); ++e)
     shares_[e].kick = is_node ? 1 : shares_[e].weight * mass / model.mass[shares_[e].node];
   area_.push_back(surface.area);
-  automatic_stiffness_.push_back(surface.stiffness > 0 ? kAutomaticStiffness * surface.stiffness
-                                                       : kLooseStiffness * surface.area);
+  automatic_stiffness_.push_back(surface.contact);
   compliance_.push_back(surface.compliance);
   turns_.push_back(0);
   compliance_damping_.push_back(0);

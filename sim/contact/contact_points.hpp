@@ -59,8 +59,7 @@ class ContactPoints {
   /// Damping time of the compliance: mean of the springs of the nodes of the point [s].
   double compliance_damping(std::size_t point) const { return compliance_damping_[point]; }
   /// Stiffness of its contact with an obstacle, in series with a compliance [m/N]: k_n in eq. 64 of
-  /// docs/method.md [N/m]. Without a stiffness of the obstacle, the contact without compliance is
-  /// kAutomaticStiffness times as stiff as the surface of the body there.
+  /// docs/method.md [N/m]. If the obstacle has no stiffness, NodeSurface::contact takes its place.
   double stiffness(std::size_t point, const Obstacle& obstacle, double compliance) const {
     const double bare =
         obstacle.stiffness ? *obstacle.stiffness * area_[point] : automatic_stiffness_[point];
@@ -104,7 +103,7 @@ class ContactPoints {
   /// The properties of a point that is complete but for them.
   struct Surface {
     double area = 0;                 // [m2]
-    double stiffness = 0;            // see NodeSurface [N/m]
+    double contact = 0;              // see NodeSurface [N/m]
     Mat3 compliance = Mat3::Zero();  // at rest [m/N]
   };
   void set_gradients(const MassSpringModel& model, std::uint32_t point);

@@ -77,12 +77,12 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
     for (std::uint32_t& member : patch) member = nodes[member];
     double area = 0;
     Vec3 moment = Vec3::Zero();  // sum of area times position [m3]
-    double stiffness = 0;
+    double contact = 0;
     double yielding = 0;  // inverse compliance: the nodes yield in parallel [N/m]
     for (const std::uint32_t i : patch) {
       area += base.contact_area[i];
       moment += base.contact_area[i] * base.rest[i];
-      stiffness += surface.stiffness[i];
+      contact += surface.contact[i];
       if (lost[i] > 0)
         yielding += surface.stiffness[i] / lost[i];
       else
@@ -96,7 +96,7 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
     means.push_back({moment / area, groups.of[patch.front()]});
     skin.area.push_back(area);
     skin.base_node.push_back(patch.front());
-    skin.stiffness.push_back(stiffness);
+    skin.contact.push_back(contact);
     estimate.push_back(yielding > 0 ? 1 / yielding : 0);
   }
   skin.of_nodes = lod::points_from_groups(means, skinned.model);
@@ -116,20 +116,21 @@ void validate(const ContactSkin& skin, std::uint32_t node_count) {
   validate(skin.of_nodes, node_count);
   const std::uint32_t points = skin.of_nodes.point_count();
   if (skin.area.size() != points || skin.base_node.size() != points ||
-      skin.stiffness.size() != points || skin.compliance.size() != points)
-    throw InputError(fmt::format(
-        "contact skin: {} areas, {} nodes of the base, {} stiffnesses and {} compliances for {} "
-        "points",
-        skin.area.size(), skin.base_node.size(), skin.stiffness.size(), skin.compliance.size(),
-        points));
+      skin.contact.size() != points || skin.compliance.size() != points)
+    throw InputError(
+        fmt::format("contact skin: {} areas, {} nodes of the base, {} contact stiffnesses and {} "
+                    "compliances for {} "
+                    "points",
+                    skin.area.size(), skin.base_node.size(), skin.contact.size(),
+                    skin.compliance.size(), points));
   for (std::uint32_t p = 0; p < points; ++p) {
     if (!(std::isfinite(skin.area[p]) && skin.area[p] > 0))
       throw InputError(fmt::format("contact skin: the area of point {} is {}; it must be above 0",
                                    script_number(p), skin.area[p]));
-    if (!(std::isfinite(skin.stiffness[p]) && skin.stiffness[p] >= 0))
+    if (!(std::isfinite(skin.contact[p]) && skin.contact[p] > 0))
       throw InputError(
-          fmt::format("contact skin: the stiffness of point {} is {}; it must be 0 or more",
-                      script_number(p), skin.stiffness[p]));
+          fmt::format("contact skin: the contact stiffness of point {} is {}; it must be above 0",
+                      script_number(p), skin.contact[p]));
     if (!is_compliance(skin.compliance[p]))
       throw InputError(
           fmt::format("contact skin: the compliance of point {} must be finite, symmetric and "

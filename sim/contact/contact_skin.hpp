@@ -17,7 +17,7 @@ struct ContactSkin {
   Binding of_nodes;                      ///< P rows; see lod/transfer.hpp
   std::vector<double> area;              ///< [m2] > 0, P
   std::vector<std::uint32_t> base_node;  ///< largest base node of each patch, ascending, P
-  std::vector<double> stiffness;         ///< sum of NodeSurface::stiffness [N/m] >= 0, P
+  std::vector<double> contact;           ///< sum of NodeSurface::contact [N/m] > 0, P
   /// Local surface compliance that merging removed [m/N], P: symmetric positive semidefinite, in
   /// the axes of the body at rest; eq. 65a of docs/method.md. It turns with the body: see
   /// ContactPoints::yielding.

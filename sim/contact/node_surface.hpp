@@ -14,6 +14,9 @@ struct NodeSurface {
   /// Stiffness of the node along the normal with its neighbours held [N/m], 0 without a normal: the
   /// inverse of the second factor of eq. 65 of docs/method.md.
   std::vector<double> stiffness;
+  /// Stiffness of a contact at the node with an obstacle that has no stiffness of its own [N/m],
+  /// 0 without a contact area; eq. 64a of docs/method.md.
+  std::vector<double> contact;
 };
 NodeSurface node_surface(const MassSpringModel& model);
 

@@ -45,7 +45,7 @@ ContactSkin nodes_of_level_as_skin(const LodChain& chain, std::uint32_t level,
     points.push_back({fine.rest[i], group[i]});
     skin.area.push_back(fine.contact_area[i]);
     skin.base_node.push_back(i);
-    skin.stiffness.push_back(surface.stiffness[i]);
+    skin.contact.push_back(surface.contact[i]);
     const double lost = std::max(0.0, 1 - fine.mass[i] / body.mass[group[i]]);
     skin.compliance.emplace_back((surface.stiffness[i] > 0 ? lost / surface.stiffness[i] : 0) *
                                  Mat3::Identity());

@@ -1,7 +1,8 @@
 -- The bodies of the fit study. Defaults of the fit were chosen on those of "samples" (meshes of
 -- samples/) and are reported for the others: those of the accuracy study that are no samples, and
 -- three with features that these lack (slender prongs, layers, holes). Those of "firm" are for
--- landings: so stiff that the motion of a level after an impact depends on its contact.
+-- landings: so stiff that the motion of a level after an impact depends on its contact, and with the
+-- default damping.
 
 local accuracy_bodies = require "studies.accuracy.bodies"
 local lattices = require "lib.lattices"
@@ -34,8 +35,8 @@ local plate = filled(0.01, {18, 12, 4}, {rubber = rubber, steel = steel}, functi
   return x > 0.14 and y > 0.08 and "steel" or "rubber"
 end)
 
-local firm = {young = "20 MPa", density = 1000, damping = "0.1 ms"}
-local softer = {young = "5 MPa", density = 1000, damping = "0.1 ms"}
+local firm = {young = "20 MPa", density = 1000}
+local softer = {young = "5 MPa", density = 1000}
 
 local function firm_block(size)
   return filled(0.01, size, {firm = firm}, function() return "firm" end)
