@@ -157,6 +157,9 @@ void describe_trajectory(Api& api) {
          [](const sim::Trajectory& t) { return t.wall_seconds; });
   number("planning_seconds", "part of wall_seconds before the first step [s]",
          [](const sim::Trajectory& t) { return t.planning_seconds; });
+  number("processor_seconds",
+         "measured processor time of the calling thread from the first step on [s]",
+         [](const sim::Trajectory& t) { return t.processor_seconds; });
   type.field("steps", "integer", "number of steps",
              [](const TrajectoryValue& value) { return value.trajectory.steps; });
   type.field("unconverged_steps", "integer",

@@ -186,6 +186,7 @@ TEST_CASE("a single start can be run, and a level's trajectory compared with its
     assert(list[#list].surface > 1e-4 and list[#list].shape <= list[#list].surface)
     assert(s.deviation(base, base)[#list].surface == 0)
     assert(base.planning_seconds >= 0 and base.planning_seconds <= base.wall_seconds)
+    assert(base.processor_seconds > 0)
     print(pcall(s.deviation, base, s.run(chain[1], scene)))
     print(pcall(s.jittered, scene, chain[0], {jitter = 1}))
     print(pcall(s.jittered, scene, chain[0], {number = 0})))"});
