@@ -50,8 +50,10 @@ class ContactPoints {
   Mat3 frame(std::size_t point, const Position& position) const {
     if (!turns(point)) return Mat3::Identity();
     Mat3 frame = Mat3::Zero();
-    for (const Share& share : shares(point))
-      frame += position(share.node) * share.gradient.transpose();
+    for (const Share& share : shares(point)) {
+      const Vec3& x = position(share.node);
+      for (int axis = 0; axis < 3; ++axis) frame.col(axis) += x * share.gradient[axis];
+    }
     return frame;
   }
   /// Its compliance under a face with the outward normal `normal`: eq. 65c of docs/method.md.
