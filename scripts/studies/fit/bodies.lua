@@ -1,8 +1,8 @@
 -- The bodies of the fit study. Defaults of the fit were chosen on those of "samples" (meshes of
 -- samples/) and are reported for the others: those of the accuracy study that are no samples, and
 -- three with features that these lack (slender prongs, layers, holes). Those of "firm" are for
--- landings: so stiff that the motion of a level after an impact depends on its contact, and with the
--- default damping.
+-- landings: so stiff that the motion of a level after an impact depends on its contact. They have
+-- the default damping.
 
 local accuracy_bodies = require "studies.accuracy.bodies"
 local lattices = require "lib.lattices"
