@@ -4,14 +4,9 @@ local s = require "springlod"
 local command = require "lib.command"
 local bodies = require "studies.accuracy.bodies"
 local intervals = require "lib.intervals"
+local lists = require "lib.lists"
 local timed_run = require "lib.timed_run"
 local trade_off = require "studies.accuracy.trade_off"
-
-local function names_of(list)
-  local names = {}
-  for i, one in ipairs(list) do names[i] = one.name end
-  return names
-end
 
 local methods = {
   {name = "plain merging", options = {grouping = "standard"}},
@@ -36,7 +31,7 @@ parser:argument("folder", "folder to write to"):default("out/accuracy")
 parser:option("--seeds", "number of seeds for each body and method"):default("5")
   :convert(command.whole("--seeds", 1))
 local function some_of(option, list)
-  local names = names_of(list)
+  local names = lists.names_of(list)
   parser:option(option, "any of " .. table.concat(names, ", "))
     :convert(command.words_of(option, names)):default(table.concat(names, ","))
 end

@@ -5,6 +5,7 @@ local s = require "springlod"
 local bodies = require "studies.fit.bodies"
 local command = require "lib.command"
 local landing = require "studies.fit.landing"
+local lists = require "lib.lists"
 local motion = require "studies.fit.motion"
 
 local keep = {0.45, 0.2}
@@ -22,12 +23,6 @@ local variants = {
   {name = "default", calibration = {}},
 }
 
-local function names_of(list)
-  local names = {}
-  for i, one in ipairs(list) do names[i] = one.name end
-  return names
-end
-
 local parser = command.parser("fit", "Measure levels with 45 % and 20 % of the nodes of their "
   .. "base, in compact groups: merged only (plain), fitted with free masses (free), and fitted by "
   .. "default (default). The last two columns are errors against the base after it was thrown at a "
@@ -35,8 +30,8 @@ local parser = command.parser("fit", "Measure levels with 45 % and 20 % of the n
   .. "contact, and over the next 150 ms, in percent of the body's diagonal. Writes "
   .. "levels.csv and means.csv (means over bodies and seeds), and prints the latter.")
 parser:argument("folder", "folder to write to"):default("out/fit")
-parser:option("--bodies", "any of " .. table.concat(names_of(bodies), ", ") .. ", or samples, "
-  .. "others or firm for a set of them"):default("others")
+parser:option("--bodies", "any of " .. table.concat(lists.names_of(bodies), ", ")
+  .. ", or samples, others or firm for a set of them"):default("others")
 parser:option("--seeds", "number of seeds for each body"):default("2")
   :convert(command.whole("--seeds", 1))
 parser:option("--variants", "Lua file that returns a list of {name = ..., calibration = {...}} to "
@@ -55,7 +50,7 @@ local function chosen_bodies()
   for word in (args.bodies .. ","):gmatch("%s*(.-)%s*,") do
     if not known[word] then
       error(("--bodies: '%s' must be samples, others, firm or one of %s"):format(word,
-        table.concat(names_of(bodies), ", ")), 0)
+        table.concat(lists.names_of(bodies), ", ")), 0)
     end
     for _, body in ipairs(bodies) do
       if body.name == word or body.set == word then chosen[#chosen + 1] = body end

@@ -5,6 +5,7 @@ local bodies = require "studies.gains.bodies"
 local clock = require "studies.gains.clock"
 local command = require "lib.command"
 local conversion = require "lib.conversion"
+local lists = require "lib.lists"
 local progress = require "lib.progress"
 local scenes = require "studies.picks.scenes"
 
@@ -12,20 +13,7 @@ local keep = {0.45, 0.2}
 local making = conversion.presets.best.simplify -- how convert makes levels
 local usual_column = "clock_" .. making.contact
 
--- Names of bodies, or of scenes, whose names are their first items.
-local function names_of(list)
-  local names = {}
-  for i, one in ipairs(list) do names[i] = one.name or one[1] end
-  return names
-end
-
-local function joined(...)
-  local all = {}
-  for _, list in ipairs{...} do table.move(list, 1, #list, #all + 1, all) end
-  return all
-end
-
-local all_scenes = joined(scenes.tuning, scenes.checking)
+local all_scenes = lists.joined(scenes.tuning, scenes.checking)
 
 local parser = command.parser("gains", "Measure how much less processor time levels take than "
   .. "their base in scenes, each on its fastest kernel, and compare it with the gains by "
@@ -35,8 +23,8 @@ local parser = command.parser("gains", "Measure how much less processor time lev
 parser:argument("folder", "folder to write to"):default("out/gains")
 local function choice(name, all, default)
   parser:option("--" .. name, ("any of %s (default: %s)"):format(
-      table.concat(names_of(all), ", "), default))
-    :argname("<list>"):convert(command.words_of("--" .. name, names_of(all)))
+      table.concat(lists.names_of(all), ", "), default))
+    :argname("<list>"):convert(command.words_of("--" .. name, lists.names_of(all)))
 end
 choice("bodies", bodies, "all")
 choice("scenes", all_scenes, "the last six")
@@ -50,8 +38,8 @@ if args.quick then args.bodies, args.scenes, args.repeats = {"cube"}, {"skid"}, 
 -- Those of the list that are named, all if `names` is nil.
 local function chosen(list, names)
   local wanted, found = {}, {}
-  for _, name in ipairs(names or names_of(list)) do wanted[name] = true end
-  for i, name in ipairs(names_of(list)) do
+  for _, name in ipairs(names or lists.names_of(list)) do wanted[name] = true end
+  for i, name in ipairs(lists.names_of(list)) do
     if wanted[name] then found[#found + 1] = list[i] end
   end
   return found
@@ -176,12 +164,12 @@ local ok, failure = command.try(function()
   local done = progress(#chosen_bodies * #chosen_scenes)
   for _, body in ipairs(chosen_bodies) do measure(body, done) end
   if #rows == 0 then error("no run succeeded", 0) end
-  s.csv(args.folder .. "/gains.csv", rows, {columns = joined(
+  s.csv(args.folder .. "/gains.csv", rows, {columns = lists.joined(
     {"body", "scene", "level", "base_nodes", "nodes", "base_kernel", "kernel"}, gains,
     {"low", "high", "updates"})})
-  local means, mean_columns = mean_rows(), joined({"scene", "level", "bodies"}, gains)
+  local means, mean_columns = mean_rows(), lists.joined({"scene", "level", "bodies"}, gains)
   s.csv(args.folder .. "/means.csv", means, {columns = mean_columns})
-  show(rows, joined({"body", "scene", "level", "nodes"}, gains))
+  show(rows, lists.joined({"body", "scene", "level", "nodes"}, gains))
   print("\ngeometric means over bodies")
   show(means, mean_columns)
   draw()

@@ -119,8 +119,7 @@ void validate(const ContactSkin& skin, std::uint32_t node_count) {
       skin.contact.size() != points || skin.compliance.size() != points)
     throw InputError(
         fmt::format("contact skin: {} areas, {} nodes of the base, {} contact stiffnesses and {} "
-                    "compliances for {} "
-                    "points",
+                    "compliances for {} points",
                     skin.area.size(), skin.base_node.size(), skin.contact.size(),
                     skin.compliance.size(), points));
   for (std::uint32_t p = 0; p < points; ++p) {

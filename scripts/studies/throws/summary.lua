@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local lists = require "lib.lists"
 
 local summary = {}
 
@@ -19,13 +20,7 @@ local throw_columns = {
   "integrator", "precision", "stiffness", "friction", "wall", "speed", "wave_speed", "spin",
 }
 
-local function joined(...)
-  local all = {}
-  for _, list in ipairs{...} do table.move(list, 1, #list, #all + 1, all) end
-  return all
-end
-
-summary.columns = joined({"throw"}, run_columns, throw_columns)
+summary.columns = lists.joined({"throw"}, run_columns, throw_columns)
 
 -- Rows for s.csv with these columns.
 function summary.cells(rows)
@@ -125,7 +120,7 @@ end
 
 local function of_corners(number, row) return ("%d of %d corners"):format(number, row.corners) end
 
-local lists = {
+local worst_kinds = {
   {name = "inverted at end", accepts = at_end,
    value = function(row) return row.inverted_at_end / row.corners end,
    text = function(row) return of_corners(row.inverted_at_end, row) end},
@@ -147,7 +142,7 @@ local lists = {
 -- The worst runs, with `describe` of their throws in the last column.
 local function worst_rows(rows, describe)
   local list = {}
-  for _, kind in ipairs(lists) do
+  for _, kind in ipairs(worst_kinds) do
     for _, row in ipairs(worst(rows, kind.accepts, kind.value)) do
       list[#list + 1] = {kind.name, row.throw.number, row.level or "none", kind.text(row),
                          describe(row.throw)}
