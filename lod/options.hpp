@@ -235,13 +235,11 @@ struct FitOptions {
   /// fit_steps.
   std::uint32_t iterations = 0;
   /// Tolerance t of the mean error of the ten lowest frequencies [1]; 0: see frequency_tolerance.
-  /// The tolerance of the other modes is 3 t, of smooth and region loads 8 t, of patch and piece
-  /// loads 20 t (docs/method.md, eq. 44).
+  /// The tolerance of the other modes is 3 t, of loads 8 t (docs/method.md, eq. 44).
   double tolerance = 0;
-  /// The fit ends when omega_max is at most this fraction of omega0_max (N / N0)^(1/3), that of a
-  /// lattice with as many nodes (docs/method.md, eq. 46) [1]. A lower omega_max increases the error
-  /// of local loads.
-  double least_frequency = 0.85;
+  /// The fit lowers omega_max to this fraction of omega0_max (N / N0)^(1/3), that of a lattice with
+  /// as many nodes (docs/method.md, eq. 45) [1]. A lower omega_max increases the errors.
+  double least_frequency = 0.87;
   /// With fixed masses, blows are as accurate as the groups are, and mass cannot move to where it
   /// lengthens the step.
   NodeMasses masses = NodeMasses::group;
@@ -261,9 +259,10 @@ constexpr auto option_rows(const FitOptions*) {
              "maximum number of steps; the default is smaller, down to 10, for levels of more than "
              "500 nodes")
           .by_default("90"),
-      option("least_frequency", &FitOptions::least_frequency,
-             "the fit ends when the highest frequency, which bounds the step, is at most this "
-             "fraction of that of a lattice with as many nodes"),
+      option(
+          "least_frequency", &FitOptions::least_frequency,
+          "the fit lowers the highest frequency, which bounds the step, to this fraction of that "
+          "of a lattice with as many nodes; lower: longer steps, larger errors"),
       option("masses", &FitOptions::masses, "masses of the nodes"),
       option("moments", &FitOptions::moments,
              "with masses = \"free\": moments of mass (mass, centre, second moments) that stay "

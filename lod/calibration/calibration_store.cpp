@@ -19,7 +19,7 @@ namespace {
 
 /// Format version. Raise it whenever a fit continues differently from the same state or the format
 /// changes; files of other versions are ignored.
-constexpr std::uint32_t kFormat = 5;
+constexpr std::uint32_t kFormat = 6;
 constexpr std::size_t kChecksumSize = 16;  // of content_hash [bytes]
 
 const char* const kAbout =
@@ -82,14 +82,17 @@ void take(Unpacker& from, std::optional<FitPoint>& point) {
 template <class State, class Visit>
 void visit_members(State& state, const Visit& visit) {
   visit(state.iteration);
-  visit(state.steps_outside);
   visit(state.finished);
-  visit(state.bound);
+  visit(state.bound.bound);
+  visit(state.bound.within);
+  visit(state.bound.merit);
+  visit(state.bound.steps);
+  visit(state.bound.idle);
+  visit(state.bound.refined);
+  visit(state.bound.took_back);
+  for (auto& slack : state.bound.slack) visit(slack);
   visit(state.damping);
-  visit(state.rejected);
-  visit(state.tighten);
-  for (auto& slack : state.slack) visit(slack);
-  visit(state.stalled_merit);
+  visit(state.increase);
   visit(state.now);
   visit(state.best);
   visit(state.best_frequency);
