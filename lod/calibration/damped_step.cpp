@@ -11,9 +11,6 @@
 namespace springlod::lod {
 namespace {
 
-/// Passes of the active set. Constraints that are still violated after the last pass are handled in
-/// the next step.
-constexpr int kPasses = 3;
 /// Factor on the damping while the step is too long.
 constexpr double kRaise = 3;
 /// Relative accuracy and largest number of iterations of the conjugate gradients. They solve for
@@ -108,19 +105,12 @@ Eigen::VectorXd damped_step(const StepProblem& problem, double& damping) {
   Eigen::VectorXd violation = problem.constraint_value;
   if (problem.linearized_at.size() > 0)
     violation += problem.constraint_jacobian * problem.linearized_at;
-  Eigen::VectorXd d;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    std::vector<Eigen::Index> active;
-    for (Eigen::Index r = 0; r < violation.size(); ++r)
-      if (violation[r] > 0) active.push_back(r);
-    const ActiveStep step(problem, active);
-    d = step.solve(damping * scale);
-    for (; rms(d) > problem.most_rms; d = step.solve(damping * scale)) damping *= kRaise;
-    const Eigen::VectorXd after = problem.constraint_value + problem.constraint_jacobian * d;
-    const bool more = ((after.array() > 0) && (violation.array() <= 0)).any();
-    violation = violation.cwiseMax(after);
-    if (!more) break;
-  }
+  std::vector<Eigen::Index> active;
+  for (Eigen::Index r = 0; r < violation.size(); ++r)
+    if (violation[r] > 0) active.push_back(r);
+  const ActiveStep step(problem, active);
+  Eigen::VectorXd d = step.solve(damping * scale);
+  for (; rms(d) > problem.most_rms; d = step.solve(damping * scale)) damping *= kRaise;
   return d;
 }
 

@@ -7,7 +7,7 @@ namespace springlod::lod {
 
 /// Linearized least-squares problem with penalized constraints (docs/method.md, eqs. 40 and 41):
 ///   min_d |G^T d - r|^2 + w^2 sum over active i of (h_i + H_i d)^2 + epsilon |d|^2.
-/// A constraint is active if it is violated at `linearized_at`, or would be after the step.
+/// A constraint is active if it is violated at `linearized_at`.
 struct StepProblem {
   const Eigen::MatrixXd& jacobian;  ///< G = -dr/dtheta: n x R, dense, R much less than n
   const Eigen::MatrixXd& normal;    ///< G^T G

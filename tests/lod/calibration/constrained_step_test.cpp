@@ -63,6 +63,23 @@ TEST_CASE("A step lowers residuals and violated constraints together, as it pred
   }
 }
 
+TEST_CASE("A step does not run into constraints that are far away at its start") {
+  Problem rising;
+  // The residual falls as all springs become stiffer.
+  rising.jacobian.setConstant(0.01);
+  rising.normal = rising.jacobian.transpose() * rising.jacobian;
+  rising.residual.setConstant(10);
+  const auto violation = [&](double factor) {
+    ConstrainedProblem problem = rising.with_bound(factor);
+    problem.constraint_weight = 50;
+    double damping = 1e-6;
+    const ConstrainedStep step = constrained_step(problem, damping);
+    return squared_violation(rising.variables.model(step.change), rising.with_bound(1.05).bound);
+  };
+  const double unbounded = violation(100), bounded = violation(1.05);
+  CHECK(bounded < 0.1 * unbounded);
+}
+
 TEST_CASE("The problem is convex: no point between a step and the start is better") {
   const Problem random;
   const ConstrainedProblem problem = random.with_bound(0.7);

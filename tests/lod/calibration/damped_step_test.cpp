@@ -49,28 +49,6 @@ TEST_CASE("A step is the dense least-squares solution for residuals and active c
   CHECK((d - expected).norm() < 1e-6 * expected.norm());
 }
 
-TEST_CASE("A constraint that the step would violate becomes active, a distant one does not") {
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2, 1);
-  jacobian(0, 0) = 1;
-  const Eigen::VectorXd residual = Eigen::VectorXd::Constant(1, 0.5);
-  Rows constraints(1, 2);
-  constraints.insert(0, 0) = 1;
-  const auto first = [&](double value) {
-    double damping = 1e-6;
-    const Eigen::VectorXd constraint_value = Eigen::VectorXd::Constant(1, value);
-    return damped_step({.jacobian = jacobian,
-                        .normal = jacobian.transpose() * jacobian,
-                        .residual = residual,
-                        .constraint_jacobian = constraints,
-                        .constraint_value = constraint_value,
-                        .constraint_weight = 100,
-                        .most_rms = 10},
-                       damping)[0];
-  };
-  CHECK(first(-1) == Approx(0.5).epsilon(1e-4));
-  CHECK(first(-0.2) == Approx(0.2).epsilon(1e-3));
-}
-
 TEST_CASE("The damping is raised until the step is short enough") {
   const Eigen::MatrixXd jacobian = Eigen::MatrixXd::Identity(3, 3);
   const Eigen::VectorXd residual = Eigen::VectorXd::Constant(3, 5);
