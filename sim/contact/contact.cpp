@@ -127,8 +127,8 @@ FrictionLaw::FrictionLaw(const Contact& contact, double mass, double step)
 
 void FrictionLaw::finish(Contact& contact) const {
   if (stick_ == 0) return;
-  const Vec3 impulse = -contact.slip_change / inverse_mass_;
-  contact.stretch = (impulse / stick_ + damping_ * start_) / late_;
+  const double stretch = 1 / (stick_ * inverse_mass_);  // by a change of the velocity of 1 m/s [s]
+  contact.stretch = (1 / late_) * (damping_ * start_ - stretch * contact.slip_change);
   contact.stick_gain = contact.stick_energy() - held_;
 }
 

@@ -96,6 +96,7 @@ void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>
 /// assemblies").
 class FrictionLaw {
  public:
+  FrictionLaw() = default;
   /// The contact has the stretch of its stick spring at the start of the step.
   FrictionLaw(const Contact& contact, double mass, double step);
   /// Change of the velocity of a point that moves at v [m/s]; `most`: mu f_n dt [N s].
@@ -111,13 +112,13 @@ class FrictionLaw {
  private:
   Vec3 along_face(const Vec3& u) const { return u - normal_.dot(u) * normal_; }
 
-  Vec3 normal_;
-  double inverse_mass_;  // [1/kg]
-  double gain_ = 1;      // change per stretch and late_ times slip [1/s]; 1 without spring [1]
-  double late_ = 1;      // dt + damping time [s]; 1 without a stick spring [1]
-  double stick_ = 0;     // stiffness of the stick spring [N/m]
-  double damping_ = 0;   // its damping time [s]
-  double held_ = 0;      // its energy at the start [J]
+  Vec3 normal_ = Vec3::UnitZ();
+  double inverse_mass_ = 0;  // [1/kg]
+  double gain_ = 1;          // change per stretch and late_ times slip [1/s]; 1 without spring [1]
+  double late_ = 1;          // dt + damping time [s]; 1 without a stick spring [1]
+  double stick_ = 0;         // stiffness of the stick spring [N/m]
+  double damping_ = 0;       // its damping time [s]
+  double held_ = 0;          // its energy at the start [J]
   Vec3 start_ = Vec3::Zero();  // its stretch at the start, along the face [m]
 };
 

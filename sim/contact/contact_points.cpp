@@ -32,7 +32,7 @@ std::vector<double> damping_times(const MassSpringModel& model) {
 
 }  // namespace
 
-ContactPoints::ContactPoints(const MassSpringModel& model) : node_count_(model.node_count()) {
+ContactPoints::ContactPoints(const MassSpringModel& model) : node_mass_(model.mass) {
   const std::vector<double> contact = node_surface(model).contact;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     if (!(model.contact_area[i] > 0)) continue;
@@ -42,8 +42,8 @@ ContactPoints::ContactPoints(const MassSpringModel& model) : node_count_(model.n
 }
 
 ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& skin)
-    : node_count_(model.node_count()), skin_(true) {
-  validate(skin, node_count_);
+    : node_mass_(model.mass), skin_(true) {
+  validate(skin, node_count());
   const Binding& of_nodes = skin.of_nodes;
   for (std::uint32_t p = 0; p < of_nodes.point_count(); ++p) {
     for (std::uint32_t e = of_nodes.start[p]; e < of_nodes.start[p + 1]; ++e)
@@ -52,6 +52,7 @@ ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& sk
               {.area = skin.area[p], .contact = skin.contact[p], .compliance = skin.compliance[p]});
   }
   const std::vector<double> damping = damping_times(model);
+  gradient_.assign(shares_.size(), Vec3::Zero());
   for (std::uint32_t p = 0; p < count(); ++p) {
     set_gradients(model, p);
     compliance_damping_[p] = 0;
@@ -87,8 +88,7 @@ void ContactPoints::end_point(const MassSpringModel& model, std::uint32_t number
 // The gradients of a linear fit to the nodes: they reproduce every affine motion.
 void ContactPoints::set_gradients(const MassSpringModel& model, std::uint32_t point) {
   if (!yields(point)) return;
-  const std::span<Share> of_point(shares_.data() + start_[point],
-                                  start_[point + 1] - start_[point]);
+  const std::span<const Share> of_point = shares(point);
   Vec3 center = Vec3::Zero();
   for (const Share& share : of_point)
     center += model.rest[share.node] / static_cast<double>(of_point.size());
@@ -105,7 +105,8 @@ void ContactPoints::set_gradients(const MassSpringModel& model, std::uint32_t po
   }
   turns_[point] = 1;
   const Mat3 inverse = moments.inverse();
-  for (Share& share : of_point) share.gradient = inverse * (model.rest[share.node] - center);
+  for (std::uint32_t e = start_[point]; e < start_[point + 1]; ++e)
+    gradient_[e] = inverse * (model.rest[shares_[e].node] - center);
 }
 
 ContactPoints::Yielding ContactPoints::yielding(std::size_t point, const Vec3& normal,

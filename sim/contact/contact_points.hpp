@@ -20,9 +20,6 @@ class ContactPoints {
     std::uint32_t node = 0;
     double weight = 0;  ///< w_i [1]
     double kick = 0;    ///< change of the node's velocity when an impulse changes the point's [1]
-    /// The sum of x_i gradient_i^T is the deformation gradient at the point. Zero for points of
-    /// which turns() is false [1/m].
-    Vec3 gradient = Vec3::Zero();
   };
 
   /// How the surface yields at a point, in world axes.
@@ -38,8 +35,9 @@ class ContactPoints {
   ContactPoints(const MassSpringModel& model, const ContactSkin& skin);
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(area_.size()); }
-  std::uint32_t node_count() const { return node_count_; }
-  double area(std::size_t point) const { return area_[point]; }  ///< [m2]
+  std::uint32_t node_count() const { return static_cast<std::uint32_t>(node_mass_.size()); }
+  double node_mass(std::uint32_t node) const { return node_mass_[node]; }  ///< [kg]
+  double area(std::size_t point) const { return area_[point]; }            ///< [m2]
   /// Whether the surface yields at the point, beyond what the nodes do.
   bool yields(std::size_t point) const { return !compliance_[point].isZero(0); }
   /// Whether its compliance turns with the body.
@@ -50,9 +48,9 @@ class ContactPoints {
   Mat3 frame(std::size_t point, const Position& position) const {
     if (!turns(point)) return Mat3::Identity();
     Mat3 frame = Mat3::Zero();
-    for (const Share& share : shares(point)) {
-      const Vec3& x = position(share.node);
-      for (int axis = 0; axis < 3; ++axis) frame.col(axis) += x * share.gradient[axis];
+    for (std::uint32_t e = start_[point]; e < start_[point + 1]; ++e) {
+      const Vec3& x = position(shares_[e].node);
+      for (int axis = 0; axis < 3; ++axis) frame.col(axis) += x * gradient_[e][axis];
     }
     return frame;
   }
@@ -111,10 +109,13 @@ class ContactPoints {
   void set_gradients(const MassSpringModel& model, std::uint32_t point);
   void end_point(const MassSpringModel& model, std::uint32_t number, const Surface& surface);
 
-  std::uint32_t node_count_ = 0;
+  std::vector<double> node_mass_;
   bool skin_ = false;
   std::vector<std::uint32_t> start_{0};
   std::vector<Share> shares_;
+  /// By share: the sum of x_i gradient_i^T is the deformation gradient at the point. Apart from the
+  /// shares, because most steps do not use them. Zero for points of which turns() is false [1/m].
+  std::vector<Vec3> gradient_;
   std::vector<double> area_, automatic_stiffness_;
   std::vector<Mat3> compliance_;  // at rest [m/N]
   std::vector<std::uint8_t> turns_;

@@ -53,16 +53,17 @@ class StepContacts {
   const Losses& losses() const { return losses_; }
 
  private:
-  /// A contact during the step.
+  /// What a contact has only during a step.
   struct Touch {
-    Contact contact;  // normal_force and slip_change: so far
+    explicit Touch(std::uint32_t first_share) : first(first_share) {}
+
     NormalLaw law;
     FrictionLaw friction;
-    double mass = 0;                   // effective mass of the point [kg]
-    StepPath path;                     // of the point
-    double before = 0;                 // depth at the start of the step, along the normal [m]
-    double level = 0;                  // depth = level - normal . x [m]
-    std::uint32_t first = 0, end = 0;  // shares
+    double mass = 0;               // effective mass of the point [kg]
+    StepPath path;                 // of the point
+    double before = 0;             // depth at the start of the step, along the normal [m]
+    double level = 0;              // depth = level - normal . x [m]
+    std::uint32_t first, end = 0;  // shares
   };
   struct Share {
     std::uint32_t slot = 0;  // in StepNodes
@@ -70,27 +71,33 @@ class StepContacts {
     double kick = 0;         // see ContactPoints::Share [1]
   };
 
-  /// Adds the nodes of a point to those of the step, and the point's shares in them.
-  void add_shares(std::uint32_t point, StepNodes& nodes);
-  /// See ContactPoints::frame; at the start of the step, of the point whose shares were added last.
-  Mat3 frame(std::uint32_t point, const StepNodes& nodes) const;
-  /// A contact whose shares were added last. `was`: see before(), or null. `end`: at the end of
-  /// the path, if there is any.
-  Touch touch(const Contact& contact, const Contact* was, const StepPath& path,
-              const std::optional<Penetration>& end);
-  void start_from(const Contact& was, Touch& touch, StepNodes& nodes) const;
+  /// Adds a touch of a point that has its shares, and their nodes to those of the step.
+  Touch& add_touch(std::uint32_t point, StepNodes& nodes);
+  /// See ContactPoints::frame; at the start of the step.
+  Mat3 frame(std::uint32_t point, const Touch& touch, const StepNodes& nodes) const;
+  /// Path of the point.
+  StepPath path(const Touch& touch, const StepNodes& nodes) const;
+  /// Completes a touch that has its path. `was`: see before(), or null. `end`: at the
+  /// end of the path, if there is any.
+  void set_up(const Contact& contact, const Contact* was, const std::optional<Penetration>& end,
+              Touch& touch);
   /// Moves the nodes of a point so that it moves by `change` [m].
   void push(const Touch& touch, const Vec3& change, StepNodes& nodes) const;
   /// Updates the forces of a contact and the nodes of its point; returns the point's change [m].
-  double update(Touch& touch, StepNodes& nodes);
+  double update(const Touch& touch, Contact& contact, StepNodes& nodes) const;
   /// `at`: position of the point. Returns its change [m].
-  Vec3 update_friction(Touch& touch, const Vec3& at) const;
+  Vec3 update_friction(const Touch& touch, const Vec3& at, Contact& contact) const;
   Vec3 position(const Touch& touch, const StepNodes& nodes) const;
-  void book(const Touch& touch, const StepNodes& nodes);
+  void book(const Touch& touch, const Contact& contact);
+  /// Books the work of friction on what it moved the nodes itself.
+  void book_slides(const StepNodes& nodes);
 
   const ContactPoints* points_;
   ContactFinder* finder_;
+  std::uint64_t number_ = 0;            // of the step, counted from 1
   double step_ = 0, inverse_step_ = 0;  // [s], [1/s]
+  // During a step, contacts_ has those of touches_, in which normal_force and slip_change are those
+  // so far.
   std::vector<Contact> contacts_, before_;
   std::vector<Touch> touches_;
   std::vector<Share> shares_;

@@ -17,18 +17,15 @@ void StepNodes::begin(const StepPaths& paths) {
   corners_.clear();
 }
 
-std::uint32_t StepNodes::slot(std::uint32_t node) {
-  std::uint32_t& slot = slot_[node];
-  if (slot != kNone) {
-    shared_ = true;
-    return slot;
-  }
-  slot = static_cast<std::uint32_t>(node_.size());
+std::uint32_t StepNodes::add(std::uint32_t node) {
+  const auto slot = static_cast<std::uint32_t>(node_.size());
+  slot_[node] = slot;
   node_.push_back(node);
-  paths_.push_back(of_step_->path(node));
+  const StepPath path = of_step_->path(node);
+  paths_.push_back({padded(path.from), padded(path.to)});
   at_.push_back(paths_.back().to);
   seen_.push_back(at_.back());
-  slide_.emplace_back(Vec3::Zero());
+  slide_.emplace_back(Padded::Zero());
   corners_.emplace_back(Vec3::Zero());
   return slot;
 }
@@ -47,7 +44,7 @@ void StepNodes::finish(double step, std::vector<NodeChange>& changes) const {
     const Vec3 displacement = this->displacement(static_cast<std::uint32_t>(i));
     changes.push_back({.node = node_[i],
                        .displacement = displacement,
-                       .kick = (2 * displacement - slide_[i]) / step,
+                       .kick = (2 * displacement - slide_[i].head<3>()) / step,
                        .by_corners = corners_[i]});
   }
 }

@@ -8,10 +8,22 @@
 
 namespace springlod::sim {
 
+/// A Vec3 padded by a 0, which the vector units of a processor take as a whole.
+using Padded = Eigen::Vector4d;
+
+inline Padded padded(const Vec3& v) {
+  return {v[0], v[1], v[2], 0};
+}
+
 /// Path of a node or a point over a step without contacts and corners [m].
 struct StepPath {
   Vec3 from = Vec3::Zero();
   Vec3 to = Vec3::Zero();
+};
+struct PaddedPath {
+  Padded from = Padded::Zero();
+  Padded to = Padded::Zero();
+  StepPath path() const { return {from.head<3>(), to.head<3>()}; }
 };
 
 /// The paths of the nodes of a body in one step.
@@ -52,17 +64,25 @@ class StepNodes {
   /// Forgets the nodes of the last step. The paths must outlive the step.
   void begin(const StepPaths& paths);
   /// Slot of a node, which is added if it is new.
-  std::uint32_t slot(std::uint32_t node);
+  std::uint32_t slot(std::uint32_t node) {
+    const std::uint32_t slot = slot_[node];
+    if (slot == kNone) return add(node);
+    shared_ = true;
+    return slot;
+  }
   /// Whether a slot was asked for more than once: then its forces depend on each other.
   bool shared() const { return shared_; }
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(node_.size()); }
   std::uint32_t node(std::uint32_t slot) const { return node_[slot]; }
-  const StepPath& path(std::uint32_t slot) const { return paths_[slot]; }
+  StepPath path(std::uint32_t slot) const { return paths_[slot].path(); }
+  const PaddedPath& padded_path(std::uint32_t slot) const { return paths_[slot]; }
   /// Position at the end of the step, so far [m].
-  const Vec3& at(std::uint32_t slot) const { return at_[slot]; }
-  Vec3 displacement(std::uint32_t slot) const { return at_[slot] - paths_[slot].to; }
-  void move(std::uint32_t slot, const Vec3& displacement) { at_[slot] += displacement; }
+  Vec3 at(std::uint32_t slot) const { return at_[slot].head<3>(); }
+  const Padded& padded_at(std::uint32_t slot) const { return at_[slot]; }
+  Vec3 displacement(std::uint32_t slot) const { return (at_[slot] - paths_[slot].to).head<3>(); }
+  void move(std::uint32_t slot, const Vec3& displacement) { at_[slot].head<3>() += displacement; }
+  void move_padded(std::uint32_t slot, const Padded& displacement) { at_[slot] += displacement; }
   /// Largest displacement of a node since the last call in this step [m].
   double take_travel();
   /// Counts a part of the displacement as one by corners.
@@ -70,8 +90,8 @@ class StepNodes {
   /// The part of the displacement that is counted as one by corners [m].
   const Vec3& by_corners(std::uint32_t slot) const { return corners_[slot]; }
   /// The displacement by friction, once it is final.
-  void add_slide(std::uint32_t slot, const Vec3& slide) { slide_[slot] += slide; }
-  const Vec3& slide(std::uint32_t slot) const { return slide_[slot]; }
+  void add_slide(std::uint32_t slot, const Padded& slide) { slide_[slot] += slide; }
+  const Padded& slide(std::uint32_t slot) const { return slide_[slot]; }
 
   /// Appends the change of each node in a step of length `step` [s].
   void finish(double step, std::vector<NodeChange>& changes) const;
@@ -79,15 +99,17 @@ class StepNodes {
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
+  std::uint32_t add(std::uint32_t node);
+
   const StepPaths* of_step_ = nullptr;
   bool shared_ = false;
   std::vector<std::uint32_t> slot_;  // by node; or kNone
   // By slot.
   std::vector<std::uint32_t> node_;
-  std::vector<StepPath> paths_;
-  std::vector<Vec3> at_;       // at the end of the step, so far [m]
-  std::vector<Vec3> seen_;     // at_ at the last take_travel() [m]
-  std::vector<Vec3> slide_;    // displacement by friction [m]
+  std::vector<PaddedPath> paths_;
+  std::vector<Padded> at_;     // at the end of the step, so far [m]
+  std::vector<Padded> seen_;   // at_ at the last take_travel() [m]
+  std::vector<Padded> slide_;  // displacement by friction [m]
   std::vector<Vec3> corners_;  // displacement by corners [m]
 };
 
