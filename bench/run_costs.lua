@@ -1,10 +1,16 @@
 -- What contacts, corners and small bodies cost in a run, as ratios of processor time measured in
--- one process: springlod run bench/run_costs.lua [-- MESH [UNIT]]
+-- one process:
+--   springlod run bench/run_costs.lua [-- MESH [UNIT]]
+--   springlod run bench/run_costs.lua -- accuracy [BODY...]
+-- The second form measures only contacts, on the bodies of the accuracy study.
 --
 -- A time is the difference between a long and a short run, so that what is done once per run does
 -- not count. Runs that are compared take turns, and each time is the least of several.
 
 local s = require "springlod"
+local accuracy = require "studies.accuracy.bodies"
+local intervals = require "lib.intervals"
+local lists = require "lib.lists"
 
 local repeats = 4
 local gravity = {0, 0, -9.81}
@@ -68,13 +74,38 @@ local function body_of(path, unit)
   return s.lattice(grid, {hinges = "fill"})
 end
 
+-- Times of the short and the long runs [s].
+local short, long = 0.05, 0.45
+
 local function bodies(path, unit)
   local list = {
-    {name = "block", base = lattice({16, 16, 16}, 0.0125, "1 MPa")},
-    {name = "bar", base = lattice({10, 10, 40}, 0.01, "1 MPa")},
+    {name = "block", base = lattice({16, 16, 16}, 0.0125, "1 MPa"), short = short, long = long},
+    {name = "bar", base = lattice({10, 10, 40}, 0.01, "1 MPa"), short = short, long = long},
   }
-  if path then list[#list + 1] = {name = "mesh", base = body_of(path, unit)} end
+  if path then
+    list[#list + 1] = {name = "mesh", base = body_of(path, unit), short = short, long = long}
+  end
   return list
+end
+
+-- The named bodies of the accuracy study, all if none is named. Their sizes differ by a factor of
+-- ten, and so do the times of their bounces: the runs of each are those of the block, times its
+-- size over the block's.
+local function accuracy_bodies(names)
+  local block_size = 0.2 * math.sqrt(3) -- [m]
+  local wanted, makers = {}, {}
+  for _, one in ipairs(accuracy) do makers[one.name] = one.make end
+  if #names == 0 then names = lists.names_of(accuracy) end
+  for i, name in ipairs(names) do
+    if not makers[name] then
+      error(("no body '%s' in the accuracy study; there are %s"):format(name,
+        table.concat(lists.names_of(accuracy), ", ")), 0)
+    end
+    local base = makers[name]()
+    local scale = base.bounds.diagonal / block_size
+    wanted[i] = {name = name, base = base, short = scale * short, long = scale * long}
+  end
+  return wanted
 end
 
 -- Heights in sizes of the body.
@@ -93,7 +124,7 @@ local function contact_costs(body, rows)
     local cases, kinds = {}, {}
     local function add(height, throw, obstacle, contact)
       cases[#cases + 1] = {model = model, scene = scenes(model, height, throw, obstacle),
-                           short = 0.05, long = 0.45, options = {contact = contact}}
+                           short = body.short, long = body.long, options = {contact = contact}}
     end
     add(1e4, {spin = {1, 2, 3}}, {})
     for _, contact in ipairs(contacts_of(level)) do
@@ -168,10 +199,49 @@ local function print_rows(title, rows, columns)
   print(s.format_table(rows, {columns = columns}))
 end
 
-local contacts, volumes, small = {}, {}, {}
-for _, body in ipairs(bodies(arg[1], arg[2])) do contact_costs(body, contacts) end
-print_rows("Time of a run with contact over that in flight", contacts,
-  {"body", "level", "nodes", "contact", "stiffness", "bouncing", "rolling"})
+-- Least, median and largest ratio of each kind of contact over the bodies, with floors of 1e5 N/m3
+-- apart: a body sinks into those by several cells, so that many of its points touch.
+local function summary(rows)
+  local kinds, order = {}, {}
+  for _, row in ipairs(rows) do
+    local floor = row.stiffness == 1e5 and "1e5" or "auto, 1e7, 1e9"
+    local key = ("%d %s %s"):format(row.level, row.contact, floor)
+    if not kinds[key] then
+      kinds[key] = {level = row.level == 0 and "base" or row.level, contact = row.contact,
+                    floor = floor, bouncing = {}, rolling = {}}
+      order[#order + 1] = kinds[key]
+    end
+    table.insert(kinds[key].bouncing, row.bouncing)
+    table.insert(kinds[key].rolling, row.rolling)
+  end
+  for _, kind in ipairs(order) do
+    for _, way in ipairs{"bouncing", "rolling"} do
+      local ratios = kind[way]
+      kind[way] = ("%.2f, %.2f, %.2f"):format(math.min(table.unpack(ratios)),
+        intervals.median(ratios).value, math.max(table.unpack(ratios)))
+    end
+  end
+  return order
+end
+
+local function measure_contacts(list)
+  local rows = {}
+  for _, body in ipairs(list) do
+    s.say(body.name)
+    contact_costs(body, rows)
+  end
+  print_rows("Time of a run with contact over that in flight", rows,
+    {"body", "level", "nodes", "contact", "stiffness", "bouncing", "rolling"})
+  print_rows("The same over all bodies: least, median and largest", summary(rows),
+    {"level", "contact", "floor", "bouncing", "rolling"})
+end
+
+if arg[1] == "accuracy" then
+  measure_contacts(accuracy_bodies({table.unpack(arg, 2)}))
+  return
+end
+local volumes, small = {}, {}
+measure_contacts(bodies(arg[1], arg[2]))
 volume_costs(volumes)
 print_rows("Time of a run with corners over that without", volumes,
   {"case", "level", "nodes", "ratio"})
