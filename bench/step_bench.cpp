@@ -1,6 +1,7 @@
 // Time per spring of a step with springs, damping, contact, friction and gravity, for a body that
 // slightly penetrates the floor: our kernels by size and precision, the naive kernel and Bullet's
-// soft bodies, all in one run. Also what can be read off a body between steps. Run by ./dev bench.
+// soft bodies, all in one run. Also steps in flight, and what can be read off a body between steps.
+// Run by ./dev bench.
 
 #include <array>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "bench/bullet_bench.hpp"
 #include "bench/counters.hpp"
+#include "bench/flight_bench.hpp"
 #include "bench/look_bench.hpp"
 #include "bench/machine.hpp"
 #include "bench/naive_step.hpp"
@@ -138,6 +140,7 @@ int main(int argc, char** argv) {
   for (const Size size : kSizes)
     for (const Shape shape : kShapes) register_size(subjects, shape, size);
   register_looks(subjects);
+  register_flights();
   register_bullet(subjects);
   for (const sim::Precision precision :
        {sim::Precision::single_precision, sim::Precision::double_precision})

@@ -5,6 +5,7 @@
 #include "sim/fast/look/row_corners.hpp"
 #include "sim/fast/quads/quad_body.hpp"
 #include "sim/fast/rows/row_body.hpp"
+#include "sim/fast/step_time.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -42,6 +43,29 @@ std::unique_ptr<FastModel> lay_out(const MassSpringModel& model, Layout layout) 
   return std::make_unique<Laid<QuadLayout<Real>, QuadBody<Real>>>(make_quad_layout<Real>(model));
 }
 
+template <class Real>
+StepWork work_of(const RowLayout<Real>& layout) {
+  StepWork work{.kernel = Kernel::rows, .eights = layout.rows.size()};
+  for (const RowBlock& block : layout.blocks) work.nodes += block.places() + block.reach;
+  return work;
+}
+
+template <class Real>
+StepWork work_of(const QuadLayout<Real>& layout) {
+  StepWork work{.kernel = Kernel::quads};
+  for (const QuadBlock<Real>& block : layout.blocks) {
+    work.eights += block.pairs.size();
+    work.nodes += block.nowhere();
+  }
+  return work;
+}
+
+template <class Real>
+StepWork fastest_work(const MassSpringModel& model) {
+  const RowLayout<Real> rows = make_row_layout<Real>(model);
+  return fills_rows(model, rows) ? work_of(rows) : work_of(make_quad_layout<Real>(model));
+}
+
 }  // namespace
 
 std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision,
@@ -50,8 +74,9 @@ std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precisi
                                                   : lay_out<double>(model, layout);
 }
 
-bool fits_rows(const MassSpringModel& model) {
-  return fills_rows(model, make_row_layout<float>(model));
+StepWork step_work(const MassSpringModel& model, Precision precision) {
+  return precision == Precision::single_precision ? fastest_work<float>(model)
+                                                  : fastest_work<double>(model);
 }
 
 }  // namespace springlod::sim

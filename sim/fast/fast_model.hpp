@@ -27,9 +27,6 @@ class FastModel {
 std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision,
                                            Layout layout = Layout::fastest);
 
-/// Whether Layout::fastest takes rows for the model: it has the springs of a lattice.
-bool fits_rows(const MassSpringModel& model);
-
 /// Vector instruction set of the kernels on this processor: "AVX3", "AVX2", ...
 const char* vector_target();
 

@@ -1,23 +1,34 @@
 #include "sim/fast/step_time.hpp"
 
-#include "sim/fast/fast_model.hpp"
-
 namespace springlod::sim {
 namespace {
 
-// Times per spring [s], means of 4k and 40k nodes.
-struct SpringTimes {
-  double rows, quads;
+// Times that add up to that of a step [s].
+struct WorkTimes {
+  double step;   // whatever the model
+  double node;   // for each node of StepWork
+  double eight;  // for each of its eights
 };
-constexpr SpringTimes kDouble{1.76e-9, 3.69e-9};
-constexpr SpringTimes kSingle{1.18e-9, 2.02e-9};
+
+// Fitted to the benchmarks flight/... on the machine of docs/speed.md.
+constexpr WorkTimes kRowsDouble{700e-9, 2.0e-9, 12.0e-9};
+constexpr WorkTimes kRowsSingle{550e-9, 2.6e-9, 5.8e-9};
+constexpr WorkTimes kQuadsDouble{300e-9, 4.0e-9, 25.5e-9};
+constexpr WorkTimes kQuadsSingle{400e-9, 6.0e-9, 10.5e-9};
+
+const WorkTimes& times_of(Kernel kernel, Precision precision) {
+  const bool rows = kernel == Kernel::rows;
+  if (precision == Precision::single_precision) return rows ? kRowsSingle : kQuadsSingle;
+  return rows ? kRowsDouble : kQuadsDouble;
+}
 
 }  // namespace
 
 StepTime step_time(const MassSpringModel& model, Precision precision) {
-  const SpringTimes& times = precision == Precision::single_precision ? kSingle : kDouble;
-  const Kernel kernel = fits_rows(model) ? Kernel::rows : Kernel::quads;
-  return {kernel, model.spring_count() * (kernel == Kernel::rows ? times.rows : times.quads)};
+  const StepWork work = step_work(model, precision);
+  const WorkTimes& times = times_of(work.kernel, precision);
+  return {work.kernel, times.step + times.node * static_cast<double>(work.nodes) +
+                           times.eight * static_cast<double>(work.eights)};
 }
 
 }  // namespace springlod::sim
