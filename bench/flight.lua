@@ -30,22 +30,46 @@ local function solved(a, b)
   return x
 end
 
--- Times per step, node and eight [ns] for which the sum of squares of the relative errors is least.
-local function fitted(rows)
-  local a, b = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {0, 0, 0}
+-- Times per step, node and eight [ns] for which the sum of squares of the relative errors is least,
+-- none below 0. In rows, nodes and eights go together, so that the time of a node may come out
+-- negative; it is 0 then.
+local function fitted(rows, counts)
+  counts = counts or {"steps", "work_nodes", "work_eights"}
+  local a, b = {}, {}
+  for i = 1, #counts do
+    a[i], b[i] = {}, 0
+    for j = 1, #counts do a[i][j] = 0 end
+  end
   for _, row in ipairs(rows) do
-    local c = row.counters
-    local terms = {1 / c.ns_per_step, c.work_nodes / c.ns_per_step, c.work_eights / c.ns_per_step}
-    for i = 1, 3 do
+    local c, terms = row.counters, {}
+    for i, count in ipairs(counts) do terms[i] = (c[count] or 1) / c.ns_per_step end
+    for i = 1, #counts do
       b[i] = b[i] + terms[i]
-      for j = 1, 3 do a[i][j] = a[i][j] + terms[i] * terms[j] end
+      for j = 1, #counts do a[i][j] = a[i][j] + terms[i] * terms[j] end
     end
   end
-  return solved(a, b)
+  local x = solved(a, b)
+  if #counts == 3 and x[2] < 0 then
+    local two = fitted(rows, {"steps", "work_eights"})
+    return {two[1], 0, two[2]}
+  end
+  return x
 end
 
--- For each kernel and precision, the constants of step_time.cpp and the number of models.
-flight.fit_columns = {"kernel", "models", "ns per step", "ns per node", "ns per eight"}
+-- Least, median and largest ratio of the prediction to the measured time.
+local function agreement(rows)
+  local ratios = {}
+  for i, row in ipairs(rows) do
+    ratios[i] = row.counters.predicted_ns / row.counters.ns_per_step
+  end
+  table.sort(ratios)
+  return ("%.2f, %.2f, %.2f"):format(ratios[1], ratios[(#ratios + 1) // 2], ratios[#ratios])
+end
+
+-- For each kernel and precision, the number of models, the constants of step_time.cpp that fit
+-- best, and how well those in use agree.
+flight.fit_columns = {"kernel", "models", "ns per step", "ns per node", "ns per eight",
+                      "predicted / measured"}
 function flight.fit_rows(rows)
   local kinds, order = {}, {}
   for _, row in ipairs(rows) do
@@ -65,6 +89,7 @@ function flight.fit_rows(rows)
     local x = fitted(kinds[key])
     fits[i] = {key, #kinds[key]}
     for k = 1, 3 do fits[i][2 + k] = ("%.3g"):format(x[k]) end
+    fits[i][6] = agreement(kinds[key])
   end
   return fits
 end

@@ -242,8 +242,7 @@ local function write_page(rows, by_name, context)
   page = fill(page, "bullet", table_text(bullet_rows(by_name), {
     "nodes", "springs", "links", "ours, f32", "one iteration", "additional iteration", "explicit",
     "explicit, undamped"}))
-  page = fill(page, "flight constants", table_text(flight.fit_rows(rows), flight.fit_columns))
-  page = fill(page, "flight", table_text(flight.table_rows(rows), flight.columns))
+  page = fill(page, "flight", table_text(flight.fit_rows(rows), flight.fit_columns))
   page = fill(page, "jobs", table_text(time_rows(rows), {"benchmark", "time", "counters"}))
   file = assert(io.open(args.page, "w"))
   file:write(page)

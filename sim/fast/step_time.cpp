@@ -11,10 +11,10 @@ struct WorkTimes {
 };
 
 // Fitted to the benchmarks flight/... on the machine of docs/speed.md.
-constexpr WorkTimes kRowsDouble{700e-9, 2.0e-9, 12.0e-9};
-constexpr WorkTimes kRowsSingle{550e-9, 2.6e-9, 5.8e-9};
-constexpr WorkTimes kQuadsDouble{300e-9, 4.0e-9, 25.5e-9};
-constexpr WorkTimes kQuadsSingle{400e-9, 6.0e-9, 10.5e-9};
+constexpr WorkTimes kRowsDouble{510e-9, 2.2e-9, 14.5e-9};
+constexpr WorkTimes kRowsSingle{540e-9, 0, 8.4e-9};
+constexpr WorkTimes kQuadsDouble{310e-9, 5.0e-9, 24.5e-9};
+constexpr WorkTimes kQuadsSingle{290e-9, 7.2e-9, 11.1e-9};
 
 const WorkTimes& times_of(Kernel kernel, Precision precision) {
   const bool rows = kernel == Kernel::rows;
