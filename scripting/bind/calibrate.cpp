@@ -14,7 +14,7 @@ namespace springlod::scripting {
 namespace {
 
 int certify_binding(Call& call) {
-  const auto asset = std::make_shared<LodAsset>(*call.value<LodAsset>(1));
+  const auto asset = std::make_shared<ChainValue>(LodAsset(*call.value<ChainValue>(1)));
   lod::CertifyOptions options;
   options.threads = call.session().settings().threads;
   options.progress = call.progress();
@@ -22,7 +22,7 @@ int certify_binding(Call& call) {
   read_options(call, reader, options, &asset->chain.levels.front().model);
   reader.finish();
   lod::certify(asset->chain, options);
-  return call.give(std::shared_ptr<const LodAsset>(asset));
+  return call.give(std::shared_ptr<const ChainValue>(asset));
 }
 
 void describe_regions(Api& api) {

@@ -70,7 +70,7 @@ void hint_at_damping(Console& console, const std::vector<sim::LevelRuns>& levels
 
 int compare_binding(Call& call) {
   auto value = std::make_shared<ComparisonValue>();
-  value->chain = call.value<LodAsset>(1);
+  value->chain = call.value<ChainValue>(1);
   const auto scenario = scenario_argument(call, 2);
   sim::CompareOptions options;
   options.seed = call.session().settings().seed;

@@ -32,7 +32,7 @@ int simplify_binding(Call& call) {
   read_grouping(reader, options);
   reader.finish();
 
-  auto asset = std::make_shared<LodAsset>();
+  auto asset = std::make_shared<ChainValue>();
   asset->chain = lod::simplify(*base->model, options);
   if (base->surface) {
     asset->surface = *base->surface;
@@ -40,7 +40,7 @@ int simplify_binding(Call& call) {
   }
   asset->provenance = base->provenance;
   asset->provenance.set("simplify", asset->chain.levels.back().made_by);
-  return call.give(std::shared_ptr<const LodAsset>(asset));
+  return call.give(std::shared_ptr<const ChainValue>(asset));
 }
 
 std::uint32_t level_number(Call& call, const LodAsset& asset) {
@@ -49,19 +49,19 @@ std::uint32_t level_number(Call& call, const LodAsset& asset) {
 }
 
 int level_method(Call& call) {
-  const auto self = call.self<LodAsset>();
+  const auto self = call.self<ChainValue>();
   return call.give(level_value(self, level_number(call, *self)));
 }
 
 int group_map_method(Call& call) {
-  const auto self = call.self<LodAsset>();
+  const auto self = call.self<ChainValue>();
   std::vector<std::uint32_t> map = self->chain.levels[level_number(call, *self)].of_base.of;
   for (std::uint32_t& node : map) ++node;
   return call.give(map);
 }
 
 int carried_method(Call& call) {
-  const auto self = call.self<LodAsset>();
+  const auto self = call.self<ChainValue>();
   const Level& level = self->chain.levels[level_number(call, *self)];
   std::vector<std::uint32_t> nodes = mapped_nodes(
       level.of_base,
@@ -84,11 +84,11 @@ std::string chain_text(const LodAsset& asset) {
 }
 
 void describe_chain(Api& api) {
-  TypeBuilder<LodAsset> type(
+  TypeBuilder<ChainValue> type(
       "Models of one body from fine to coarse; chain[0] is the base, chain[n] level n.",
       chain_text);
   type.shared_field("levels", "list of Model", "levels from the base on: levels[1] is chain[0]",
-                    [](lua_State* L, const std::shared_ptr<const LodAsset>& chain) {
+                    [](lua_State* L, const std::shared_ptr<const ChainValue>& chain) {
                       const auto count = static_cast<std::uint32_t>(chain->chain.levels.size());
                       begin_list(L, count);
                       for (std::uint32_t i = 0; i < count; ++i) {
@@ -135,7 +135,7 @@ void describe_chain(Api& api) {
                .call = carried_method});
   type.elements(
       [](const LodAsset& asset) { return static_cast<long long>(asset.chain.levels.size()) - 1; },
-      [](lua_State* L, const std::shared_ptr<const LodAsset>& chain, long long number) {
+      [](lua_State* L, const std::shared_ptr<const ChainValue>& chain, long long number) {
         if (number < 0 || number >= static_cast<long long>(chain->chain.levels.size()))
           return false;
         push(L, level_value(chain, static_cast<std::uint32_t>(number)));

@@ -57,7 +57,7 @@ void push_merges(lua_State* L, const Level& level, const lod::MergeStep& step) {
 }
 
 int merge_log_binding(Call& call) {
-  const auto asset = call.value<LodAsset>(1);
+  const auto asset = call.value<ChainValue>(1);
   lod::MergeLogOptions options;
   options.threads = call.session().settings().threads;
   options.progress = call.progress();

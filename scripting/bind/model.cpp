@@ -131,7 +131,7 @@ int stable_step_binding(Call& call) {
 }
 
 int save_binding(Call& call) {
-  const auto chain = call.value<LodAsset>(2);
+  const auto chain = call.value<ChainValue>(2);
   TableReader options = call.options(3);
   std::optional<std::string> command;
   options.read("command", command);
@@ -147,7 +147,7 @@ int save_binding(Call& call) {
 }
 
 int load_binding(Call& call) {
-  return call.give(std::make_shared<const LodAsset>(load_asset(call.path(1))));
+  return call.give(std::make_shared<const ChainValue>(load_asset(call.path(1))));
 }
 
 void push_provenance(lua_State* L, const Provenance& provenance) {
@@ -186,7 +186,7 @@ void push_level_info(lua_State* L, const Level& level, std::size_t number,
 }
 
 int info_binding(Call& call) {
-  const auto asset = call.value<LodAsset>(1);
+  const auto asset = call.value<ChainValue>(1);
   const std::vector<Level>& levels = asset->chain.levels;
   std::optional<sim::StepTime> base_time;
   if (std::any_of(levels.begin(), levels.end(),

@@ -22,7 +22,7 @@ namespace springlod::scripting {
 
 struct PickValue {
   sim::Pick pick;
-  std::shared_ptr<const LodAsset> chain;
+  std::shared_ptr<const ChainValue> chain;
 };
 template <>
 inline constexpr const char* kValueName<PickValue> = "Pick";
@@ -31,8 +31,8 @@ namespace {
 
 /// The chain with a certificate for each level that has springs. Existing certificates are kept:
 /// those of a calibration may have been measured with options of its own.
-std::shared_ptr<const LodAsset> certified(Call& call,
-                                          const std::shared_ptr<const LodAsset>& given) {
+std::shared_ptr<const ChainValue> certified(Call& call,
+                                            const std::shared_ptr<const ChainValue>& given) {
   std::vector<std::uint32_t> missing;
   for (std::uint32_t level = 1; level < given->chain.levels.size(); ++level)
     if (!given->chain.levels[level].certificate &&
@@ -43,7 +43,7 @@ std::shared_ptr<const LodAsset> certified(Call& call,
       "pick: certifying level{} {}, which had no certificate; s.certify and s.save keep "
       "it in the asset",
       missing.size() == 1 ? "" : "s", fmt::join(missing, ", ")));
-  auto asset = std::make_shared<LodAsset>(*given);
+  auto asset = std::make_shared<ChainValue>(LodAsset(*given));
   lod::certify(asset->chain,
                {.threads = call.session().settings().threads, .progress = call.progress()});
   for (std::size_t level = 1; level < given->chain.levels.size(); ++level)
@@ -54,7 +54,7 @@ std::shared_ptr<const LodAsset> certified(Call& call,
 
 int pick_binding(Call& call) {
   auto value = std::make_shared<PickValue>();
-  value->chain = call.value<LodAsset>(1);
+  value->chain = call.value<ChainValue>(1);
   const auto scenario = scenario_argument(call, 2);
   sim::PickOptions options;
   options.threads = call.session().settings().threads;

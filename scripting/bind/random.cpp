@@ -88,7 +88,7 @@ int refill_binding(Call& call) {
   reader.finish();
   options.progress = call.progress();
 
-  auto asset = std::make_shared<LodAsset>();
+  auto asset = std::make_shared<ChainValue>();
   asset->chain = lod::refill(*base->model, voxelize::refill_levels(grid->grid, options));
   for (std::size_t n = 0; n < options.nodes.size(); ++n) {
     const std::uint32_t reached = asset->chain.levels[n + 1].model.node_count();
@@ -105,7 +105,7 @@ int refill_binding(Call& call) {
   asset->provenance = base->provenance;
   asset->provenance.set("refill", asset->chain.levels.back().made_by);
   if (!options.volumes) asset->provenance.set("refill_volumes", "false");
-  return call.give(std::shared_ptr<const LodAsset>(asset));
+  return call.give(std::shared_ptr<const ChainValue>(asset));
 }
 
 std::vector<Parameter> refill_parameters() {

@@ -18,7 +18,7 @@ namespace springlod::scripting {
 namespace {
 
 int stability_binding(Call& call) {
-  const auto chain = call.value<LodAsset>(1);
+  const auto chain = call.value<ChainValue>(1);
   sim::StabilityOptions options;
   options.seed = call.session().settings().seed;
   options.threads = call.session().settings().threads;

@@ -81,7 +81,7 @@ std::unique_ptr<Picture> Picture::of(lua_State* L, int index, PanelOptions optio
     picture->mesh_ = mesh;
   } else if (auto model = value_at<ModelValue>(L, index)) {
     picture->set_model(model, nullptr);
-  } else if (auto chain = value_at<LodAsset>(L, index)) {
+  } else if (auto chain = value_at<ChainValue>(L, index)) {
     picture->set_model(level_value(chain, 0), nullptr);
   } else if (auto run = value_at<TrajectoryValue>(L, index)) {
     picture->set_instant(*run);

@@ -22,7 +22,7 @@ std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model,
                                                 std::optional<ContactAt> contact) {
   if (!model.chain || model.level == 0) return nullptr;
   if (contact.value_or(model.chain->chain.contact) == ContactAt::nodes) return nullptr;
-  return std::make_shared<sim::ContactSkin>(sim::contact_skin(model.chain->chain, model.level));
+  return model.chain->skin(model.level);
 }
 
 std::string damping_hint(const sim::Trajectory& run) {

@@ -7,7 +7,15 @@
 
 namespace springlod::scripting {
 
-std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const LodAsset>& chain,
+std::shared_ptr<const sim::ContactSkin> ChainValue::skin(std::uint32_t level) const {
+  const std::scoped_lock lock(mutex_);
+  skins_.resize(chain.levels.size());
+  std::shared_ptr<const sim::ContactSkin>& skin = skins_.at(level);
+  if (!skin) skin = std::make_shared<const sim::ContactSkin>(sim::contact_skin(chain, level));
+  return skin;
+}
+
+std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const ChainValue>& chain,
                                               std::uint32_t level) {
   auto value = std::make_shared<ModelValue>();
   const Level& found = chain->chain.levels.at(level);
