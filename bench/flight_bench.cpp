@@ -113,7 +113,9 @@ double run_for(const MassSpringModel& model, std::uint64_t steps, const sim::Run
 void fly(benchmark::State& state, const MassSpringModel& model, sim::Precision precision) {
   const sim::RunOptions options{
       .step = kStep, .sleep = 0, .frame_rate = 0, .ledger = false, .precision = precision};
-  const sim::RunPlan plan = sim::plan_runs(model, {.duration = 1}, options);
+  sim::Scenario flight;
+  flight.duration = 1;
+  const sim::RunPlan plan = sim::plan_runs(model, flight, options);
   const std::uint64_t steps = kShort * (1 + kSprings / kShort / model.spring_count());
   double least_long = std::numeric_limits<double>::infinity();
   double least_short = std::numeric_limits<double>::infinity();
