@@ -10,7 +10,8 @@ struct WorkTimes {
   double eight;  // for each of its eights
 };
 
-// Fitted to the benchmarks flight/... by bench/fit_flight.lua, on the machine of docs/speed.md.
+// Fitted to the benchmarks flight/... by bench/fit_flight.lua, on a processor with AVX2: see
+// "A step in flight" in docs/speed.md.
 constexpr WorkTimes kRowsDouble{510e-9, 2.2e-9, 14.5e-9};
 constexpr WorkTimes kRowsSingle{540e-9, 0, 8.4e-9};
 constexpr WorkTimes kQuadsDouble{310e-9, 5.0e-9, 24.5e-9};
