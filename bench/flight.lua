@@ -1,34 +1,15 @@
 -- Times of steps in flight against those that sim/fast/step_time.cpp predicts, and the constants of
 -- that prediction, fitted to the times.
 
+local intervals = require "lib.intervals"
+local linear = require "lib.linear"
+
 local flight = {}
 
 local benchmark = "^flight/([%w_]+)/(%d)/(f%d+)$"
 
 -- Bodies with more nodes are left out of the fit: their data do not stay in the caches.
 local most_nodes = 20000
-
--- The solution of the n x n linear system a x = b, by elimination with pivots.
-local function solved(a, b)
-  local n = #b
-  for i = 1, n do
-    local pivot = i
-    for k = i + 1, n do
-      if math.abs(a[k][i]) > math.abs(a[pivot][i]) then pivot = k end
-    end
-    a[i], a[pivot], b[i], b[pivot] = a[pivot], a[i], b[pivot], b[i]
-    for k = 1, n do
-      if k ~= i then
-        local factor = a[k][i] / a[i][i]
-        for j = i, n do a[k][j] = a[k][j] - factor * a[i][j] end
-        b[k] = b[k] - factor * b[i]
-      end
-    end
-  end
-  local x = {}
-  for i = 1, n do x[i] = b[i] / a[i][i] end
-  return x
-end
 
 -- Times per step, node and eight [ns] for which the sum of squares of the relative errors is least,
 -- none below 0. In rows, nodes and eights go together, so that the time of a node may come out
@@ -48,7 +29,7 @@ local function fitted(rows, counts)
       for j = 1, #counts do a[i][j] = a[i][j] + terms[i] * terms[j] end
     end
   end
-  local x = solved(a, b)
+  local x = linear.solve(a, b)
   if #counts == 3 and x[2] < 0 then
     local two = fitted(rows, {"steps", "work_eights"})
     return {two[1], 0, two[2]}
@@ -62,8 +43,7 @@ local function agreement(rows)
   for i, row in ipairs(rows) do
     ratios[i] = row.counters.predicted_ns / row.counters.ns_per_step
   end
-  table.sort(ratios)
-  return ("%.2f, %.2f, %.2f"):format(ratios[1], ratios[(#ratios + 1) // 2], ratios[#ratios])
+  return intervals.spread(ratios)
 end
 
 -- For each kernel and precision, the number of models, the constants of step_time.cpp that fit

@@ -215,11 +215,7 @@ local function summary(rows)
     table.insert(kinds[key].rolling, row.rolling)
   end
   for _, kind in ipairs(order) do
-    for _, way in ipairs{"bouncing", "rolling"} do
-      local ratios = kind[way]
-      kind[way] = ("%.2f, %.2f, %.2f"):format(math.min(table.unpack(ratios)),
-        intervals.median(ratios).value, math.max(table.unpack(ratios)))
-    end
+    for _, way in ipairs{"bouncing", "rolling"} do kind[way] = intervals.spread(kind[way]) end
   end
   return order
 end

@@ -7,7 +7,7 @@
 namespace springlod::lod {
 namespace {
 
-/// Least factor on the bound in a step (docs/method.md, eq. 45).
+/// Least factor on the bound in a step (docs/method.md, eq. 46).
 constexpr double kTighten = 0.8;
 /// Least ratio of the bound to the largest squared node frequency. With a smaller ratio nearly all
 /// nodes would be constrained instead of the stiffest.

@@ -15,7 +15,7 @@ constexpr double kMostStep = 1, kMostRms = 0.15;
 constexpr double kMargin = 1;
 /// Linearizations of the constraints per step. The constraints are strongly nonlinear and cheap;
 /// the residuals are nearly linear and costly, so they are linearized once (docs/method.md, eq.
-/// 42).
+/// 42a).
 constexpr int kLinearizations = 4;
 /// Least part of a linearized step that is tried, after all, half and a quarter of it. Without the
 /// search the steps would jump from one side of the constraints to the other.

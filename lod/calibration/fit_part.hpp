@@ -21,7 +21,7 @@ struct FitState {
   double damping = 0;            ///< of the next step, see StepProblem [1]
   double increase = 0;           ///< factor on the damping if the next step is rejected [1]
   FitPoint now;                  ///< the current level
-  std::optional<FitPoint> best;  ///< within tolerance, with the lowest omega_max so far
+  std::optional<FitPoint> best;  ///< the level to return so far: within tolerance
   double best_frequency = 0;     ///< omega_max of `best` [rad/s]
   double frequency_error = 0;    ///< mean of the ten lowest at `now` [1]; for display only
 };

@@ -47,4 +47,10 @@ function intervals.median(values)
           high = list[n - out]}
 end
 
+-- Least, median and largest number of a sample, as a text.
+function intervals.spread(values)
+  local list = sorted(values)
+  return ("%.2f, %.2f, %.2f"):format(list[1], intervals.median(list).value, list[#list])
+end
+
 return intervals

@@ -1,29 +1,8 @@
 -- Least-squares fit of a vibration A cos(w t) + B sin(w t) + C.
 
-local vibration = {}
+local linear = require "lib.linear"
 
--- Solves matrix x = right by Gaussian elimination with partial pivoting, in place.
-local function solve(matrix, right)
-  local n = #right
-  for column = 1, n do
-    local pivot = column
-    for row = column + 1, n do
-      if math.abs(matrix[row][column]) > math.abs(matrix[pivot][column]) then pivot = row end
-    end
-    matrix[column], matrix[pivot] = matrix[pivot], matrix[column]
-    right[column], right[pivot] = right[pivot], right[column]
-    for row = column + 1, n do
-      local factor = matrix[row][column] / matrix[column][column]
-      for k = column, n do matrix[row][k] = matrix[row][k] - factor * matrix[column][k] end
-      right[row] = right[row] - factor * right[column]
-    end
-  end
-  for row = n, 1, -1 do
-    for k = row + 1, n do right[row] = right[row] - matrix[row][k] * right[k] end
-    right[row] = right[row] / matrix[row][row]
-  end
-  return right
-end
+local vibration = {}
 
 -- The fitted value at time t and its derivatives with respect to cosine, sine, offset and
 -- frequency. Time is measured from the middle of the samples, which decorrelates frequency and
@@ -64,7 +43,7 @@ function vibration.fit(times, values, frequency)
       matrix[4], right[4] = {0, 0, 0, 1}, 0
       for j = 1, 3 do matrix[j][4] = 0 end
     end
-    local change = solve(matrix, right)
+    local change = linear.solve(matrix, right)
     fit.cosine, fit.sine = fit.cosine + change[1], fit.sine + change[2]
     fit.offset, fit.frequency = fit.offset + change[3], fit.frequency + change[4]
     -- Converged: the change is only rounding error.
@@ -81,7 +60,7 @@ function vibration.error_of_difference(one, other, times)
   for i, residual in ipairs(one.residuals) do
     squares = squares + (residual - other.residuals[i]) ^ 2
   end
-  local inverse = solve(normal_equations(one, times, one.residuals), {0, 0, 0, 1})
+  local inverse = linear.solve(normal_equations(one, times, one.residuals), {0, 0, 0, 1})
   return math.sqrt(squares / (#times - 4) * inverse[4])
 end
 
