@@ -107,7 +107,8 @@ TEST_CASE("a run names what limits its step, and hints at damping") {
   )");
   CAPTURE(ran.out, ran.err);
   CHECK(ran.out == "springs\ttrue\ndamping\ttrue\nasked\ttrue\ntrue\n");
-  CHECK(ran.err.empty());
+  // Not that it is empty: a run of many steps on a slow machine also reports its progress.
+  CHECK_THAT(ran.err, !Contains("damping shortens"));
   const Ran hint = with_bar("s.run(bar{damping = '0.1 s'}, still)");
   CHECK_THAT(hint.err, Contains("run: damping shortens the step to") &&
                            Contains("% of that without damping") && Contains("damping_ratio"));
