@@ -51,7 +51,8 @@ struct MaterialModuli {
 /// E and nu of each material, fitted to static solutions (docs/method.md, eqs. 9 and 10): the
 /// isotropic law closest to the volume averages of stress (virial of the springs; one between two
 /// materials counts half for each) and strain (of each node from its springs within the material).
-/// All solutions have the same weight. Averages near zero (bends, twists) are left out.
+/// A solution counts by how little its strains cancel; those whose averages are near zero (bends,
+/// twists) are left out. Soft and stiff loads count alike.
 ///
 /// The error is below 1 % for one material on a lattice, and some percent where much of a material
 /// lies at an interface, whose nodes have springs of both materials.

@@ -12,12 +12,14 @@ namespace springlod::elastic {
 namespace {
 
 /// The springs of a node are coplanar if their spread normal to the plane / spread within it (both
-/// squared) is below this. It is 0.3 for a surface node of a lattice.
-constexpr double kFlat = 1e-3;
-/// If average strain / largest local strain is below this, the average is only a residue of
-/// cancellation. Stretches and shears have 0.3 and more, bends and twists of irregular models up to
-/// 0.05.
-constexpr double kCancelled = 0.1;
+/// squared) is below this. It is 0.3 for a surface node of a lattice. Such a node is the tip of a
+/// flat pyramid, whose height may change by many times the strain.
+constexpr double kFlat = 0.03;
+/// If the norm of the average strain / average norm of the local strains is below this, the average
+/// is only a residue of cancellation. Stretches and shears have 0.2 to 1, bends and twists mostly
+/// below 0.1. A ratio to the largest local strain would leave out stretches of bodies with thin
+/// parts.
+constexpr double kCancelled = 0.2;
 /// Determinant of the normal equations / square of mu's entry. Below this, all strains are of one
 /// kind (pure shear, isotropic) up to rounding, and determine only one of the two moduli.
 constexpr double kSingular = 1e-6;
@@ -83,11 +85,11 @@ std::vector<Volumes> material_volumes(const MassSpringModel& model,
   return volumes;
 }
 
-/// Sums over a material of volume times stress and volume times strain.
+/// Sums over a material.
 struct Sums {
-  Mat3 stress = Mat3::Zero();
-  Mat3 strain = Mat3::Zero();
-  double largest = 0;  ///< norm of a node's strain
+  Mat3 stress = Mat3::Zero();  ///< volume times stress
+  Mat3 strain = Mat3::Zero();  ///< volume times strain
+  double norms = 0;            ///< volume times the norm of the strain
 };
 
 std::vector<Sums> material_sums(const MassSpringModel& model, const std::vector<Mat3>& inverse,
@@ -105,7 +107,7 @@ std::vector<Sums> material_sums(const MassSpringModel& model, const std::vector<
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     Sums& of = sums[model.material[i]];
     of.strain += model.volume[i] * strain[i];
-    of.largest = std::max(of.largest, strain[i].norm());
+    of.norms += model.volume[i] * strain[i].norm();
   }
   return sums;
 }
@@ -139,11 +141,12 @@ struct IsotropicFit {
 
 void add(const Sums& sums, const Volumes& volume, IsotropicFit& fit) {
   if (!(volume.solid > volume.all / 2)) return;
-  const Mat3 strain = sums.strain / volume.solid;
-  const double size = strain.norm();
-  if (!(size > kCancelled * sums.largest)) return;
-  // All strains are scaled to norm 1, so soft and stiff loads have the same weight.
-  fit.add(sums.stress / volume.all / size, strain / size);
+  const double size = sums.norms / volume.solid;
+  const Mat3 strain = sums.strain / volume.solid / size;
+  if (!(strain.norm() > kCancelled)) return;
+  // By this scale soft and stiff loads have the same weight, and loads whose strains partly cancel
+  // have less.
+  fit.add(sums.stress / volume.all / size, strain);
 }
 
 }  // namespace
