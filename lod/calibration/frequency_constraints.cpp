@@ -1,10 +1,9 @@
 #include "lod/calibration/frequency_constraints.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
-
-#include <Eigen/Eigenvalues>
 
 #include "elastic/stable_step.hpp"
 #include "model/spring_rows.hpp"
@@ -12,34 +11,41 @@
 namespace springlod::lod {
 namespace {
 
-constexpr double kPower = 32;
+/// |A| = tr(A^32)^(1/32), by repeated squaring of A over its trace.
+class SchattenNorm {
+ public:
+  explicit SchattenNorm(const Mat3& a) : scale_(a.trace()) {
+    if (!(scale_ > 0)) return;
+    powers_[0] = a / scale_;
+    for (std::size_t i = 1; i < powers_.size(); ++i)
+      powers_[i].noalias() = powers_[i - 1] * powers_[i - 1];
+    trace_ = powers_.back().squaredNorm();
+    value_ = scale_ * std::pow(trace_, 1 / kPower);
+  }
+  double value() const { return value_; }
+  /// Derivative of ln |A| by A: d ln |A| = sum of its entries times those of dA. |A| is not 0.
+  Mat3 log_gradient() const {
+    Mat3 product = powers_[0];  // (A / trace)^31 in the end
+    for (std::size_t i = 1; i < powers_.size(); ++i) product = product * powers_[i];
+    return product / (scale_ * trace_);
+  }
 
-/// |A| and its gradient along the eigenvectors: d|A| = sum_d gradient_d (axis_d . dA axis_d).
-struct Norm {
-  double value = 0;
-  Vec3 gradient = Vec3::Zero();
-  Mat3 axes = Mat3::Identity();
+ private:
+  static constexpr double kPower = 32;
+
+  double scale_, trace_ = 0, value_ = 0;
+  std::array<Mat3, 5> powers_;  // 1, 2, 4, 8, 16
 };
 
-Norm norm_of(const Mat3& a) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(a);
-  const double most = solver.eigenvalues()[2];
-  if (!(most > 0)) return {};
-  const Eigen::Array3d relative = (solver.eigenvalues() / most).cwiseMax(0).array();
-  const double sum = relative.pow(kPower).sum();
-  const double value = most * std::pow(sum, 1 / kPower);
-  return {value, relative.pow(kPower - 1) * (value / (most * sum)), solver.eigenvectors()};
-}
-
-double bound_of(const Norm& norm, double mass) {
-  return 2 * norm.value / mass;
+double bound_of(const SchattenNorm& norm, double mass) {
+  return 2 * norm.value() / mass;
 }
 
 std::vector<double> node_bounds(const MassSpringModel& model) {
   const std::vector<Mat3> held = elastic::node_stiffness(model);
   std::vector<double> bounds;
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
-    bounds.push_back(bound_of(norm_of(held[i]), model.mass[i]));
+    bounds.push_back(bound_of(SchattenNorm(held[i]), model.mass[i]));
   return bounds;
 }
 
@@ -53,15 +59,15 @@ FrequencyConstraints frequency_constraints(const MassSpringModel& model, double 
   std::vector<double> values;
   std::vector<Eigen::Triplet<double>> jacobian;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    const Norm norm = norm_of(held[i]);
+    const SchattenNorm norm(held[i]);
     const double value = std::log(bound_of(norm, model.mass[i]) / tau);
     if (!(value > -margin)) continue;
     const auto row = static_cast<int>(values.size());
     values.push_back(value);
+    const Mat3 gradient = norm.log_gradient();
     springs.for_each(i, [&](std::uint32_t, std::uint32_t s) {
-      const Vec3 along = norm.axes.transpose() * spring_direction(model, s);
-      const double derivative = norm.gradient.dot(along.cwiseAbs2()) / norm.value;
-      jacobian.emplace_back(row, static_cast<int>(s), model.stiffness[s] * derivative);
+      const Vec3 u = spring_direction(model, s);
+      jacobian.emplace_back(row, static_cast<int>(s), model.stiffness[s] * u.dot(gradient * u));
     });
     if (free_masses) jacobian.emplace_back(row, static_cast<int>(model.spring_count() + i), -1.0);
   }
