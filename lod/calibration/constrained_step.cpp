@@ -33,7 +33,7 @@ struct Trial {
 class StepSearch {
  public:
   StepSearch(const ConstrainedProblem& problem, double& damping)
-      : problem_(problem), damping_(damping) {}
+      : problem_(problem), normal_(problem.normal), damping_(damping) {}
 
   ConstrainedStep run() {
     const Eigen::Index unknowns = problem_.variables.count();
@@ -62,8 +62,7 @@ class StepSearch {
     return trial.remainder.squaredNorm() + trial.violation;
   }
   double damped(const Trial& trial) const {
-    return objective(trial) +
-           damping_ * problem_.normal.diagonal().mean() * trial.change.squaredNorm();
+    return objective(trial) + damping_ * normal_.scale() * trial.change.squaredNorm();
   }
 
   /// Step with the constraints linearized at the step `at`.
@@ -74,7 +73,7 @@ class StepSearch {
         problem_.variables.scaled_jacobian(constraints.jacobian);
     const Eigen::VectorXd value = constraints.value - by_theta * at;
     return damped_step({.jacobian = problem_.jacobian,
-                        .normal = problem_.normal,
+                        .normal = normal_,
                         .residual = problem_.residual,
                         .constraint_jacobian = by_theta,
                         .constraint_value = value,
@@ -101,6 +100,7 @@ class StepSearch {
   }
 
   const ConstrainedProblem& problem_;
+  DampedNormal normal_;
   double& damping_;
 };
 

@@ -3,10 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "elastic/solver/conjugate_gradients.hpp"
-#include "elastic/solver/dense_kernels.hpp"
 
 namespace springlod::lod {
 namespace {
@@ -49,34 +46,28 @@ class ActiveStep {
   }
 
   Eigen::VectorXd solve(double damping) const {
-    Eigen::MatrixXd normal = problem_.normal;
-    normal.diagonal().array() += damping;
-    const Eigen::LLT<Eigen::MatrixXd> dense(normal);
+    const Eigen::LLT<Eigen::MatrixXd>& dense = problem_.normal.factors(damping);
     if (right_.size() == 0) return problem_.jacobian * dense.solve(problem_.residual);
-    Eigen::MatrixXd scaled_coupling = coupling_;  // w H G L^-T, L L^T = G^T G + epsilon I
-    elastic::solve_right_transposed(dense.matrixLLT(), scaled_coupling);
     const Eigen::VectorXd z =
-        solve_constraints(scaled_coupling, damping,
-                          right_ - scaled_coupling * dense.matrixL().solve(problem_.residual));
+        solve_constraints(dense, damping, right_ - coupling_ * dense.solve(problem_.residual));
     const Eigen::VectorXd y = dense.solve(problem_.residual - coupling_.transpose() * z);
     return problem_.jacobian * y + constraints_.transpose() * z;
   }
 
  private:
-  /// Solves (product + damping I - scaled_coupling scaled_coupling^T) z = right.
-  Eigen::VectorXd solve_constraints(const Eigen::MatrixXd& scaled_coupling, double damping,
+  /// Solves (product + damping I - coupling dense^-1 coupling^T) z = right, preconditioned by the
+  /// diagonal without the last term. With the term it would need a tenth fewer iterations, but an
+  /// elimination for every constraint.
+  Eigen::VectorXd solve_constraints(const Eigen::LLT<Eigen::MatrixXd>& dense, double damping,
                                     const Eigen::VectorXd& right) const {
-    const Eigen::VectorXd scale =
-        (product_.diagonal().array() + damping - scaled_coupling.rowwise().squaredNorm().array())
-            .inverse();
+    const Eigen::VectorXd scale = (product_.diagonal().array() + damping).inverse();
     const Eigen::VectorXd first = scale.cwiseProduct(right);
     const double small = kAccuracy * kAccuracy * right.dot(first);
     return elastic::conjugate_gradients(
                right, first, kMostIterations,
                [&](const Eigen::VectorXd& direction) {
                  Eigen::VectorXd image = product_ * direction + damping * direction;
-                 image.noalias() -=
-                     scaled_coupling * (scaled_coupling.transpose() * direction).eval();
+                 image.noalias() -= coupling_ * dense.solve(coupling_.transpose() * direction);
                  return image;
                },
                [&](const Eigen::MatrixXd& residual) { return scale.cwiseProduct(residual); },
@@ -100,8 +91,18 @@ double rms(const Eigen::VectorXd& d) {
 
 }  // namespace
 
+const Eigen::LLT<Eigen::MatrixXd>& DampedNormal::factors(double epsilon) {
+  if (epsilon != epsilon_) {
+    Eigen::MatrixXd damped = *normal_;
+    damped.diagonal().array() += epsilon;
+    factors_.compute(damped);
+    epsilon_ = epsilon;
+  }
+  return factors_;
+}
+
 Eigen::VectorXd damped_step(const StepProblem& problem, double& damping) {
-  const double scale = problem.normal.diagonal().mean();
+  const double scale = problem.normal.scale();
   Eigen::VectorXd violation = problem.constraint_value;
   if (problem.linearized_at.size() > 0)
     violation += problem.constraint_jacobian * problem.linearized_at;

@@ -1,16 +1,36 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 namespace springlod::lod {
+
+/// G^T G with its factors for the last damping: the steps from one point, whose constraints differ,
+/// mostly have the same.
+class DampedNormal {
+ public:
+  explicit DampedNormal(const Eigen::MatrixXd& normal)  ///< must outlive this
+      : normal_(&normal), scale_(normal.diagonal().mean()) {}
+
+  /// Mean diagonal.
+  double scale() const { return scale_; }
+  /// Factors of G^T G + epsilon I.
+  const Eigen::LLT<Eigen::MatrixXd>& factors(double epsilon);
+
+ private:
+  const Eigen::MatrixXd* normal_;
+  double scale_;
+  double epsilon_ = -1;  // of the factors; none yet if negative
+  Eigen::LLT<Eigen::MatrixXd> factors_;
+};
 
 /// Linearized least-squares problem with penalized constraints (docs/method.md, eqs. 40 and 41):
 ///   min_d |G^T d - r|^2 + w^2 sum over active i of (h_i + H_i d)^2 + epsilon |d|^2.
 /// A constraint is active if it is violated at `linearized_at`.
 struct StepProblem {
   const Eigen::MatrixXd& jacobian;  ///< G = -dr/dtheta: n x R, dense, R much less than n
-  const Eigen::MatrixXd& normal;    ///< G^T G
+  DampedNormal& normal;             ///< G^T G
   const Eigen::VectorXd& residual;  ///< r, R
   const Eigen::SparseMatrix<double, Eigen::RowMajor>&
       constraint_jacobian;                  ///< H = dh/dtheta: L x n, sparse
