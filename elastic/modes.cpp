@@ -25,6 +25,9 @@ constexpr Eigen::Index kDenseUnknowns = 240;
 /// If the iteration does not converge, the dense solver takes over up to this many unknowns (a
 /// minute).
 constexpr Eigen::Index kMostDenseUnknowns = 4000;
+/// Size of the random part of start vectors made of given shapes, relative to that of the shapes:
+/// it finds the modes that these lack.
+constexpr double kRandomPart = 0.1;
 /// Smallest eigenvalue / shift that is significant despite rounding in the matrix.
 constexpr double kLeastOfShift = 1e-3;
 
@@ -62,7 +65,7 @@ class BlockLanczos {
             std::min(8 * count + 300, component.unknowns() - component.zero_modes.cols() - kBlock)),
         task_(options.progress, "iterating for modes", static_cast<std::uint64_t>(count)),
         next_look_(count) {
-    next_ = random_block(component.unknowns(), kBlock, options.seed);
+    next_ = start_vectors(component, options);
     component_.remove_zero_modes(next_);
     orthonormalise(next_);
   }
@@ -78,6 +81,21 @@ class BlockLanczos {
   }
 
  private:
+  static Eigen::MatrixXd start_vectors(const ElasticComponent& component,
+                                       const ModeOptions& options) {
+    Eigen::MatrixXd start = random_block(component.unknowns(), kBlock, options.seed);
+    if (options.start.empty()) return start;
+    const auto count = static_cast<Eigen::Index>(options.start.size());
+    Eigen::MatrixXd shapes(component.unknowns(), count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      shapes.col(i) = component.gather(options.start[static_cast<std::size_t>(i)])
+                          .cwiseProduct(component.root_mass);
+    // Mass-normalised shapes have norm 1, the random vectors that of the square root of the size.
+    start *= kRandomPart *
+             std::sqrt(static_cast<double>(count) / static_cast<double>(component.unknowns()));
+    return start + shapes * random_block(count, kBlock, options.seed);
+  }
+
   /// QR decomposition: `block` becomes Q, and R is returned.
   static Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& block) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(block);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/option.hpp"
@@ -17,6 +18,9 @@ struct ModeOptions {
   double accuracy = 1e-4;
   std::uint64_t seed = 1;        ///< of the start vectors
   Progress* progress = nullptr;  ///< may be null
+  /// Approximate shapes of the lowest modes, N vectors each, in the unit of Mode::shape. They make
+  /// the iteration shorter and change nothing else.
+  std::span<const std::vector<Vec3>> start = {};
 };
 constexpr auto option_rows(const ModeOptions*) {
   return std::tuple(

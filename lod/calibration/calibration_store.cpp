@@ -19,7 +19,7 @@ namespace {
 
 /// Format version. Raise it whenever a fit continues differently from the same state or the format
 /// changes; files of other versions are ignored.
-constexpr std::uint32_t kFormat = 6;
+constexpr std::uint32_t kFormat = 7;
 constexpr std::size_t kChecksumSize = 16;  // of content_hash [bytes]
 
 const char* const kAbout =

@@ -12,9 +12,6 @@ namespace {
 
 /// Squared frequencies of the base count as equal within this fraction.
 constexpr double kSameFrequency = 0.01;
-/// Relative error bound of the squared frequencies; the error itself is about its square.
-constexpr double kAccuracy = 1e-3;
-
 /// Weight of a mode, relative to that of a smooth load. The ten lowest modes carry most of a
 /// motion. With these weights each kind of residual counts about equally at its tolerance.
 double mode_weight(std::size_t mode) {
@@ -124,9 +121,8 @@ void ElasticFit::jacobian(const MassSpringModel& level, const ElasticResiduals& 
 
 void ElasticFit::solve_modes(const elastic::ElasticBody& body, ElasticResiduals& all) const {
   const std::vector<double>& wanted = targets_.squared_frequency;
-  all.modes = elastic::lowest_modes(
-                  body, {.count = static_cast<std::uint32_t>(wanted.size()), .accuracy = kAccuracy})
-                  .modes;
+  const auto count = static_cast<std::uint32_t>(wanted.size());
+  all.modes = elastic::lowest_modes(body, {.count = count, .start = modal_.shapes}).modes;
   for (std::size_t i = 0; i < all.modes.size(); ++i)
     all.frequency_error.push_back(
         std::abs(all.modes[i].angular_frequency / std::sqrt(wanted[i]) - 1));

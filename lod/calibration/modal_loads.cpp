@@ -18,9 +18,12 @@ ModalLoads modal_loads(const MassSpringModel& level, const Groups& of_base,
     elastic::StaticLoad load =
         summed_over_groups(of_base, {fmt::format("inertia of mode {}", i + 1), force});
     for (const std::uint32_t node : held) load.force[node].setZero();
-    for (std::uint32_t node = 0; node < level.node_count(); ++node)
+    std::vector<Vec3>& shape = modal.shapes.emplace_back(load.force);
+    for (std::uint32_t node = 0; node < level.node_count(); ++node) {
+      shape[node] /= level.mass[node];
       scaled.col(i).segment<3>(3 * static_cast<Eigen::Index>(node)) =
           load.force[node] / std::sqrt(level.mass[node]);
+    }
     modal.loads.push_back(std::move(load));
   }
   modal.compliance = scaled.transpose() * scaled;

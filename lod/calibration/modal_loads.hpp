@@ -16,6 +16,7 @@ namespace springlod::lod {
 /// mode moves each node by the group mean of phi, over omega^2.
 struct ModalLoads {
   std::vector<elastic::StaticLoad> loads;  ///< M phi of each mode, summed over the groups
+  std::vector<std::vector<Vec3>> shapes;   ///< group means of phi of each mode [kg^-1/2]
   /// C0: work of load j along the base's displacement under load i, symmetrized [s2]. Those of two
   /// modes are 0 on the base, and nearly 0 on group means.
   Eigen::MatrixXd compliance;

@@ -43,6 +43,31 @@ TEST_CASE("The lowest modes of uneven models are those of a dense solver") {
   for (const Mode& mode : found.modes) CHECK(mode.residual <= 1e-4);
 }
 
+TEST_CASE("Shapes to start from, good or bad, do not change the modes") {
+  const MassSpringModel m = uneven_model(3, 7);
+  std::vector<std::vector<Vec3>> start;
+  const auto add = [&](const MassSpringModel& of, std::size_t first, std::size_t count) {
+    const Modes modes = lowest_modes(of);
+    for (std::size_t i = first; i < first + count; ++i) start.push_back(modes.modes[i].shape);
+  };
+  SECTION("those of a similar model") {
+    add(uneven_model(4, 7), 0, 20);
+  }
+  SECTION("its own") {
+    add(m, 0, 20);
+  }
+  SECTION("its own without the lowest") {
+    add(m, 3, 17);
+  }
+  SECTION("the same one three times") {
+    for (int i = 0; i < 3; ++i) add(m, 5, 1);
+  }
+  SECTION("rest") {
+    start.assign(2, std::vector<Vec3>(m.node_count(), Vec3::Zero()));
+  }
+  check_against_dense(m, lowest_modes(m, {.start = start}), 1e-6);
+}
+
 TEST_CASE("The iteration reaches a higher requested accuracy") {
   const MassSpringModel m = uneven_model(3, 6);
   const Modes found = lowest_modes(m, {.count = 40, .accuracy = 1e-8});
