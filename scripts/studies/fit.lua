@@ -7,6 +7,7 @@ local command = require "lib.command"
 local landing = require "studies.fit.landing"
 local lists = require "lib.lists"
 local motion = require "studies.fit.motion"
+local trade_off = require "studies.fit.trade_off"
 
 local keep = {0.45, 0.2}
 local patch_radius = 2.2 -- of the small patches [mean spring lengths]
@@ -39,10 +40,19 @@ parser:option("--variants", "Lua file that returns a list of {name = ..., calibr
   :convert(command.table_file("--variants"))
 parser:option("--landings", "number of directions from which each body lands; 0: none")
   :default("4"):convert(command.whole("--landings", 0))
+parser:flag("--trade-off", "measure fits that aim at different highest frequencies, in place of "
+  .. "the three, and draw gain against errors (trade-off.svg and .png); no landings")
 parser:flag("--landings-only", "measure only landings")
 parser:flag("--quick", "use one seed of one small body and few steps; takes seconds")
 local args = parser:parse()
 if args.quick then args.bodies, args.seeds, args.landings = "beam", 1, 1 end
+if args.trade_off then
+  if args.variants or args.landings_only then
+    parser:error("--trade-off has variants of its own and no landings")
+  end
+  args.variants, args.landings = trade_off.variants(), 0
+end
+local compared = args.variants or variants
 
 local function chosen_bodies()
   local known, chosen = {samples = true, others = true, firm = true}, {}
@@ -221,7 +231,7 @@ end
 local function mean_rows()
   local list = {}
   for level = 1, #keep do
-    for _, variant in ipairs(args.variants or variants) do
+    for _, variant in ipairs(compared) do
       local sum = sums[level .. " " .. variant.name]
       local row = {level, variant.name, sum.count}
       for i = 1, #measures do row[#row + 1] = sum[i] / sum.count end
@@ -247,6 +257,15 @@ local function show(list)
   print(s.format_table(texts, {columns = with_measures{"level", "variant"}}))
 end
 
+local function draw_trade_off()
+  trade_off.chart(args.folder, compared, #keep, function(level, variant, name)
+    local sum = sums[level .. " " .. variant.name]
+    for i, one in ipairs(measures) do
+      if one[1] == name then return sum[i] / sum.count end
+    end
+  end)
+end
+
 local ok, failure = command.try(function()
   for _, body in ipairs(chosen_bodies()) do
     body.base = body.make()
@@ -260,7 +279,7 @@ local ok, failure = command.try(function()
         .. "%.2g %% later"):format(body.name, 100 * noise.early, 100 * noise.late))
     end
     for seed = 1, args.seeds do
-      for _, variant in ipairs(args.variants or variants) do measure(body, variant, seed) end
+      for _, variant in ipairs(compared) do measure(body, variant, seed) end
     end
     s.say(("%s: %d nodes measured"):format(body.name, body.base.node_count))
   end
@@ -270,6 +289,7 @@ local ok, failure = command.try(function()
   s.csv(args.folder .. "/means.csv", list,
     {columns = with_measures{"level", "variant", "levels"}})
   show(list)
+  if args.trade_off then draw_trade_off() end
 end)
 if not ok then command.fail("fit: %s", failure) end
 s.say("wrote " .. args.folder)

@@ -40,8 +40,25 @@ TEST_CASE("springlod fit measures elasticity, blows and vibration of levels", "[
   }
 }
 
+TEST_CASE("springlod fit --trade-off charts gain against errors", "[long]") {
+  const TemporaryFolder out;
+  const Ran ran = springlod_run({"-q", "fit", out.path().string(), "--quick", "--trade-off"});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  const auto rows = rows_of(slurp(out / "means.csv"));
+  REQUIRE(rows.size() == 2 * 6);  // levels times aims
+  CHECK(rows.front().at("variant") == "1.30");
+  CHECK(rows.back().at("variant") == "0.70");
+  for (const Row& row : rows) CHECK(number(row, "gain") > 1);
+  CHECK((std::filesystem::exists(out / "trade-off.svg") ||
+         ran.err.find("gnuplot") != std::string::npos));
+}
+
 TEST_CASE("springlod fit refuses bodies that it does not have") {
   const TemporaryFolder out;
+  const Ran both = springlod_run({"fit", out.path().string(), "--trade-off", "--landings-only"});
+  CHECK(both.exit_code == 2);
+  CHECK_THAT(both.err, Contains("--trade-off has variants of its own and no landings"));
   const Ran unknown = springlod_run({"fit", out.path().string(), "--bodies", "teapot"});
   CHECK(unknown.exit_code == 1);
   CHECK_THAT(unknown.err, Contains("'teapot' must be samples, others, firm or one of"));
