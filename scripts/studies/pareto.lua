@@ -16,12 +16,12 @@ local all = pareto_variants.axes
 
 local parser = command.parser("pareto", "Simplify the base of an asset with every combination of "
   .. "grouping, border rule and calibration, run the levels under one scenario with every "
-  .. "integrator and precision, and chart the wall-clock cost of a simulated second against four "
-  .. "errors: frequencies, loads, surface (until shortly after the first contact) and ensemble "
-  .. "(final distances of many starts). Writes NAME.svg, NAME.png, NAME.csv and NAME-front.csv for "
-  .. "each error, points.csv, timings.csv (only the measured times, and what is drawn from them, "
-  .. "vary between runs), left-out.csv, models/ (all levels) and command.txt. After an "
-  .. "interruption (Ctrl-C) the same command resumes.")
+  .. "integrator, precision and kind of contact, and chart the wall-clock cost of a simulated "
+  .. "second against four errors: frequencies, loads, surface (until shortly after the first "
+  .. "contact) and ensemble (final distances of many starts). Writes NAME.svg, NAME.png, NAME.csv "
+  .. "and NAME-front.csv for each error, points.csv, timings.csv (only the measured times, and "
+  .. "what is drawn from them, vary between runs), left-out.csv, models/ (all levels) and "
+  .. "command.txt. After an interruption (Ctrl-C) the same command resumes.")
 parser:argument("asset", "a .glb asset, written by convert or s.save; only its base is used")
 parser:option("--scenario", "Lua file that returns a table for s.scenario")
   :argname("<file.lua>"):count(1)
@@ -36,6 +36,8 @@ axis("calibrations", "any of " .. table.concat(all.calibrations, ","))
 axis("integrators", "integrators, such as symplectic_euler,xpbd")
 axis("precisions", "any of " .. table.concat(all.precisions, ",")
   .. "; only symplectic_euler supports single")
+axis("contacts", "any of " .. table.concat(all.contacts, ",")
+  .. ": what of a level touches obstacles")
 axis("errors", "any of " .. table.concat(all.errors, ",") .. "; ensemble takes longest")
 parser:option("--keep", "node count of each level as a fraction of the base, such as 0.45,0.2 "
   .. "(default: as in the asset)"):argname("<fractions>"):convert(command.numbers("--keep", 0))
@@ -130,14 +132,19 @@ end
 
 local function measure_all(study, measures, left_out)
   local methods = pareto_variants.methods(axes)
-  local steppings = pareto_variants.steppings(axes)
-  if #steppings == 0 then
+  local base, steppings = methods[1], {}
+  for _, making in ipairs(methods) do
+    steppings[making] = pareto_variants.steppings(axes, making)
+  end
+  if #steppings[base] == 0 then
     error("nothing to run: only symplectic_euler supports single precision; add double to "
       .. "--precisions", 0)
   end
   local settings, variants = study.settings, {}
   local levels = #settings.keep
-  local report = progress(#steppings + (#methods - 1) * (settings.seeds + levels * #steppings))
+  local total = #steppings[base]
+  for i = 2, #methods do total = total + settings.seeds + levels * #steppings[methods[i]] end
+  local report = progress(total)
   for _, making in ipairs(methods) do
     local ok, chains = command.try(pareto_chains.of, study, making, report)
     if not ok then
@@ -146,7 +153,7 @@ local function measure_all(study, measures, left_out)
     else
       for level = making.grouping and 1 or 0, making.grouping and levels or 0 do
         local elastic = pareto_chains.elastic_errors(chains, level)
-        for _, stepping in ipairs(steppings) do
+        for _, stepping in ipairs(steppings[making]) do
           local variant = pareto_variants.variant(making, level, stepping, settings.implicit_step)
           variant.nodes = chains[1][level].node_count
           variant.springs = chains[1][level].spring_count

@@ -54,12 +54,13 @@ TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat 
   const Ran ran = springlod_run(arguments(scratch));
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
-  CHECK_THAT(ran.err, Contains("22/22 compact modes L2 single"));
+  CHECK_THAT(ran.err, Contains("38/38 compact modes L2 single surface"));
   const fs::path out = scratch / "out";
 
-  // Two groupings x two calibrations x two levels, in both precisions, and the base.
+  // Two groupings x two calibrations x two levels, in both precisions and with both contacts, and
+  // the base in both precisions.
   const auto points = by_variant(out / "points.csv");
-  REQUIRE(points.size() == 2 * (1 + 2 * 2 * 2));
+  REQUIRE(points.size() == 2 + 2 * 2 * 2 * 2 * 2);
   const auto timings = by_variant(out / "timings.csv");
   CHECK(timings.size() == points.size());
   for (const auto& [name, row] : points) {
@@ -76,15 +77,22 @@ TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat 
     CHECK(number(times, "cost / base low") <= number(times, "cost / base"));
     CHECK(number(times, "cost / base") <= number(times, "cost / base high"));
   }
-  // Elastic errors do not depend on the integrator; single precision is close to double.
-  const Row& plain = points.at("standard-none-none-1-symplectic_euler-double");
-  const Row& single = points.at("standard-none-none-1-symplectic_euler-single");
+  // Elastic errors depend neither on the integrator nor on contact; single precision is close to
+  // double.
+  const Row& plain = points.at("standard-none-none-1-symplectic_euler-double-nodes");
+  const Row& single = points.at("standard-none-none-1-symplectic_euler-single-nodes");
   CHECK(plain.at("paper") == "LOD-1");
   CHECK(single.at("paper").empty());
   CHECK(plain.at("frequencies [%]") == single.at("frequencies [%]"));
   CHECK(number(single, "surface [%]") == Approx(number(plain, "surface [%]")).epsilon(1e-3));
-  CHECK(plain.at("nodes") == points.at("compact-none-none-1-symplectic_euler-double").at("nodes"));
+  CHECK(plain.at("nodes") ==
+        points.at("compact-none-none-1-symplectic_euler-double-nodes").at("nodes"));
   CHECK(number(plain, "ensemble floor [m]") > 0);
+  const Row& surface = points.at("standard-none-none-1-symplectic_euler-double-surface");
+  CHECK(surface.at("label") == "standard L1 surface");
+  CHECK(surface.at("paper").empty());
+  CHECK(surface.at("frequencies [%]") == plain.at("frequencies [%]"));
+  CHECK(surface.at("surface [%]") != plain.at("surface [%]"));
 
   for (const char* error : {"frequencies", "loads", "surface", "ensemble"}) {
     CAPTURE(error);
@@ -117,15 +125,15 @@ TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat 
   const std::string before = slurp(out / "timings.csv");
   REQUIRE(springlod_run(arguments(scratch, {"-q"})).exit_code == 0);
   CHECK(slurp(out / "timings.csv") == before);
-  const Ran more = springlod_run(
-      arguments(scratch, {"-q", "--integrators", "symplectic_euler,xpbd", "--precisions", "double",
-                          "--groupings", "standard", "--errors", "frequencies"}));
+  const Ran more = springlod_run(arguments(
+      scratch, {"-q", "--integrators", "symplectic_euler,xpbd", "--precisions", "double",
+                "--groupings", "standard", "--contacts", "nodes", "--errors", "frequencies"}));
   CAPTURE(more.err);
   REQUIRE(more.exit_code == 0);
   const auto added = by_variant(out / "points.csv");
   CHECK(added.size() == 2 * (1 + 2 * 2));
-  CHECK(added.at("standard-none-none-2-xpbd-double").at("label") == "standard L2 XPBD");
-  CHECK(added.at("standard-none-none-2-xpbd-double").at("surface [%]").empty());
+  CHECK(added.at("standard-none-none-2-xpbd-double-nodes").at("label") == "standard L2 XPBD");
+  CHECK(added.at("standard-none-none-2-xpbd-double-nodes").at("surface [%]").empty());
 
   const Ran other = springlod_run(arguments(scratch, {"--starts", "6"}));
   CHECK(other.exit_code == 1);
@@ -137,8 +145,9 @@ TEST_CASE(
   const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(
-      scratch, {"--groupings", "compact", "--borders", "none,strong", "--calibrations", "none",
-                "--errors", "frequencies", "--precisions", "double", "--keep", "0.2"}));
+      scratch,
+      {"--groupings", "compact", "--borders", "none,strong", "--calibrations", "none", "--errors",
+       "frequencies", "--precisions", "double", "--contacts", "surface", "--keep", "0.2"}));
   CAPTURE(ran.err);
   CHECK(ran.exit_code == 0);
   CHECK_THAT(ran.out, Contains("failed levels and measurements: 1 (see left-out.csv)"));

@@ -1,5 +1,5 @@
--- Charts of cost against error: the colour shows the calibration, the symbol the grouping, rings
--- the paper's variants. Points on the Pareto front are labelled.
+-- Charts of cost against error: the colour shows calibration and contact, the symbol the grouping,
+-- rings the paper's variants. Points on the Pareto front are labelled.
 
 local s = require "springlod"
 local command = require "lib.command"
@@ -7,11 +7,17 @@ local pareto_front = require "studies.pareto.front"
 
 local pareto_charts = {}
 
--- Colours of the calibrations and symbols of the groupings, in the order of s.choices.
+-- Colours of the calibrations with each contact and symbols of the groupings, in the order of
+-- s.choices.
+local function look_of(calibration, contact) return calibration .. " " .. contact end
 local colours, calibration_names = {}, {}
 for i, calibration in ipairs(s.choices.calibrate) do
-  colours[calibration] = ({"orange", "pink", "blue"})[i]
-  calibration_names[i] = {calibration, (i == 1 and "not" or calibration) .. " calibrated"}
+  for k, contact in ipairs(s.choices.contact) do
+    local look = look_of(calibration, contact)
+    colours[look] = ({{"orange", "amber"}, {"pink", "green"}, {"blue", "sky"}})[i][k]
+    table.insert(calibration_names, {look, ("%s calibrated%s"):format(
+      i == 1 and "not" or calibration, contact == "nodes" and "" or ", contact at the surface")})
+  end
 end
 local symbols, symbol_of = {}, {}
 for i, grouping in ipairs(s.choices.grouping) do
@@ -78,8 +84,10 @@ local function add_legend(series, points)
   local seen = {}
   for _, point in ipairs(points) do
     local making = point.variant.making
-    seen[making.grouping or "base"] = true
-    seen[making.calibration or "base"] = true
+    if making.grouping then
+      seen[making.grouping] = true
+      seen[look_of(making.calibration, point.variant.stepping.contact)] = true
+    end
   end
   for _, entry in ipairs(calibration_names) do
     if seen[entry[1]] then
@@ -97,20 +105,20 @@ local function add_legend(series, points)
                          joined = false}
 end
 
--- One series per grouping and calibration, and the points of the paper's variants. `front` is a set
--- of points; these and the base are labelled. Points at or below `y_from` are drawn only if they
--- are on the front.
+-- One series per grouping, calibration and contact, and the points of the paper's variants. `front`
+-- is a set of points; these and the base are labelled. Points at or below `y_from` are drawn only
+-- if they are on the front.
 local function series_of(points, front, y_from)
   local series, of_look, paper = {}, {}, {}
   for _, point in ipairs(points) do
     local variant = point.variant
     local making = variant.making
-    local look = making.grouping and making.grouping .. making.calibration or "base"
+    local colour = making.grouping
+      and colours[look_of(making.calibration, variant.stepping.contact)] or "grey"
+    local look = (making.grouping or "base") .. colour
     if not of_look[look] then
-      of_look[look] = {
-        points = {}, joined = false, symbol = symbol_of[making.grouping] or "pentagon",
-        colour = colours[making.calibration] or "grey",
-      }
+      of_look[look] = {points = {}, joined = false, colour = colour,
+                       symbol = symbol_of[making.grouping] or "pentagon"}
       series[#series + 1] = of_look[look]
     end
     if point.y > y_from or front[point] then

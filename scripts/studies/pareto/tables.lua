@@ -32,7 +32,7 @@ local error_units = {{"frequencies", " [%]"}, {"loads", " [%]"}, {"surface", " [
 
 local function save_points(path, variants, study)
   local columns = {"variant", "label", "paper", "grouping", "border", "calibration", "level",
-                   "nodes", "springs", "integrator", "precision"}
+                   "nodes", "springs", "integrator", "precision", "contact"}
   for _, entry in ipairs(error_units) do interval_columns(columns, entry[1], entry[2]) end
   for _, name in ipairs{"surface floor [%]", "ensemble floor [m]", "seeds inside the floor"} do
     columns[#columns + 1] = name
@@ -41,7 +41,7 @@ local function save_points(path, variants, study)
   for i, v in ipairs(variants) do
     local row = {v.name, v.label, v.paper or "", v.making.grouping or "", v.making.border or "",
                  v.making.calibration or "", v.level, v.nodes, v.springs, v.stepping.integrator,
-                 v.stepping.precision}
+                 v.stepping.precision, v.stepping.contact}
     for _, entry in ipairs(error_units) do add_interval(row, v.measured[entry[1]]) end
     row[#row + 1] = study.surfaces and study.surfaces.floor.value or ""
     row[#row + 1] = study.ensembles and study.ensembles.floor.level or ""

@@ -1,4 +1,5 @@
--- The variants of springlod pareto: simplification methods, integrators with precision, and names.
+-- The variants of springlod pareto: simplification methods, ways to run them (integrator, precision
+-- and contact), and names.
 
 local s = require "springlod"
 local paper_variants = require "studies.paper.variants"
@@ -12,6 +13,7 @@ pareto_variants.axes = {
   calibrations = s.choices.calibrate,
   integrators = s.choices.integrator,
   precisions = s.choices.precision,
+  contacts = s.choices.contact,
   errors = {"frequencies", "loads", "surface", "ensemble"},
 }
 
@@ -41,16 +43,23 @@ function pareto_variants.methods(axes)
   return methods
 end
 
--- The integrators, each with the precisions that it supports.
-function pareto_variants.steppings(axes)
+-- The ways to run the levels of a method: integrators, each with the precisions that it supports,
+-- and what touches obstacles. That is always the nodes of the base itself.
+function pareto_variants.steppings(axes, making)
   local steppings = {}
+  local function add(integrator, precision, contact)
+    steppings[#steppings + 1] = {
+      name = ("%s-%s-%s"):format(integrator, precision, contact), integrator = integrator,
+      precision = precision, contact = contact,
+      usual = integrator == "symplectic_euler" and precision == "double" and contact == "nodes",
+    }
+  end
   for _, integrator in ipairs(axes.integrators) do
     for _, precision in ipairs(axes.precisions) do
       if precision == "double" or s.choices.integrator[integrator].fast then
-        steppings[#steppings + 1] = {
-          name = integrator .. "-" .. precision, integrator = integrator, precision = precision,
-          usual = integrator == "symplectic_euler" and precision == "double",
-        }
+        for _, contact in ipairs(making.grouping and axes.contacts or {"nodes"}) do
+          add(integrator, precision, contact)
+        end
       end
     end
   end
@@ -71,6 +80,7 @@ local function label(making, level, stepping)
   end
   if stepping.integrator ~= "symplectic_euler" then add(stepping.integrator) end
   if stepping.precision == "single" then add("single") end
+  if stepping.contact == "surface" then add("surface") end
   return table.concat(words, " ")
 end
 
@@ -97,6 +107,7 @@ function pareto_variants.variant(making, level, stepping, implicit_step)
     making = making, level = level, stepping = stepping,
     step_options = {
       integrator = stepping.integrator, precision = stepping.precision,
+      contact = stepping.contact,
       step = s.choices.integrator[stepping.integrator].implicit and implicit_step or nil,
     },
   }
