@@ -34,18 +34,20 @@ local lines = {
 -- Writes folder/trade-off.svg and .png. value_of(level, variant, measure) returns the mean of a
 -- measure.
 function trade_off.chart(folder, variants, levels, value_of)
-  local series = {}
+  local series, rings = {}, {}
   for level = 1, levels do
     for _, line in ipairs(lines) do
       local measure, points = line[1], {}
       for i, variant in ipairs(variants) do
-        points[i] = {value_of(level, variant, "gain"), value_of(level, variant, measure),
-                     label = line == lines[1] and variant.is_default and "default" or nil}
+        points[i] = {value_of(level, variant, "gain"), value_of(level, variant, measure)}
+        if variant.is_default then rings[#rings + 1] = points[i] end
       end
       series[#series + 1] = {name = level == 1 and measure or nil, points = points,
                              colour = line[2], symbol = level == 1 and "disc" or "triangle"}
     end
   end
+  series[#series + 1] = {name = "default", points = rings, colour = "black", symbol = "ring",
+                         joined = false}
   command.chart(folder .. "/trade-off", series, {
     title = "What a longer step costs in accuracy: levels 1 (left) and 2",
     x_label = "gain: base cost / cost of a simulated second (springs over stable step)",
