@@ -98,9 +98,10 @@ Contact ContactFinder::contact(std::size_t obstacle, std::uint32_t point, const 
 }
 
 void Contact::continue_from(const Contact& before) {
+  const Vec3 yield_before = before.yield;
   yield = before.normal_force * sideways;
   stretch = before.stretch;
-  if (friction > 0) stretch += yield - before.yield;
+  if (friction > 0) stretch += yield - yield_before;
 }
 
 void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>& now) {
@@ -114,27 +115,22 @@ void keep_stick_springs(const std::vector<Contact>& before, std::vector<Contact>
 }
 
 FrictionLaw::FrictionLaw(const Contact& contact, double mass, double step)
-    : normal_(contact.normal), inverse_mass_(1 / mass) {
+    : normal_(padded(contact.normal)), inverse_mass_(1 / mass) {
   if (contact.stick_stiffness == 0) return;
   stick_ = contact.stick_stiffness;
   damping_ = contact.stick_damping;
   late_ = step + damping_;
   const double pull = stick_ * step * inverse_mass_;
   gain_ = pull / (1 + pull * late_);
-  start_ = along_face(contact.stretch);
-  held_ = contact.stick_energy();
-}
-
-void FrictionLaw::finish(Contact& contact) const {
-  if (stick_ == 0) return;
-  const double stretch = 1 / (stick_ * inverse_mass_);  // by a change of the velocity of 1 m/s [s]
-  contact.stretch = (1 / late_) * (damping_ * start_ - stretch * contact.slip_change);
-  contact.stick_gain = contact.stick_energy() - held_;
+  inverse_late_ = 1 / late_;
+  stretch_ = 1 / (stick_ * inverse_mass_);
+  start(contact);
 }
 
 void apply_friction(Contact& contact, double mass, double step, const Vec3& v) {
   const FrictionLaw law(contact, mass, step);
-  contact.slip_change = law.slip_change(v, contact.friction * contact.normal_force * step);
+  contact.slip_change =
+      law.slip_change(padded(v), contact.friction * contact.normal_force * step).head<3>();
   law.finish(contact);
 }
 

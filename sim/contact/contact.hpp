@@ -8,6 +8,7 @@
 
 #include "sim/contact/contact_points.hpp"
 #include "sim/contact/normal_law.hpp"
+#include "sim/correction/padded.hpp"
 #include "sim/scenario.hpp"
 
 namespace springlod::sim {
@@ -34,8 +35,8 @@ struct Contact {
   Vec3 sideways = Vec3::Zero();  ///< see ContactPoints::Yielding [m/N]
   /// Displacement of the surface along the face by the normal force of the last step [m].
   Vec3 yield = Vec3::Zero();
-  /// Continues the contact of the same point with the same obstacle in the last step: takes over
-  /// the stretch of the stick spring, whose anchor the yield moves.
+  /// Continues the contact of the same point with the same obstacle in the last step, which may be
+  /// this one: takes over the stretch of the stick spring, whose anchor the yield moves.
   void continue_from(const Contact& before);
   double energy() const { return penalty_energy(stiffness, depth) + stick_energy(); }    ///< [J]
   double stick_energy() const { return 0.5 * stick_stiffness * stretch.squaredNorm(); }  ///< [J]
@@ -99,28 +100,45 @@ class FrictionLaw {
   FrictionLaw() = default;
   /// The contact has the stretch of its stick spring at the start of the step.
   FrictionLaw(const Contact& contact, double mass, double step);
+  /// Starts another step of the same length: the contact has another stretch.
+  void start(const Contact& contact);
   /// Change of the velocity of a point that moves at v [m/s]; `most`: mu f_n dt [N s].
-  Vec3 slip_change(const Vec3& v, double most) const {
-    const Vec3 change = gain_ * (start_ + late_ * along_face(v));
-    const double square = change.squaredNorm();
+  Padded slip_change(const Padded& v, double most) const {
+    const Padded change = gain_ * (start_ + late_ * along_face(v));
+    const double square = dot(change, change);
     const double largest = most * inverse_mass_;
-    return square > largest * largest ? Vec3(-largest / std::sqrt(square) * change) : Vec3(-change);
+    if (square > largest * largest) return -largest / std::sqrt(square) * change;
+    return -change;
   }
   /// Sets stretch and stick_gain from slip_change of the contact, at the end of the step.
   void finish(Contact& contact) const;
 
  private:
-  Vec3 along_face(const Vec3& u) const { return u - normal_.dot(u) * normal_; }
+  Padded along_face(const Padded& u) const { return u - dot(normal_, u) * normal_; }
 
-  Vec3 normal_ = Vec3::UnitZ();
+  Padded normal_ = Padded::UnitZ();
   double inverse_mass_ = 0;  // [1/kg]
   double gain_ = 1;          // change per stretch and late_ times slip [1/s]; 1 without spring [1]
   double late_ = 1;          // dt + damping time [s]; 1 without a stick spring [1]
   double stick_ = 0;         // stiffness of the stick spring [N/m]
   double damping_ = 0;       // its damping time [s]
+  double inverse_late_ = 1;  // [1/s]
+  double stretch_ = 0;       // stretch by a change of the velocity of 1 m/s [s]
   double held_ = 0;          // its energy at the start [J]
-  Vec3 start_ = Vec3::Zero();  // its stretch at the start, along the face [m]
+  Padded start_ = Padded::Zero();  // its stretch at the start, along the face [m]
 };
+
+inline void FrictionLaw::start(const Contact& contact) {
+  if (stick_ == 0) return;
+  start_ = along_face(padded(contact.stretch));
+  held_ = contact.stick_energy();
+}
+
+inline void FrictionLaw::finish(Contact& contact) const {
+  if (stick_ == 0) return;
+  contact.stretch = inverse_late_ * (damping_ * start_.head<3>() - stretch_ * contact.slip_change);
+  contact.stick_gain = contact.stick_energy() - held_;
+}
 
 /// Applies friction over a step to a point of velocity v and mass m: sets slip_change, stretch and
 /// stick_gain.

@@ -21,99 +21,152 @@ constexpr std::uint64_t kTurnEvery = 8;
 
 }  // namespace
 
-void StepContacts::begin(double step) {
-  ++number_;
-  step_ = step;
-  inverse_step_ = 1 / step;
-  std::swap(contacts_, before_);
-  contacts_.clear();
-  touches_.clear();
-  shares_.clear();
-  losses_ = {};
+// Sums of their own: what is stored in a result might change the shares, for all the compiler
+// knows.
+inline PaddedPath StepContacts::path(const Touch& touch, const StepNodes& nodes) const {
+  const std::span<const PaddedPath> paths = nodes.paths();
+  Padded from = Padded::Zero();
+  Padded to = Padded::Zero();
+  for (const Share& share : shares(touch)) {
+    from += share.weight * paths[share.slot].from;
+    to += share.weight * paths[share.slot].to;
+  }
+  return {from, to};
 }
 
-void StepContacts::check(const Contact& before, StepNodes& nodes) {
-  Touch& touch = add_touch(before.point, nodes);
-  touch.path = path(touch, nodes);
-  const auto end = finder_->penetration(before.obstacle, before.point, touch.path.to);
-  const Vec3& normal = end ? end->normal : before.normal;
-  Contact& contact = contacts_.emplace_back(before);
-  // By turns, so that all steps cost the same.
-  const bool turns = points_->turns(before.point) && (number_ + before.point) % kTurnEvery == 0;
-  if (turns || normal != before.normal) {
-    contact =
-        finder_->contact(before.obstacle, before.point, normal, frame(before.point, touch, nodes));
-    // The forces of the last step need fewer sweeps than none.
-    contact.normal_force = before.normal_force;
-    contact.slip_change = before.slip_change;
+inline Padded StepContacts::position(const Touch& touch, const StepNodes& nodes) const {
+  const std::span<const Padded> at = nodes.all_at();
+  Padded sum = Padded::Zero();
+  for (const Share& share : shares(touch)) sum += share.weight * at[share.slot];
+  return sum;
+}
+
+inline void StepContacts::push(const Touch& touch, const Padded& change, StepNodes& nodes) const {
+  const std::span<Padded> at = nodes.all_at();
+  for (const Share& share : shares(touch)) at[share.slot] += share.kick * change;
+}
+
+void StepContacts::set(std::vector<Contact> contacts) {
+  contacts_ = std::move(contacts);
+  touches_.assign(contacts_.size(), {});
+  for (std::size_t t = 0; t < touches_.size(); ++t)
+    touches_[t].normal_force = contacts_[t].normal_force;
+  new_shares_ = true;
+  step_ = 0;  // the laws are not set
+}
+
+void StepContacts::begin(double step, const StepPaths& paths, StepNodes& nodes) {
+  ++number_;
+  checked_ = 0;
+  losses_ = {};
+  if (new_shares_) nodes.keep_none();
+  nodes.begin(paths);
+  if (new_shares_) {
+    shares_.clear();
+    for (std::size_t t = 0; t < touches_.size(); ++t)
+      gather_shares(contacts_[t].point, touches_[t], nodes);
+    new_shares_ = false;
   }
-  contact.continue_from(before);
-  set_up(contact, &before, end, touch);
-  push(touch,
-       touch.law.mobility() * contact.normal_force * contact.normal + step_ * contact.slip_change,
+  if (step == step_) return;
+  step_ = step;
+  inverse_step_ = 1 / step;
+  for (std::size_t t = 0; t < touches_.size(); ++t) set_laws(contacts_[t], touches_[t]);
+}
+
+void StepContacts::continue_next(StepNodes& nodes) {
+  Contact& contact = contacts_[checked_];
+  Touch& touch = touches_[checked_];
+  ++checked_;
+  touch.path = path(touch, nodes);
+  const auto end = finder_->penetration(contact.obstacle, contact.point, touch.path.to.head<3>());
+  losses_.contact += contact.energy();
+  const bool same_face = !end || end->normal == contact.normal;
+  // By turns, so that all steps cost the same.
+  const bool turns = points_->turns(contact.point) && (number_ + contact.point) % kTurnEvery == 0;
+  if (turns || !same_face) {
+    contact = turned(contact, same_face ? contact.normal : end->normal, touch, nodes);
+    set_laws(contact, touch);
+  }
+  contact.continue_from(contact);
+  touch.slider.start(contact);
+  // The depth of a contact that continues is known; geometry would give it with other rounding.
+  if (end) {
+    touch.level = end->depth + dot(touch.normal, touch.path.to);
+    touch.before = same_face ? contact.depth : touch.level - dot(touch.normal, touch.path.from);
+  } else {
+    touch.before = contact.depth;
+    touch.level = contact.depth + dot(touch.normal, touch.path.from);
+  }
+  // Differs from the energy before on another face, or where the surface has turned.
+  losses_.contact -= penalty_energy(contact.stiffness, touch.before) + contact.stick_energy();
+  // The forces of the last step need fewer sweeps than none.
+  push(touch, touch.law.mobility() * touch.normal_force * touch.normal + step_ * touch.slip_change,
        nodes);
+}
+
+void StepContacts::end_next(std::uint32_t count) {
+  const auto first = static_cast<std::ptrdiff_t>(checked_);
+  auto last = first;
+  while (last < std::ssize(contacts_) && contacts_[static_cast<std::size_t>(last)].obstacle < count)
+    ++last;
+  if (last == first) return;
+  contacts_.erase(contacts_.begin() + first, contacts_.begin() + last);
+  touches_.erase(touches_.begin() + first, touches_.begin() + last);
+  new_shares_ = true;
 }
 
 void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const StepPath& path,
                          StepNodes& nodes) {
   const auto end = finder_->penetration(obstacle, point, path.to);
   if (!end) return;
-  Touch& touch = add_touch(point, nodes);
-  touch.path = path;
-  contacts_.push_back(finder_->contact(obstacle, point, end->normal, frame(point, touch, nodes)));
-  set_up(contacts_.back(), nullptr, end, touch);
+  Touch touch;
+  gather_shares(point, touch, nodes);
+  touch.path = {padded(path.from), padded(path.to)};
+  const Contact contact =
+      finder_->contact(obstacle, point, end->normal, frame(point, touch, nodes));
+  set_laws(contact, touch);
+  touch.level = end->depth + dot(touch.normal, touch.path.to);
+  touch.before = touch.level - dot(touch.normal, touch.path.from);
+  // Where other contacts pushed it in.
+  losses_.contact -= penalty_energy(contact.stiffness, touch.before);
+  const auto at = static_cast<std::ptrdiff_t>(checked_);
+  contacts_.insert(contacts_.begin() + at, contact);
+  touches_.insert(touches_.begin() + at, touch);
+  ++checked_;
 }
 
-StepContacts::Touch& StepContacts::add_touch(std::uint32_t point, StepNodes& nodes) {
-  Touch& touch = touches_.emplace_back(static_cast<std::uint32_t>(shares_.size()));
+Contact StepContacts::turned(const Contact& before, const Vec3& normal, const Touch& touch,
+                             const StepNodes& nodes) const {
+  Contact now =
+      finder_->contact(before.obstacle, before.point, normal, frame(before.point, touch, nodes));
+  now.depth = before.depth;
+  now.normal_force = before.normal_force;
+  now.stretch = before.stretch;
+  now.yield = before.yield;
+  return now;
+}
+
+void StepContacts::gather_shares(std::uint32_t point, Touch& touch, StepNodes& nodes) {
+  touch.first = static_cast<std::uint32_t>(shares_.size());
   for (const ContactPoints::Share& share : points_->shares(point))
     shares_.push_back({nodes.slot(share.node), share.weight, share.kick});
   touch.end = static_cast<std::uint32_t>(shares_.size());
-  return touch;
+}
+
+void StepContacts::set_laws(const Contact& contact, Touch& touch) const {
+  touch.normal = padded(contact.normal);
+  touch.friction = contact.friction;
+  touch.mass = points_->mass(contact.point);
+  touch.law = NormalLaw({.stiffness = contact.stiffness,
+                         .damping = contact.damping * inverse_step_,
+                         .mobility = step_ * step_ / (2 * touch.mass)});
+  touch.slider = FrictionLaw(contact, touch.mass, step_);
 }
 
 Mat3 StepContacts::frame(std::uint32_t point, const Touch& touch, const StepNodes& nodes) const {
   const Share* share = shares_.data() + touch.first;
   return points_->frame(point,
                         [&](std::uint32_t) -> Vec3 { return nodes.path((share++)->slot).from; });
-}
-
-StepPath StepContacts::path(const Touch& touch, const StepNodes& nodes) const {
-  PaddedPath sum;
-  for (std::uint32_t s = touch.first; s < touch.end; ++s) {
-    const PaddedPath& of_node = nodes.padded_path(shares_[s].slot);
-    sum.from += shares_[s].weight * of_node.from;
-    sum.to += shares_[s].weight * of_node.to;
-  }
-  return sum.path();
-}
-
-void StepContacts::set_up(const Contact& contact, const Contact* was,
-                          const std::optional<Penetration>& end, Touch& touch) {
-  touch.mass = points_->mass(contact.point);
-  touch.law = NormalLaw({.stiffness = contact.stiffness,
-                         .damping = contact.damping * inverse_step_,
-                         .mobility = step_ * step_ / (2 * touch.mass)});
-  touch.friction = FrictionLaw(contact, touch.mass, step_);
-  // The depth of a contact that continues is known; geometry would give it with other rounding.
-  const bool same_face = was != nullptr && was->normal == contact.normal;
-  if (end) {
-    touch.level = end->depth + contact.normal.dot(touch.path.to);
-    touch.before = same_face ? was->depth : touch.level - contact.normal.dot(touch.path.from);
-  } else {
-    touch.before = was->depth;
-    touch.level = was->depth + contact.normal.dot(touch.path.from);
-  }
-  // A point on another face of a box than before, that other contacts pushed in, or where the
-  // surface has turned.
-  losses_.contact += (was != nullptr ? was->energy() : 0) -
-                     penalty_energy(contact.stiffness, touch.before) - contact.stick_energy();
-}
-
-void StepContacts::push(const Touch& touch, const Vec3& change, StepNodes& nodes) const {
-  const Padded whole = padded(change);
-  for (std::uint32_t s = touch.first; s < touch.end; ++s)
-    nodes.move_padded(shares_[s].slot, shares_[s].kick * whole);
 }
 
 void StepContacts::solve(StepNodes& nodes) {
@@ -124,77 +177,75 @@ void StepContacts::solve(StepNodes& nodes) {
 double StepContacts::sweep(StepNodes& nodes) {
   double largest_change = 0;
   double largest = 0;
-  for (std::size_t t = 0; t < touches_.size(); ++t) {
-    const Touch& touch = touches_[t];
-    Contact& contact = contacts_[t];
-    largest_change = std::max(largest_change, update(touch, contact, nodes));
-    largest = std::max(largest, touch.law.mobility() * contact.normal_force);
+  for (Touch& touch : touches_) {
+    largest_change = std::max(largest_change, update(touch, nodes));
+    largest = std::max(largest, touch.law.mobility() * touch.normal_force);
   }
   return largest > 0 ? largest_change / largest : 0;
 }
 
-Vec3 StepContacts::position(const Touch& touch, const StepNodes& nodes) const {
-  Padded sum = Padded::Zero();
-  for (std::uint32_t s = touch.first; s < touch.end; ++s)
-    sum += shares_[s].weight * nodes.padded_at(shares_[s].slot);
-  return sum.head<3>();
-}
-
 // The kicks of a point's nodes move the point by the displacement itself, so its position need not
 // be computed again between normal force and friction.
-double StepContacts::update(const Touch& touch, Contact& contact, StepNodes& nodes) const {
-  Vec3 at = position(touch, nodes);
+double StepContacts::update(Touch& touch, StepNodes& nodes) const {
+  Padded at = position(touch, nodes);
   const double free =
-      touch.level - contact.normal.dot(at) + touch.law.mobility() * contact.normal_force;
+      touch.level - dot(touch.normal, at) + touch.law.mobility() * touch.normal_force;
   const double force = touch.law.solve(touch.before, free).force;
-  const Vec3 pushed = touch.law.mobility() * (force - contact.normal_force) * contact.normal;
-  contact.normal_force = force;
-  at += pushed;
-  const Vec3 slid = contact.friction > 0 ? update_friction(touch, at, contact) : Vec3::Zero();
-  const Vec3 change = pushed + slid;
+  Padded change = touch.law.mobility() * (force - touch.normal_force) * touch.normal;
+  touch.normal_force = force;
+  if (touch.friction > 0) {
+    at += change;
+    change += update_friction(touch, at);
+  }
   if (change.isZero(0)) return 0;
   push(touch, change, nodes);
-  return change.norm();
+  return std::sqrt(dot(change, change));
 }
 
-Vec3 StepContacts::update_friction(const Touch& touch, const Vec3& at, Contact& contact) const {
-  const Vec3 slip_before = contact.slip_change;
-  if (contact.normal_force == 0 && slip_before.isZero(0)) return Vec3::Zero();
-  contact.slip_change =
-      touch.friction.slip_change(inverse_step_ * (at - touch.path.from) - slip_before,
-                                 contact.friction * contact.normal_force * step_);
-  return step_ * (contact.slip_change - slip_before);
+Padded StepContacts::update_friction(Touch& touch, const Padded& at) const {
+  const Padded slip_before = touch.slip_change;
+  if (touch.normal_force == 0 && slip_before.isZero(0)) return Padded::Zero();
+  touch.slip_change = touch.slider.slip_change(inverse_step_ * (at - touch.path.from) - slip_before,
+                                               touch.friction * touch.normal_force * step_);
+  return step_ * (touch.slip_change - slip_before);
 }
 
 void StepContacts::finish(StepNodes& nodes) {
-  for (std::size_t t = 0; t < touches_.size(); ++t) {
-    const Touch& touch = touches_[t];
-    if (contacts_[t].friction == 0) continue;
-    touch.friction.finish(contacts_[t]);
-    const Padded slide = step_ * padded(contacts_[t].slip_change);
-    for (std::uint32_t s = touch.first; s < touch.end; ++s)
-      nodes.add_slide(shares_[s].slot, shares_[s].kick * slide);
+  const std::span<Padded> slides = nodes.slides();
+  for (const Touch& touch : touches_) {
+    if (touch.friction == 0) continue;
+    const Padded slide = step_ * touch.slip_change;
+    for (const Share& share : shares(touch)) slides[share.slot] += share.kick * slide;
   }
   book_slides(nodes);
   std::size_t kept = 0;
   for (std::size_t t = 0; t < touches_.size(); ++t) {
+    const Touch& touch = touches_[t];
     Contact& contact = contacts_[t];
-    contact.depth = touches_[t].level - contact.normal.dot(position(touches_[t], nodes));
-    book(touches_[t], contact);
+    contact.depth = touch.level - dot(touch.normal, position(touch, nodes));
+    contact.normal_force = touch.normal_force;
+    contact.slip_change = touch.slip_change.head<3>();
+    if (touch.friction > 0) touch.slider.finish(contact);
+    book(touch, contact);
     if (!(contact.depth > 0)) continue;
-    if (kept != t) contacts_[kept] = contact;
+    if (kept != t) {
+      contacts_[kept] = contact;
+      touches_[kept] = touch;
+    }
     ++kept;
   }
+  new_shares_ = new_shares_ || kept != contacts_.size();
   contacts_.resize(kept);
+  touches_.resize(kept);
 }
 
 void StepContacts::book(const Touch& touch, const Contact& contact) {
   losses_.contact += contact.normal_force * (contact.depth - touch.before) -
                      penalty_energy(contact.stiffness, contact.depth) +
                      penalty_energy(contact.stiffness, touch.before);
-  const Vec3 free = touch.path.to - touch.path.from;
+  const Padded free = touch.path.to - touch.path.from;
   losses_.friction -=
-      touch.mass * inverse_step_ * contact.slip_change.dot(free) + contact.stick_gain;
+      touch.mass * inverse_step_ * dot(touch.slip_change, free) + contact.stick_gain;
   if (contact.depth <= 0) losses_.friction += contact.stick_energy();
 }
 
@@ -202,9 +253,10 @@ void StepContacts::book(const Touch& touch, const Contact& contact) {
 // points, which is a sum over the nodes: slide_p = sum w_pi slide_i, m_i slide_i / dt = sum w_pi
 // J_p.
 void StepContacts::book_slides(const StepNodes& nodes) {
+  const std::span<const Padded> slides = nodes.slides();
   for (std::uint32_t slot = 0; slot < nodes.count(); ++slot)
     losses_.friction -= 0.5 * points_->node_mass(nodes.node(slot)) * inverse_step_ * inverse_step_ *
-                        nodes.slide(slot).squaredNorm();
+                        dot(slides[slot], slides[slot]);
 }
 
 }  // namespace springlod::sim

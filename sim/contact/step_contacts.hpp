@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <optional>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "sim/contact/contact.hpp"
@@ -27,20 +27,24 @@ class StepContacts {
       : points_(&points), finder_(&finder) {}
 
   /// The contacts at the start of a run.
-  void set(std::vector<Contact> contacts) { contacts_ = std::move(contacts); }
-  /// The contacts at the end of the last step; depth > 0.
+  void set(std::vector<Contact> contacts);
+  /// The contacts at the end of the last step, in the order of its checks; depth > 0.
   const std::vector<Contact>& now() const { return contacts_; }
 
-  void begin(double step);
-  /// The contacts at the start of the step. All of them must be checked.
-  const std::vector<Contact>& before() const { return before_; }
-  /// Continues one of them.
-  void check(const Contact& before, StepNodes& nodes);
+  /// Begins a step with the nodes of the contacts.
+  void begin(double step, const StepPaths& paths, StepNodes& nodes);
+  /// The next of the contacts at the start of the step, or null.
+  const Contact* next() const {
+    return checked_ < contacts_.size() ? &contacts_[checked_] : nullptr;
+  }
+  /// Continues it.
+  void continue_next(StepNodes& nodes);
+  /// Ends all contacts from next() on that are with one of the first `count` obstacles.
+  void end_next(std::uint32_t count);
   /// Adds the contact of a point with an obstacle that it did not touch at the start of the step,
-  /// if it does at the end. `path`: of the point in the free step.
+  /// if it does at the end; before next(). `path`: of the point in the free step.
   void check(std::uint32_t obstacle, std::uint32_t point, const StepPath& path, StepNodes& nodes);
 
-  bool empty() const { return touches_.empty(); }
   /// Updates all contacts once. Returns the largest change of a point's position over the largest
   /// displacement of a point by its contact [1].
   double sweep(StepNodes& nodes);
@@ -53,17 +57,20 @@ class StepContacts {
   const Losses& losses() const { return losses_; }
 
  private:
-  /// What a contact has only during a step.
+  /// What the sweeps use of a contact, together in memory. The laws change when the contact turns
+  /// or the step does.
   struct Touch {
-    explicit Touch(std::uint32_t first_share) : first(first_share) {}
-
+    double normal_force = 0;              // so far [N]
+    Padded slip_change = Padded::Zero();  // so far [m/s]
+    Padded normal = Padded::Zero();       // of the contact
     NormalLaw law;
-    FrictionLaw friction;
-    double mass = 0;               // effective mass of the point [kg]
-    StepPath path;                 // of the point
-    double before = 0;             // depth at the start of the step, along the normal [m]
-    double level = 0;              // depth = level - normal . x [m]
-    std::uint32_t first, end = 0;  // shares
+    FrictionLaw slider;
+    double friction = 0;               // mu
+    double mass = 0;                   // effective mass of the point [kg]
+    PaddedPath path;                   // of the point
+    double before = 0;                 // depth at the start of the step, along the normal [m]
+    double level = 0;                  // depth = level - normal . x [m]
+    std::uint32_t first = 0, end = 0;  // shares
   };
   struct Share {
     std::uint32_t slot = 0;  // in StepNodes
@@ -71,23 +78,26 @@ class StepContacts {
     double kick = 0;         // see ContactPoints::Share [1]
   };
 
-  /// Adds a touch of a point that has its shares, and their nodes to those of the step.
-  Touch& add_touch(std::uint32_t point, StepNodes& nodes);
+  /// Gives a touch the shares of its point, and adds their nodes to those of the step.
+  void gather_shares(std::uint32_t point, Touch& touch, StepNodes& nodes);
+  void set_laws(const Contact& contact, Touch& touch) const;
+  /// The contact of `before` under a face with that normal, whose surface has turned.
+  Contact turned(const Contact& before, const Vec3& normal, const Touch& touch,
+                 const StepNodes& nodes) const;
   /// See ContactPoints::frame; at the start of the step.
   Mat3 frame(std::uint32_t point, const Touch& touch, const StepNodes& nodes) const;
+  std::span<const Share> shares(const Touch& touch) const {
+    return {shares_.data() + touch.first, touch.end - touch.first};
+  }
   /// Path of the point.
-  StepPath path(const Touch& touch, const StepNodes& nodes) const;
-  /// Completes a touch that has its path. `was`: see before(), or null. `end`: at the
-  /// end of the path, if there is any.
-  void set_up(const Contact& contact, const Contact* was, const std::optional<Penetration>& end,
-              Touch& touch);
+  PaddedPath path(const Touch& touch, const StepNodes& nodes) const;
   /// Moves the nodes of a point so that it moves by `change` [m].
-  void push(const Touch& touch, const Vec3& change, StepNodes& nodes) const;
+  void push(const Touch& touch, const Padded& change, StepNodes& nodes) const;
   /// Updates the forces of a contact and the nodes of its point; returns the point's change [m].
-  double update(const Touch& touch, Contact& contact, StepNodes& nodes) const;
+  double update(Touch& touch, StepNodes& nodes) const;
   /// `at`: position of the point. Returns its change [m].
-  Vec3 update_friction(const Touch& touch, const Vec3& at, Contact& contact) const;
-  Vec3 position(const Touch& touch, const StepNodes& nodes) const;
+  Padded update_friction(Touch& touch, const Padded& at) const;
+  Padded position(const Touch& touch, const StepNodes& nodes) const;
   void book(const Touch& touch, const Contact& contact);
   /// Books the work of friction on what it moved the nodes itself.
   void book_slides(const StepNodes& nodes);
@@ -96,10 +106,10 @@ class StepContacts {
   ContactFinder* finder_;
   std::uint64_t number_ = 0;            // of the step, counted from 1
   double step_ = 0, inverse_step_ = 0;  // [s], [1/s]
-  // During a step, contacts_ has those of touches_, in which normal_force and slip_change are those
-  // so far.
-  std::vector<Contact> contacts_, before_;
-  std::vector<Touch> touches_;
+  bool new_shares_ = false;             // whether the next step begins without nodes and shares
+  std::size_t checked_ = 0;             // contacts that this step has continued or added
+  std::vector<Contact> contacts_;
+  std::vector<Touch> touches_;  // by contact
   std::vector<Share> shares_;
   Losses losses_;
 };

@@ -14,7 +14,10 @@ class VectorPaths final : public StepPaths {
  public:
   VectorPaths(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
       : from_(&from), to_(&to) {}
-  StepPath path(std::uint32_t node) const override { return {(*from_)[node], (*to_)[node]}; }
+  void read(std::span<const std::uint32_t> nodes, std::span<PaddedPath> paths) const override {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      paths[i] = {padded((*from_)[nodes[i]]), padded((*to_)[nodes[i]])};
+  }
 
  private:
   const std::vector<Vec3>* from_;
@@ -49,12 +52,11 @@ void PlainCorrection::correct(double step, const std::vector<Vec3>& x, std::vect
 }
 
 void PlainCorrection::check_contacts(const std::vector<Vec3>& x, const std::vector<Vec3>& x_next) {
-  auto was = solver_.before().begin();  // in the order of the checks, as they made it
   for (std::uint32_t o = 0; o < obstacle_count_; ++o)
     for (std::uint32_t p = 0; p < points_->count(); ++p) {
-      const bool touched = was != solver_.before().end() && was->obstacle == o && was->point == p;
-      if (touched)
-        solver_.check_contact(*was++);
+      const Contact* next = solver_.next_contact();  // in the order of the checks, as they made it
+      if (next != nullptr && next->obstacle == o && next->point == p)
+        solver_.continue_contact();
       else
         solver_.check_contact(o, p, {points_->interpolate(p, x), points_->interpolate(p, x_next)});
     }

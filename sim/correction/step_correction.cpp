@@ -21,15 +21,15 @@ constexpr int kMostRounds = 3;
 void StepCorrection::begin(double step, const StepPaths& paths) {
   step_ = step;
   rounds_ = 0;
-  nodes_.begin(paths);
-  contacts_.begin(step);
+  contacts_.begin(step, paths, nodes_);
   corners_.begin(step);
   changes_.clear();
   losses_ = {};
 }
 
 void StepCorrection::solve_contacts() {
-  if (!contacts_.empty()) contacts_.solve(nodes_);
+  nodes_.keep();
+  contacts_.solve(nodes_);
 }
 
 void StepCorrection::solve_resisting(const CornerWatch& watch) {
@@ -44,11 +44,11 @@ bool StepCorrection::solve_together() {
   double change = 1;
   for (int i = 0; i < kMostSweeps && change > kTolerance; ++i) {
     change = corners_.sweep(nodes_);
-    if (!contacts_.empty()) change = std::max(change, contacts_.sweep(nodes_));
+    change = std::max(change, contacts_.sweep(nodes_));
     if (!nodes_.shared()) break;
   }
   corners_.count(nodes_);
-  solve_contacts();
+  contacts_.solve(nodes_);
   return true;
 }
 

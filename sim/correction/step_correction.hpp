@@ -17,7 +17,9 @@ namespace springlod::sim {
 /// them are solved together with the contacts. Calls for each step, in this order:
 ///
 ///   begin(step, paths);
-///   for each obstacle, for each point that may touch it: check_contact(...);
+///   for each obstacle:
+///     for each of its contacts in the last step, or point that may touch it: continue_contact();
+///                                                                    or check_contact(...);
 ///   solve_contacts();
 ///   solve_resisting(watch);
 ///   for each corner that is near inversion: check_corner(...);
@@ -43,10 +45,10 @@ class StepCorrection {
 
   /// The paths must outlive the step. `step` [s].
   void begin(double step, const StepPaths& paths);
-  /// The contacts at the start of the step; all of them must be checked.
-  const std::vector<Contact>& before() const { return contacts_.before(); }
-  /// See StepContacts::check.
-  void check_contact(const Contact& before) { contacts_.check(before, nodes_); }
+  // See StepContacts.
+  const Contact* next_contact() const { return contacts_.next(); }
+  void continue_contact() { contacts_.continue_next(nodes_); }
+  void end_contacts(std::uint32_t count) { contacts_.end_next(count); }
   void check_contact(std::uint32_t obstacle, std::uint32_t point, const StepPath& path) {
     contacts_.check(obstacle, point, path, nodes_);
   }
@@ -56,6 +58,7 @@ class StepCorrection {
   void solve_resisting(const CornerWatch& watch);
   /// The nodes, as the contacts and corners so far have moved them.
   const StepNodes& nodes() const { return nodes_; }
+  /// See StepNodes.
   double take_travel() { return nodes_.take_travel(); }
   /// See StepCorners::check.
   void check_corner(std::uint32_t corner, bool resisted) {

@@ -7,22 +7,33 @@ namespace springlod::sim {
 
 void StepNodes::begin(const StepPaths& paths) {
   of_step_ = &paths;
-  shared_ = false;
-  for (const std::uint32_t node : node_) slot_[node] = kNone;
-  node_.clear();
-  paths_.clear();
+  shared_ = kept_shared_;
+  for (std::uint32_t slot = kept_; slot < count(); ++slot) slot_[node_[slot]] = kNone;
+  node_.resize(kept_);
+  paths_.resize(kept_);
+  paths.read(node_, paths_);
   at_.clear();
-  seen_.clear();
-  slide_.clear();
-  corners_.clear();
+  for (const PaddedPath& path : paths_) at_.push_back(path.to);
+  seen_ = at_;
+  slide_.assign(kept_, Padded::Zero());
+  corners_.assign(kept_, Vec3::Zero());
+}
+
+void StepNodes::keep() {
+  kept_ = count();
+  kept_shared_ = shared_;
+}
+
+void StepNodes::keep_none() {
+  kept_ = 0;
+  kept_shared_ = false;
 }
 
 std::uint32_t StepNodes::add(std::uint32_t node) {
   const auto slot = static_cast<std::uint32_t>(node_.size());
   slot_[node] = slot;
   node_.push_back(node);
-  const StepPath path = of_step_->path(node);
-  paths_.push_back({padded(path.from), padded(path.to)});
+  of_step_->read({&node, 1}, {&paths_.emplace_back(), 1});
   at_.push_back(paths_.back().to);
   seen_.push_back(at_.back());
   slide_.emplace_back(Padded::Zero());
@@ -41,10 +52,11 @@ double StepNodes::take_travel() {
 
 void StepNodes::finish(double step, std::vector<NodeChange>& changes) const {
   for (std::size_t i = 0; i < node_.size(); ++i) {
-    const Vec3 displacement = this->displacement(static_cast<std::uint32_t>(i));
+    const Padded displacement = at_[i] - paths_[i].to;
+    const Padded kick = (2 * displacement - slide_[i]) / step;
     changes.push_back({.node = node_[i],
-                       .displacement = displacement,
-                       .kick = (2 * displacement - slide_[i].head<3>()) / step,
+                       .displacement = displacement.head<3>(),
+                       .kick = kick.head<3>(),
                        .by_corners = corners_[i]});
   }
 }

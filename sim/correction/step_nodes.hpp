@@ -2,18 +2,12 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
-#include "model/vec.hpp"
+#include "sim/correction/padded.hpp"
 
 namespace springlod::sim {
-
-/// A Vec3 padded by a 0, which the vector units of a processor take as a whole.
-using Padded = Eigen::Vector4d;
-
-inline Padded padded(const Vec3& v) {
-  return {v[0], v[1], v[2], 0};
-}
 
 /// Path of a node or a point over a step without contacts and corners [m].
 struct StepPath {
@@ -30,7 +24,7 @@ struct PaddedPath {
 class StepPaths {
  public:
   virtual ~StepPaths() = default;
-  virtual StepPath path(std::uint32_t node) const = 0;
+  virtual void read(std::span<const std::uint32_t> nodes, std::span<PaddedPath> paths) const = 0;
 
  protected:
   StepPaths() = default;
@@ -56,13 +50,18 @@ struct NodeChange {
 };
 
 /// The nodes that the contacts and corners of a step move, gathered so that the sweeps of the
-/// solver touch little memory.
+/// solver touch little memory. Those of the contacts, which are mostly the same in the next step,
+/// can keep their slots.
 class StepNodes {
  public:
   explicit StepNodes(std::uint32_t node_count) : slot_(node_count, kNone) {}
 
-  /// Forgets the nodes of the last step. The paths must outlive the step.
+  /// Begins a step with the nodes that were kept. The paths must outlive the step.
   void begin(const StepPaths& paths);
+  /// The nodes so far stay in the next steps, with their slots.
+  void keep();
+  /// No node stays in the next step.
+  void keep_none();
   /// Slot of a node, which is added if it is new.
   std::uint32_t slot(std::uint32_t node) {
     const std::uint32_t slot = slot_[node];
@@ -75,23 +74,33 @@ class StepNodes {
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(node_.size()); }
   std::uint32_t node(std::uint32_t slot) const { return node_[slot]; }
+  /// The nodes by slot.
+  const std::vector<std::uint32_t>& nodes() const { return node_; }
+  bool has(std::uint32_t node) const { return slot_[node] != kNone; }
+  /// Path of a node that has a slot, to its position at the end of the step, so far.
+  StepPath corrected_path(std::uint32_t node) const {
+    const StepPath path = this->path(slot_[node]);
+    return {path.from, path.to + displacement(slot_[node])};
+  }
   StepPath path(std::uint32_t slot) const { return paths_[slot].path(); }
-  const PaddedPath& padded_path(std::uint32_t slot) const { return paths_[slot]; }
   /// Position at the end of the step, so far [m].
   Vec3 at(std::uint32_t slot) const { return at_[slot].head<3>(); }
-  const Padded& padded_at(std::uint32_t slot) const { return at_[slot]; }
   Vec3 displacement(std::uint32_t slot) const { return (at_[slot] - paths_[slot].to).head<3>(); }
   void move(std::uint32_t slot, const Vec3& displacement) { at_[slot].head<3>() += displacement; }
-  void move_padded(std::uint32_t slot, const Padded& displacement) { at_[slot] += displacement; }
   /// Largest displacement of a node since the last call in this step [m].
   double take_travel();
   /// Counts a part of the displacement as one by corners.
   void count_by_corner(std::uint32_t slot, const Vec3& part) { corners_[slot] += part; }
   /// The part of the displacement that is counted as one by corners [m].
   const Vec3& by_corners(std::uint32_t slot) const { return corners_[slot]; }
-  /// The displacement by friction, once it is final.
-  void add_slide(std::uint32_t slot, const Padded& slide) { slide_[slot] += slide; }
-  const Padded& slide(std::uint32_t slot) const { return slide_[slot]; }
+
+  // By slot, for sums over many of them.
+  std::span<const PaddedPath> paths() const { return paths_; }
+  std::span<const Padded> all_at() const { return at_; }
+  std::span<Padded> all_at() { return at_; }
+  /// The displacements by friction, once they are final.
+  std::span<const Padded> slides() const { return slide_; }
+  std::span<Padded> slides() { return slide_; }
 
   /// Appends the change of each node in a step of length `step` [s].
   void finish(double step, std::vector<NodeChange>& changes) const;
@@ -103,6 +112,8 @@ class StepNodes {
 
   const StepPaths* of_step_ = nullptr;
   bool shared_ = false;
+  std::uint32_t kept_ = 0;           // slots that stay in the next step
+  bool kept_shared_ = false;         // whether one of these was asked for more than once
   std::vector<std::uint32_t> slot_;  // by node; or kNone
   // By slot.
   std::vector<std::uint32_t> node_;

@@ -6,12 +6,17 @@
 #include <vector>
 
 #include "model/mass_spring.hpp"
+#include "sim/correction/step_nodes.hpp"
 #include "sim/fast/look/corner_look.hpp"
 #include "sim/fast/moving_frame.hpp"
-#include "sim/fast/place.hpp"
 #include "sim/fast/rigid_motion.hpp"
 
 namespace springlod::sim {
+
+struct NodeMotion {
+  Vec3 x = Vec3::Zero();  ///< [m]
+  Vec3 v = Vec3::Zero();  ///< [m/s]
+};
 
 /// Positions and velocities of one body in a fast layout, relative to a frame that the owner keeps.
 /// The body is moved block by block. Several threads may work on different blocks; the assignment
@@ -33,7 +38,6 @@ class FastBody {
   virtual std::uint32_t block_count() const = 0;
   /// Blocks whose forces must be found before this one may move.
   virtual BlockRange needs(std::uint32_t block) const = 0;
-  virtual Place place(std::uint32_t node) const = 0;
   /// Node numbers in the model, by index in the block.
   virtual std::span<const std::uint32_t> nodes(std::uint32_t block) const = 0;
 
@@ -62,8 +66,8 @@ class FastBody {
   /// motion of the body. Set it while no block moves.
   virtual void set_rigid_motion(const RigidMotion& motion) = 0;
   virtual const RigidMotion& rigid_motion() const = 0;
-  /// Whether largest_departure() counts the node; at first all. Set it while no block moves.
-  virtual void count_departure(Place at, bool counts) = 0;
+  /// Whether largest_departure() counts the nodes; at first all. Set it while no block moves.
+  virtual void count_departures(std::span<const std::uint32_t> nodes, bool counts) = 0;
   /// Largest displacement of the block's nodes that count, in its last drift, relative to the rigid
   /// motion, along each axis [m]: the maximum of |drift (v - velocity - spin x x)| with x at the
   /// end of the drift.
@@ -90,13 +94,17 @@ class FastBody {
   /// Largest absolute value of a coordinate in the bounds of all blocks [m].
   double farthest_coordinate() const;
 
-  virtual Vec3 x(Place at) const = 0;      ///< [m]
-  virtual Vec3 v(Place at) const = 0;      ///< [m/s]
-  virtual Vec3 force(Place at) const = 0;  ///< [N], after collect_forces()
-  /// Damping part of that force [N]. Only for a body made with damping.
-  virtual Vec3 damping_force(Place at) const = 0;
-  /// Changes position [m] and velocity [m/s] of a node; its block's bounds then include it.
-  virtual void shift(Place at, const Vec3& displacement, const Vec3& kick) = 0;
+  // Single nodes of any blocks, many in one call.
+
+  /// Copies their motions in world axes.
+  virtual void get_motions(std::span<const std::uint32_t> nodes, const MovingFrame& frame,
+                           std::span<NodeMotion> motions) const = 0;
+  /// Copies their forces without the damping part [N], after collect_forces(). Only for a body made
+  /// with damping.
+  virtual void get_elastic_forces(std::span<const std::uint32_t> nodes,
+                                  std::span<Vec3> forces) const = 0;
+  /// Changes their motions; the bounds of their blocks then include them.
+  virtual void shift(std::span<const NodeChange> changes) = 0;
 
  protected:
   FastBody() = default;

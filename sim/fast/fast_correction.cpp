@@ -11,7 +11,6 @@ FastCorrection::FastCorrection(const Shared& shared)
       paths_(*shared.body, shared.model->node_count()),
       near_(shared.points, paths_),
       watch_(shared.model->corner_count()),
-      pressed_at_(shared.model->node_count(), 0),
       found_(shared.body->block_count()),
       dues_(shared.body->block_count()),
       solver_(*shared.model, *shared.points.points, *shared.points.finder, shared.volumes) {}
@@ -34,26 +33,30 @@ double FastCorrection::take_travel(const FastStep& step) {
     largest = largest.cwiseMax(shared_.body->largest_departure(b));
   double most = largest.squaredNorm();
   const RigidMotion& rigid = shared_.body->rigid_motion();
-  const auto departure = [&](const StepPath& path) -> Vec3 {
-    const Vec3 velocity = step.after.velocity + rigid.at(path.to - step.after.origin);
-    return path.to - path.from - step.length * velocity;
+  const Padded origin = padded(step.after.origin);
+  const Padded common = padded(step.after.velocity);
+  const Padded velocity = padded(rigid.velocity);
+  const Padded spin = padded(rigid.spin);
+  const auto count = [&](const Padded& from, const Padded& to, const Padded& displacement) {
+    const Padded carried = step.length * (common + (velocity + cross(spin, to - origin)));
+    const Padded departure = to - from - carried + displacement;
+    most = std::max(most, dot(departure, departure));
   };
   const StepNodes& nodes = solver_.nodes();
   for (std::uint32_t i = 0; i < nodes.count(); ++i) {
-    most = std::max(most, (departure(nodes.path(i)) + nodes.displacement(i)).squaredNorm());
-    pressed_at_[nodes.node(i)] = step.number;
+    const PaddedPath& path = nodes.paths()[i];
+    count(path.from, path.to, nodes.all_at()[i] - path.to);
   }
-  for (const std::uint32_t node : pressed_) {
-    if (pressed_at_[node] == step.number) continue;
-    most = std::max(most, departure(paths_.path(node)).squaredNorm());
-    shared_.body->count_departure(shared_.body->place(node), true);
+  if (pressed_ != nodes.nodes()) {
+    for (const std::uint32_t node : pressed_) {
+      const StepPath& path = paths_.path(node);
+      if (!nodes.has(node)) count(padded(path.from), padded(path.to), Padded::Zero());
+    }
+    shared_.body->count_departures(pressed_, true);
+    pressed_ = nodes.nodes();
+    shared_.body->count_departures(pressed_, false);
   }
-  pressed_.clear();
-  for (std::uint32_t i = 0; i < nodes.count(); ++i) {
-    pressed_.push_back(nodes.node(i));
-    shared_.body->count_departure(shared_.body->place(nodes.node(i)), false);
-  }
-  solver_.take_travel();  // this part is counted
+  solver_.take_travel();  // what has moved so far is counted
   return std::sqrt(most);
 }
 
@@ -69,11 +72,15 @@ bool FastCorrection::corners_due(double travel) {
 void FastCorrection::show_nodes() {
   const StepNodes& nodes = solver_.nodes();
   shown_.resize(nodes.count(), Vec3::Zero());
+  unseen_.clear();
   for (std::uint32_t i = 0; i < nodes.count(); ++i) {
     const Vec3 displacement = nodes.displacement(i);
-    shared_.body->shift(shared_.body->place(nodes.node(i)), displacement - shown_[i], Vec3::Zero());
+    NodeChange& unseen = unseen_.emplace_back();
+    unseen.node = nodes.node(i);
+    unseen.displacement = displacement - shown_[i];
     shown_[i] = displacement;
   }
+  shared_.body->shift(unseen_);
 }
 
 void FastCorrection::look_at_corners(std::uint32_t block) {
@@ -104,56 +111,64 @@ void FastCorrection::finish(const FastStep& step) {
   solver_.finish();
   watch_.corrected(shifted(), solver_.resisting());
   apply(step);
-  near_.check_walls(step);
+  near_.check_walls(step, solver_.nodes());
   note_inversions(step);
 }
 
 void FastCorrection::apply(const FastStep& step) {
   double most = 0;
-  shown_.resize(solver_.changes().size(), Vec3::Zero());
-  auto shown = shown_.begin();  // in the order of StepNodes, as the changes
-  for (const NodeChange& change : solver_.changes()) {
-    shared_.body->shift(shared_.body->place(change.node), change.displacement - *shown++,
-                        change.kick);
-    paths_.shift(change.node, change.displacement);
+  for (const NodeChange& change : solver_.changes())
     most = std::max(most, change.displacement.squaredNorm());
-  }
   near_.corrected(std::sqrt(most));
+  if (shown_.empty()) {
+    shared_.body->shift(solver_.changes());
+  } else {
+    unseen_ = solver_.changes();  // in the order of StepNodes
+    for (std::size_t i = 0; i < shown_.size(); ++i) unseen_[i].displacement -= shown_[i];
+    shared_.body->shift(unseen_);
+  }
   if (!first_step_ && !contacts().empty()) first_step_ = step.number;
   if (!shared_.with_ledger) return;
   losses_.contact += solver_.losses().contact;
   losses_.friction += solver_.losses().friction;
   losses_.corners += solver_.losses().corners;
-  for (const NodeChange& change : solver_.changes()) {
-    losses_.contact += half_work(change.node, change.by_contacts(step.length));
-    losses_.friction += half_work(change.node, change.by_friction(step.length));
-    losses_.corners += half_work(change.node, change.by_corners);
-  }
+  const StepCorrection::Losses work = half_work(step.length);
+  losses_.contact += work.contact;
+  losses_.friction += work.friction;
+  losses_.corners += work.corners;
   booked_step_ = step.length;
 }
 
 void FastCorrection::book_end() {
   if (booked_step_ == 0) return;
-  for (const NodeChange& change : solver_.changes()) {
-    losses_.contact -= half_work(change.node, change.by_contacts(booked_step_));
-    losses_.corners -= half_work(change.node, change.by_corners);
-  }
+  const StepCorrection::Losses work = half_work(booked_step_);
+  losses_.contact -= work.contact;
+  losses_.corners -= work.corners;
   booked_step_ = 0;
 }
 
 // See LedgerEntry. The damping forces take their own part.
-double FastCorrection::half_work(std::uint32_t node, const Vec3& displacement) const {
-  const Place at = shared_.body->place(node);
-  const Vec3 force = shared_.body->force(at) - shared_.body->damping_force(at) +
-                     shared_.model->mass[node] * shared_.gravity;
-  return 0.5 * force.dot(displacement);
+StepCorrection::Losses FastCorrection::half_work(double step) {
+  forces_.resize(solver_.changes().size());
+  shared_.body->get_elastic_forces(solver_.nodes().nodes(), forces_);
+  StepCorrection::Losses work;
+  auto elastic = forces_.begin();  // in the order of StepNodes, as the changes
+  for (const NodeChange& change : solver_.changes()) {
+    const Vec3 half = 0.5 * (*elastic++ + shared_.model->mass[change.node] * shared_.gravity);
+    work.contact += half.dot(change.by_contacts(step));
+    work.friction += half.dot(change.by_friction(step));
+    work.corners += half.dot(change.by_corners);
+  }
+  return work;
 }
 
 void FastCorrection::note_inversions(const FastStep& step) {
   largest_corner_change_ = std::max(largest_corner_change_, solver_.largest_corner_change());
-  inversions_.note(
-      step.number, solver_.inverted(), solver_.late_inverted(),
-      [&](std::uint32_t corner) { return paths_.to(shared_.model->corners[corner].node[0]); });
+  inversions_.note(step.number, solver_.inverted(), solver_.late_inverted(),
+                   [&](std::uint32_t corner) -> Vec3 {
+                     const std::uint32_t node = shared_.model->corners[corner].node[0];
+                     return solver_.nodes().corrected_path(node).to;
+                   });
 }
 
 }  // namespace springlod::sim

@@ -83,8 +83,9 @@ class FastCorrection {
   double shifted();
   void apply(const FastStep& step);
   void note_inversions(const FastStep& step);
-  /// Half the work of the elastic forces and of gravity on a node over a displacement [J].
-  double half_work(std::uint32_t node, const Vec3& displacement) const;
+  /// Half the work of the elastic forces and of gravity on the displacements by the last
+  /// correction, of a step of length `step` [s].
+  StepCorrection::Losses half_work(double step);
 
   Shared shared_;
   bool needed_;
@@ -92,15 +93,17 @@ class FastCorrection {
   NearPoints near_;
   CornerWatch watch_;
   bool looking_ = false;
-  std::vector<Vec3> shown_;  // displacement by the correction that the body has so far, by slot [m]
-  std::vector<std::uint32_t> pressed_;     // nodes that were corrected in the last step
-  std::vector<std::uint64_t> pressed_at_;  // by node: number of the last step in which it was
+  // What the body has of the correction so far, by slot, and what it gets next.
+  std::vector<Vec3> shown_;  // [m]
+  std::vector<NodeChange> unseen_;
+  std::vector<std::uint32_t> pressed_;  // nodes that were corrected in the last step
   CornerLook look_;
   std::vector<std::vector<std::uint32_t>> found_;  // by block: corners without a margin
   std::vector<double> dues_;                       // by block: travel at which corners are due [m]
   StepCorrection solver_;
   double booked_step_ = 0;  // length of the step whose end is not booked yet; 0: none [s]
   StepCorrection::Losses losses_;
+  std::vector<Vec3> forces_;          // scratch of half_work() [N]
   double shift_ = 0;                  // [m]
   double largest_corner_change_ = 0;  // [1]
   InversionLog inversions_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/correction/corner_law.hpp"
+#include "sim/fast/place.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {

@@ -22,12 +22,22 @@ class FastPaths final : public StepPaths {
 
   /// `step`: the drift that the body has just done.
   void begin(const FastStep& step) { step_ = step; }
-  StepPath path(std::uint32_t node) const override { return read(node).path; }
-  const Vec3& to(std::uint32_t node) const { return read(node).path.to; }
-  /// Changes the end of the path of a node.
-  void shift(std::uint32_t node, const Vec3& displacement) {
-    read(node);
-    nodes_[node].path.to += displacement;
+  void read(std::span<const std::uint32_t> nodes, std::span<PaddedPath> paths) const override {
+    motions_.resize(nodes.size());
+    body_->get_motions(nodes, step_.after, motions_);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const StepPath path = path_of(motions_[i]);
+      paths[i] = {padded(path.from), padded(path.to)};
+    }
+  }
+  /// Of a node that the body does not have corrected yet.
+  const StepPath& path(std::uint32_t node) const {
+    Node& at = nodes_[node];
+    if (at.number == step_.number) return at.path;
+    NodeMotion motion;
+    body_->get_motions({&node, 1}, step_.after, {&motion, 1});
+    at = {step_.number, path_of(motion)};
+    return at.path;
   }
 
  private:
@@ -36,19 +46,12 @@ class FastPaths final : public StepPaths {
     std::uint64_t number = 0;  // of the step for which it was read
     StepPath path;
   };
-  const Node& read(std::uint32_t node) const {
-    Node& at = nodes_[node];
-    if (at.number == step_.number) return at;
-    const Place place = body_->place(node);
-    at.number = step_.number;
-    at.path.to = step_.after.origin + body_->x(place);
-    at.path.from = at.path.to - step_.length * (step_.after.velocity + body_->v(place));
-    return at;
-  }
+  StepPath path_of(const NodeMotion& end) const { return {end.x - step_.length * end.v, end.x}; }
 
   const FastBody* body_;
   FastStep step_;
   mutable std::vector<Node> nodes_;
+  mutable std::vector<NodeMotion> motions_;  // of the last read()
 };
 
 }  // namespace springlod::sim

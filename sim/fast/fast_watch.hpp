@@ -25,7 +25,7 @@ class FastWatch {
  public:
   /// `shortest`: rest length of the shortest spring [m].
   FastWatch(const FastBody& body, std::uint32_t node_count, double shortest)
-      : fit_(body, node_count), shortest_(shortest), strains_(body.block_count(), 0) {}
+      : fit_(node_count), shortest_(shortest), strains_(body.block_count(), 0) {}
 
   void set(const Stepper::Watch& limits);
 

@@ -5,6 +5,7 @@
 
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/kernels.hpp"
+#include "sim/fast/place.hpp"
 
 namespace springlod::sim {
 
@@ -15,7 +16,6 @@ class LaidBody : public FastBody {
   std::uint32_t block_count() const final {
     return static_cast<std::uint32_t>(layout_->blocks.size());
   }
-  Place place(std::uint32_t node) const final { return layout_->place[node]; }
 
   void find_forces(std::uint32_t block) final { kernels_.find_forces(*layout_, block, state_); }
   void collect_forces(std::uint32_t block) final {
@@ -46,6 +46,8 @@ class LaidBody : public FastBody {
         state_(std::move(state)),
         departure_(layout.blocks.size(), Vec3::Zero()),
         kernels_(kernels) {}
+
+  Place place(std::uint32_t node) const { return layout_->place[node]; }
 
   const Layout* layout_;
   mutable State state_;  // mutable: holds copies of other blocks' nodes, which may be out of date

@@ -38,12 +38,15 @@ void NearPoints::check(const FastStep& step, StepCorrection& solver) {
   bounds_ = here;
   if (!near_anything(swept)) {
     away_ = true;
+    solver.end_contacts(static_cast<std::uint32_t>(views_.size()));
     return;
   }
   if (away_) arrive();
   add_travel(step);
-  for (std::uint32_t o = 0; o < views_.size(); ++o)
+  for (std::uint32_t o = 0; o < views_.size(); ++o) {
     if (!region_touching((*shared_.obstacles)[o], swept).isEmpty()) check_points(step, o, solver);
+    solver.end_contacts(o + 1);  // the body has left the obstacle
+  }
 }
 
 // Towards a plane only the displacement along its normal counts, towards a box any.
@@ -92,11 +95,11 @@ void NearPoints::check_points(const FastStep& step, std::uint32_t obstacle,
                               StepCorrection& solver) {
   View& view = views_[obstacle];
   const Obstacle& thing = (*shared_.obstacles)[obstacle];
-  for (const Contact& contact : solver.before())
-    if (contact.obstacle == obstacle) {
-      note_check(step, obstacle, contact.point);
-      solver.check_contact(contact);
-    }
+  for (const Contact* next = solver.next_contact(); next != nullptr && next->obstacle == obstacle;
+       next = solver.next_contact()) {
+    note_check(step, obstacle, next->point);
+    solver.continue_contact();
+  }
   const bool is_box = std::holds_alternative<SolidBox>(thing.shape);
   view.schedule.check(view.travel, [&](std::uint32_t point) {
     if (view.checked_at[point] == step.number + 1) return 0.0;  // in contact
@@ -122,12 +125,12 @@ void NearPoints::note_check(const FastStep& step, std::uint32_t obstacle, std::u
   view.checked_at[point] = step.number + 1;
 }
 
-void NearPoints::check_walls(const FastStep& step) {
+void NearPoints::check_walls(const FastStep& step, const StepNodes& nodes) {
   std::size_t wall = 0;
   for (std::size_t o = 0; o < views_.size(); ++o) {
     if (!std::holds_alternative<SolidBox>((*shared_.obstacles)[o].shape)) continue;
     for (const std::uint32_t point : views_[o].near) {
-      const StepPath path = point_path(point);
+      const StepPath path = corrected_path(point, nodes);
       if (shared_.walls->goes_through(wall, point, path.from, path.to) && !passage_)
         passage_ = Passage{step.number, wall, point, path.from, path.to};
     }
@@ -138,14 +141,25 @@ void NearPoints::check_walls(const FastStep& step) {
 Vec3 NearPoints::point_to(std::uint32_t point) const {
   Vec3 sum = Vec3::Zero();
   for (const ContactPoints::Share& share : shared_.points->shares(point))
-    sum += share.weight * paths_->to(share.node);
+    sum += share.weight * paths_->path(share.node).to;
   return sum;
 }
 
 StepPath NearPoints::point_path(std::uint32_t point) const {
   StepPath sum;
   for (const ContactPoints::Share& share : shared_.points->shares(point)) {
-    const StepPath path = paths_->path(share.node);
+    const StepPath& path = paths_->path(share.node);
+    sum.from += share.weight * path.from;
+    sum.to += share.weight * path.to;
+  }
+  return sum;
+}
+
+StepPath NearPoints::corrected_path(std::uint32_t point, const StepNodes& nodes) const {
+  StepPath sum;
+  for (const ContactPoints::Share& share : shared_.points->shares(point)) {
+    const std::uint32_t node = share.node;
+    const StepPath path = nodes.has(node) ? nodes.corrected_path(node) : paths_->path(node);
     sum.from += share.weight * path.from;
     sum.to += share.weight * path.to;
   }

@@ -31,8 +31,9 @@ class NearPoints {
   void check(const FastStep& step, StepCorrection& solver);
   /// Adds what the correction of the step moved a node by at most [m].
   void corrected(double travel);
-  /// After the correction, which is in the paths: checks whether points tunnelled through walls.
-  void check_walls(const FastStep& step);
+  /// After the correction: checks whether points tunnelled through walls. `nodes`: those that it
+  /// moved.
+  void check_walls(const FastStep& step, const StepNodes& nodes);
   /// The first point that tunnelled.
   const std::optional<Passage>& passage() const { return passage_; }
 
@@ -56,6 +57,7 @@ class NearPoints {
   void note_check(const FastStep& step, std::uint32_t obstacle, std::uint32_t point);
   Vec3 point_to(std::uint32_t point) const;
   StepPath point_path(std::uint32_t point) const;
+  StepPath corrected_path(std::uint32_t point, const StepNodes& nodes) const;
 
   Shared shared_;
   const FastPaths* paths_;

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 
 #include "model/vec.hpp"
-#include "sim/fast/place.hpp"
 
 namespace springlod::sim {
 
@@ -24,12 +23,12 @@ struct RigidMotion {
 /// Fits a rigid motion to a few nodes that are spread over a body: enough to tell how it deforms.
 class RigidFit {
  public:
-  RigidFit(const FastBody& body, std::uint32_t node_count);
+  explicit RigidFit(std::uint32_t node_count);
   /// The motion with the mean velocity of these nodes, and the spin that fits best.
   RigidMotion fit(const FastBody& body) const;
 
  private:
-  std::vector<Place> places_;
+  std::vector<std::uint32_t> nodes_;
 };
 
 }  // namespace springlod::sim

@@ -79,42 +79,53 @@ void QuadBody<Real>::get_v(std::uint32_t block, const MovingFrame& frame,
 }
 
 template <class Real>
-Vec3 QuadBody<Real>::x(Place at) const {
-  assert(at.block < this->state_.size() && at.index < this->state_[at.block].records.size());
-  return read(this->state_[at.block].records[at.index].x);
-}
-
-template <class Real>
-Vec3 QuadBody<Real>::v(Place at) const {
-  return read(this->state_[at.block].records[at.index].v);
-}
-
-template <class Real>
-Vec3 QuadBody<Real>::force(Place at) const {
-  assert(at.block < this->state_.size() && at.index < this->state_[at.block].forces.size());
-  return read(this->state_[at.block].forces[at.index].at);
-}
-
-template <class Real>
-Vec3 QuadBody<Real>::damping_force(Place at) const {
-  return read(this->state_[at.block].damping_forces[at.index].at);
-}
-
-template <class Real>
-void QuadBody<Real>::shift(Place at, const Vec3& displacement, const Vec3& kick) {
-  QuadBlockState<Real>& own = this->state_[at.block];
-  NodeRecord<Real>& record = own.records[at.index];
-  for (int axis = 0; axis < 3; ++axis) {
-    double to = static_cast<double>(record.x[axis]) + displacement[axis];
-    if (!own.low.empty()) {
-      Real& low = own.low[at.index].at[axis];
-      to += static_cast<double>(low);
-      low = rounding_of<Real>(to);
-    }
-    record.x[axis] = static_cast<Real>(to);
-    record.v[axis] = static_cast<Real>(static_cast<double>(record.v[axis]) + kick[axis]);
+void QuadBody<Real>::get_motions(std::span<const std::uint32_t> nodes, const MovingFrame& frame,
+                                 std::span<NodeMotion> motions) const {
+  assert(nodes.size() == motions.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Place at = this->place(nodes[i]);
+    const NodeRecord<Real>& record = this->state_[at.block].records[at.index];
+    motions[i] = {frame.origin + read(record.x), frame.velocity + read(record.v)};
   }
-  own.bounds.extend(read(record.x));
+}
+
+template <class Real>
+void QuadBody<Real>::get_elastic_forces(std::span<const std::uint32_t> nodes,
+                                        std::span<Vec3> forces) const {
+  assert(nodes.size() == forces.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Place at = this->place(nodes[i]);
+    const QuadBlockState<Real>& own = this->state_[at.block];
+    forces[i] = read(own.forces[at.index].at) - read(own.damping_forces[at.index].at);
+  }
+}
+
+template <class Real>
+void QuadBody<Real>::count_departures(std::span<const std::uint32_t> nodes, bool counts) {
+  for (const std::uint32_t node : nodes) {
+    const Place at = this->place(node);
+    this->state_[at.block].counts[at.index] = counts ? Real(1) : Real(0);
+  }
+}
+
+template <class Real>
+void QuadBody<Real>::shift(std::span<const NodeChange> changes) {
+  for (const NodeChange& change : changes) {
+    const Place at = this->place(change.node);
+    QuadBlockState<Real>& own = this->state_[at.block];
+    NodeRecord<Real>& record = own.records[at.index];
+    for (int axis = 0; axis < 3; ++axis) {
+      double to = static_cast<double>(record.x[axis]) + change.displacement[axis];
+      if constexpr (sizeof(Real) == sizeof(float)) {
+        Real& low = own.low[at.index].at[axis];
+        to += static_cast<double>(low);
+        low = rounding_of<Real>(to);
+      }
+      record.x[axis] = static_cast<Real>(to);
+      record.v[axis] = static_cast<Real>(static_cast<double>(record.v[axis]) + change.kick[axis]);
+    }
+    own.bounds.extend(read(record.x));
+  }
 }
 
 template class QuadBody<float>;

@@ -44,7 +44,8 @@ void RowBody<Real>::set(std::uint32_t block, const MovingFrame& frame, const std
   }
   Box3& bounds = this->state_.bounds[block];
   bounds.setEmpty();
-  for (std::uint32_t i = 0; i < of.own; ++i) bounds.extend(this->x({block, i}));
+  for (std::uint32_t i = 0; i < of.own; ++i)
+    bounds.extend(read<Real>(this->state_.x, of.first + i));
 }
 
 template <class Real>
@@ -69,42 +70,54 @@ void RowBody<Real>::get_v(std::uint32_t block, const MovingFrame& frame,
 }
 
 template <class Real>
-Vec3 RowBody<Real>::x(Place at) const {
-  return read<Real>(this->state_.x, position(at));
-}
-
-template <class Real>
-Vec3 RowBody<Real>::v(Place at) const {
-  return read<Real>(this->state_.v, position(at));
-}
-
-template <class Real>
-Vec3 RowBody<Real>::force(Place at) const {
-  return read<Real>(this->state_.force[at.block], at.index);
-}
-
-template <class Real>
-Vec3 RowBody<Real>::damping_force(Place at) const {
-  return read<Real>(this->state_.damping_force[at.block], at.index);
-}
-
-template <class Real>
-void RowBody<Real>::shift(Place at, const Vec3& displacement, const Vec3& kick) {
-  const std::uint32_t place = position(at);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto of_vector = static_cast<Eigen::Index>(axis);
-    Real& x = this->state_.x[axis][place];
-    double to = static_cast<double>(x) + displacement[of_vector];
-    if (this->state_.low[axis]) {
-      Real& low = this->state_.low[axis][place];
-      to += static_cast<double>(low);
-      low = rounding_of<Real>(to);
-    }
-    x = static_cast<Real>(to);
-    this->state_.v[axis][place] =
-        static_cast<Real>(static_cast<double>(this->state_.v[axis][place]) + kick[of_vector]);
+void RowBody<Real>::get_motions(std::span<const std::uint32_t> nodes, const MovingFrame& frame,
+                                std::span<NodeMotion> motions) const {
+  assert(nodes.size() == motions.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::uint32_t at = position(this->place(nodes[i]));
+    motions[i] = {frame.origin + read<Real>(this->state_.x, at),
+                  frame.velocity + read<Real>(this->state_.v, at)};
   }
-  this->state_.bounds[at.block].extend(this->x(at));
+}
+
+template <class Real>
+void RowBody<Real>::get_elastic_forces(std::span<const std::uint32_t> nodes,
+                                       std::span<Vec3> forces) const {
+  assert(nodes.size() == forces.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Place at = this->place(nodes[i]);
+    forces[i] = read<Real>(this->state_.force[at.block], at.index) -
+                read<Real>(this->state_.damping_force[at.block], at.index);
+  }
+}
+
+template <class Real>
+void RowBody<Real>::count_departures(std::span<const std::uint32_t> nodes, bool counts) {
+  for (const std::uint32_t node : nodes)
+    this->state_.counts[position(this->place(node))] = counts ? Real(1) : Real(0);
+}
+
+template <class Real>
+void RowBody<Real>::shift(std::span<const NodeChange> changes) {
+  RowState<Real>& state = this->state_;
+  for (const NodeChange& change : changes) {
+    const Place place = this->place(change.node);
+    const std::uint32_t at = position(place);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto of_vector = static_cast<Eigen::Index>(axis);
+      Real& x = state.x[axis][at];
+      double to = static_cast<double>(x) + change.displacement[of_vector];
+      if constexpr (sizeof(Real) == sizeof(float)) {
+        Real& low = state.low[axis][at];
+        to += static_cast<double>(low);
+        low = rounding_of<Real>(to);
+      }
+      x = static_cast<Real>(to);
+      Real& v = state.v[axis][at];
+      v = static_cast<Real>(static_cast<double>(v) + change.kick[of_vector]);
+    }
+    state.bounds[place.block].extend(read<Real>(state.x, at));
+  }
 }
 
 template class RowBody<float>;

@@ -24,21 +24,20 @@ class RowBody final : public LaidBody<RowLayout<Real>, RowState<Real>> {
            const std::vector<Vec3>& v) override;
   void get_x(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& x) const override;
   void get_v(std::uint32_t block, const MovingFrame& frame, std::vector<Vec3>& v) const override;
-  void count_departure(Place at, bool counts) override {
-    this->state_.counts[position(at)] = counts ? Real(1) : Real(0);
-  }
+  void count_departures(std::span<const std::uint32_t> nodes, bool counts) override;
   const Box3& bounds(std::uint32_t block) const override { return this->state_.bounds[block]; }
   const Vec3& largest_displacement(std::uint32_t block) const override {
     return this->state_.largest_displacement[block];
   }
 
-  Vec3 x(Place at) const override;
-  Vec3 v(Place at) const override;
-  Vec3 force(Place at) const override;
-  Vec3 damping_force(Place at) const override;
-  void shift(Place at, const Vec3& displacement, const Vec3& kick) override;
+  void get_motions(std::span<const std::uint32_t> nodes, const MovingFrame& frame,
+                   std::span<NodeMotion> motions) const override;
+  void get_elastic_forces(std::span<const std::uint32_t> nodes,
+                          std::span<Vec3> forces) const override;
+  void shift(std::span<const NodeChange> changes) override;
 
  private:
+  /// Number of a place, counted from the first of the body.
   std::uint32_t position(Place at) const {
     return this->layout_->blocks[at.block].first + at.index;
   }

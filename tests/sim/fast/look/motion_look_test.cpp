@@ -58,8 +58,7 @@ TEST_CASE("The largest departure leaves out a rigid motion, and nodes that do no
     FastBody& body = *posed.body;
     std::vector<Vec3> x(rest.size());
     for (const bool counts : {true, false, true}) {
-      for (std::uint32_t i = 0; i < v.size(); i += kEvery)
-        body.count_departure(body.place(i), counts);
+      for (std::uint32_t i = 0; i < v.size(); i += kEvery) body.count_departures({&i, 1}, counts);
       for (const RigidMotion& motion : {RigidMotion(), rigid}) {
         body.set_rigid_motion(motion);
         for (std::uint32_t b = 0; b < body.block_count(); ++b) {
@@ -95,7 +94,7 @@ TEST_CASE("A rigid motion is fitted to the nodes of a body") {
       std::vector<Vec3> v;
       for (const Vec3& x : rest) v.push_back(rigid.at(x - center) + noise * random_vector(random));
       const Posed posed(subject, precision, rest, v);
-      const RigidMotion fit = RigidFit(*posed.body, subject.model.node_count()).fit(*posed.body);
+      const RigidMotion fit = RigidFit(subject.model.node_count()).fit(*posed.body);
       double farthest = 0;
       for (const Vec3& x : rest)
         farthest = std::max(farthest, (fit.at(x - center) - rigid.at(x - center)).norm());
@@ -116,7 +115,7 @@ TEST_CASE("The rigid motion of few nodes is one of those that fit") {
   line.damping = {0, 0};
   const Posed posed({line}, Precision::double_precision, line.rest,
                     {{0, 1, 0}, {0, 2, 0}, {0, 3, 0}});
-  const RigidMotion fit = RigidFit(*posed.body, 3).fit(*posed.body);
+  const RigidMotion fit = RigidFit(3).fit(*posed.body);
   CHECK((fit.spin - Vec3(0, 0, 1)).norm() < 1e-12);
 }
 
