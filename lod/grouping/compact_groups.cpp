@@ -15,6 +15,7 @@
 #include "elastic/stable_step.hpp"
 #include "lod/grouping/connected_groups.hpp"
 #include "lod/grouping/graded_shares.hpp"
+#include "lod/grouping/light_groups.hpp"
 #include "model/point_bins.hpp"
 
 namespace springlod::lod {
@@ -171,13 +172,17 @@ Groups compact_groups(const MassSpringModel& model, const CompactOptions& option
         options.count, model.node_count(), groups.count, kinds.size(), least, model.node_count()));
   const std::vector<std::uint32_t> share =
       graded_shares(frequencies_of(model, kinds), options.count - groups.count, options.grading);
+  std::vector<std::uint32_t> kind_of(model.node_count(), static_cast<std::uint32_t>(kinds.size()));
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     CompactKind kind(model, kinds[k], share[k], split_mix(options.seed) + k);
     kind.relax(options.passes);
-    for (std::size_t i = 0; i < kinds[k].size(); ++i)
+    for (std::size_t i = 0; i < kinds[k].size(); ++i) {
       groups.of[kinds[k][i]] = groups.count + kind.groups()[i];
+      kind_of[kinds[k][i]] = static_cast<std::uint32_t>(k);
+    }
     groups.count += share[k];
   }
+  feed_light_groups(model, kind_of, groups);
   connect_groups(model, groups);
   return groups;
 }

@@ -22,9 +22,9 @@ struct CompactOptions {
 
 /// Makes exactly `count` compact groups, of about equal size within a material: recursive bisection
 /// across the longest extent, then centroidal Voronoi cells by Lloyd's iteration (Lloyd 1982;
-/// docs/method.md, eq. 24 and the text above it). A group is connected by springs and lies within
-/// one material and, with BorderRule::weak, within the border or the interior. With
-/// BorderRule::strong border nodes stay single.
+/// docs/method.md, eq. 24 and the text above it), then feed_light_groups. A group is connected by
+/// springs and lies within one material and, with BorderRule::weak, within the border or the
+/// interior. With BorderRule::strong border nodes stay single.
 ///
 /// The time is N log N. Throws InputError if `count` is less than the number of kinds of nodes that
 /// must stay apart, or more than the nodes.
