@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "sim/fast/regions.hpp"
 
@@ -15,6 +16,18 @@ constexpr double kRounding = 1e-6;
 // Points nearer than this fraction of their mean spacing are checked at every step [1]: a fast body
 // travels that far in one or a few steps.
 constexpr double kNear = 0.1;
+
+// Path of a point whose nodes have the paths path_of(node).
+template <class PathOf>
+StepPath mean_path(std::span<const ContactPoints::Share> shares, const PathOf& path_of) {
+  StepPath sum;
+  for (const ContactPoints::Share& share : shares) {
+    const StepPath path = path_of(share.node);
+    sum.from += share.weight * path.from;
+    sum.to += share.weight * path.to;
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -146,24 +159,14 @@ Vec3 NearPoints::point_to(std::uint32_t point) const {
 }
 
 StepPath NearPoints::point_path(std::uint32_t point) const {
-  StepPath sum;
-  for (const ContactPoints::Share& share : shared_.points->shares(point)) {
-    const StepPath& path = paths_->path(share.node);
-    sum.from += share.weight * path.from;
-    sum.to += share.weight * path.to;
-  }
-  return sum;
+  return mean_path(shared_.points->shares(point),
+                   [&](std::uint32_t node) { return paths_->path(node); });
 }
 
 StepPath NearPoints::corrected_path(std::uint32_t point, const StepNodes& nodes) const {
-  StepPath sum;
-  for (const ContactPoints::Share& share : shared_.points->shares(point)) {
-    const std::uint32_t node = share.node;
-    const StepPath path = nodes.has(node) ? nodes.corrected_path(node) : paths_->path(node);
-    sum.from += share.weight * path.from;
-    sum.to += share.weight * path.to;
-  }
-  return sum;
+  return mean_path(shared_.points->shares(point), [&](std::uint32_t node) {
+    return nodes.has(node) ? nodes.corrected_path(node) : paths_->path(node);
+  });
 }
 
 }  // namespace springlod::sim

@@ -17,9 +17,9 @@ end
 
 -- The default, with lower and higher highest frequencies.
 function trade_off.variants()
-  local list = {}
+  local list, default = {}, default_aim()
   for i, factor in ipairs(factors) do
-    local aim = factor * default_aim()
+    local aim = factor * default
     list[i] = {name = ("%.2f"):format(aim), calibration = {least_frequency = aim},
                is_default = factor == 1}
   end

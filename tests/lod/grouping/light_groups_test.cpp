@@ -1,6 +1,7 @@
 #include "lod/grouping/light_groups.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <catch2/catch.hpp>
 
@@ -30,41 +31,39 @@ MassSpringModel row(const std::vector<double>& mass) {
   return test::table_model(rest, mass, springs);
 }
 
+/// Groups of the nodes of such a row after feeding the light ones of `of`.
+std::vector<std::uint32_t> fed(const std::vector<double>& mass,
+                               const std::vector<std::uint32_t>& kind,
+                               std::vector<std::uint32_t> of) {
+  Groups groups{std::move(of), 0};
+  groups.count = 1 + *std::max_element(groups.of.begin(), groups.of.end());
+  const std::uint32_t count = groups.count;
+  feed_light_groups(row(mass), kind, groups);
+  CHECK(groups.count == count);
+  return groups.of;
+}
+
+using Nodes = std::vector<std::uint32_t>;
+
 }  // namespace
 
 TEST_CASE("A light group takes nodes of its neighbour until it is not light") {
-  const MassSpringModel model = row({0.1, 0.2, 0.3, 4, 4});
-  Groups groups{{0, 1, 1, 1, 1}, 2};
-  feed_light_groups(model, {0, 0, 0, 0, 0}, groups);
   // The mean is 4.3. Two of the three rounds take a small node, the last one a large one.
-  CHECK(groups.of == std::vector<std::uint32_t>{0, 0, 0, 0, 1});
-  CHECK(groups.count == 2);
+  CHECK(fed({0.1, 0.2, 0.3, 4, 4}, {0, 0, 0, 0, 0}, {0, 1, 1, 1, 1}) == Nodes{0, 0, 0, 0, 1});
 }
 
 TEST_CASE("A light group takes no node whose group would become lighter than it was, or empty") {
   SECTION("lighter") {
-    const MassSpringModel model = row({1, 2, 0.5, 20});
-    Groups groups{{0, 1, 1, 2}, 3};
-    feed_light_groups(model, {0, 0, 0, 0}, groups);
-    CHECK(groups.of == std::vector<std::uint32_t>{0, 1, 1, 2});
+    CHECK(fed({1, 2, 0.5, 20}, {0, 0, 0, 0}, {0, 1, 1, 2}) == Nodes{0, 1, 1, 2});
   }
   SECTION("empty") {
-    const MassSpringModel model = row({1, 20});
-    Groups groups{{0, 1}, 2};
-    feed_light_groups(model, {0, 0}, groups);
-    CHECK(groups.of == std::vector<std::uint32_t>{0, 1});
+    CHECK(fed({1, 20}, {0, 0}, {0, 1}) == Nodes{0, 1});
   }
   SECTION("another kind") {
-    const MassSpringModel model = row({1, 20, 20, 20});
-    Groups groups{{0, 1, 1, 2}, 3};
-    feed_light_groups(model, {0, 1, 1, 0}, groups);
-    CHECK(groups.of == std::vector<std::uint32_t>{0, 1, 1, 2});
+    CHECK(fed({1, 20, 20, 20}, {0, 1, 1, 0}, {0, 1, 1, 2}) == Nodes{0, 1, 1, 2});
   }
   SECTION("heavy enough") {
-    const MassSpringModel model = row({3, 2, 2});
-    Groups groups{{0, 1, 1}, 2};
-    feed_light_groups(model, {0, 0, 0}, groups);
-    CHECK(groups.of == std::vector<std::uint32_t>{0, 1, 1});
+    CHECK(fed({3, 2, 2}, {0, 0, 0}, {0, 1, 1}) == Nodes{0, 1, 1});
   }
 }
 
