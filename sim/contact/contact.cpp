@@ -80,6 +80,26 @@ std::optional<Penetration> ContactFinder::penetration(std::size_t obstacle, std:
                           : depth_in(std::get<SolidBox>(thing.shape), sides_[obstacle][point], x);
 }
 
+std::optional<Penetration> ContactFinder::entry(std::size_t obstacle, std::uint32_t point,
+                                                const StepPath& path) {
+  std::optional<Penetration> end = penetration(obstacle, point, path.to);
+  const auto* box = std::get_if<SolidBox>(&(*obstacles_)[obstacle].shape);
+  if (!end || box == nullptr) return end;
+  const Vec3 from = box->local(path.from);
+  const Vec3 to = box->local(path.to);
+  double last = 0;  // fraction of the path that lies before the face
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const std::int8_t side = side_of(from[i]);
+    const double before = side * from[i] - box->half_size[i];
+    const double depth = box->half_size[i] - side * to[i];
+    if (!(before > 0) || !(before > last * (before + depth))) continue;
+    last = before / (before + depth);
+    end = Penetration{depth, side * box->rotation.col(i)};
+    sides_[obstacle][point][static_cast<std::size_t>(i)] = side;
+  }
+  return end;
+}
+
 Contact ContactFinder::contact(std::size_t obstacle, std::uint32_t point, const Vec3& normal,
                                const Mat3& frame) const {
   const Obstacle& thing = (*obstacles_)[obstacle];

@@ -9,6 +9,7 @@
 #include "sim/contact/contact_points.hpp"
 #include "sim/contact/normal_law.hpp"
 #include "sim/correction/padded.hpp"
+#include "sim/correction/step_nodes.hpp"
 #include "sim/scenario.hpp"
 
 namespace springlod::sim {
@@ -70,6 +71,9 @@ class ContactFinder {
 
   /// Penetration of one point at x into one obstacle; none outside.
   std::optional<Penetration> penetration(std::size_t obstacle, std::uint32_t point, const Vec3& x);
+  /// Penetration at the end of a straight path, into the face that the point went through last; the
+  /// same as penetration() if it was inside at the start.
+  std::optional<Penetration> entry(std::size_t obstacle, std::uint32_t point, const StepPath& path);
   /// A contact of depth 0 and without force between a point and a face of an obstacle. `frame`: of
   /// the point.
   Contact contact(std::size_t obstacle, std::uint32_t point, const Vec3& normal,

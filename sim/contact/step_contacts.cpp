@@ -19,6 +19,11 @@ constexpr int kMostSweeps = 100;
 // yields takes a quarter of what a contact costs once per step.
 constexpr std::uint64_t kTurnEvery = 8;
 
+// Depth at the start of a path under the face of the penetration at its end [m].
+double depth_before(const Penetration& end, const PaddedPath& path) {
+  return end.depth + dot(padded(end.normal), path.to - path.from);
+}
+
 }  // namespace
 
 // Sums of their own: what is stored in a result might change the shares, for all the compiler
@@ -76,27 +81,34 @@ void StepContacts::begin(double step, const StepPaths& paths, StepNodes& nodes) 
 void StepContacts::continue_next(StepNodes& nodes) {
   Contact& contact = contacts_[checked_];
   Touch& touch = touches_[checked_];
-  ++checked_;
   touch.path = path(touch, nodes);
   const auto end = finder_->penetration(contact.obstacle, contact.point, touch.path.to.head<3>());
+  // The depth of a contact that continues is known; geometry would give it with other rounding.
+  touch.before = contact.depth;
+  touch.level = contact.depth + dot(touch.normal, touch.path.from);
+  if (!end && touch.level - dot(touch.normal, touch.path.to) > 0) {
+    end_next();
+    return;
+  }
+  ++checked_;
   losses_.contact += contact.energy();
   const bool same_face = !end || end->normal == contact.normal;
+  if (end && same_face) touch.level = end->depth + dot(touch.normal, touch.path.to);
+  // A point that is deeper under the new face than under its own takes it in the next step: what a
+  // face presses it out must not be more than what it was pressed in.
+  const bool takes_face = !same_face && depth_before(*end, touch.path) <= contact.depth;
   // By turns, so that all steps cost the same.
   const bool turns = points_->turns(contact.point) && (number_ + contact.point) % kTurnEvery == 0;
-  if (turns || !same_face) {
-    contact = turned(contact, same_face ? contact.normal : end->normal, touch, nodes);
+  if (turns || takes_face) {
+    contact = turned(contact, takes_face ? end->normal : contact.normal, touch, nodes);
     set_laws(contact, touch);
+  }
+  if (takes_face) {
+    touch.before = depth_before(*end, touch.path);
+    touch.level = end->depth + dot(touch.normal, touch.path.to);
   }
   contact.continue_from(contact);
   touch.slider.start(contact);
-  // The depth of a contact that continues is known; geometry would give it with other rounding.
-  if (end) {
-    touch.level = end->depth + dot(touch.normal, touch.path.to);
-    touch.before = same_face ? contact.depth : touch.level - dot(touch.normal, touch.path.from);
-  } else {
-    touch.before = contact.depth;
-    touch.level = contact.depth + dot(touch.normal, touch.path.from);
-  }
   // Differs from the energy before on another face, or where the surface has turned.
   losses_.contact -= penalty_energy(contact.stiffness, touch.before) + contact.stick_energy();
   // The forces of the last step need fewer sweeps than none.
@@ -104,20 +116,19 @@ void StepContacts::continue_next(StepNodes& nodes) {
        nodes);
 }
 
-void StepContacts::end_next(std::uint32_t count) {
-  const auto first = static_cast<std::ptrdiff_t>(checked_);
-  auto last = first;
-  while (last < std::ssize(contacts_) && contacts_[static_cast<std::size_t>(last)].obstacle < count)
-    ++last;
-  if (last == first) return;
-  contacts_.erase(contacts_.begin() + first, contacts_.begin() + last);
-  touches_.erase(touches_.begin() + first, touches_.begin() + last);
+void StepContacts::end_next() {
+  const Contact& contact = contacts_[checked_];
+  losses_.contact += penalty_energy(contact.stiffness, contact.depth);
+  losses_.friction += contact.stick_energy();
+  const auto at = static_cast<std::ptrdiff_t>(checked_);
+  contacts_.erase(contacts_.begin() + at);
+  touches_.erase(touches_.begin() + at);
   new_shares_ = true;
 }
 
 void StepContacts::check(std::uint32_t obstacle, std::uint32_t point, const StepPath& path,
                          StepNodes& nodes) {
-  const auto end = finder_->penetration(obstacle, point, path.to);
+  const auto end = finder_->entry(obstacle, point, path);
   if (!end) return;
   Touch touch;
   gather_shares(point, touch, nodes);

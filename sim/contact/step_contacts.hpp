@@ -37,10 +37,8 @@ class StepContacts {
   const Contact* next() const {
     return checked_ < contacts_.size() ? &contacts_[checked_] : nullptr;
   }
-  /// Continues it.
+  /// Continues it, or ends it if its point has slid off an edge of the obstacle.
   void continue_next(StepNodes& nodes);
-  /// Ends all contacts from next() on that are with one of the first `count` obstacles.
-  void end_next(std::uint32_t count);
   /// Adds the contact of a point with an obstacle that it did not touch at the start of the step,
   /// if it does at the end; before next(). `path`: of the point in the free step.
   void check(std::uint32_t obstacle, std::uint32_t point, const StepPath& path, StepNodes& nodes);
@@ -81,6 +79,8 @@ class StepContacts {
   /// Gives a touch the shares of its point, and adds their nodes to those of the step.
   void gather_shares(std::uint32_t point, Touch& touch, StepNodes& nodes);
   void set_laws(const Contact& contact, Touch& touch) const;
+  /// Ends next(); its energy is lost.
+  void end_next();
   /// The contact of `before` under a face with that normal, whose surface has turned.
   Contact turned(const Contact& before, const Vec3& normal, const Touch& touch,
                  const StepNodes& nodes) const;

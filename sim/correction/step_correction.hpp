@@ -48,7 +48,6 @@ class StepCorrection {
   // See StepContacts.
   const Contact* next_contact() const { return contacts_.next(); }
   void continue_contact() { contacts_.continue_next(nodes_); }
-  void end_contacts(std::uint32_t count) { contacts_.end_next(count); }
   void check_contact(std::uint32_t obstacle, std::uint32_t point, const StepPath& path) {
     contacts_.check(obstacle, point, path, nodes_);
   }

@@ -49,16 +49,16 @@ void NearPoints::check(const FastStep& step, StepCorrection& solver) {
   const Box3 here = bounds(step.after);
   const Box3 swept = bounds_.isEmpty() ? bounds(step.before).merged(here) : bounds_.merged(here);
   bounds_ = here;
-  if (!near_anything(swept)) {
+  // Corners and contacts may have pressed a point out of these bounds, into an obstacle.
+  if (solver.next_contact() == nullptr && !near_anything(swept)) {
     away_ = true;
-    solver.end_contacts(static_cast<std::uint32_t>(views_.size()));
     return;
   }
   if (away_) arrive();
   add_travel(step);
   for (std::uint32_t o = 0; o < views_.size(); ++o) {
+    continue_contacts(step, o, solver);
     if (!region_touching((*shared_.obstacles)[o], swept).isEmpty()) check_points(step, o, solver);
-    solver.end_contacts(o + 1);  // the body has left the obstacle
   }
 }
 
@@ -102,17 +102,21 @@ void NearPoints::arrive() {
   for (View& view : views_) view.schedule.restart(shared_.points->count(), near_);
 }
 
-// The points in contact are checked first: their depth in a box counts from the side by which they
-// entered, so they may be in contact and far from its surface.
-void NearPoints::check_points(const FastStep& step, std::uint32_t obstacle,
-                              StepCorrection& solver) {
-  View& view = views_[obstacle];
-  const Obstacle& thing = (*shared_.obstacles)[obstacle];
+// The depth of a point in a box counts from the side by which it entered, so a point may be in
+// contact and far from the surface.
+void NearPoints::continue_contacts(const FastStep& step, std::uint32_t obstacle,
+                                   StepCorrection& solver) {
   for (const Contact* next = solver.next_contact(); next != nullptr && next->obstacle == obstacle;
        next = solver.next_contact()) {
     note_check(step, obstacle, next->point);
     solver.continue_contact();
   }
+}
+
+void NearPoints::check_points(const FastStep& step, std::uint32_t obstacle,
+                              StepCorrection& solver) {
+  View& view = views_[obstacle];
+  const Obstacle& thing = (*shared_.obstacles)[obstacle];
   const bool is_box = std::holds_alternative<SolidBox>(thing.shape);
   view.schedule.check(view.travel, [&](std::uint32_t point) {
     if (view.checked_at[point] == step.number + 1) return 0.0;  // in contact

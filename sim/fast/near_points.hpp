@@ -51,6 +51,8 @@ class NearPoints {
   bool near_anything(const Box3& swept) const;
   void arrive();
   void add_travel(const FastStep& step);
+  void continue_contacts(const FastStep& step, std::uint32_t obstacle, StepCorrection& solver);
+  /// The points that are not in contact.
   void check_points(const FastStep& step, std::uint32_t obstacle, StepCorrection& solver);
   void check_point(const FastStep& step, std::uint32_t obstacle, std::uint32_t point,
                    StepCorrection& solver);

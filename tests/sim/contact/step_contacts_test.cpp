@@ -26,7 +26,21 @@ MassSpringModel without_corners(MassSpringModel model) {
   return model;
 }
 
-/// A body without springs and corners that moves over one step, with its contacts.
+/// One node of 2 kg and 1 m2.
+MassSpringModel one_node(const Vec3& at) {
+  MassSpringModel node;
+  node.rest = {at};
+  node.mass = {2};
+  node.volume = {1};
+  node.contact_area = {1};
+  node.border = {1};
+  node.material = {0};
+  node.materials = {Material{.name = "m"}};
+  return node;
+}
+
+/// A body without springs and corners that moves over one step, with its contacts. The obstacles
+/// must outlive it.
 struct OneStep {
   OneStep(const MassSpringModel& of_model, const std::vector<Obstacle>& obstacles,
           const ContactSkin* skin)
@@ -96,14 +110,7 @@ TEST_CASE("Energy, stored and lost, adds up in every step of many touching point
 }
 
 TEST_CASE("A point held by two obstacles touches both, without a bounce of its own") {
-  MassSpringModel node;
-  node.rest = {Vec3(1e-3, 0, 1e-3)};
-  node.mass = {2};
-  node.volume = {1};
-  node.contact_area = {1};
-  node.border = {1};
-  node.material = {0};
-  node.materials = {Material{.name = "m"}};
+  const MassSpringModel node = one_node({1e-3, 0, 1e-3});
   std::vector<Obstacle> corner{test::floor(1e6, 0), test::floor(1e6, 0)};
   corner[1].shape = Plane{Vec3::UnitX(), 0};
   OneStep body(node, corner, nullptr);
@@ -113,6 +120,61 @@ TEST_CASE("A point held by two obstacles touches both, without a bounce of its o
   CHECK(body.x[0].x() == Approx(body.x[0].z()));
   CHECK(v[0].x() == Approx(v[0].z()));
   CHECK(v[0].y() == 1);
+}
+
+TEST_CASE("A point that slides off an edge is let go, and what its contact stored is lost") {
+  std::vector<Obstacle> table{test::floor(1e6, 0)};
+  table[0].shape = SolidBox{.half_size = {1, 1, 1}};
+  OneStep body(one_node({0.98, 0, 1 + 1e-4}), table, nullptr);
+  std::vector<Vec3> v{Vec3(12, 0, -1)};
+  CHECK(std::abs(body.advance(1e-3, v)) < 1e-12);
+  REQUIRE(body.contacts.now().size() == 1);
+  const double stored = contact_energy(body.contacts.now());
+  const Vec3 before = v[0];
+  CHECK(std::abs(body.advance(1e-3, v)) < 1e-12);
+  CHECK(body.x[0].x() > 1);
+  CHECK(body.x[0].z() < 1);
+  CHECK(body.contacts.now().empty());
+  CHECK(body.contacts.losses().contact == Approx(stored));
+  CHECK(v[0] == before);
+}
+
+TEST_CASE("A point that comes in at the top of a box near an edge is pressed up") {
+  std::vector<Obstacle> table{test::floor(1e6, 0)};
+  table[0].shape = SolidBox{.half_size = {1, 1, 1}};
+  OneStep body(one_node({1 - 5e-4, 0, 1 + 1e-3}), table, nullptr);
+  std::vector<Vec3> v{Vec3(0, 0, -3)};
+  body.advance(1e-3, v);
+  REQUIRE(body.contacts.now().size() == 1);
+  CHECK(body.contacts.now()[0].normal == Vec3::UnitZ());
+  CHECK(v[0].z() > -3);
+  CHECK(v[0].x() == 0);
+}
+
+TEST_CASE("A box without damping and friction gives a point no energy, at any edge and speed") {
+  const double speed = GENERATE(0.1, 3.0, 100.0);  // up to a tenth of the box in a step
+  std::vector<Obstacle> block{test::floor(1e6, 0)};
+  block[0].shape = SolidBox{.half_size = {1, 0.7, 0.02}};
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto any = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
+  std::size_t touching = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 way = speed * any();
+    const Vec3 edge(1, 0.7 * uniform(random), 0.02);
+    OneStep body(one_node(edge - 3e-3 * way), block, nullptr);
+    if (surface_distance(block[0], body.x[0]).distance < 0) continue;
+    std::vector<Vec3> v{way + 0.1 * speed * any()};
+    double energy = body.kinetic(v);
+    for (int step = 0; step < 12; ++step) {
+      CHECK(std::abs(body.advance(1e-3, v)) < 1e-9 * energy);
+      const double now = body.kinetic(v) + contact_energy(body.contacts.now());
+      CHECK(now < (1 + 1e-9) * energy);
+      energy = now;
+      touching += body.contacts.now().size();
+    }
+  }
+  CHECK(touching > 50);
 }
 
 TEST_CASE("A body at rest on an automatic floor sinks in by less than 1 % of a cell") {
