@@ -14,28 +14,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/descriptor.hpp"
 #include "base/error.hpp"
 
 namespace springlod::inline base {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-
- private:
-  int number_;
-};
 
 class FileActions {
  public:
@@ -90,15 +75,11 @@ std::optional<fs::path> find_program(const std::string& name) {
 
 ProgramResult run_program(const fs::path& program, const std::vector<std::string>& arguments,
                           const fs::path& folder) {
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw IoError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
-  const Descriptor reading(ends[0]);
-  Descriptor writing(ends[1]);
+  Pipe pipe = make_pipe();
   FileActions actions;
   posix_spawn_file_actions_addopen(actions.get(), STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(actions.get(), STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(actions.get(), writing.number(), STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(actions.get(), pipe.writing.number(), STDERR_FILENO);
   if (!folder.empty()) posix_spawn_file_actions_addchdir_np(actions.get(), folder.c_str());
 
   std::string name = program.string();
@@ -111,9 +92,9 @@ ProgramResult run_program(const fs::path& program, const std::vector<std::string
       posix_spawn(&child, program.c_str(), actions.get(), nullptr, argv.data(), environ);
   if (error != 0)
     throw IoError(fmt::format("cannot start {}: {}", program.string(), std::strerror(error)));
-  writing.close();  // otherwise reading the child's stderr would never reach its end
+  pipe.writing.close();  // otherwise reading the child's stderr would never reach its end
   ProgramResult result;
-  result.errors = read_all(reading.number());
+  result.errors = read_all(pipe.reading.number());
   result.exit_code = wait_for(child, program);
   return result;
 }

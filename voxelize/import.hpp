@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/choice.hpp"
+#include "base/progress.hpp"
 #include "model/mesh.hpp"
 
 namespace springlod::voxelize {
@@ -19,8 +20,9 @@ constexpr ChoiceTable<Choice<UpAxis>> choices(UpAxis) {
 }
 
 struct ImportOptions {
-  std::optional<double> unit;  ///< unit of the file [m]; default: that stated by the file, or 1 m
-  std::optional<UpAxis> up;    ///< default: stated by the file, or usual for the format
+  std::optional<double> unit;    ///< unit of the file [m]; default: that stated by the file, or 1 m
+  std::optional<UpAxis> up;      ///< default: stated by the file, or usual for the format
+  Progress* progress = nullptr;  ///< may stop the import
 };
 
 /// Properties of the file, and which of them were assumed.
@@ -30,7 +32,8 @@ struct ImportReport {
   bool unit_assumed = false;  ///< neither given in the options nor stated by the file
   UpAxis up = UpAxis::z;
   bool up_assumed = false;
-  std::string content_hash;  ///< of the file
+  std::uint64_t stray_vertices = 0;  ///< left out: no triangle has them
+  std::string content_hash;          ///< of the file
 };
 
 struct ImportedMesh {
@@ -41,9 +44,11 @@ struct ImportedMesh {
 /// Endings of the mesh files that import_mesh reads: ".obj", ...
 std::vector<std::string> mesh_endings();
 
-/// Imports OBJ, STL, PLY, GLB/glTF, FBX, OFF and Collada files through assimp. Vertices of equal
-/// position are merged. Throws IoError (missing, unreadable, empty, or not a mesh format: the
-/// message lists the formats) and InputError (vertices that are not finite, no triangles).
+/// Imports OBJ, STL, PLY, GLB/glTF, FBX, OFF and Collada files through assimp, in a child process:
+/// damaged files crash assimp, or make it run for ever. Vertices of equal position are merged.
+/// Throws IoError (missing, unreadable, empty, or not a mesh format: the message lists the formats)
+/// and InputError (vertices that are not finite, no triangles, a crash of assimp, or more time or
+/// memory than a file of this size needs).
 ImportedMesh import_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// Describes unit and up axis, one line each: "assumed 1 unit = 1 m (OBJ does not state it; the

@@ -1,12 +1,16 @@
 #include "voxelize/vdb_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/TopologyToLevelSet.h>
 
+#include "base/child_work.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "voxelize/distance_field.hpp"
@@ -24,6 +28,9 @@ constexpr const char* kCell = "springlod_cell";
 constexpr const char* kOrigin = "springlod_origin";
 constexpr const char* kMaterialCount = "springlod_material_count";
 constexpr const char* kHasDistance = "springlod_has_distance";
+
+// Some messages of OpenVDB hold what it found in the file, of any length [characters].
+constexpr int kLongestReason = 300;
 
 constexpr std::int32_t kOutside = -1;  // in the grid "material"
 constexpr int kBand = 3;  // half width of a level set in cells, the default of OpenVDB's tools
@@ -92,18 +99,35 @@ openvdb::GridCPtrVec grids_of(const MaterialGrid& grid) {
   return grids;
 }
 
-// OpenVDB may hang on a file that is not a .vdb file, so its first bytes are checked first.
-void require_magic(const fs::path& path) {
-  if (fs::is_directory(path))
-    throw IoError(fmt::format("{} is a folder; name a .vdb file", path.string()));
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    throw IoError(
-        fmt::format("cannot read {}; the file is missing or not readable", path.string()));
+// The last line of a file: the hash of all bytes before it. Other programs ignore it, because grids
+// are found by their offsets. A file that another program has written again has none.
+constexpr std::string_view kHashLabel = "\nspringlod content hash ";
+constexpr std::size_t kHashDigits = 16;
+constexpr std::size_t kHashLine = kHashLabel.size() + kHashDigits;
+
+void append_hash(const fs::path& path) {
+  const std::string hash = content_hash(read_file(path));
+  std::ofstream out(path, std::ios::binary | std::ios::app);
+  out << kHashLabel << hash;
+  out.close();
+  if (!out) throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+}
+
+void require_intact(const fs::path& path) {
+  const std::string bytes = read_file(path);
   std::int64_t magic = 0;
-  in.read(reinterpret_cast<char*>(&magic), sizeof magic);
-  if (!in || magic != openvdb::OPENVDB_MAGIC)
+  std::memcpy(&magic, bytes.data(), std::min(bytes.size(), sizeof magic));
+  if (magic != openvdb::OPENVDB_MAGIC)
     throw IoError(fmt::format("{} is not a .vdb file", path.string()));
+  if (bytes.size() < kHashLine) return;
+  const std::string_view all = bytes;
+  const std::string_view line = all.substr(bytes.size() - kHashLine);
+  if (line.starts_with(kHashLabel) &&
+      line.substr(kHashLabel.size()) != content_hash(all.substr(0, bytes.size() - kHashLine)))
+    throw IoError(
+        fmt::format("{} is damaged: its content does not have the hash that it states; make or "
+                    "copy it again",
+                    path.string()));
 }
 
 class Reader {
@@ -216,6 +240,8 @@ void save_vdb(const MaterialGrid& grid, const fs::path& path) {
                                        : openvdb::io::COMPRESS_ZIP;
       file.setCompression(method | openvdb::io::COMPRESS_ACTIVE_MASK);
       file.write(grids_of(grid), metadata_of(grid));
+      file.close();
+      append_hash(aside);
     } catch (const openvdb::Exception& e) {
       throw IoError(fmt::format("cannot write {}: {}", path.string(), e.what()));
     }
@@ -223,14 +249,21 @@ void save_vdb(const MaterialGrid& grid, const fs::path& path) {
 }
 
 MaterialGrid load_vdb(const fs::path& path) {
-  require_magic(path);
+  require_intact(path);
   start_openvdb();
+  const auto damaged = [&](const char* reason) {
+    return IoError(fmt::format("{} is damaged: {:.{}}", path.string(), reason, kLongestReason));
+  };
   try {
+    // What OpenVDB survives there, it survives here.
+    run_in_child([&] { return Reader(path).read(), std::string(); }, {});
     return Reader(path).read();
+  } catch (const ChildFailure& e) {
+    throw damaged(fmt::format("OpenVDB {}", e.what()).c_str());
   } catch (const InputError& e) {
-    throw IoError(fmt::format("{} is damaged: {}", path.string(), e.what()));
+    throw damaged(e.what());
   } catch (const openvdb::Exception& e) {
-    throw IoError(fmt::format("cannot read {}: {}", path.string(), e.what()));
+    throw damaged(e.what());
   }
 }
 

@@ -232,6 +232,20 @@ TEST_CASE("Faces with repeated vertices are dropped, and equal positions are mer
   CHECK(total_volume(imported.mesh) == Approx(1.0 / 6));
 }
 
+TEST_CASE("Vertices without triangles are left out, and reported") {
+  const TemporaryFolder folder;
+  const auto path = write(folder, "stray.obj",
+                          "v 0 0 0\nv 1000 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                          "f 1 4 3\nf 1 3 5\nf 3 4 5\nf 4 1 5\nv 0 -1000 0\n");
+  const ImportedMesh imported = import_mesh(path);
+  CHECK(imported.mesh.positions.size() == 4);
+  CHECK(bounds(imported.mesh).max() == Vec3(1, 1, 1));
+  CHECK(total_volume(imported.mesh) == Approx(1.0 / 6));
+  // Some readers of assimp leave them out themselves.
+  if (imported.report.stray_vertices > 0)
+    CHECK_THAT(describe(imported.report), Contains("without triangles left out"));
+}
+
 TEST_CASE("A file that is not a mesh is rejected with the list of formats") {
   const TemporaryFolder folder;
   const auto refused = [](const fs::path& path, const std::string& with) {
@@ -259,6 +273,17 @@ TEST_CASE("Vertices that are not finite and meshes without faces are rejected") 
     CHECK_THROWS_WITH(import_mesh(path), Contains("not finite"));
   }
   CHECK_THROWS_AS(import_mesh(write(folder, "line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")), InputError);
+}
+
+TEST_CASE("Damaged files on which assimp crashes or hangs are refused with the reason") {
+  const TemporaryFolder folder;
+  // assimp looks for the end of the header for ever.
+  const std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n";
+  for (const std::size_t length : {std::size_t{3}, std::size_t{20}, header.size()}) {
+    const fs::path cut = write(folder, "cut.ply", header.substr(0, length));
+    CHECK_THROWS_AS(import_mesh(cut), IoError);
+    CHECK_THROWS_WITH(import_mesh(cut), Contains("end_header"));
+  }
 }
 
 TEST_CASE("describe() states the assumptions") {

@@ -1,5 +1,7 @@
 #include "voxelize/vdb_file.hpp"
 
+#include <random>
+
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
@@ -60,7 +62,7 @@ TEST_CASE("A file that springlod did not write is rejected") {
     CHECK_THROWS_AS(load_vdb(path), IoError);
     CHECK_THROWS_WITH(load_vdb(path), Contains(with));
   };
-  refused(folder / "nowhere.vdb", "the file is missing");
+  refused(folder / "nowhere.vdb", "No such file");
   refused(folder.path(), "is a folder");
   write_text_file(folder / "text.vdb", "hello, this is not a grid");
   refused(folder / "text.vdb", "is not a .vdb file");
@@ -75,6 +77,32 @@ TEST_CASE("A truncated .vdb file is rejected") {
   for (const std::size_t length : {std::size_t{8}, std::size_t{40}, bytes.size() / 2}) {
     write_text_file(folder / "cut.vdb", bytes.substr(0, length));
     CHECK_THROWS_AS(load_vdb(folder / "cut.vdb"), IoError);
+  }
+}
+
+TEST_CASE("A changed .vdb file is refused by its hash, and without one does no harm") {
+  const TemporaryFolder folder;
+  save_vdb(box_grid(9, 9, 9), folder / "whole.vdb");
+  const std::string bytes = read_file(folder / "whole.vdb");
+  const std::string no_hash = bytes.substr(0, bytes.rfind('\n'));
+  CHECK(no_hash.size() + 40 == bytes.size());
+  write_text_file(folder / "plain.vdb", no_hash);
+  CHECK(load_vdb(folder / "plain.vdb").cells.size() == 729);
+  std::mt19937 random(1);
+  for (int i = 0; i < 40; ++i) {
+    // The magic number stays; the file is a .vdb file for certain.
+    const std::size_t at = 8 + random() % (no_hash.size() - 8);
+    const auto change = static_cast<char>(1 + random() % 255);
+    std::string changed = bytes;
+    changed[at] = static_cast<char>(changed[at] ^ change);
+    write_text_file(folder / "changed.vdb", changed);
+    CHECK_THROWS_WITH(load_vdb(folder / "changed.vdb"), Contains("does not have the hash"));
+    write_text_file(folder / "changed.vdb", changed.substr(0, no_hash.size()));
+    try {
+      load_vdb(folder / "changed.vdb");
+    } catch (const IoError& error) {
+      CHECK(std::string(error.what()).size() < 1000);
+    }
   }
 }
 
