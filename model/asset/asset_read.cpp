@@ -1,5 +1,6 @@
 #include <array>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,20 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t kLongestValue = 40;  // of a wrong value in a message [characters]
+
+// A whole number of at most `most`. json::get would convert negative numbers and fractions.
+std::uint64_t whole(const json& number, std::uint64_t most) {
+  if (!number.is_number_unsigned() || number.get<std::uint64_t>() > most)
+    throw Damage(fmt::format("{} stands where a whole number of at most {} must stand",
+                             number.dump().substr(0, kLongestValue), most));
+  return number.get<std::uint64_t>();
+}
+
+std::uint32_t whole(const json& number) {
+  return static_cast<std::uint32_t>(whole(number, std::numeric_limits<std::uint32_t>::max()));
+}
+
 /// Builds the asset from the extension and verifies the checksum.
 class ExactReader {
  public:
@@ -34,7 +49,7 @@ class ExactReader {
         asset.provenance.entries.emplace_back(entry.at(0).get<std::string>(),
                                               entry.at(1).get<std::string>());
     if (extension.contains("contact")) asset.chain.contact = read_contact(extension.at("contact"));
-    has_corners_ = extension.at("version").get<std::int64_t>() >= asset_format::kVersionWithCorners;
+    has_corners_ = whole(extension.at("version")) >= asset_format::kVersionWithCorners;
     for (const json& level : extension.at("levels"))
       asset.chain.levels.push_back(read_level(level, asset.chain.levels.size()));
     if (extension.contains("surface")) read_surface(extension.at("surface"), asset);
@@ -49,11 +64,10 @@ class ExactReader {
 
  private:
   std::string_view view(const json& number) const {
-    const json& v = views_.at(number.get<std::size_t>());
-    const auto offset = v.value("byteOffset", std::uint64_t{0});
-    const auto length = v.at("byteLength").get<std::uint64_t>();
-    if (v.at("buffer").get<std::uint64_t>() != 0 || offset > binary_.size() ||
-        length > binary_.size() - offset)
+    const json& v = views_.at(whole(number));
+    const std::uint64_t offset = v.contains("byteOffset") ? whole(v.at("byteOffset")) : 0;
+    const std::uint64_t length = whole(v.at("byteLength"));
+    if (whole(v.at("buffer")) != 0 || offset > binary_.size() || length > binary_.size() - offset)
       throw Damage("an array lies outside the file");
     return binary_.substr(offset, length);
   }
@@ -130,10 +144,9 @@ class ExactReader {
   void read_surface(const json& object, LodAsset& asset) {
     if (object.contains("parts"))
       for (const json& part : object.at("parts"))
-        asset.surface.parts.push_back({part.at("name").get<std::string>(),
-                                       part.at("material").get<std::string>(),
-                                       part.at("firstTriangle").get<std::uint32_t>(),
-                                       part.at("triangleCount").get<std::uint32_t>()});
+        asset.surface.parts.push_back(
+            {part.at("name").get<std::string>(), part.at("material").get<std::string>(),
+             whole(part.at("firstTriangle")), whole(part.at("triangleCount"))});
     asset.surface.positions = take<Vec3>(object, "positions");
     asset.surface.triangles = take<Triangle>(object, "indices");
     asset.surface_of_base.start = take<std::uint32_t>(object, "bindingStart");
@@ -173,7 +186,8 @@ LodAsset load_asset(const std::filesystem::path& path) {
           fmt::format("{} has no level-of-detail chain (extension {}); springlod "
                       "convert makes one from a mesh",
                       name, asset_format::kExtension));
-    const auto version = extension->at("version").get<std::int64_t>();
+    const std::uint32_t version = whole(extension->at("version"));
+    if (version == 0) throw Damage("its format version is 0");
     if (version > asset_format::kVersion)
       throw IoError(
           fmt::format("{} has format version {}; this program reads versions up to {}; update "

@@ -14,6 +14,7 @@ constexpr std::uint32_t kJson = 0x4E4F534A;
 constexpr std::uint32_t kBinary = 0x004E4942;
 constexpr std::size_t kHeader = 12;
 constexpr std::size_t kChunkHeader = 8;
+constexpr int kMostLevels = 64;  // of JSON; an asset has some 10
 
 std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
   std::uint32_t word = 0;
@@ -31,6 +32,24 @@ std::string_view take_chunk(std::string_view& rest, std::uint32_t type, const ch
   const std::string_view chunk = rest.substr(kChunkHeader, length);
   rest.remove_prefix(kChunkHeader + length);
   return chunk;
+}
+
+// Parsers and destructors of JSON call themselves for each level.
+void require_shallow(std::string_view json) {
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_text && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '[' || c == '{')) {
+      if (++depth > kMostLevels) throw Damage("its JSON chunk is nested too deeply");
+    } else if (!in_text && (c == ']' || c == '}')) {
+      --depth;
+    }
+  }
 }
 
 void write_words(std::ostream& out, std::initializer_list<std::size_t> words) {
@@ -65,6 +84,7 @@ GlbChunks split_glb(std::string_view file) {
   std::string_view rest = file.substr(kHeader);
   GlbChunks chunks;
   chunks.json = take_chunk(rest, kJson, "JSON");
+  require_shallow(chunks.json);
   chunks.binary = take_chunk(rest, kBinary, "binary");
   return chunks;
 }

@@ -11,7 +11,7 @@ std::atomic<int> interrupts{0};
 static_assert(std::atomic<int>::is_always_lock_free, "set in a signal handler");
 
 extern "C" void on_interrupt(int signal) {
-  if (interrupts.fetch_add(1) < 2) return;
+  if (interrupts.fetch_add(1) == 0) return;
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }

@@ -4,7 +4,7 @@ namespace springlod::scripting {
 
 /// Handles Ctrl-C. A signal handler can only set a flag; the flag is global to the process.
 ///
-/// During its lifetime, SIGINT sets the flag. A third SIGINT while the flag is set terminates the
+/// During its lifetime, SIGINT sets the flag. A second SIGINT while the flag is set terminates the
 /// program, because some calls, such as a long string.find, cannot be interrupted.
 class InterruptHandler {
  public:

@@ -201,6 +201,24 @@ TEST_CASE("A file that is not an asset is rejected with the reason") {
   CHECK_THROWS_AS(load_asset(path), IoError);
 }
 
+TEST_CASE("A version or count that is no whole number, and deep JSON, are refused") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  save_asset(sample_asset(), path);
+  const std::string bytes = read_file(path);
+  for (const char* version : {"18446744073709551615", "-1", "1.9", "0", "\"2\"", "null"}) {
+    CAPTURE(version);
+    overwrite(path, with_json(bytes, "\"version\":2", fmt::format("\"version\":{}", version)));
+    CHECK_THROWS_AS(load_asset(path), IoError);
+    CHECK_THROWS_WITH(load_asset(path), Contains("damaged"));
+  }
+  const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
+  overwrite(path, with_json(bytes, "\"version\":2", "\"version\":2,\"deep\":" + deep));
+  CHECK_THROWS_WITH(load_asset(path), Contains("nested too deeply"));
+  overwrite(path, with_json(bytes, "\"version\":2", "\"version\":2,\"text\":\"\\\"[[[\""));
+  CHECK_THROWS_WITH(load_asset(path), Contains("checksum"));
+}
+
 TEST_CASE("A buffer view outside the file is detected") {
   const TemporaryFolder folder;
   const auto path = folder / "asset.glb";
