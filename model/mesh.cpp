@@ -26,10 +26,18 @@ double signed_volume(const TriangleMesh& mesh, const MeshPart& part) {
 
 double surface_area(const TriangleMesh& mesh) {
   double area = 0;
-  for (const Triangle& t : mesh.triangles)
+  for (const MeshPart& part : mesh.parts) area += surface_area(mesh, part);
+  return area;
+}
+
+double surface_area(const TriangleMesh& mesh, const MeshPart& part) {
+  double area = 0;
+  for (std::uint32_t i = 0; i < part.triangle_count; ++i) {
+    const Triangle& t = mesh.triangles[part.first_triangle + i];
     area += 0.5 * (mesh.positions[t[1]] - mesh.positions[t[0]])
                       .cross(mesh.positions[t[2]] - mesh.positions[t[0]])
                       .norm();
+  }
   return area;
 }
 

@@ -30,7 +30,8 @@ struct TriangleMesh {
 Box3 bounds(const TriangleMesh& mesh);
 /// Volume enclosed by one part, by the divergence theorem [m3]; negative if it faces inwards.
 double signed_volume(const TriangleMesh& mesh, const MeshPart& part);
-double surface_area(const TriangleMesh& mesh);
+double surface_area(const TriangleMesh& mesh);                        ///< [m2]
+double surface_area(const TriangleMesh& mesh, const MeshPart& part);  ///< [m2]
 
 /// Throws InputError for an index out of range, a coordinate that is not finite, and parts that do
 /// not cover the triangles.

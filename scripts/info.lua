@@ -1,16 +1,37 @@
--- Print the contents of an asset, level by level.
+-- Print the contents of an asset or a mesh.
 
 local s = require "springlod"
 local certificates = require "lib.certificates"
 local command = require "lib.command"
+local mesh_info = require "lib.mesh_info"
 
-local parser = command.parser("info", "Print the contents of an asset, level by level.")
-parser:argument("asset", "a .glb asset, written by convert or s.save")
+local parser = command.parser("info", "Print the contents of an asset, level by level; or of a "
+  .. "mesh: its parts, size and faults, and what convert would do with it.")
+parser:argument("file", "a .glb asset, written by convert or s.save, or a mesh file")
+parser:option("--unit", "length unit of a mesh file (default: as the file declares, else m)")
+  :choices(s.choices.unit)
 parser:flag("--json", "print JSON")
 local args = parser:parse()
 
-local ok, chain = command.try(s.load, args.asset)
-if not ok then command.fail("cannot read %s: %s", args.asset, chain) end
+local function print_mesh()
+  local ok, mesh = command.try(s.import, args.file, {unit = args.unit})
+  if not ok then command.fail("cannot read %s: %s", args.file, mesh) end
+  local info = mesh_info.of(mesh)
+  print(args.json and s.json(info) or mesh_info.text(info))
+end
+
+-- A .glb file may be an asset or a mesh.
+local ending = args.file:match("%.%w+$")
+if ending and ending:lower() ~= ".glb" then
+  for _, known in ipairs(s.mesh_endings) do
+    if ending:lower() == known then return print_mesh() end
+  end
+end
+local ok, chain = command.try(s.load, args.file)
+if not ok and ending and ending:lower() == ".glb" and pcall(s.import, args.file) then
+  return print_mesh()
+end
+if not ok then command.fail("cannot read %s: %s", args.file, chain) end
 local info = s.info(chain)
 if args.json then
   print(s.json(info))
@@ -46,6 +67,6 @@ for key in pairs(info.provenance) do keys[#keys + 1] = key end
 table.sort(keys)
 for _, key in ipairs(keys) do
   local entry = info.provenance[key]
-  if key == "command" then entry = entry .. " " .. command.shell_line{"-o", args.asset} end
+  if key == "command" then entry = entry .. " " .. command.shell_line{"-o", args.file} end
   print(("%-14s  %s"):format(key, entry))
 end

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/choice.hpp"
 #include "base/progress.hpp"
 #include "model/material_input.hpp"
 #include "model/mesh.hpp"
@@ -52,6 +53,19 @@ void set_materials(MaterialGrid& grid, const std::vector<MaterialInput>& inputs)
 using PaintFunction =
     std::function<std::string(const Vec3& center, double depth, const std::string& material)>;
 
+/// What to do with meshes that are not closed surfaces of solid bodies.
+enum class Repair { automatic, strict, off };
+
+inline constexpr Choice<Repair> kRepairs[] = {
+    {Repair::automatic, "auto",
+     "close holes, turn triangles that face the wrong way, drop doubled ones, and say so"},
+    {Repair::strict, "strict",
+     "refuse meshes with faults, and parts that the cells do not resolve"},
+    {Repair::off, "off", "take the mesh as it is; refuse holes"}};
+constexpr ChoiceTable<Choice<Repair>> choices(Repair) {
+  return {"repair", kRepairs};
+}
+
 struct VoxelizeOptions {
   /// Edge of a cell [m]; default: longest side of the bounding box / 32.
   std::optional<double> cell;
@@ -69,6 +83,7 @@ struct VoxelizeOptions {
   };
   std::optional<CoreShell> core_shell;
   PaintFunction paint;
+  Repair repair = Repair::automatic;
   std::uint32_t threads = 0;  ///< 0: all cores. Never changes the result
   Progress* progress = nullptr;
 };
@@ -76,6 +91,7 @@ struct VoxelizeOptions {
 struct VoxelizeReport {
   double cell = 0;                    ///< [m]
   bool cell_chosen = false;           ///< true if options.cell was not given
+  std::vector<std::string> repairs;   ///< what was mended (describe(SolidRepair))
   std::vector<std::string> warnings;  ///< such as volume errors, unused materials
   double mesh_volume = 0;             ///< sum over the parts [m3]
   double grid_volume = 0;             ///< filled cells [m3]
@@ -83,6 +99,7 @@ struct VoxelizeReport {
 
 struct VoxelizedMesh {
   MaterialGrid grid;
+  std::optional<TriangleMesh> repaired;  ///< the mesh, if it was repaired; its holes are open
   VoxelizeReport report;
 };
 
@@ -90,12 +107,14 @@ struct VoxelizedMesh {
 /// meshToVolume). The grid is centred on the bounding box. A shell inside another one that faces
 /// inwards is a cavity and stays empty. In a solid of several materials each cell takes that of the
 /// nearest triangle. Depths are measured if `core_shell` or `paint` needs them. Damping ratios
-/// become times (set_materials).
+/// become times (set_materials). Solids with holes are filled where their winding number is above
+/// 1/2 (wound_cells), after repair().
 ///
-/// Throws InputError: an open solid (the message has the part and a hole), a cell too large (no
-/// cell is filled) or too small (the message has the smallest possible one), coordinates that are
-/// not finite, a mesh too far from the origin, a flat mesh, unknown names in `priority` or from
-/// `paint`, different materials of one name.
+/// Throws InputError: a cell too large (no cell is filled) or too small (the message has the
+/// smallest possible one), coordinates that are not finite, a mesh too far from the origin, a flat
+/// mesh, unknown names in `priority` or from `paint`, different materials of one name; with
+/// Repair::strict any fault of the mesh, and parts whose cells have a volume that is far off; with
+/// Repair::off an open solid (the message has the part and a hole).
 VoxelizedMesh voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options);
 
 }  // namespace springlod::voxelize

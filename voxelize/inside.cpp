@@ -7,6 +7,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Composite.h>
 #include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/TopologyToLevelSet.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -41,6 +42,13 @@ struct SurfaceInCells {
   }
 };
 // NOLINTEND(readability-identifier-naming)
+
+openvdb::math::Transform::Ptr transform_of(const CellFrame& frame) {
+  auto transform = openvdb::math::Transform::createLinearTransform(frame.cell);
+  const Vec3 first = frame.center({0, 0, 0});
+  transform->postTranslate({first.x(), first.y(), first.z()});
+  return transform;
+}
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
@@ -116,11 +124,19 @@ std::shared_ptr<DistanceField> level_set(const std::vector<Vec3>& positions,
                                          const std::vector<Triangle>& triangles,
                                          const CellFrame& frame) {
   start_openvdb();
-  const auto transform = openvdb::math::Transform::createLinearTransform(frame.cell);
-  const Vec3 first = frame.center({0, 0, 0});
-  transform->postTranslate({first.x(), first.y(), first.z()});
   return std::make_shared<DistanceField>(openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-      SurfaceInCells{positions, triangles}, *transform, kBand, kBand));
+      SurfaceInCells{positions, triangles}, *transform_of(frame), kBand, kBand));
+}
+
+std::shared_ptr<DistanceField> level_set(const std::vector<CellIndex>& cells,
+                                         const CellFrame& frame) {
+  start_openvdb();
+  const auto mask = openvdb::MaskGrid::create();
+  mask->setTransform(transform_of(frame));
+  auto accessor = mask->getAccessor();
+  for (const CellIndex& c : cells) accessor.setValueOn(coord(c));
+  return std::make_shared<DistanceField>(
+      openvdb::tools::topologyToLevelSet(*mask, static_cast<int>(kBand), 0, 0, 0));
 }
 
 void unite(DistanceField& a, DistanceField& b) {

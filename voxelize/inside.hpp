@@ -15,6 +15,10 @@ std::shared_ptr<DistanceField> level_set(const std::vector<Vec3>& positions,
                                          const std::vector<Triangle>& triangles,
                                          const CellFrame& frame);
 
+/// Level set of some cells of the frame.
+std::shared_ptr<DistanceField> level_set(const std::vector<CellIndex>& cells,
+                                         const CellFrame& frame);
+
 /// Union of `a` and `b`, and `a` without `b`. The result is in `a`; `b` is consumed.
 void unite(DistanceField& a, DistanceField& b);
 void subtract(DistanceField& a, DistanceField& b);

@@ -3,28 +3,11 @@
 #include <cmath>
 #include <limits>
 
-#include "base/disjoint_sets.hpp"
+#include "voxelize/bodies.hpp"
 #include "voxelize/grid.hpp"
-#include "voxelize/index_lookup.hpp"
 
 namespace springlod::voxelize {
 namespace {
-
-/// Sets of cells that share at least a corner.
-DisjointSets::Numbers components_of(const std::vector<CellIndex>& cells) {
-  DisjointSets sets(static_cast<std::uint32_t>(cells.size()));
-  const IndexLookup lookup(cells);
-  for (std::uint32_t n = 0; n < cells.size(); ++n)
-    for (std::int32_t z = -1; z <= 0; ++z)
-      for (std::int32_t y = -1; y <= 1; ++y)
-        for (std::int32_t x = -1; x <= 1; ++x) {
-          const CellIndex other{cells[n][0] + x, cells[n][1] + y, cells[n][2] + z};
-          if (!grid_order(other, cells[n])) continue;  // from its other end
-          if (const std::uint32_t found = lookup.find(other); found != kNoIndex)
-            sets.unite(n, found);
-        }
-  return sets.numbers();
-}
 
 /// Sums over the cells of a component.
 struct Component {
@@ -57,7 +40,7 @@ struct Component {
 
 double lowest_frequency(const MaterialGrid& grid) {
   if (grid.cells.empty()) return 0;
-  const DisjointSets::Numbers number = components_of(grid.cells);
+  const DisjointSets::Numbers number = bodies_of(grid.cells);
   std::vector<Component> components(number.count);
   for (std::size_t n = 0; n < grid.cells.size(); ++n)
     components[number.of[n]].add(grid.cells[n], grid.materials[grid.material[n]]);

@@ -19,6 +19,7 @@ struct SolidReport {
   double volume = 0;                    ///< signed [m3]
   Vec3 first_hole = Vec3::Zero();       ///< midpoint of the first boundary edge [m]
   bool closed() const { return boundary_edges == 0; }
+  bool faultless() const { return closed() && nonmanifold_edges == 0 && volume >= 0; }
 };
 
 /// One report for each solid, in the order of their first parts. Throws InputError as validate()

@@ -8,15 +8,19 @@
 #include <tbb/task_group.h>
 
 #include "base/error.hpp"
+#include "base/units.hpp"
+#include "voxelize/bodies.hpp"
 #include "voxelize/depth.hpp"
 #include "voxelize/frame.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/inside.hpp"
 #include "voxelize/material_choice.hpp"
 #include "voxelize/nearest_surface.hpp"
+#include "voxelize/repair.hpp"
 #include "voxelize/shells.hpp"
 #include "voxelize/solid.hpp"
 #include "voxelize/weld.hpp"
+#include "voxelize/winding_fill.hpp"
 
 namespace springlod::voxelize {
 namespace {
@@ -25,6 +29,8 @@ namespace {
 constexpr double kDefaultCells = 32;
 // Relative error of a solid's volume in cells above which a warning is given.
 constexpr double kVolumeTolerance = 0.1;
+// Cells across a part of which it consists well enough.
+constexpr double kThin = 3;
 // Factor on the cell that is proposed if no cell is filled.
 constexpr double kFinerCell = 0.25;
 // Solids have 16-bit numbers; 0 is empty.
@@ -37,16 +43,19 @@ std::string quoted(const std::vector<std::string>& names) {
   return text;
 }
 
-void require_closed(const std::vector<SolidReport>& solids) {
+void require_solids(const std::vector<SolidReport>& solids) {
   if (solids.empty()) throw InputError("voxelize: the mesh has no triangles");
   if (solids.size() > kMostSolids)
     throw InputError(fmt::format("voxelize: the mesh has {} solids, the limit is {}; join some",
                                  solids.size(), kMostSolids));
+}
+
+void require_closed(const std::vector<SolidReport>& solids) {
   for (const SolidReport& solid : solids)
     if (!solid.closed())
       throw InputError(fmt::format(
           "voxelize: part \"{}\" is not closed: it has {} boundary edges, the first at ({:.6g}, "
-          "{:.6g}, {:.6g}) m; fill its holes in a mesh editor",
+          "{:.6g}, {:.6g}) m; repair = \"auto\" closes holes",
           solid.part, solid.boundary_edges, solid.first_hole.x(), solid.first_hole.y(),
           solid.first_hole.z()));
 }
@@ -81,8 +90,8 @@ std::vector<std::size_t> claim_order(const TriangleMesh& mesh,
 // The state of a voxelization; each member function is one stage.
 class Voxelizer {
  public:
-  Voxelizer(const TriangleMesh& mesh, const VoxelizeOptions& options)
-      : mesh_(mesh), options_(options), materials_(options) {}
+  Voxelizer(TriangleMesh mesh, const VoxelizeOptions& options)
+      : mesh_(std::move(mesh)), options_(options), materials_(options) {}
 
   VoxelizedMesh run() {
     tbb::task_arena threads(options_.threads == 0 ? tbb::task_arena::automatic
@@ -105,11 +114,39 @@ class Voxelizer {
     choose_frame();
     const std::vector<std::uint32_t> welded = weld_vertices(mesh_);
     solids_ = check_solid(mesh_, welded);
-    require_closed(solids_);
+    require_solids(solids_);
+    mend(welded);
     fill_solids(sort_shells(mesh_, solids_, welded));
     gather_cells();
     assign_part_materials();
+    count_bodies();
     if (options_.core_shell || options_.paint) grid().depth = measure_depth(grid(), mesh_);
+  }
+
+  void mend(const std::vector<std::uint32_t>& welded) {
+    if (options_.repair == Repair::off) return require_closed(solids_);
+    if (std::all_of(solids_.begin(), solids_.end(), [](const auto& s) { return s.faultless(); }))
+      return;
+    RepairedMesh repaired = repair(mesh_, solids_, welded);
+    std::vector<std::string> faults;
+    for (const SolidRepair& solid : repaired.solids)
+      for (std::string& line : describe(solid)) faults.push_back(std::move(line));
+    if (!faults.empty() && options_.repair == Repair::strict)
+      throw InputError(
+          fmt::format("voxelize: the mesh needs repair (repair = \"auto\" does this): {}",
+                      fmt::join(faults, "; ")));
+    report().repairs = std::move(faults);
+    mesh_ = std::move(repaired.mesh);
+    for (std::size_t s = 0; s < solids_.size(); ++s) {
+      solids_[s].boundary_edges = repaired.solids[s].open_edges;
+      solids_[s].nonmanifold_edges = repaired.solids[s].crossing_edges;
+      solids_[s].volume = repaired.solids[s].volume;
+    }
+    std::erase_if(solids_, [&](const SolidReport& solid) {  // of triangles without area
+      return std::all_of(solid.parts.begin(), solid.parts.end(),
+                         [&](std::uint32_t p) { return mesh_.parts[p].triangle_count == 0; });
+    });
+    require_solids(solids_);
   }
 
   void choose_frame() {
@@ -136,7 +173,7 @@ class Voxelizer {
     // Kept here, because a pipeline that ends with an exception leaks what its filters hand on.
     std::vector<Field> fields(shells.size());
     const auto make_field = [&](std::size_t s) {
-      fields[s] = field_of(shells[s], positions);
+      fields[s] = field_of(solids_[s], shells[s], positions);
       return s;
     };
     const auto claim = [&](std::size_t s) {
@@ -160,7 +197,9 @@ class Voxelizer {
 
   // OpenVDB leaks memory if its tasks are cancelled. In a context of their own, they end normally
   // after an interrupt or the failure of another part.
-  Field field_of(const Shells& shells, const std::vector<Vec3>& positions) const {
+  Field field_of(const SolidReport& solid, const Shells& shells,
+                 const std::vector<Vec3>& positions) const {
+    if (!solid.closed()) return field_of_open(solid, positions);
     Field field;
     tbb::task_group_context own(tbb::task_group_context::isolated);
     tbb::task_group(own).run_and_wait([&] {
@@ -170,16 +209,26 @@ class Voxelizer {
     return field;
   }
 
+  Field field_of_open(const SolidReport& solid, const std::vector<Vec3>& positions) const {
+    std::vector<Triangle> triangles;
+    for (const std::uint32_t p : solid.parts) {
+      const auto first = mesh_.triangles.begin() + mesh_.parts[p].first_triangle;
+      triangles.insert(triangles.end(), first, first + mesh_.parts[p].triangle_count);
+    }
+    const WindingNumber surface(positions, triangles);
+    return level_set(wound_cells(surface, positions, triangles, frame_), frame_);
+  }
+
   void fill_solid(std::size_t s, const Shells& shells, Field field) {
     const SolidReport& solid = solids_[s];
-    if (shells.turned)
+    if (shells.turned && solid.closed())
       warn(fmt::format("part \"{}\" faced inwards; its triangles were reversed", solid.part));
-    if (solid.nonmanifold_edges > 0)
+    if (solid.nonmanifold_edges > 0 && options_.repair == Repair::off)
       warn(
           fmt::format("part \"{}\" has {} non-manifold or inconsistently oriented edges; check the "
                       "result",
                       solid.part, solid.nonmanifold_edges));
-    compare_volume(solid.part, shells.volume,
+    compare_volume(solid, solid.closed() ? shells.volume : solid.volume,
                    claim_cells(*field, frame_, static_cast<std::uint16_t>(s + 1), owner_));
     if (distance_ == nullptr)
       distance_ = std::move(field);
@@ -187,20 +236,34 @@ class Voxelizer {
       unite(*distance_, *field);
   }
 
-  void compare_volume(const std::string& part, double mesh_volume, std::size_t cells) {
+  void compare_volume(const SolidReport& solid, double mesh_volume, std::size_t cells) {
     report().mesh_volume += mesh_volume;
     const double filled = static_cast<double>(cells) * std::pow(frame_.cell, 3);
-    if (cells == 0)
-      warn(
-          fmt::format("part \"{}\" is lost: no cell of {:.4g} m has its centre inside; use a "
-                      "smaller cell",
-                      part, frame_.cell));
-    else if (std::abs(filled - mesh_volume) > kVolumeTolerance * mesh_volume)
-      warn(
-          fmt::format("part \"{}\": the volume of its cells has an error of {:+.0f} % ({:.4g} m3 "
-                      "against {:.4g} m3 in the mesh); use a smaller cell or check for crossing "
-                      "surfaces",
-                      part, 100 * (filled / mesh_volume - 1), filled, mesh_volume));
+    if (std::abs(filled - mesh_volume) <= kVolumeTolerance * mesh_volume) return;
+    const std::string fault =
+        cells == 0
+            ? fmt::format("part \"{}\" is lost: no cell of {:.4g} m has its centre inside",
+                          solid.part, frame_.cell)
+            : fmt::format(
+                  "part \"{}\": the volume of its cells has an error of {:+.0f} % ({:.4g} m3 "
+                  "against {:.4g} m3 in the mesh)",
+                  solid.part, 100 * (filled / mesh_volume - 1), filled, mesh_volume);
+    const std::string advice = advice_for(solid, mesh_volume);
+    if (options_.repair == Repair::strict)
+      throw InputError(fmt::format("voxelize: {}; {}", fault, advice));
+    warn(fault + "; " + advice);
+  }
+
+  // A plate of thickness t has 2 V / A = t, a rod of diameter d has d / 2, and a ball d / 3.
+  std::string advice_for(const SolidReport& solid, double volume) const {
+    double area = 0;
+    for (const std::uint32_t p : solid.parts) area += surface_area(mesh_, mesh_.parts[p]);
+    const double thickness = 2 * volume / area;
+    if (!(thickness > 0)) return "it is a sheet and encloses nothing";
+    if (thickness > kThin * frame_.cell) return "use a smaller cell or check for crossing surfaces";
+    return fmt::format("it is about {} thick: use a cell of {}",
+                       format_quantity(thickness, Dimension::length),
+                       format_quantity(thickness / kThin, Dimension::length));
   }
 
   void gather_cells() {
@@ -249,6 +312,16 @@ class Voxelizer {
     }
     for (std::size_t s = 0; s < solids_.size(); ++s)
       if (!mixed_cells[s].empty()) assign_nearest(solids_[s], mixed_cells[s], of_part);
+  }
+
+  void count_bodies() {
+    const DisjointSets::Numbers body = bodies_of(grid().cells);
+    if (body.count == 1) return;
+    std::vector<std::size_t> cells(body.count, 0);
+    for (const std::uint32_t number : body.of) ++cells[number];
+    const auto [least, most] = std::minmax_element(cells.begin(), cells.end());
+    warn(fmt::format("the cells form {} bodies that do not touch, of {} to {} cells", body.count,
+                     *least, *most));
   }
 
   void assign_nearest(const SolidReport& solid, const std::vector<std::uint32_t>& places,
@@ -303,10 +376,11 @@ class Voxelizer {
     const std::vector<MaterialInput> used = materials_.finish(grid().material);
     set_materials(grid(), used);
     report().grid_volume = static_cast<double>(grid().cells.size()) * std::pow(frame_.cell, 3);
+    if (!report().repairs.empty()) result_.repaired = std::move(mesh_);
     return std::move(result_);
   }
 
-  const TriangleMesh& mesh_;
+  TriangleMesh mesh_;
   const VoxelizeOptions& options_;
   MaterialChoice materials_;
   CellFrame frame_;

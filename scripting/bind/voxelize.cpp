@@ -12,9 +12,11 @@
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
+#include "scripting/engine/result_table.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/import.hpp"
 #include "voxelize/lattice.hpp"
+#include "voxelize/repair.hpp"
 
 namespace springlod::scripting {
 
@@ -39,6 +41,7 @@ int import_binding(Call& call) {
   reader.read("up", up);
   if (reader.has("up")) options.up = up;
   reader.finish();
+  options.progress = call.progress();
 
   const std::filesystem::path path = call.path(1);
   auto value = std::make_shared<MeshValue>();
@@ -102,12 +105,14 @@ int voxelize_binding(Call& call) {
     if (!lua_isfunction(call.lua(), function)) reader.refuse("paint", "a function");
     options.paint = paint_function(call.lua(), function);
   }
+  reader.read("repair", options.repair);
   reader.finish();
   options.threads = call.session().settings().threads;
   options.progress = call.progress();
 
   voxelize::VoxelizedMesh result = voxelize::voxelize(mesh->mesh, options);
-  for (const std::string& warning : result.report.warnings) call.session().console().say(warning);
+  for (const auto* lines : {&result.report.repairs, &result.report.warnings})
+    for (const std::string& line : *lines) call.session().console().say(line);
   if (result.report.cell_chosen)
     call.session().console().say(
         fmt::format("cells of {} (longest side / 32; the option cell changes it)",
@@ -115,9 +120,16 @@ int voxelize_binding(Call& call) {
   auto value = std::make_shared<GridValue>();
   value->grid = std::move(result.grid);
   value->mesh = mesh;
+  if (result.repaired) {
+    auto repaired = std::make_shared<MeshValue>(*mesh);
+    repaired->mesh = std::move(*result.repaired);
+    value->mesh = repaired;
+  }
   value->voxelized = true;
   value->provenance = mesh->provenance;
   value->provenance.set("cell", fmt::format("{} m", value->grid.cell));
+  if (!result.report.repairs.empty())
+    value->provenance.set("repair", fmt::format("{}", fmt::join(result.report.repairs, "; ")));
   return call.give(std::shared_ptr<const GridValue>(value));
 }
 
@@ -196,6 +208,22 @@ void describe_mesh(Api& api) {
                        end_list_entry(L, ++number);
                      }
                    });
+  type.table_field(
+      "solids", "list of MeshSolid", "its solids, and their faults: what voxelize would repair",
+      [](lua_State* L, const MeshValue& value) {
+        push_tables(L, voxelize::find_faults(value.mesh), [L](const voxelize::SolidRepair& solid) {
+          set_field(L, "part", solid.part);
+          set_field(L, "volume", solid.volume);
+          set_field(L, "thickness", solid.thickness);
+          set_field(L, "holes", solid.holes);
+          set_field(L, "open_edges", solid.open_edges);
+          set_field(L, "hole_area", solid.hole_area);
+          set_field(L, "turned", solid.turned);
+          set_field(L, "doubled", solid.doubled);
+          set_field(L, "crossing_edges", solid.crossing_edges);
+          set_field(L, "faults", voxelize::describe(solid));
+        });
+      });
   type.field("min", "{x, y, z}", "lowest corner of the bounding box [m]",
              [](const MeshValue& value) { return Vec3(bounds(value.mesh).min()); });
   type.field("max", "{x, y, z}", "highest corner of the bounding box [m]",
@@ -204,9 +232,30 @@ void describe_mesh(Api& api) {
              [](const MeshValue& value) { return value.mesh.positions; });
   type.field("unit", "number", "metres in one unit of the file",
              [](const MeshValue& value) { return value.report.unit; });
+  type.field("unit_assumed", "boolean", "whether neither the file nor the call stated the unit",
+             [](const MeshValue& value) { return value.report.unit_assumed; });
   type.field("format", "string", "format of the file, such as \"OBJ\"",
              [](const MeshValue& value) { return value.report.format; });
   api.add(type.build());
+}
+
+void describe_solid(Api& api) {
+  api.add(RecordEntry{
+      .name = "MeshSolid",
+      .summary = "A solid of a mesh: parts of one name, or open parts that have edges in common.",
+      .fields = {result_field("part", "string", "name of its first part"),
+                 result_field("volume", "number", "with each hole closed [m3]"),
+                 result_field("thickness", "number",
+                              "2 volume / area [m]: of a plate its thickness, of a rod half of its "
+                              "diameter, of a ball a third"),
+                 result_field("holes", "integer", "connected groups of open edges"),
+                 result_field("open_edges", "integer", "edges with one triangle"),
+                 result_field("hole_area", "number", "area of the holes [m2]"),
+                 result_field("turned", "integer", "triangles that face against their neighbours"),
+                 result_field("doubled", "integer", "triangles with the corners of another one"),
+                 result_field("crossing_edges", "integer", "edges with more than two triangles"),
+                 result_field("faults", "list of strings", "the same in words")},
+      .example = "for _, solid in ipairs(mesh.solids) do print(solid.part, solid.holes) end"});
 }
 
 void describe_voxelize_function(Api& api) {
@@ -226,8 +275,10 @@ void describe_voxelize_function(Api& api) {
   api.add(FunctionEntry{
       .name = "voxelize",
       .group = kGroup,
-      .summary = "Fills a closed mesh with cells, part by part. Each cell has one material.",
-      .arguments = {{.name = "mesh", .type = "Mesh", .help = "closed surfaces, one or more parts"}},
+      .summary = "Fills a mesh with cells, part by part. Each cell has one material.",
+      .arguments = {{.name = "mesh",
+                     .type = "Mesh",
+                     .help = "surfaces of solids, one or more parts"}},
       .options =
           {{.name = "cell",
             .type = "quantity",
@@ -252,9 +303,16 @@ void describe_voxelize_function(Api& api) {
             .type = "function(x, y, z, depth, material) -> name",
             .fallback = "none",
             .help = "called for each cell with its centre and depth [m] and its material's name; "
-                    "returns the name of one of the materials, or nothing to keep the material"}},
+                    "returns the name of one of the materials, or nothing to keep the material"},
+           {.name = "repair",
+            .type = "one of",
+            .fallback = "\"auto\"",
+            .help = "what to do with holes and other faults of the mesh",
+            .choices = words_of<voxelize::Repair>()}},
       .returns = "Grid",
-      .errors = "An open part (the message names part and hole), cells too large or too small.",
+      .errors =
+          "A mesh that encloses nothing, cells too large or too small; without repair, an open "
+          "part (the message names part and hole).",
       .example = "local grid = s.voxelize(mesh, {cell = \"2 mm\", materials = {\n"
                  "  rod = {young = \"10 MPa\", density = 1000, damping = 0.004}}})",
       .call = voxelize_binding});
@@ -264,6 +322,7 @@ void describe_voxelize_function(Api& api) {
 
 void describe_voxelize(Api& api) {
   describe_mesh(api);
+  describe_solid(api);
   api.add(FunctionEntry{
       .name = "import",
       .group = kGroup,

@@ -36,6 +36,8 @@ function conversion.add_body_options(parser)
       :convert(command.quantity("--shell", "length")),
     parser:option("--lattice", "place nodes at cell corners or cell centers (default: corners)")
       :choices(s.choices.lattice),
+    parser:option("--repair", "treatment of holes and other faults of the mesh")
+      :choices(s.choices.repair):default("auto"),
     parser:option("--hinges", "treatment of cells that touch only along an edge or at a corner")
       :choices(s.choices.hinges):default("report"),
     parser:flag("--no-volumes", "build the model from springs alone; by default, the corners of "
@@ -88,7 +90,7 @@ function conversion.base(args, preset, path)
   local materials = core and materials_of_parts(args.materials, args.core, mesh) or args.materials
   local grid = s.voxelize(mesh, {
     cell = args.cell, materials = materials, core = core,
-    priority = args.priority and words_of(args.priority),
+    priority = args.priority and words_of(args.priority), repair = args.repair,
   })
   return s.lattice(grid, {
     style = args.lattice or preset.lattice, hinges = args.hinges,

@@ -38,7 +38,7 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
   wrong({"--seed", "many", "-e", "x = 1"}, "--seed");
   wrong({"--threads"}, "--threads");
   wrong({"run"}, "run needs a script");
-  wrong({"info"}, "missing argument 'asset'");
+  wrong({"info"}, "missing argument 'file'");
   wrong({"convert", "a.obj"}, "missing option '-o'");
   wrong({"convert", "a.obj", "-o", "a.glb", "--leves", "2"}, "unknown option '--leves'");
   wrong({"convert", "a.obj", "-o", "a.glb", "--grouping", "stndard"}, "'priority_hard'");

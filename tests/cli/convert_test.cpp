@@ -304,16 +304,54 @@ TEST_CASE("convert reports an invalid mesh in one line") {
   refused("none.obj", {}, "none.obj");
   refused("empty.obj", {}, "empty.obj");
   refused("picture.png", {}, "picture.png");
-  refused("open.obj", {}, "hole");
+  refused("open.obj", {"--repair", "strict"}, "1 hole (4 open edges");
+  refused("open.obj", {"--repair", "off"}, "is not closed");
   refused("bar.obj", {"--cell", "100 m"}, "cell");
   refused("bar.obj", {"--materials", (scratch / "none.lua").string()}, "none.lua");
 
   spit(scratch / "wrong.lua", "return {bar = {yuong = 1}}");
   refused("bar.obj", {"--materials", (scratch / "wrong.lua").string()}, "did you mean 'young'?");
 
-  const Ran verbose = springlod_run(
-      {"convert", (scratch / "open.obj").string(), "-o", (scratch / "x.glb").string(), "-v"});
+  const Ran verbose = springlod_run({"convert", (scratch / "open.obj").string(), "-o",
+                                     (scratch / "x.glb").string(), "--repair", "off", "-v"});
   CHECK_THAT(verbose.err, Contains("traceback"));
+}
+
+TEST_CASE("convert closes a hole, says so, and the asset keeps it") {
+  const TemporaryFolder scratch;
+  spit(scratch / "open.obj", obj_of_open_box());
+  const std::string asset = (scratch / "tub.glb").string();
+  const Ran ran = springlod_run({"convert", (scratch / "open.obj").string(), "-o", asset, "--cell",
+                                 "0.1", "--levels", "1", "--fast"});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  CHECK_THAT(ran.err, Contains("part \"tub\": 1 hole (4 open edges, 1e+04 cm2) closed"));
+  const Ran info = springlod_run({"info", asset});
+  CHECK_THAT(info.out, Contains("repair") && Contains("1 hole"));
+}
+
+TEST_CASE("info of a mesh tells its parts, size, faults and cells") {
+  const TemporaryFolder scratch;
+  spit(scratch / "open.obj", obj_of_open_box());
+  const std::string mesh = (scratch / "open.obj").string();
+  const Ran text = springlod_run({"info", mesh});
+  CAPTURE(text.out, text.err);
+  REQUIRE(text.exit_code == 0);
+  CHECK_THAT(text.out, Contains("OBJ, 8 vertices, 10 triangles, 1 m x 1 m x 1 m (1 unit = 1 m, "
+                                "assumed)"));
+  CHECK_THAT(text.out, Contains("tub") && Contains("1 hole") && Contains("--cell 0.0312m"));
+  const Ran parsed = springlod_run({"info", mesh, "--json", "--unit", "mm"});
+  REQUIRE(parsed.exit_code == 0);
+  const json info = json::parse(parsed.out);
+  CHECK(info.at("solids").at(0).at("holes") == 1);
+  CHECK(info.at("solids").at(0).at("volume").get<double>() == Approx(1e-9));
+  CHECK(info.at("unit_assumed") == false);
+  CHECK_FALSE(info.contains("doubt"));
+
+  spit(scratch / "huge.obj", obj_of_boxes({{"bar", 0, 50}}));
+  const Ran huge = springlod_run({"info", (scratch / "huge.obj").string()});
+  CHECK_THAT(huge.out, Contains("unusual size") && Contains("--unit cm makes it 0.5 m") &&
+                           Contains("No faults."));
 }
 
 TEST_CASE("a batch continues after a bad mesh and ends with a table") {
@@ -398,7 +436,7 @@ TEST_CASE("info prints the certificates of levels") {
   CHECK_THAT(text.out, !Contains("level 2 is outside"));
 }
 
-TEST_CASE("info refuses files that are not assets") {
+TEST_CASE("info refuses files that are neither assets nor meshes") {
   const TemporaryFolder scratch;
   spit(scratch / "x.glb", "not an asset");
   for (const char* name : {"x.glb", "none.glb"}) {

@@ -234,27 +234,35 @@ TEST_CASE("A paint function receives centre, depth and material of each cell and
   CHECK_THROWS_WITH(voxelize(mesh, options), Contains("\"gold\"") && Contains("\"top\""));
 }
 
-TEST_CASE("An open part is rejected with its name and the position of the hole") {
+TEST_CASE("Without repair, an open part is rejected with its name and the position of the hole") {
   TriangleMesh mesh;
+  VoxelizeOptions options;
+  options.repair = Repair::off;
   auto triangles = box_triangles();
   triangles.erase(triangles.begin() + 2, triangles.begin() + 4);
   add_box(mesh, "good", {0, 0, 0}, {1, 1, 1});
   add_part(mesh, "pot", box_corners({2, 0, 0}, {3, 1, 1}), triangles);
-  CHECK_THROWS_AS(voxelize(mesh, {}), InputError);
+  CHECK_THROWS_AS(voxelize(mesh, options), InputError);
   CHECK_THROWS_WITH(
-      voxelize(mesh, {}),
+      voxelize(mesh, options),
       Contains("\"pot\" is not closed: it has 4 boundary edges") && Contains(", 1) m"));
 }
 
-TEST_CASE("An inverted sphere is reversed with a warning") {
+TEST_CASE("An inverted sphere is reversed, and reported") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1);
   const std::size_t cells = voxelize(mesh, {}).grid.cells.size();
   turn_inside_out(mesh, mesh.parts[0]);
   const VoxelizedMesh turned = voxelize(mesh, {});
   CHECK(turned.grid.cells.size() == cells);
-  REQUIRE(turned.report.warnings.size() == 1);
-  CHECK_THAT(turned.report.warnings[0], Contains("\"ball\" faced inwards"));
+  REQUIRE(turned.report.repairs.size() == 1);
+  CHECK_THAT(turned.report.repairs[0], Contains("\"ball\": all triangles faced inwards"));
+  VoxelizeOptions as_is;
+  as_is.repair = Repair::off;
+  const VoxelizedMesh same = voxelize(mesh, as_is);
+  CHECK(same.grid.cells.size() == cells);
+  REQUIRE(same.report.warnings.size() == 1);
+  CHECK_THAT(same.report.warnings[0], Contains("\"ball\" faced inwards"));
 }
 
 TEST_CASE("A cavity stays empty, and its wall counts for the depth") {

@@ -1,0 +1,98 @@
+-- What a mesh is, and what convert would do with it.
+
+local s = require "springlod"
+
+local mesh_info = {}
+
+-- Bodies that people simulate are rarely longer or shorter; otherwise the unit is doubtful [m].
+local longest, shortest = 5, 0.005
+-- Cells that convert puts along the longest side by default, and cells across a part of which it
+-- consists well enough.
+local default_cells, cells_across = 32, 3
+
+local function length(meters) return ("%.3g m"):format(meters) end
+
+-- The longest side of the bounding box [m].
+local function longest_side(mesh)
+  local side = 0
+  for axis = 1, 3 do side = math.max(side, mesh.max[axis] - mesh.min[axis]) end
+  return side
+end
+
+-- A remark about the unit, or nil.
+local function doubt(mesh, side)
+  if not mesh.unit_assumed or (side <= longest and side >= shortest) then return nil end
+  local others = {}
+  for _, unit in ipairs{"mm", "cm", "dm", "m"} do
+    local size = side / mesh.unit * s.quantity("1 " .. unit, "length")
+    if size <= longest and size >= shortest then
+      others[#others + 1] = ("--unit %s makes it %s"):format(unit, length(size))
+    end
+  end
+  return ("The file does not state its unit, and %s is an unusual size: %s."):format(length(side),
+    #others > 0 and table.concat(others, ", ") or "give --unit")
+end
+
+-- A table of what is known, for JSON too.
+function mesh_info.of(mesh)
+  local side = longest_side(mesh)
+  local solids, volume, thinnest = mesh.solids, 0, math.huge
+  for _, solid in ipairs(solids) do
+    volume = volume + solid.volume
+    if solid.thickness > 0 then thinnest = math.min(thinnest, solid.thickness) end
+  end
+  local cell = side / default_cells
+  return {
+    format = mesh.format, unit = mesh.unit, unit_assumed = mesh.unit_assumed,
+    size = {mesh.max[1] - mesh.min[1], mesh.max[2] - mesh.min[2], mesh.max[3] - mesh.min[3]},
+    vertices = mesh.vertex_count, triangles = mesh.triangle_count, volume = volume,
+    parts = mesh.parts, solids = solids, doubt = doubt(mesh, side),
+    default_cell = cell, default_cells = math.floor(volume / cell ^ 3 + 0.5),
+    fine_cell = thinnest < math.huge and math.min(cell, thinnest / cells_across) or cell,
+  }
+end
+
+local function cells_line(volume, cell, remark)
+  return ("  --cell %.3gm  about %.0f cells%s"):format(cell, volume / cell ^ 3, remark)
+end
+
+-- The same as text.
+function mesh_info.text(info)
+  local lines = {}
+  local function say(...) lines[#lines + 1] = string.format(...) end
+  say("%s, %d vertices, %d triangles, %s x %s x %s (1 unit = %g m%s)", info.format, info.vertices,
+      info.triangles, length(info.size[1]), length(info.size[2]), length(info.size[3]), info.unit,
+      info.unit_assumed and ", assumed" or "")
+  if info.doubt then say("%s", info.doubt) end
+  local parts = {}
+  for i, part in ipairs(info.parts) do
+    parts[i] = {part.name, part.material, part.triangle_count}
+  end
+  say("")
+  lines[#lines + 1] = s.format_table(parts, {columns = {"part", "material", "triangles"}})
+  local solids, faults = {}, {}
+  for i, solid in ipairs(info.solids) do
+    solids[i] = {solid.part, solid.holes == 0 and "yes" or "no", ("%.4g"):format(solid.volume),
+                 ("%.3g"):format(solid.thickness)}
+    for _, fault in ipairs(solid.faults) do faults[#faults + 1] = fault end
+  end
+  say("")
+  lines[#lines + 1] = s.format_table(solids, {columns = {"solid", "closed", "volume [m3]",
+                                                         "thickness [m]"}})
+  say("")
+  if #faults > 0 then
+    say("convert would repair (--repair strict refuses these):")
+    for _, fault in ipairs(faults) do say("  %s", fault) end
+  else
+    say("No faults.")
+  end
+  say("Cells:")
+  say("%s", cells_line(info.volume, info.default_cell, ", the default"))
+  if info.fine_cell < 0.99 * info.default_cell then
+    say("%s", cells_line(info.volume, info.fine_cell, (", %d across the thinnest solid"):format(
+      cells_across)))
+  end
+  return table.concat(lines, "\n")
+end
+
+return mesh_info
