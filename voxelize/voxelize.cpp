@@ -199,10 +199,13 @@ class Voxelizer {
   // after an interrupt or the failure of another part.
   Field field_of(const SolidReport& solid, const Shells& shells,
                  const std::vector<Vec3>& positions) const {
-    if (!solid.closed()) return field_of_open(solid, positions);
     Field field;
     tbb::task_group_context own(tbb::task_group_context::isolated);
     tbb::task_group(own).run_and_wait([&] {
+      if (!solid.closed()) {
+        field = field_of_open(solid, positions);
+        return;
+      }
       field = level_set(positions, shells.outer, frame_);
       if (!shells.cavity.empty()) subtract(*field, *level_set(positions, shells.cavity, frame_));
     });

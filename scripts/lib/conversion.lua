@@ -100,7 +100,7 @@ end
 
 -- Time of the fit of two levels of a base of 5000 nodes on two cores [s], and the exponent with
 -- which it grows with the number of nodes (docs/convert.md).
-local fit_seconds, fit_nodes, fit_growth = 10, 5000, 1.35
+local fit_seconds, fit_nodes, fit_growth = 6.5, 5000, 1.35
 
 -- Says beforehand how long the fit takes, if it takes long.
 function conversion.announce_fit(base)

@@ -1,0 +1,44 @@
+#include <catch2/catch.hpp>
+
+#include "tests/support/paths.hpp"
+#include "tests/support/program.hpp"
+
+using Catch::Matchers::Contains;
+using springlod::test::obj_of_boxes;
+using springlod::test::Ran;
+using springlod::test::spit;
+using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
+
+namespace {
+
+const char* const kPly =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+const char* const kOff =
+    "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+const char* const kStl =
+    "solid tip\n"
+    "facet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n"
+    "facet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
+    "facet normal 1 1 1\nouter loop\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\n"
+    "facet normal -1 0 0\nouter loop\nvertex 0 1 0\nvertex 0 0 0\nvertex 0 0 1\nendloop\nendfacet\n"
+    "endsolid tip\n";
+
+}  // namespace
+
+TEST_CASE("Damaged meshes are imported or refused; none crashes the program") {
+  const TemporaryFolder scratch;
+  spit(scratch / "box.obj", obj_of_boxes({{"box", 0, 1}}));
+  spit(scratch / "tip.ply", kPly);
+  spit(scratch / "tip.off", kOff);
+  spit(scratch / "tip.stl", kStl);
+  const auto script = springlod::test::source_folder() / "tests/mutations/meshes.lua";
+  const Ran ran = springlod_run({"-q", "run", script.string(), "--", "80",
+                                 (scratch / "box.obj").string(), (scratch / "tip.ply").string(),
+                                 (scratch / "tip.off").string(), (scratch / "tip.stl").string()});
+  CAPTURE(ran.out, ran.err);
+  CHECK(ran.exit_code == 0);
+  for (const char* format : {".obj", ".ply", ".off", ".stl"}) CHECK_THAT(ran.out, Contains(format));
+}
