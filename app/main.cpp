@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -64,13 +65,17 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files: writing fails, with a message
   int exit_code = kFailed;
   try {
     exit_code = run({argv + 1, argv + argc});
   } catch (const std::exception& error) {
     fmt::print(stderr, "springlod: {}\n", error.what());
   }
-  // Failing to write results is a failure.
-  if (std::fflush(stdout) != 0) exit_code = kFailed;
+  // Failing to write results is a failure, also one that an earlier flush has had.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::fputs("springlod: cannot write all of the standard output\n", stderr);
+    exit_code = kFailed;
+  }
   return exit_code;
 }

@@ -1,5 +1,7 @@
 #include "report/gnuplot.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/error.hpp"
@@ -9,6 +11,23 @@
 namespace springlod::report {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// A complete picture has the mark of its end within its last bytes [bytes].
+constexpr std::size_t kEnd = 16;
+
+// gnuplot does not say that the disk was full.
+void require_complete(const fs::path& aside, const fs::path& picture) {
+  const std::string bytes = read_file(aside);
+  const std::string end = bytes.substr(bytes.size() - std::min(bytes.size(), kEnd));
+  if (end.find(picture.extension() == ".svg" ? "</svg>" : "IEND") == std::string::npos)
+    throw IoError(
+        fmt::format("cannot write {}: gnuplot wrote only a part of it; is there space on the disk?",
+                    picture.string()));
+}
+
+}  // namespace
 
 void require_picture_name(const fs::path& picture) {
   if (picture.extension() != ".svg" && picture.extension() != ".png")
@@ -68,6 +87,7 @@ Drawing draw_with_gnuplot(const std::string& script, const fs::path& picture) {
     if (run.exit_code != 0)
       throw IoError(fmt::format("gnuplot failed (exit {}) on {}:\n{}\nThe command was: {}",
                                 run.exit_code, file.string(), run.errors, drawing.command));
+    require_complete(aside, picture);
   });
   drawing.drawn = true;
   return drawing;

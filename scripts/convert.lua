@@ -52,6 +52,9 @@ end
 
 -- The whole conversion: mesh -> cells -> lattice -> levels -> asset.
 local function convert(path, asset)
+  if s.same_file(path, asset) then
+    error(("the asset would overwrite %s; give -o another name"):format(path), 0)
+  end
   local base = conversion.base(args, preset, path)
   local store = store_of(asset)
   options.calibration = options.calibration or {}

@@ -105,9 +105,9 @@ constexpr std::string_view kHashLabel = "\nspringlod content hash ";
 constexpr std::size_t kHashDigits = 16;
 constexpr std::size_t kHashLine = kHashLabel.size() + kHashDigits;
 
-void append_hash(const fs::path& path) {
-  const std::string hash = content_hash(read_file(path));
-  std::ofstream out(path, std::ios::binary | std::ios::app);
+void append_hash(const fs::path& aside, const fs::path& path) {
+  const std::string hash = content_hash(read_file(aside));
+  std::ofstream out(aside, std::ios::binary | std::ios::app);
   out << kHashLabel << hash;
   out.close();
   if (!out) throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
@@ -241,7 +241,7 @@ void save_vdb(const MaterialGrid& grid, const fs::path& path) {
       file.setCompression(method | openvdb::io::COMPRESS_ACTIVE_MASK);
       file.write(grids_of(grid), metadata_of(grid));
       file.close();
-      append_hash(aside);
+      append_hash(aside, path);
     } catch (const openvdb::Exception& e) {
       throw IoError(fmt::format("cannot write {}: {}", path.string(), e.what()));
     }

@@ -2,8 +2,10 @@
 
 #include "base/file.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "base/error.hpp"
 #include "scripting/bind/topics.hpp"
@@ -28,6 +30,11 @@ int hash(Call& call) {
   options.finish();
   if (file.has_value() == text.has_value()) throw InputError("hash: give either file or text");
   return call.give(content_hash(file ? read_file(*file) : *text));
+}
+
+int same_file(Call& call) {
+  std::error_code missing;
+  return call.give(std::filesystem::equivalent(call.path(1), call.path(2), missing));
 }
 
 }  // namespace
@@ -60,6 +67,17 @@ void describe_files(Api& api) {
       .errors = "The file cannot be read; both options or none are given.",
       .example = "print(s.hash{file = \"out/dumbbell.glb\"})",
       .call = hash});
+  api.add(FunctionEntry{
+      .name = "same_file",
+      .group = kGroup,
+      .summary =
+          "Whether two paths lead to one file, also through links. Files that do not exist are "
+          "never the same.",
+      .arguments = {{.name = "a", .type = "string", .help = "a path"},
+                    {.name = "b", .type = "string", .help = "a path"}},
+      .returns = "boolean",
+      .example = "assert(not s.same_file(\"dumbbell.obj\", \"out/dumbbell.glb\"))",
+      .call = same_file});
 }
 
 }  // namespace springlod::scripting

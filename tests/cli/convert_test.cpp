@@ -354,6 +354,20 @@ TEST_CASE("info of a mesh tells its parts, size, faults and cells") {
                            Contains("No faults."));
 }
 
+TEST_CASE("convert does not overwrite its mesh") {
+  const TemporaryFolder scratch;
+  const std::string mesh = (scratch / "mesh.glb").string();
+  const std::string bytes = "glTF, or what is to become one";
+  spit(mesh, bytes);
+  fs::create_symlink(mesh, scratch / "link.glb");
+  for (const std::string& output : {mesh, (scratch / "link.glb").string()}) {
+    const Ran ran = springlod_run({"convert", mesh, "-o", output});
+    CHECK(ran.exit_code == 1);
+    CHECK_THAT(ran.err, Contains("would overwrite") && Contains("-o"));
+    CHECK(slurp(mesh) == bytes);
+  }
+}
+
 TEST_CASE("a batch continues after a bad mesh and ends with a table") {
   const TemporaryFolder scratch;
   spit(scratch / "meshes/a.obj", obj_of_boxes({{"a", 0, 2}}));

@@ -1,12 +1,16 @@
 // Files as scripts write and compare them.
 
+#include <cstdlib>
+
 #include <catch2/catch.hpp>
+#include <sys/wait.h>
 
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
 using springlod::test::slurp;
+using springlod::test::spit;
 using springlod::test::springlod_run;
 using springlod::test::TemporaryFolder;
 
@@ -45,4 +49,46 @@ TEST_CASE("the hash of a file is that of its text, and depends on every byte") {
   CAPTURE(ran.err);
   CHECK_THAT(ran.out, Contains("true\ttrue\t2d06800538d394c2\n") && Contains("cannot read"));
   CHECK_THAT(ran.out, Contains("give either file or text"));
+}
+
+TEST_CASE("standard output that cannot be written is named, and a failure") {
+  const TemporaryFolder scratch;
+  const std::string errors = (scratch / "errors.txt").string();
+  const std::string program = (springlod::test::build_folder() / "app/springlod").string();
+  const int status = std::system((program + " -e 'print(1)' > /dev/full 2> " + errors).c_str());
+  CHECK(WEXITSTATUS(status) == 1);
+  CHECK_THAT(slurp(errors), Contains("cannot write all of the standard output"));
+}
+
+TEST_CASE("files that the system does not let grow are named, and nothing half is left") {
+  const TemporaryFolder scratch;
+  spit(scratch / "write.lua", R"(
+    local s = require "springlod"
+    local folder = ...
+    local points = {}
+    for i = 1, 20 do points[i] = {i, i * i % 7} end
+    local cells = s.grid{cell = 1, size = {40, 40, 40}, materials = {m = {young = 1e6}},
+                         fill = function(x, y, z) return (x * y + z) % 2 < 1 and "m" or nil end}
+    local writers = {
+      ["a.png"] = function(path) s.chart(path, {{name = "a", points = points}}) end,
+      ["a.svg"] = function(path) s.chart(path, {{name = "a", points = points}}) end,
+      ["a.txt"] = function(path) s.save_text(path, ("x"):rep(100000)) end,
+      ["a.vdb"] = function(path) s.save_vdb(path, cells) end,
+    }
+    for name, write in pairs(writers) do
+      local ok, failure = pcall(write, folder .. "/" .. name)
+      assert(not ok, name .. " was written")
+      assert(failure.message:find(name, 1, true), failure.message)
+      assert(not io.open(folder .. "/" .. name), name .. " is left")
+    end
+  )");
+  const std::string errors = (scratch / "errors.txt").string();
+  const std::string program = (springlod::test::build_folder() / "app/springlod").string();
+  // 8 blocks of 512 bytes: a shell's ulimit.
+  const int status =
+      std::system(("ulimit -f 8; " + program + " -q run " + (scratch / "write.lua").string() +
+                   " -- " + scratch.path().string() + " 2> " + errors)
+                      .c_str());
+  CAPTURE(slurp(errors));
+  CHECK(WEXITSTATUS(status) == 0);
 }
