@@ -20,7 +20,6 @@
 #include <unistd.h>
 
 #include "base/descriptor.hpp"
-#include "base/units.hpp"
 
 namespace springlod::inline base {
 namespace {

@@ -13,23 +13,21 @@ parser:option("--unit", "length unit of a mesh file (default: as the file declar
 parser:flag("--json", "print JSON")
 local args = parser:parse()
 
-local function print_mesh()
-  local ok, mesh = command.try(s.import, args.file, {unit = args.unit})
-  if not ok then command.fail("cannot read %s: %s", args.file, mesh) end
+local function print_mesh(mesh)
   local info = mesh_info.of(mesh)
   print(args.json and s.json(info) or mesh_info.text(info))
 end
 
--- A .glb file may be an asset or a mesh.
-local ending = args.file:match("%.%w+$")
-if ending and ending:lower() ~= ".glb" then
-  for _, known in ipairs(s.mesh_endings) do
-    if ending:lower() == known then return print_mesh() end
-  end
-end
-local ok, chain = command.try(s.load, args.file)
-if not ok and ending and ending:lower() == ".glb" and pcall(s.import, args.file) then
-  return print_mesh()
+-- A .glb file may be an asset or a mesh; files with the other endings of meshes are meshes.
+local ending = (args.file:match("%.%w+$") or ""):lower()
+local may_be_mesh = false
+for _, known in ipairs(s.mesh_endings) do may_be_mesh = may_be_mesh or ending == known end
+local ok, chain
+if ending == ".glb" or not may_be_mesh then ok, chain = command.try(s.load, args.file) end
+if not ok and may_be_mesh then
+  local imported, mesh = command.try(s.import, args.file, {unit = args.unit})
+  if imported then return print_mesh(mesh) end
+  chain = chain or mesh
 end
 if not ok then command.fail("cannot read %s: %s", args.file, chain) end
 local info = s.info(chain)

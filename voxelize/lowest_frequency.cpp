@@ -36,14 +36,11 @@ struct Component {
   double wave_speed() const { return cells / std::sqrt(compliance * density); }
 };
 
-}  // namespace
-
-double lowest_frequency(const MaterialGrid& grid) {
+double lowest_frequency(const MaterialGrid& grid, const DisjointSets::Numbers& bodies) {
   if (grid.cells.empty()) return 0;
-  const DisjointSets::Numbers number = bodies_of(grid.cells);
-  std::vector<Component> components(number.count);
+  std::vector<Component> components(bodies.count);
   for (std::size_t n = 0; n < grid.cells.size(); ++n)
-    components[number.of[n]].add(grid.cells[n], grid.materials[grid.material[n]]);
+    components[bodies.of[n]].add(grid.cells[n], grid.materials[grid.material[n]]);
   double lowest = std::numeric_limits<double>::infinity();
   for (const Component& component : components)
     lowest = std::min(lowest, lowest_frequency_estimate(component.wave_speed(),
@@ -51,14 +48,25 @@ double lowest_frequency(const MaterialGrid& grid) {
   return lowest;
 }
 
+}  // namespace
+
+double lowest_frequency(const MaterialGrid& grid) {
+  return lowest_frequency(grid, bodies_of(grid.cells));
+}
+
 void set_materials(MaterialGrid& grid, const std::vector<MaterialInput>& inputs) {
+  set_materials(grid, inputs, bodies_of(grid.cells));
+}
+
+void set_materials(MaterialGrid& grid, const std::vector<MaterialInput>& inputs,
+                   const DisjointSets::Numbers& bodies) {
   grid.materials.clear();
   for (const MaterialInput& input : inputs) {
     validate(input);
     grid.materials.push_back(resolved(input, 0));
   }
   validate(grid);
-  const double omega = lowest_frequency(grid);
+  const double omega = lowest_frequency(grid, bodies);
   for (std::size_t n = 0; n < inputs.size(); ++n) grid.materials[n] = resolved(inputs[n], omega);
 }
 

@@ -1,107 +1,78 @@
 #include "voxelize/mesh_bytes.hpp"
 
-#include <cstring>
-#include <type_traits>
+#include <algorithm>
+#include <span>
 
-#include "base/error.hpp"
+#include "model/packed.hpp"
 
 namespace springlod::voxelize {
 namespace {
 
-class Writer {
- public:
-  template <class T>
-  void value(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void text(const std::string& text) {
-    value(std::uint64_t{text.size()});
-    bytes_ += text;
-  }
-  template <class T>
-  void list(const std::vector<T>& values) {
-    value(std::uint64_t{values.size()});
-    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-  }
-  std::string take() { return std::move(bytes_); }
+constexpr std::size_t kCorners = std::tuple_size_v<Triangle>;
 
- private:
-  std::string bytes_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-  template <class T>
-  void value(T& into) {
-    std::memcpy(&into, next(1, sizeof into).data(), sizeof into);
-  }
-  void text(std::string& into) { into = next(count(), 1); }
-  template <class T>
-  void list(std::vector<T>& into) {
-    const std::uint64_t size = count();
-    const std::string_view part = next(size, sizeof(T));
-    into.resize(size);
-    std::memcpy(static_cast<void*>(into.data()), part.data(), part.size());
-  }
-  std::uint64_t count() {
-    std::uint64_t size = 0;
-    value(size);
-    return size;
-  }
-
- private:
-  std::string_view next(std::uint64_t number, std::size_t size) {
-    if (number > bytes_.size() / size) throw InputError("the imported mesh is not complete");
-    const std::string_view part = bytes_.substr(0, number * size);
-    bytes_.remove_prefix(part.size());
-    return part;
-  }
-
-  std::string_view bytes_;
-};
-
-// One order of the fields for both ways.
-template <class Stream, class Report>
-void report_fields(Stream& stream, Report& report) {
-  stream.text(report.format);
-  stream.value(report.unit);
-  stream.value(report.unit_assumed);
-  stream.value(report.up);
-  stream.value(report.up_assumed);
-  stream.value(report.stray_vertices);
-  stream.text(report.content_hash);
+void pack(Packer& to, const ImportReport& report) {
+  to.add(report.format);
+  to.add(report.unit);
+  to.add(report.unit_assumed);
+  to.add(static_cast<int>(report.up));
+  to.add(report.up_assumed);
+  to.add(report.stray_vertices);
+  to.add(report.content_hash);
 }
 
-template <class Stream, class Part>
-void part_fields(Stream& stream, Part& part) {
-  stream.text(part.name);
-  stream.text(part.material);
-  stream.value(part.first_triangle);
-  stream.value(part.triangle_count);
+void take(Unpacker& from, ImportReport& report) {
+  report.format = from.take_text();
+  report.unit = from.take<double>();
+  report.unit_assumed = from.take<bool>();
+  report.up = static_cast<UpAxis>(from.take<int>());
+  report.up_assumed = from.take<bool>();
+  report.stray_vertices = from.take<std::uint64_t>();
+  report.content_hash = from.take_text();
+}
+
+void pack(Packer& to, const TriangleMesh& mesh) {
+  to.add(mesh.positions);
+  to.add(std::span<const std::uint32_t>(mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
+                                        kCorners * mesh.triangles.size()));
+  to.add(std::uint64_t{mesh.parts.size()});
+  for (const MeshPart& part : mesh.parts) {
+    to.add(part.name);
+    to.add(part.material);
+    to.add(part.first_triangle);
+    to.add(part.triangle_count);
+  }
+}
+
+void take(Unpacker& from, TriangleMesh& mesh) {
+  mesh.positions = from.take_vectors();
+  const std::vector<std::uint32_t> corners = from.take_list<std::uint32_t>();
+  mesh.triangles.resize(corners.size() / kCorners);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(kCorners * t), kCorners,
+                mesh.triangles[t].begin());
+  for (auto left = from.take<std::uint64_t>(); left > 0; --left) {
+    MeshPart& part = mesh.parts.emplace_back();
+    part.name = from.take_text();
+    part.material = from.take_text();
+    part.first_triangle = from.take<std::uint32_t>();
+    part.triangle_count = from.take<std::uint32_t>();
+  }
 }
 
 }  // namespace
 
 std::string to_bytes(const ImportedMesh& imported) {
-  Writer writer;
-  report_fields(writer, imported.report);
-  writer.list(imported.mesh.positions);
-  writer.list(imported.mesh.triangles);
-  writer.value(std::uint64_t{imported.mesh.parts.size()});
-  for (const MeshPart& part : imported.mesh.parts) part_fields(writer, part);
-  return writer.take();
+  Packer packer;
+  pack(packer, imported.report);
+  pack(packer, imported.mesh);
+  return packer.bytes();
 }
 
 ImportedMesh mesh_from_bytes(std::string_view bytes) {
-  Reader reader(bytes);
+  Unpacker unpacker(bytes);
   ImportedMesh imported;
-  report_fields(reader, imported.report);
-  reader.list(imported.mesh.positions);
-  reader.list(imported.mesh.triangles);
-  for (std::uint64_t left = reader.count(); left > 0; --left)
-    part_fields(reader, imported.mesh.parts.emplace_back());
+  take(unpacker, imported.report);
+  take(unpacker, imported.mesh);
   validate(imported.mesh);
   return imported;
 }

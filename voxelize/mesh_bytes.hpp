@@ -9,7 +9,7 @@ namespace springlod::voxelize {
 
 /// An imported mesh as bytes, for another process of this machine.
 std::string to_bytes(const ImportedMesh& imported);
-/// Throws InputError if they are not those of a valid mesh.
+/// Throws IoError if the bytes end too soon, and InputError if the mesh is not valid.
 ImportedMesh mesh_from_bytes(std::string_view bytes);
 
 }  // namespace springlod::voxelize

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -256,11 +255,8 @@ std::vector<SolidRepair> find_faults(const TriangleMesh& mesh) {
   const std::vector<std::uint32_t> welded = weld_vertices(mesh);
   const std::vector<SolidReport> solids = check_solid(mesh, welded);
   std::vector<SolidRepair> found = repair(mesh, solids, welded).solids;
-  for (std::size_t s = 0; s < solids.size(); ++s) {
-    double area = 0;
-    for (const std::uint32_t p : solids[s].parts) area += surface_area(mesh, mesh.parts[p]);
-    if (area > 0) found[s].thickness = 2 * std::abs(found[s].volume) / area;
-  }
+  for (std::size_t s = 0; s < solids.size(); ++s)
+    found[s].thickness = thickness(mesh, solids[s], found[s].volume);
   return found;
 }
 

@@ -18,7 +18,7 @@ struct SolidRepair {
   std::uint64_t open_edges = 0;      ///< edges with one triangle
   std::uint64_t holes = 0;           ///< connected groups of them
   double hole_area = 0;              ///< of the holes [m2]
-  double thickness = 0;              ///< 2 volume / area: the thickness of a plate [m]
+  double thickness = 0;              ///< of find_faults(): thickness() [m]
   double volume = 0;                 ///< with each hole closed by a fan [m3]
   std::uint64_t crossing_edges = 0;  ///< edges with more than two triangles
 };

@@ -1,6 +1,7 @@
 #include "voxelize/solid.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <span>
 #include <tuple>
@@ -149,6 +150,12 @@ double volume_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& par
 }
 
 }  // namespace
+
+double thickness(const TriangleMesh& mesh, const SolidReport& solid, double volume) {
+  double area = 0;
+  for (const std::uint32_t p : solid.parts) area += surface_area(mesh, mesh.parts[p]);
+  return area > 0 ? 2 * std::abs(volume) / area : 0;
+}
 
 std::vector<SolidReport> check_solid(const TriangleMesh& mesh) {
   validate(mesh);

@@ -251,7 +251,7 @@ void save_vdb(const MaterialGrid& grid, const fs::path& path) {
 MaterialGrid load_vdb(const fs::path& path) {
   require_intact(path);
   start_openvdb();
-  const auto damaged = [&](const char* reason) {
+  const auto damaged = [&](std::string_view reason) {
     return IoError(fmt::format("{} is damaged: {:.{}}", path.string(), reason, kLongestReason));
   };
   try {
@@ -259,7 +259,7 @@ MaterialGrid load_vdb(const fs::path& path) {
     run_in_child([&] { return Reader(path).read(), std::string(); }, {});
     return Reader(path).read();
   } catch (const ChildFailure& e) {
-    throw damaged(fmt::format("OpenVDB {}", e.what()).c_str());
+    throw damaged(fmt::format("OpenVDB {}", e.what()));
   } catch (const InputError& e) {
     throw damaged(e.what());
   } catch (const openvdb::Exception& e) {

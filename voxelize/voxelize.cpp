@@ -90,8 +90,8 @@ std::vector<std::size_t> claim_order(const TriangleMesh& mesh,
 // The state of a voxelization; each member function is one stage.
 class Voxelizer {
  public:
-  Voxelizer(TriangleMesh mesh, const VoxelizeOptions& options)
-      : mesh_(std::move(mesh)), options_(options), materials_(options) {}
+  Voxelizer(const TriangleMesh& mesh, const VoxelizeOptions& options)
+      : given_(mesh), options_(options), materials_(options) {}
 
   VoxelizedMesh run() {
     tbb::task_arena threads(options_.threads == 0 ? tbb::task_arena::automatic
@@ -105,29 +105,30 @@ class Voxelizer {
  private:
   using Field = std::shared_ptr<DistanceField>;
 
+  const TriangleMesh& mesh() const { return result_.repaired ? *result_.repaired : given_; }
   MaterialGrid& grid() { return result_.grid; }
   VoxelizeReport& report() { return result_.report; }
   void warn(std::string text) { report().warnings.push_back(std::move(text)); }
 
   void fill() {
-    validate(mesh_);
+    validate(mesh());
     choose_frame();
-    const std::vector<std::uint32_t> welded = weld_vertices(mesh_);
-    solids_ = check_solid(mesh_, welded);
+    const std::vector<std::uint32_t> welded = weld_vertices(mesh());
+    solids_ = check_solid(mesh(), welded);
     require_solids(solids_);
     mend(welded);
-    fill_solids(sort_shells(mesh_, solids_, welded));
+    fill_solids(sort_shells(mesh(), solids_, welded));
     gather_cells();
     assign_part_materials();
     count_bodies();
-    if (options_.core_shell || options_.paint) grid().depth = measure_depth(grid(), mesh_);
+    if (options_.core_shell || options_.paint) grid().depth = measure_depth(grid(), mesh());
   }
 
   void mend(const std::vector<std::uint32_t>& welded) {
     if (options_.repair == Repair::off) return require_closed(solids_);
     if (std::all_of(solids_.begin(), solids_.end(), [](const auto& s) { return s.faultless(); }))
       return;
-    RepairedMesh repaired = repair(mesh_, solids_, welded);
+    RepairedMesh repaired = repair(mesh(), solids_, welded);
     std::vector<std::string> faults;
     for (const SolidRepair& solid : repaired.solids)
       for (std::string& line : describe(solid)) faults.push_back(std::move(line));
@@ -136,7 +137,7 @@ class Voxelizer {
           fmt::format("voxelize: the mesh needs repair (repair = \"auto\" does this): {}",
                       fmt::join(faults, "; ")));
     report().repairs = std::move(faults);
-    mesh_ = std::move(repaired.mesh);
+    result_.repaired = std::move(repaired.mesh);
     for (std::size_t s = 0; s < solids_.size(); ++s) {
       solids_[s].boundary_edges = repaired.solids[s].open_edges;
       solids_[s].nonmanifold_edges = repaired.solids[s].crossing_edges;
@@ -144,13 +145,13 @@ class Voxelizer {
     }
     std::erase_if(solids_, [&](const SolidReport& solid) {  // of triangles without area
       return std::all_of(solid.parts.begin(), solid.parts.end(),
-                         [&](std::uint32_t p) { return mesh_.parts[p].triangle_count == 0; });
+                         [&](std::uint32_t p) { return mesh().parts[p].triangle_count == 0; });
     });
     require_solids(solids_);
   }
 
   void choose_frame() {
-    const Box3 box = bounds(mesh_);
+    const Box3 box = bounds(mesh());
     report().cell_chosen = !options_.cell;
     report().cell =
         options_.cell.value_or(box.isEmpty() ? 0 : box.sizes().maxCoeff() / kDefaultCells);
@@ -161,7 +162,7 @@ class Voxelizer {
   // The level sets of as many solids as there are threads are made at once. The solids then claim
   // their cells in sequence, so the number of threads does not change the result.
   void fill_solids(const std::vector<Shells>& shells) {
-    const std::vector<std::size_t> order = claim_order(mesh_, solids_, options_.priority);
+    const std::vector<std::size_t> order = claim_order(mesh(), solids_, options_.priority);
     const std::vector<Vec3> positions = positions_in_cells();
     Task task(options_.progress, "voxelize", solids_.size());
     std::size_t next = 0;
@@ -190,8 +191,8 @@ class Voxelizer {
 
   std::vector<Vec3> positions_in_cells() const {
     std::vector<Vec3> positions;
-    positions.reserve(mesh_.positions.size());
-    for (const Vec3& p : mesh_.positions) positions.push_back(frame_.to_index(p));
+    positions.reserve(mesh().positions.size());
+    for (const Vec3& p : mesh().positions) positions.push_back(frame_.to_index(p));
     return positions;
   }
 
@@ -203,7 +204,7 @@ class Voxelizer {
     tbb::task_group_context own(tbb::task_group_context::isolated);
     tbb::task_group(own).run_and_wait([&] {
       if (!solid.closed()) {
-        field = field_of_open(solid, positions);
+        field = field_of_open(shells, positions);
         return;
       }
       field = level_set(positions, shells.outer, frame_);
@@ -212,12 +213,9 @@ class Voxelizer {
     return field;
   }
 
-  Field field_of_open(const SolidReport& solid, const std::vector<Vec3>& positions) const {
-    std::vector<Triangle> triangles;
-    for (const std::uint32_t p : solid.parts) {
-      const auto first = mesh_.triangles.begin() + mesh_.parts[p].first_triangle;
-      triangles.insert(triangles.end(), first, first + mesh_.parts[p].triangle_count);
-    }
+  Field field_of_open(const Shells& shells, const std::vector<Vec3>& positions) const {
+    std::vector<Triangle> triangles = shells.outer;
+    triangles.insert(triangles.end(), shells.cavity.begin(), shells.cavity.end());
     const WindingNumber surface(positions, triangles);
     return level_set(wound_cells(surface, positions, triangles, frame_), frame_);
   }
@@ -257,16 +255,13 @@ class Voxelizer {
     warn(fault + "; " + advice);
   }
 
-  // A plate of thickness t has 2 V / A = t, a rod of diameter d has d / 2, and a ball d / 3.
   std::string advice_for(const SolidReport& solid, double volume) const {
-    double area = 0;
-    for (const std::uint32_t p : solid.parts) area += surface_area(mesh_, mesh_.parts[p]);
-    const double thickness = 2 * volume / area;
-    if (!(thickness > 0)) return "it is a sheet and encloses nothing";
-    if (thickness > kThin * frame_.cell) return "use a smaller cell or check for crossing surfaces";
+    const double thick = thickness(mesh(), solid, volume);
+    if (!(thick > 0)) return "it is a sheet and encloses nothing";
+    if (thick > kThin * frame_.cell) return "use a smaller cell or check for crossing surfaces";
     return fmt::format("it is about {} thick: use a cell of {}",
-                       format_quantity(thickness, Dimension::length),
-                       format_quantity(thickness / kThin, Dimension::length));
+                       format_quantity(thick, Dimension::length),
+                       format_quantity(thick / kThin, Dimension::length));
   }
 
   void gather_cells() {
@@ -298,7 +293,7 @@ class Voxelizer {
   // that of the nearest triangle.
   void assign_part_materials() {
     std::vector<std::uint16_t> of_part;
-    for (const MeshPart& part : mesh_.parts) of_part.push_back(materials_.of_part(part));
+    for (const MeshPart& part : mesh().parts) of_part.push_back(materials_.of_part(part));
     std::vector<std::uint16_t> of_solid;
     std::vector<std::vector<std::uint32_t>> mixed_cells(
         solids_.size());  // of solids of several materials
@@ -318,12 +313,12 @@ class Voxelizer {
   }
 
   void count_bodies() {
-    const DisjointSets::Numbers body = bodies_of(grid().cells);
-    if (body.count == 1) return;
-    std::vector<std::size_t> cells(body.count, 0);
-    for (const std::uint32_t number : body.of) ++cells[number];
+    bodies_ = bodies_of(grid().cells);
+    if (bodies_.count == 1) return;
+    std::vector<std::size_t> cells(bodies_.count, 0);
+    for (const std::uint32_t number : bodies_.of) ++cells[number];
     const auto [least, most] = std::minmax_element(cells.begin(), cells.end());
-    warn(fmt::format("the cells form {} bodies that do not touch, of {} to {} cells", body.count,
+    warn(fmt::format("the cells form {} bodies that do not touch, of {} to {} cells", bodies_.count,
                      *least, *most));
   }
 
@@ -332,15 +327,15 @@ class Voxelizer {
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> labels;
     for (const std::uint32_t p : solid.parts)
-      for (std::uint32_t i = 0; i < mesh_.parts[p].triangle_count; ++i) {
-        triangles.push_back(mesh_.triangles[mesh_.parts[p].first_triangle + i]);
+      for (std::uint32_t i = 0; i < mesh().parts[p].triangle_count; ++i) {
+        triangles.push_back(mesh().triangles[mesh().parts[p].first_triangle + i]);
         labels.push_back(p);
       }
     std::vector<CellIndex> cells;
     cells.reserve(places.size());
     for (const std::uint32_t c : places) cells.push_back(grid().cells[c]);
     const std::vector<NearestPoint> nearest =
-        nearest_surface(frame_, cells, mesh_.positions, triangles, labels);
+        nearest_surface(frame_, cells, mesh().positions, triangles, labels);
     for (std::size_t i = 0; i < places.size(); ++i)
       grid().material[places[i]] = of_part[nearest[i].label];
   }
@@ -377,19 +372,19 @@ class Voxelizer {
       warn(fmt::format("material \"{}\" is not used: no part or material of the file has this name",
                        key));
     const std::vector<MaterialInput> used = materials_.finish(grid().material);
-    set_materials(grid(), used);
+    set_materials(grid(), used, bodies_);
     report().grid_volume = static_cast<double>(grid().cells.size()) * std::pow(frame_.cell, 3);
-    if (!report().repairs.empty()) result_.repaired = std::move(mesh_);
     return std::move(result_);
   }
 
-  TriangleMesh mesh_;
+  const TriangleMesh& given_;
   const VoxelizeOptions& options_;
   MaterialChoice materials_;
   CellFrame frame_;
   std::vector<SolidReport> solids_;
   std::vector<std::uint16_t>
-      owner_;  // solid + 1 of each cell of the frame until cells are gathered
+      owner_;                     // solid + 1 of each cell of the frame until cells are gathered
+  DisjointSets::Numbers bodies_;  // that the cells form
   Field distance_;
   VoxelizedMesh result_;
 };

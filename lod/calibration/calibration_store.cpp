@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "lod/calibration/packed.hpp"
+#include "model/packed.hpp"
 
 namespace springlod::lod {
 

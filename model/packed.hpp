@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "model/vec.hpp"
 
-namespace springlod::lod {
+namespace springlod::inline model {
 
 /// Serializes numbers to bytes in the byte order of the machine: for hashes, and for files that are
 /// read on the same machine.
@@ -90,4 +90,4 @@ class Unpacker {
   std::string_view bytes_;
 };
 
-}  // namespace springlod::lod
+}  // namespace springlod::inline model
