@@ -76,6 +76,7 @@ void describe_files(Api& api) {
       .arguments = {{.name = "a", .type = "string", .help = "a path"},
                     {.name = "b", .type = "string", .help = "a path"}},
       .returns = "boolean",
+      .errors = "None.",
       .example = "assert(not s.same_file(\"dumbbell.obj\", \"out/dumbbell.glb\"))",
       .call = same_file});
 }
