@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "base/error.hpp"
+#include "base/units.hpp"
 #include "scripting/engine/suggest.hpp"
 
 namespace springlod::app {
@@ -14,18 +16,25 @@ namespace {
 constexpr int kWrongUse = 2;
 
 // Long flags that suggestions may name.
-const std::vector<std::string> kFlags{"--help",  "--version", "--seed", "--threads",
-                                      "--quiet", "--verbose", "-e",     "-i"};
+const std::vector<std::string> kFlags{"--help",         "--version", "--seed",   "--threads",
+                                      "--quiet",        "--verbose", "--unsafe", "--time-limit",
+                                      "--memory-limit", "-e",        "-i"};
 
 struct Switches {
   bool quiet = false;
   bool verbose = false;
+  bool unsafe = false;
+  std::string time_limit;
 };
 
 void add_settings(CLI::App& app, scripting::Settings& settings, Switches& switches) {
   app.add_option("--seed", settings.seed, "seed of all random numbers (default: 1)");
   app.add_option("--threads", settings.threads, "maximum number of threads; 0: all cores");
   app.add_flag("-q,--quiet", switches.quiet, "print only errors to stderr");
+  app.add_flag("--unsafe", switches.unsafe, "let scripts use all files and start programs");
+  app.add_option("--time-limit", switches.time_limit, "stop the script after this time");
+  app.add_option("--memory-limit", settings.script_memory, "memory of the script's values")
+      ->transform(CLI::AsSizeValue(false));
   app.add_flag("-v,--verbose", switches.verbose,
                "print more, such as each step of a calibration; tracebacks");
 }
@@ -33,6 +42,10 @@ void add_settings(CLI::App& app, scripting::Settings& settings, Switches& switch
 void settle(const Switches& switches, scripting::Settings& settings) {
   if (switches.quiet) settings.verbosity = scripting::Verbosity::quiet;
   if (switches.verbose) settings.verbosity = scripting::Verbosity::verbose;
+  if (switches.unsafe) settings.sandbox = false;
+  if (!switches.time_limit.empty())
+    settings.time_limit = parse_quantity(switches.time_limit, Dimension::time, "--time-limit");
+  if (!(settings.time_limit >= 0)) throw InputError("--time-limit must be at least 0");
 }
 
 std::vector<std::string> reversed(std::vector<std::string> words) {
@@ -67,6 +80,9 @@ std::string usage_text(const std::vector<scripting::StockCommand>& commands) {
          "  --threads N    maximum number of threads (default: 0, all cores)\n"
          "  -q, --quiet    print only errors to stderr\n"
          "  -v, --verbose  print more, such as each step of a calibration; tracebacks\n"
+         "  --time-limit T    stop the script after T, such as 10min (default: none)\n"
+         "  --memory-limit N  memory of the script's own values (default: 4GB)\n"
+         "  --unsafe       let scripts use all files and start programs (docs/security.md)\n"
          "  --version      print the version\n"
          "  -h, --help     print this help\n";
 }
@@ -107,10 +123,12 @@ std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
   add_settings(app, line.settings, switches);
   try {
     app.parse(reversed(arguments));
+    settle(switches, line.settings);
   } catch (const CLI::ParseError& error) {
     return wrong_use(error.what());
+  } catch (const InputError& error) {
+    return wrong_use(error.what());
   }
-  settle(switches, line.settings);
   rest = app.remaining();
   if (help) return Leave{0, usage_text(commands)};
   if (show_version) return Leave{0, fmt::format("springlod {}\n", scripting::version())};
@@ -131,10 +149,12 @@ std::optional<Leave> parse_back(const std::vector<std::string>& arguments, bool 
   if (own_script) app.add_flag("-i", line.prompt_after);
   try {
     app.parse(reversed({arguments.begin(), separator}));
+    settle(switches, line.settings);
   } catch (const CLI::ParseError& error) {
     return wrong_use(error.what());
+  } catch (const InputError& error) {
+    return wrong_use(error.what());
   }
-  settle(switches, line.settings);
   line.arguments = app.remaining();
   if (separator != arguments.end())
     line.arguments.insert(line.arguments.end(), separator + (own_script ? 1 : 0), arguments.end());

@@ -24,7 +24,6 @@ using scripting::ScriptState;
 using springlod::app::CommandLine;
 
 constexpr int kFailed = 1;
-constexpr int kInterrupted = 130;  // the convention of shells: 128 + SIGINT
 
 Outcome run_action(ScriptState& state, const CommandLine& line) {
   switch (line.action) {
@@ -41,6 +40,19 @@ Outcome run_action(ScriptState& state, const CommandLine& line) {
   return {};
 }
 
+// Scripts may use the files that the user names: "x.glb", "-ox.glb", "--out=folder".
+void allow_arguments(scripting::FileAccess& files, const std::vector<std::string>& arguments) {
+  for (const std::string& argument : arguments) {
+    const std::size_t equals = argument.find('=');
+    if (!argument.starts_with("-"))
+      files.allow_named(argument);
+    else if (equals != std::string::npos)
+      files.allow_named(argument.substr(equals + 1));
+    else if (!argument.starts_with("--") && argument.size() > 2)
+      files.allow_named(argument.substr(2));
+  }
+}
+
 int run(const std::vector<std::string>& arguments) {
   const springlod::app::Parsed parsed = springlod::app::parse_command_line(
       arguments, scripting::stock_commands(), isatty(STDIN_FILENO) != 0);
@@ -49,16 +61,18 @@ int run(const std::vector<std::string>& arguments) {
     return parsed.leave->exit_code;
   }
   const CommandLine& line = parsed.line;
-  const scripting::InterruptHandler interrupts;
+  const scripting::InterruptHandler interrupts(line.settings.time_limit);
   ScriptState state(line.settings, scripting::make_api());
+  allow_arguments(state.session().files(), line.arguments);
   const Outcome outcome = run_action(state, line);
+  const scripting::StopCause stop = scripting::stop_cause();  // the prompt clears it
   if (outcome.interrupted)
-    fmt::print(stderr, "springlod: interrupted\n");
+    fmt::print(stderr, "springlod: {}\n", scripting::stop_text(stop));
   else if (!outcome.done)
     fmt::print(stderr, "springlod: {}\n{}{}", outcome.message, outcome.traceback,
                outcome.traceback.empty() ? "" : "\n");
   if (line.action == CommandLine::Action::prompt || line.prompt_after) scripting::run_prompt(state);
-  if (outcome.interrupted) return kInterrupted;
+  if (outcome.interrupted) return scripting::stop_exit_code(stop);
   return outcome.done ? 0 : kFailed;
 }
 

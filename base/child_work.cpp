@@ -107,7 +107,7 @@ bool work_and_send(int descriptor, const std::function<std::string()>& work) {
                            const ChildLimits& limits) {
   // Ctrl-C goes to all processes of the terminal; the parent decides what it means.
   std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGXCPU, SIG_DFL);
+  for (const int signal : {SIGTERM, SIGXCPU, SIGALRM}) std::signal(signal, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);  // it has ended before the line above
   be_quiet();

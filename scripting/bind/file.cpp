@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kGroup = "Session";
 
 int save_text(Call& call) {
-  write_text_file(call.path(1), call.text(2));
+  write_text_file(call.writable(1), call.text(2));
   return 0;
 }
 
@@ -28,13 +28,14 @@ int hash(Call& call) {
   options.read("file", file);
   options.read("text", text);
   options.finish();
+  if (file) call.session().files().require_readable(*file);
   if (file.has_value() == text.has_value()) throw InputError("hash: give either file or text");
   return call.give(content_hash(file ? read_file(*file) : *text));
 }
 
 int same_file(Call& call) {
   std::error_code missing;
-  return call.give(std::filesystem::equivalent(call.path(1), call.path(2), missing));
+  return call.give(std::filesystem::equivalent(call.readable(1), call.readable(2), missing));
 }
 
 }  // namespace

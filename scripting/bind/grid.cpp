@@ -131,15 +131,15 @@ int grid_binding(Call& call) {
 }
 
 int save_vdb_binding(Call& call) {
-  voxelize::save_vdb(with_depth(*call.value<GridValue>(2)), call.path(1));
+  voxelize::save_vdb(with_depth(*call.value<GridValue>(2)), call.writable(1));
   return 0;
 }
 
 int load_vdb_binding(Call& call) {
   auto value = std::make_shared<GridValue>();
-  value->grid = voxelize::load_vdb(call.path(1));
+  value->grid = voxelize::load_vdb(call.readable(1));
   value->provenance.set("springlod", version());
-  value->provenance.set("grid", call.path(1).filename().string());
+  value->provenance.set("grid", call.readable(1).filename().string());
   return call.give(std::shared_ptr<const GridValue>(value));
 }
 

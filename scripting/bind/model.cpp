@@ -137,17 +137,17 @@ int save_binding(Call& call) {
   options.read("command", command);
   options.finish();
   if (!command) {
-    save_asset(*chain, call.path(1));
+    save_asset(*chain, call.writable(1));
     return 0;
   }
   LodAsset told = *chain;
   told.provenance.set("command", *command);
-  save_asset(told, call.path(1));
+  save_asset(told, call.writable(1));
   return 0;
 }
 
 int load_binding(Call& call) {
-  return call.give(std::make_shared<const ChainValue>(load_asset(call.path(1))));
+  return call.give(std::make_shared<const ChainValue>(load_asset(call.readable(1))));
 }
 
 void push_provenance(lua_State* L, const Provenance& provenance) {

@@ -200,7 +200,7 @@ int render_binding(Call& call) {
                                .panel_count = static_cast<std::uint32_t>(panels.size()),
                                .columns = options.columns};
   render::save_png(call.session().kept<StillPictures>().draw(grid, std::move(panels), options.text),
-                   call.path(1));
+                   call.writable(1));
   return 0;
 }
 

@@ -52,7 +52,7 @@ int animate_binding(Call& call) {
   std::vector<report::ComparedChain> chains;
   for (const auto& comparison : comparisons)
     chains.push_back({*comparison->chain, comparison->comparison});
-  const report::Animation animation = report::animate(chains, call.path(1), options);
+  const report::Animation animation = report::animate(chains, call.writable(1), options);
   return call.give(animation.frames);
 }
 
@@ -61,7 +61,8 @@ int video_binding(Call& call) {
   TableReader reader = call.options(3);
   reader.read("frame_rate", frame_rate);
   reader.finish();
-  const report::VideoResult video = report::encode_video(call.path(2), frame_rate, call.path(1));
+  const report::VideoResult video =
+      report::encode_video(call.readable(2), frame_rate, call.writable(1));
   if (!video.made)
     call.session().console().say("no video: ffmpeg is not installed; with it, run\n  " +
                                  video.command);
@@ -81,7 +82,7 @@ int chart_binding(Call& call) {
   if (const auto map = call.try_value<sim::StabilityMap>(2)) {
     read_chart_options(call, reader, options);
     reader.finish();
-    return give_drawn(call, report::draw_map(*map, options.title, call.path(1)));
+    return give_drawn(call, report::draw_map(*map, options.title, call.writable(1)));
   }
   const auto comparison = call.try_value<ComparisonValue>(2);
   std::vector<report::ChartSeries> series;
@@ -93,7 +94,7 @@ int chart_binding(Call& call) {
   }
   read_chart_options(call, reader, options);
   reader.finish();
-  const report::ChartFiles files = report::draw_chart(series, options, call.path(1));
+  const report::ChartFiles files = report::draw_chart(series, options, call.writable(1));
   return give_drawn(call, {files.drawn, files.command});
 }
 
@@ -101,7 +102,7 @@ int csv_binding(Call& call) {
   TableReader reader = call.options(3);
   const report::Table table = table_from_rows(call, call.index(2), reader);
   reader.finish();
-  report::save_csv(table, call.path(1));
+  report::save_csv(table, call.writable(1));
   return 0;
 }
 

@@ -82,7 +82,7 @@ bool has_ending(const fs::path& path, const std::vector<std::string>& endings) {
 }
 
 int files(Call& call) {
-  const fs::path folder = call.path(1);
+  const fs::path folder = call.readable(1);
   std::vector<std::string> endings;
   TableReader options = call.options(2);
   options.read("endings", endings);
@@ -100,7 +100,7 @@ int files(Call& call) {
 
 int is_folder(Call& call) {
   std::error_code error;
-  return call.give(fs::is_directory(call.path(1), error));
+  return call.give(fs::is_directory(call.readable(1), error));
 }
 
 ordered_json to_json(lua_State* L, int index, int depth);

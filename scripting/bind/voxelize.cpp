@@ -43,7 +43,7 @@ int import_binding(Call& call) {
   reader.finish();
   options.progress = call.progress();
 
-  const std::filesystem::path path = call.path(1);
+  const std::filesystem::path path = call.readable(1);
   auto value = std::make_shared<MeshValue>();
   voxelize::ImportedMesh imported = voxelize::import_mesh(path, options);
   value->mesh = std::move(imported.mesh);

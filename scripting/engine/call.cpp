@@ -258,6 +258,7 @@ void TableReader::read(std::string_view name, std::vector<std::uint32_t>& into) 
 void TableReader::read(std::string_view name, std::filesystem::path& into) {
   std::string text = into.string();
   read(name, text);
+  if (has(name)) session_of(lua_).files().require_writable(text);
   into = text;
 }
 
@@ -342,6 +343,18 @@ void Call::refuse_self() const {
 std::string Call::text(int number) const {
   if (lua_type(lua_, index(number)) != LUA_TSTRING) refuse(number, "text");
   return text_at(lua_, index(number));
+}
+
+std::filesystem::path Call::readable(int number) const {
+  std::filesystem::path path = text(number);
+  session_.files().require_readable(path);
+  return path;
+}
+
+std::filesystem::path Call::writable(int number) const {
+  std::filesystem::path path = text(number);
+  session_.files().require_writable(path);
+  return path;
 }
 
 long long Call::integer(int number, long long least, long long most) const {

@@ -37,7 +37,7 @@ class TableReader {
   void read(std::string_view name, std::vector<std::string>& into);
   void read(std::string_view name, std::vector<double>& into);  ///< each element as a quantity
   void read(std::string_view name, std::vector<std::uint32_t>& into);
-  void read(std::string_view name, std::filesystem::path& into);
+  void read(std::string_view name, std::filesystem::path& into);  ///< that may be written to
   template <class T>
   requires std::integral<T> &&(!std::same_as<T, bool>)void read(std::string_view name, T& into) {
     if (const auto value = whole_number(name, static_cast<double>(std::numeric_limits<T>::min()),
@@ -132,7 +132,9 @@ class Call {
     return found;
   }
   std::string text(int number) const;
-  std::filesystem::path path(int number) const { return text(number); }
+  /// A path that the script may read, or write to; throws InputError otherwise.
+  std::filesystem::path readable(int number) const;
+  std::filesystem::path writable(int number) const;
   /// An integer in [least, most]; throws InputError otherwise.
   long long integer(int number, long long least, long long most) const;
   /// The optional table of options at argument `number`.

@@ -42,10 +42,10 @@ Reply evaluate(ScriptState& state, const std::string& input) {
   const int bottom = lua_gettop(L);
   clear_interrupt();
   const std::string expression = "return " + input;
-  int status = luaL_loadbuffer(L, expression.data(), expression.size(), kChunkName);
+  int status = luaL_loadbufferx(L, expression.data(), expression.size(), kChunkName, "t");
   if (status != LUA_OK) {
     lua_settop(L, bottom);
-    status = luaL_loadbuffer(L, input.data(), input.size(), kChunkName);
+    status = luaL_loadbufferx(L, input.data(), input.size(), kChunkName, "t");
   }
   Reply reply;
   if (status != LUA_OK) {
@@ -62,7 +62,8 @@ Reply evaluate(ScriptState& state, const std::string& input) {
   }
   lua_settop(L, bottom);
   if (!outcome.done)
-    reply.error = outcome.interrupted ? "interrupted" : outcome.message + "\n" + outcome.traceback;
+    reply.error =
+        outcome.interrupted ? stop_text(stop_cause()) : outcome.message + "\n" + outcome.traceback;
   clear_interrupt();
   return reply;
 }

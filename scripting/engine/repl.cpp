@@ -214,6 +214,7 @@ class Prompt {
 
 void run_prompt(ScriptState& state) {
   lua_State* L = state.lua();
+  clear_interrupt();  // of a script that ran before
   // Loads the module at the prompt; scripts load it explicitly.
   state.run_text("s = require \"springlod\"", "prompt", {});
   lua_settop(L, 0);

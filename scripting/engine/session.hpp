@@ -8,6 +8,7 @@
 #include <typeindex>
 
 #include "scripting/engine/console.hpp"
+#include "scripting/engine/file_access.hpp"
 
 struct lua_State;
 
@@ -20,6 +21,9 @@ struct Settings {
   std::uint64_t seed = 1;
   std::uint32_t threads = 0;  ///< 0: all cores
   Verbosity verbosity = Verbosity::normal;
+  bool sandbox = true;                                   ///< FileAccess and close_sandbox
+  double time_limit = 0;                                 ///< InterruptHandler [s]; 0: none
+  std::uint64_t script_memory = std::uint64_t{4} << 30;  ///< ScriptMemory [bytes]
 };
 
 /// State shared by all bindings of one Lua state.
@@ -33,6 +37,7 @@ class Session {
   const Api& api() const { return api_; }
   Console& console() { return console_; }
   Progress* progress() { return &console_; }
+  FileAccess& files() { return files_; }
   /// State that bindings keep between calls: one T, created on first use.
   template <class T>
   T& kept() {
@@ -44,6 +49,7 @@ class Session {
  private:
   Settings settings_;
   Console console_;
+  FileAccess files_;
   const Api& api_;
   std::map<std::type_index, std::any> kept_;
 };

@@ -10,6 +10,7 @@
 #include "scripting/engine/call.hpp"
 #include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/paths.hpp"
+#include "scripting/engine/sandbox.hpp"
 #include "scripting/engine/script_error.hpp"
 #include "scripting/engine/suggest.hpp"
 
@@ -80,15 +81,17 @@ std::string text_of_error(lua_State* L) {
   return text;
 }
 
-Outcome failed(lua_State* L, bool with_traceback) {
+Outcome failed(lua_State* L, int status, bool with_traceback) {
   Outcome outcome;
   outcome.done = false;
   const auto error =
       std::static_pointer_cast<const ErrorValue>(boxed_at(L, -1, &kValueName<ErrorValue>));
   outcome.interrupted = error && error->kind == "interrupted";
   outcome.message = text_of_error(L);
+  if (status == LUA_ERRMEM)
+    outcome.message += ": the script's own values need more than --memory-limit allows";
   lua_pop(L, 1);
-  if (with_traceback) {
+  if (with_traceback && status != LUA_ERRMEM) {
     lua_getfield(L, LUA_REGISTRYINDEX, kTraceback);
     if (lua_isstring(L, -1) != 0) outcome.traceback = lua_tostring(L, -1);
     lua_pop(L, 1);
@@ -116,10 +119,18 @@ std::string version() {
 ScriptState::ScriptState(const Settings& settings, std::unique_ptr<Api> api)
     : api_(std::move(api)),
       session_(std::make_unique<Session>(settings, *api_)),
+      memory_(std::make_unique<ScriptMemory>(settings.script_memory)),
       lua_(luaL_newstate()) {
   if (lua_ == nullptr) throw std::bad_alloc();
+  memory_->serve(lua_);
   set_session(lua_, session_.get());
   luaL_openlibs(lua_);
+  if (settings.sandbox) {
+    session_->files().restrict();
+    session_->files().allow_project(std::filesystem::current_path());
+    session_->files().allow_reading(sample_folder());
+    close_sandbox(lua_);
+  }
   register_types(lua_, *api_);
   luaL_getsubtable(lua_, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);
   lua_pushcfunction(lua_, open_module);
@@ -135,6 +146,7 @@ ScriptState::~ScriptState() {
 }
 
 void ScriptState::add_search_folder(const std::filesystem::path& folder) {
+  session_->files().allow_reading(folder);
   lua_getglobal(lua_, "package");
   lua_getfield(lua_, -1, "path");
   const std::string path = fmt::format("{}/?.lua;{}", folder.string(), lua_tostring(lua_, -1));
@@ -152,12 +164,12 @@ Outcome ScriptState::call(int argument_count, int result_count) {
   const int status = lua_pcall(lua_, argument_count, result_count, function);
   lua_sethook(lua_, nullptr, 0, 0);
   lua_remove(lua_, function);
-  return status == LUA_OK ? Outcome{} : failed(lua_, true);
+  return status == LUA_OK ? Outcome{} : failed(lua_, status, true);
 }
 
 Outcome ScriptState::run_loaded(int load_status, const std::string& name,
                                 const std::vector<std::string>& arguments) {
-  if (load_status != LUA_OK) return failed(lua_, false);
+  if (load_status != LUA_OK) return failed(lua_, load_status, false);
   luaL_checkstack(lua_, static_cast<int>(arguments.size()) + 8, "too many arguments");
   push(lua_, arguments);
   push(lua_, name);
@@ -170,13 +182,13 @@ Outcome ScriptState::run_loaded(int load_status, const std::string& name,
 Outcome ScriptState::run_file(const std::filesystem::path& path,
                               const std::vector<std::string>& arguments) {
   add_search_folder(path.has_parent_path() ? path.parent_path() : ".");
-  return run_loaded(luaL_loadfile(lua_, path.c_str()), path.string(), arguments);
+  return run_loaded(luaL_loadfilex(lua_, path.c_str(), "t"), path.string(), arguments);
 }
 
 Outcome ScriptState::run_text(std::string_view code, const std::string& name,
                               const std::vector<std::string>& arguments) {
-  return run_loaded(luaL_loadbuffer(lua_, code.data(), code.size(), ("=" + name).c_str()), name,
-                    arguments);
+  return run_loaded(luaL_loadbufferx(lua_, code.data(), code.size(), ("=" + name).c_str(), "t"),
+                    name, arguments);
 }
 
 }  // namespace springlod::scripting

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scripting/engine/api.hpp"
+#include "scripting/engine/script_memory.hpp"
 #include "scripting/engine/session.hpp"
 
 struct lua_State;
@@ -52,6 +53,7 @@ class ScriptState {
 
   std::unique_ptr<Api> api_;
   std::unique_ptr<Session> session_;
+  std::unique_ptr<ScriptMemory> memory_;
   lua_State* lua_;
 };
 

@@ -121,6 +121,14 @@ TEST_CASE("Ctrl-C stops a Lua loop that catches every error") {
   CHECK_THAT(ran.err, Contains("interrupted"));
 }
 
+TEST_CASE("SIGTERM stops a script as Ctrl-C does") {
+  const Ran ran = springlod_interrupted(
+      {"-e", "io.stderr:write('going\n') while true do pcall(function() end) end"}, "going\n",
+      SIGTERM);
+  CHECK(ran.exit_code == 143);
+  CHECK_THAT(ran.err, Contains("springlod: terminated"));
+}
+
 TEST_CASE("Ctrl-C stops a long simulation") {
   const Ran ran = springlod_interrupted(
       {"-e",

@@ -11,7 +11,7 @@ using springlod::test::springlod_run;
 namespace {
 
 /// Runs the script after defining `bar`: a lattice of 4 x 4 x 8 cells of one material.
-Ran with_bar(const std::string& script) {
+Ran with_bar(const std::string& script, const std::string& argument = "") {
   return springlod_run({"-e", R"(
     local s = require "springlod"
     local function bar(material, cell)
@@ -19,7 +19,8 @@ Ran with_bar(const std::string& script) {
         materials = {bar = material}, fill = function() return "bar" end})
     end
     local still = {gravity = {0, 0, 0}, duration = 1}
-  )" + script});
+  )" + script,
+                        argument});
 }
 
 }  // namespace
@@ -124,8 +125,8 @@ TEST_CASE("a comparison and an asset name what limits the steps of their levels"
     for _, level in ipairs(s.info(chain).levels) do
       print(level.limited_by, level.undamped_dt > 2 * level.stable_dt)
     end
-    s.save(")" + (scratch / "bar.glb").string() +
-                           R"(", chain))");
+    s.save(arg[1], chain))",
+                           (scratch / "bar.glb").string());
   CAPTURE(ran.err);
   CHECK(ran.out == "damping\ttrue\ndamping\ttrue\ndamping\ttrue\ndamping\ttrue\n");
   CHECK_THAT(ran.err, Contains("compare: damping shortens the steps of 2 of 2 levels"));

@@ -19,8 +19,9 @@ namespace {
 Ran run_lua(const TemporaryFolder& scratch, const std::string& code) {
   return springlod_run({"-q", "-e",
                         "local s = require 'springlod'\n"
-                        "local folder = '" +
-                            (scratch / "").string() + "'\n" + code});
+                        "local folder = arg[1]\n" +
+                            code,
+                        (scratch / "").string()});
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ class Child {
     }
   }
 
-  void interrupt() const { kill(process_, SIGINT); }
+  void interrupt(int signal) const { kill(process_, signal); }
 
   Ran finish() {
     read_until("");
@@ -152,11 +152,12 @@ Ran springlod_run(const std::vector<std::string>& arguments, const std::string& 
   return child.finish();
 }
 
-Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark) {
+Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark,
+                          int signal) {
   Child child(arguments, source_folder(), Child::Stderr::held);
   child.give("");
   child.read_until(mark);
-  child.interrupt();
+  child.interrupt(signal);
   return child.finish();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,10 +21,11 @@ struct Ran {
 Ran springlod_run(const std::vector<std::string>& arguments, const std::string& input = "",
                   const std::filesystem::path& folder = source_folder());
 
-/// Runs it, interrupts it (SIGINT) as soon as `mark` appears on its stderr, and waits for its end.
+/// Runs it, sends it a signal as soon as `mark` appears on its stderr, and waits for its end.
 /// Its stderr is a pipe that holds one line. Even if the test reads slowly, the program is
 /// therefore still running at the interrupt if it has more than two lines to write after the mark.
-Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark);
+Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark,
+                          int signal = SIGINT);
 
 /// The program in a pseudo-terminal with simulated keyboard input.
 class Terminal {

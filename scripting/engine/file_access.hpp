@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace springlod::scripting {
+
+/// The files that a script may use: all, or, once restricted, those that were allowed. Paths are
+/// compared without links and "..".
+class FileAccess {
+ public:
+  void restrict() { restricted_ = true; }
+  /// The folder of the user's project: all below it but hidden files and folders, whose names begin
+  /// with a dot: they configure other programs (.git/hooks, .bashrc) or hold keys (.ssh).
+  void allow_project(const std::filesystem::path& folder);
+  /// What the user names, a file or a folder that need not exist, and what lies beside a file with
+  /// the same stem, such as the folder ball.calibration beside ball.glb; all below these.
+  void allow_named(const std::filesystem::path& path);
+  /// A folder, all below it, for reading.
+  void allow_reading(const std::filesystem::path& folder);
+  /// A folder of Lua modules of the system, for reading, and what its links lead to.
+  void allow_modules(const std::filesystem::path& folder);
+
+  bool may_read(const std::filesystem::path& path) const;
+  bool may_write(const std::filesystem::path& path) const;
+  /// Throw InputError, which says how to allow the path.
+  void require_readable(const std::filesystem::path& path) const;
+  void require_writable(const std::filesystem::path& path) const;
+
+ private:
+  struct Rule {
+    std::filesystem::path path;
+    bool writing = false;
+    bool hidden = true;
+    bool siblings = false;
+    bool links = false;
+  };
+  struct Name;
+  static bool covers(const Rule& rule, const Name& name);
+
+  bool restricted_ = false;
+  std::vector<Rule> rules_;
+};
+
+}  // namespace springlod::scripting
