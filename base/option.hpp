@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 #include <vector>
 
+#include "base/range.hpp"
 #include "base/units.hpp"
 
 namespace springlod::inline base {
@@ -29,6 +31,7 @@ struct Option {
   Dimension dimension = Dimension::number;
   const char* fallback = "";  ///< the default in words, if the member's value does not explain it
   bool is_weight = false;     ///< a dimensionless weight, not a measured quantity
+  std::optional<Range> range = {};  ///< in SI units; checked where scripts set the option
 
   constexpr Option in(Dimension unit) const {
     Option row = *this;
@@ -38,6 +41,11 @@ struct Option {
   constexpr Option by_default(const char* words) const {
     Option row = *this;
     row.fallback = words;
+    return row;
+  }
+  constexpr Option within(double least, double most) const {
+    Option row = *this;
+    row.range = Range{least, most};
     return row;
   }
   constexpr Option weight() const {

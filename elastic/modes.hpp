@@ -24,9 +24,11 @@ struct ModeOptions {
 };
 constexpr auto option_rows(const ModeOptions*) {
   return std::tuple(
-      option("count", &ModeOptions::count, "number of modes; zero modes are not counted"),
+      option("count", &ModeOptions::count, "number of modes; zero modes are not counted")
+          .within(1, 1e6),
       option("accuracy", &ModeOptions::accuracy,
-             "bound of the relative error of each squared frequency"),
+             "bound of the relative error of each squared frequency")
+          .within(1e-12, 0.1),
       option("seed", &ModeOptions::seed, "seed of the start vectors"));
 }
 

@@ -79,8 +79,9 @@ constexpr auto option_rows(const GroupingOptions*) {
       option("seed", &GroupingOptions::seed,
              "seed of the random order; the same seed gives the same bits"),
       option("grading", &GroupingOptions::grading,
-             "grading of compact, 0 .. 1: with larger values, groups are larger in stiff materials "
-             "than in soft ones, and the stable step is longer"));
+             "grading of compact: with larger values, groups are larger in stiff materials "
+             "than in soft ones, and the stable step is longer")
+          .within(0, 1));
 }
 
 /// Distribution of mass to merged nodes (the paper, section 4.2 and figure 2).
@@ -113,12 +114,15 @@ struct GuardOptions {
 constexpr auto option_rows(const GuardOptions*) {
   return std::tuple(
       option("coincident_fraction", &GuardOptions::coincident_fraction,
-             "fusion distance of joined nodes, as a fraction of the mean spring length"),
+             "fusion distance of joined nodes, as a fraction of the mean spring length")
+          .within(0, 10),
       option("least_springs", &GuardOptions::least_springs,
-             "number of springs below which a node is floppy"),
+             "number of springs below which a node is floppy")
+          .within(0, 1000),
       option(
           "least_rigidity", &GuardOptions::least_rigidity,
-          "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T is below this"));
+          "a node is floppy if lambda_min / lambda_max of its springs' sum k u u^T is below this")
+          .within(0, 1));
 }
 
 /// Masses of a level's nodes in a calibration.
@@ -165,10 +169,12 @@ constexpr auto option_rows(const TargetRegion*) {
                    "for them; only border nodes that are not anchored count"),
       option("weight", &TargetRegion::weight,
              "weight of each load of the region; a smooth load has 1")
+          .within(0, 1e6)
           .weight(),
       option("patches", &TargetRegion::patches,
              "number of loads on patches within the region: half are pairs that are pulled apart, "
-             "if there is room; the others are pushes, which the body's inertia balances"));
+             "if there is room; the others are pushes, which the body's inertia balances")
+          .within(0, 10000));
 }
 
 /// Kinds of targets of a calibration.
@@ -207,24 +213,29 @@ struct TargetOptions {
 constexpr auto option_rows(const TargetOptions*) {
   return std::tuple(
       option("targets", &TargetOptions::kinds, "quantities fitted to the base"),
-      option("modes", &TargetOptions::modes, "number of lowest frequencies"),
+      option("modes", &TargetOptions::modes, "number of lowest frequencies").within(0, 1000),
       option("patches", &TargetOptions::patches,
              "number of loads on surface patches, besides the nine smooth loads: a third each are "
              "pairs "
              "that are pulled apart, pinches, and pushes")
+          .within(0, 10000)
           .by_default("150; fewer, down to 60, for a base of more than 2000 nodes"),
       option("patch_weight", &TargetOptions::patch_weight,
              "weight of each load on patches; a smooth load has 1")
+          .within(0, 1e6)
           .weight(),
       record_option("regions", &TargetOptions::regions, "Region",
                     "regions of the surface with load cases of their own", "none"),
       option("mode_weight", &TargetOptions::mode_weight, "factor on the weight of frequencies")
+          .within(0, 1e6)
           .weight(),
       option("shape_weight", &TargetOptions::shape_weight,
              "factor on the weight of mode shapes, which are fitted by the static displacements "
              "under the inertial forces of each mode; 0: shapes are not fitted")
+          .within(0, 1e6)
           .weight(),
       option("load_weight", &TargetOptions::load_weight, "factor on the weight of all static loads")
+          .within(0, 1e6)
           .weight(),
       option("seed", &TargetOptions::seed, "seed of the patches"),
       anchored_option(&TargetOptions::anchored));
@@ -254,15 +265,18 @@ constexpr auto option_rows(const FitOptions*) {
       option("tolerance", &FitOptions::tolerance,
              "tolerance of the mean error of the ten lowest frequencies; other modes have 3 times "
              "the tolerance, loads 8 times")
+          .within(0, 10)
           .by_default("0.0033 sqrt(N0 / N)"),
       option("iterations", &FitOptions::iterations,
              "maximum number of steps; the default is smaller, down to 10, for levels of more than "
              "500 nodes")
+          .within(0, 10000)
           .by_default("90"),
       option(
           "least_frequency", &FitOptions::least_frequency,
           "the fit lowers the highest frequency, which bounds the step, to this fraction of that "
-          "of a lattice with as many nodes; lower: longer steps, larger errors"),
+          "of a lattice with as many nodes; lower: longer steps, larger errors")
+          .within(0, 10),
       option("masses", &FitOptions::masses, "masses of the nodes"),
       option("moments", &FitOptions::moments,
              "with masses = \"free\": moments of mass (mass, centre, second moments) that stay "
@@ -320,6 +334,7 @@ constexpr auto option_rows(const CalibrateOptions*) {
       option("keep_every", &CalibrateOptions::keep_every,
              "time between two writes of a fit's state to the store; 0: after each step. A killed "
              "calibration loses this much work at most, one stopped with Ctrl-C none")
+          .within(0, 1e6)
           .in(Dimension::time));
 }
 
@@ -350,10 +365,12 @@ struct SimplifyOptions {
 constexpr auto option_rows(const SimplifyOptions*) {
   return std::tuple(
       option("levels", &SimplifyOptions::levels,
-             "number of levels besides the base; each is merged from the previous one"),
+             "number of levels besides the base; each is merged from the previous one")
+          .within(0, 1000),
       option("keep", &SimplifyOptions::keep,
              "nodes of each level / nodes of the base, decreasing; the levels have exactly these "
              "numbers of nodes, one level per number")
+          .within(0, 1)
           .by_default("set by the grouping; 0.45, 0.2, ... if straight"),
       nested(&SimplifyOptions::grouping),
       option("straight", &SimplifyOptions::straight,

@@ -110,6 +110,7 @@ struct ValueStyle {
 constexpr auto option_rows(const ValueStyle*) {
   return std::tuple(option("value_label", &ValueStyle::label,
                            "label of the colour bar; with node_values it includes their unit")
+                        .within(0, kLongestTitle)
                         .by_default("the name of node_colour"),
                     option("value_scale", &ValueStyle::scaling, "scaling of the colour bar"));
 }
@@ -147,14 +148,17 @@ constexpr auto option_rows(const DrawStyle*) {
       option("node_size", &DrawStyle::node_size, "size of the balls"),
       option("node_radius", &DrawStyle::node_radius,
              "radius of the balls; with node_size = \"mass\" that of a node of mean mass")
+          .within(0, 1e6)
           .in(Dimension::length)
           .by_default("a fraction of the mean spring length"),
       option("spring_colour", &DrawStyle::spring_colour,
              "quantity shown by the colour of a spring"),
       option("strain_range", &DrawStyle::strain_range,
-             "strain drawn in full red (stretched) or blue (compressed)"),
+             "strain drawn in full red (stretched) or blue (compressed)")
+          .within(1e-9, 1e3),
       option("surface_opacity", &DrawStyle::surface_opacity,
-             "opacity of the surface; below 1 the springs inside are visible"),
+             "opacity of the surface; below 1 the springs inside are visible")
+          .within(0, 1),
       option("bold_inner_nodes", &DrawStyle::bold_inner_nodes,
              "draw nodes that are not border nodes in bold red"));
 }

@@ -49,18 +49,25 @@ struct AnimateOptions {
 constexpr auto option_rows(const AnimateOptions*) {
   using Options = AnimateOptions;
   return std::tuple(
-      option("width", &Options::width, "width of a panel in pixels"),
-      option("height", &Options::height, "height of a panel in pixels"),
-      option("frame_rate", &Options::frame_rate, "frames per second of the video"),
-      option("slow", &Options::slow, "slow motion; 4: four times slower than real time"),
-      option("frames", &Options::frames, "maximum number of frames").by_default("all"),
+      option("width", &Options::width, "width of a panel in pixels").within(1, 16384),
+      option("height", &Options::height, "height of a panel in pixels").within(1, 16384),
+      option("frame_rate", &Options::frame_rate, "frames per second of the video")
+          .within(0.01, 1000),
+      option("slow", &Options::slow, "slow motion; 4: four times slower than real time")
+          .within(0.001, 1e6),
+      option("frames", &Options::frames, "maximum number of frames")
+          .within(1, 1e6)
+          .by_default("all"),
       option("camera", &Options::camera, "whether the camera follows the body"),
       option("azimuth", &Options::azimuth,
-             "azimuth of the camera about the vertical, from x, in degrees"),
-      option("elevation", &Options::elevation, "elevation of the camera, in degrees"),
+             "azimuth of the camera about the vertical, from x, in degrees")
+          .within(-360, 360),
+      option("elevation", &Options::elevation, "elevation of the camera, in degrees")
+          .within(-90, 90),
       option("avoid_walls", &Options::avoid_walls,
              "mirror the azimuth if a wall would hide the motion"),
       option("levels", &Options::levels, "levels to draw of each chain; 0 is the base")
+          .within(0, 1000)
           .by_default("all"));
 }
 

@@ -25,7 +25,7 @@ struct ChartPoint {
 };
 constexpr auto option_rows(const ChartPoint*) {
   return std::tuple(
-      option("label", &ChartPoint::label, "text beside the point"),
+      option("label", &ChartPoint::label, "text beside the point").within(0, kLongestTitle),
       option("low", &ChartPoint::y_low, "lower end of an interval drawn about y")
           .by_default("none"),
       option("high", &ChartPoint::y_high, "upper end of that interval").by_default("none"),
@@ -72,13 +72,14 @@ struct ChartSeries {
   std::optional<ChartSymbol> symbol = {};  ///< default: a different one for each series
 };
 constexpr auto option_rows(const ChartSeries*) {
-  return std::tuple(option("name", &ChartSeries::name, "name in the legend"),
-                    option("joined", &ChartSeries::joined, "whether a line joins the points"),
-                    option("dashed", &ChartSeries::dashed, "whether the line is dashed"),
-                    option("colour", &ChartSeries::colour, "colour of points and line")
-                        .by_default("a different one for each series"),
-                    option("symbol", &ChartSeries::symbol, "symbol of the points")
-                        .by_default("a different one for each series"));
+  return std::tuple(
+      option("name", &ChartSeries::name, "name in the legend").within(0, kLongestTitle),
+      option("joined", &ChartSeries::joined, "whether a line joins the points"),
+      option("dashed", &ChartSeries::dashed, "whether the line is dashed"),
+      option("colour", &ChartSeries::colour, "colour of points and line")
+          .by_default("a different one for each series"),
+      option("symbol", &ChartSeries::symbol, "symbol of the points")
+          .by_default("a different one for each series"));
 }
 
 struct ChartOptions {
@@ -91,20 +92,28 @@ struct ChartOptions {
   double width = 900;  ///< [px]
   double height = 600;
 };
+/// Limits of a chart's sides [px]: its text must fit, and other programs must be able to show it.
+inline constexpr double kLeastSide = 300;
+inline constexpr double kLargestSide = 8000;
+
 constexpr auto option_rows(const ChartOptions*) {
   return std::tuple(
-      option("title", &ChartOptions::title, "title").by_default("the scenario's name, else none"),
+      option("title", &ChartOptions::title, "title")
+          .within(0, kLongestTitle)
+          .by_default("the scenario's name, else none"),
       option("x_label", &ChartOptions::x_label, "label of the horizontal axis")
+          .within(0, kLongestTitle)
           .by_default("taken from a comparison, else none"),
       option("y_label", &ChartOptions::y_label, "label of the vertical axis")
+          .within(0, kLongestTitle)
           .by_default("taken from a comparison, else none"),
       option("log_x", &ChartOptions::log_x, "whether the horizontal axis is logarithmic")
           .by_default("true for a comparison, else false"),
       option("log_y", &ChartOptions::log_y, "whether the vertical axis is logarithmic"),
       option("y_from", &ChartOptions::y_from,
              "lower end of a logarithmic y axis; lower points are drawn there, hollow"),
-      option("width", &ChartOptions::width, "width in pixels"),
-      option("height", &ChartOptions::height, "height in pixels"));
+      option("width", &ChartOptions::width, "width in pixels").within(kLeastSide, kLargestSide),
+      option("height", &ChartOptions::height, "height in pixels").within(kLeastSide, kLargestSide));
 }
 
 struct ChartFiles {

@@ -100,7 +100,8 @@ struct BootstrapOptions {
 };
 constexpr auto option_rows(const BootstrapOptions*) {
   return std::tuple(
-      option("resamples", &BootstrapOptions::resamples, "number of resamples, 100 to 1000000"),
+      option("resamples", &BootstrapOptions::resamples, "number of resamples")
+          .within(kFewestResamples, kMostResamples),
       option("seed", &BootstrapOptions::seed, "seed of the resampling"),
       option("seeds", &BootstrapOptions::design,
              "whether the simplification seeds are the same in every start"),
@@ -227,11 +228,13 @@ struct SampleComparisonOptions {
 constexpr auto option_rows(const SampleComparisonOptions*) {
   return std::tuple(
       option("confidence", &SampleComparisonOptions::confidence,
-             "confidence level of the intervals"),
+             "confidence level of the intervals")
+          .within(0.5, 1),
       nested<SampleComparisonOptions>(&SampleComparisonOptions::resampling),
       option("margin", &SampleComparisonOptions::margin,
              "largest difference of the means that counts as equivalent, in standard deviations "
              "of the base; tested at 1 - confidence")
+          .within(1e-9, 1e9)
           .by_default("no test"),
       option("spread", &SampleComparisonOptions::spread,
              "standard deviation of the base, if known from a larger sample")
@@ -290,16 +293,20 @@ struct NoiseFloorOptions {
 constexpr auto option_rows(const NoiseFloorOptions*) {
   return std::tuple(
       option("size", &NoiseFloorOptions::base_size, "size of the base's sample to be judged")
+          .within(5, 1e6)
           .by_default("half of the only sample, else the smallest sample"),
       option("other_size", &NoiseFloorOptions::other_size,
              "size of the sample that is compared with it")
+          .within(5, 1e6)
           .by_default("size"),
       option("distance", &NoiseFloorOptions::distance, "distance between samples"),
       option("quantile", &NoiseFloorOptions::part,
-             "fraction of the distances that lie below the floor"),
+             "fraction of the distances that lie below the floor")
+          .within(0, 1),
       option("resamples", &NoiseFloorOptions::resamples,
              "number of distances drawn; for samples of exactly `size` values, the distances of "
-             "all pairs instead"),
+             "all pairs instead")
+          .within(kFewestResamples, kMostResamples),
       option("seed", &NoiseFloorOptions::seed, "seed of the random draws"));
 }
 

@@ -51,6 +51,18 @@ void require_step_count(double duration, double step) {
         duration / step, duration));
 }
 
+/// The frames are kept in memory: a typing error in the rate must not fill it.
+void require_few_frames(double duration, double frame_rate, std::size_t nodes) {
+  constexpr double kMost = 4e9;  // [bytes]
+  const double frames = duration * frame_rate;
+  const double size = frames * static_cast<double>(nodes * sizeof(Vec3) + sizeof(LedgerEntry));
+  if (size > kMost)
+    throw InputError(fmt::format(
+        "run: frame_rate = {:g} makes {:.3g} frames in {:g} s, {:.3g} GB for {} nodes; use at most "
+        "{:.3g}",
+        frame_rate, frames, duration, size / 1e9, nodes, frame_rate * kMost / size));
+}
+
 struct ChosenStep {
   double step = 0;  // [s]
   StepBound limited_by = StepBound::springs;
@@ -120,6 +132,7 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Sta
   trajectory.step = chosen.step;
   trajectory.limited_by = chosen.limited_by;
   require_step_count(scenario.duration, trajectory.step);
+  require_few_frames(scenario.duration, options.frame_rate, model.node_count());
   const double processor_begin = processor_seconds();
   integrate(model, scenario, start, options, plan, trajectory);
   trajectory.processor_seconds = processor_seconds() - processor_begin;

@@ -58,19 +58,23 @@ constexpr auto option_rows(const RunOptions*) {
       option("integrator", &RunOptions::integrator, "time integration scheme"),
       nested(&RunOptions::solver),
       option("step", &RunOptions::step, "time step")
+          .within(1e-9, 100)
           .in(Dimension::time)
           .by_default("safety times the predicted stable step; 1 ms for the implicit schemes"),
-      option("safety", &RunOptions::safety, "step as a fraction of the predicted stable step"),
+      option("safety", &RunOptions::safety, "step as a fraction of the predicted stable step")
+          .within(1e-6, 1),
       option("precision", &RunOptions::precision, "floating-point precision of symplectic_euler"),
       option("layout", &RunOptions::layout, "memory layout of the springs for symplectic_euler"),
       option("sleep", &RunOptions::sleep,
              "a body in contact sleeps, at no cost, once the mean speed of its nodes stays below "
-             "this fraction of the speed after a fall through its own size; 0: never"),
+             "this fraction of the speed after a fall through its own size; 0: never")
+          .within(0, 1),
       option("volumes", &RunOptions::volumes,
              "whether the corners of the model resist inversion, in the explicit schemes; they are "
              "watched and reported in any case"),
       option("frame_rate", &RunOptions::frame_rate,
-             "frames stored per simulated second; 0: only the first and the last"),
+             "frames stored per simulated second; 0: only the first and the last")
+          .within(0, 1e6),
       option("ledger", &RunOptions::ledger, "record the energy ledger"));
 }
 

@@ -23,9 +23,6 @@ namespace {
 constexpr double kSamplesPerNode = 48;
 /// Limit of the mean number of springs at a node: more reach through the whole of most bodies.
 constexpr double kMostEnds = 1000;
-/// Limit of the number of nodes: more do not fit into memory with their samples.
-constexpr double kMostNodes = 1e8;
-
 std::uint32_t node_count(const MaterialGrid& grid, const RandomOptions& options) {
   if (!(options.ends >= kLeastRandomEnds) || !(options.ends < kMostEnds))
     throw InputError(fmt::format(
@@ -39,10 +36,10 @@ std::uint32_t node_count(const MaterialGrid& grid, const RandomOptions& options)
       throw InputError(fmt::format("random: spacing = {} m must be above 0", spacing));
     nodes = std::round(static_cast<double>(grid.cells.size()) * std::pow(grid.cell / spacing, 3));
   }
-  if (nodes <= kLeastRandomEnds || nodes > kMostNodes)
+  if (nodes <= kLeastRandomEnds || nodes > kMostRandomNodes)
     throw InputError(
         fmt::format("random: nodes = {}; use at least {} for {} ends each, and at most {}", nodes,
-                    kLeastRandomEnds + 1, kLeastRandomEnds, kMostNodes));
+                    kLeastRandomEnds + 1, kLeastRandomEnds, kMostRandomNodes));
   return static_cast<std::uint32_t>(nodes);
 }
 

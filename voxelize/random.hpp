@@ -13,6 +13,8 @@ namespace springlod::voxelize {
 
 /// Least number of spring ends at every node of a random model (docs/method.md, section 2).
 inline constexpr std::uint32_t kLeastRandomEnds = 14;
+/// Largest number of nodes: the samples that place them take 2.3 GB.
+inline constexpr double kMostRandomNodes = 2e6;
 
 struct RandomOptions {
   /// Number of nodes; default: volume / spacing^3.
@@ -35,12 +37,14 @@ inline constexpr const char* kPlacesHelp =
     "seed of the random positions; the same seed gives the same bits";
 constexpr auto option_rows(const RandomOptions*) {
   return std::tuple(
-      option("nodes", &RandomOptions::nodes, "number of nodes, at least 15")
+      option("nodes", &RandomOptions::nodes, "number of nodes")
+          .within(kLeastRandomEnds + 1, kMostRandomNodes)
           .by_default("from spacing"),
       option("spacing", &RandomOptions::spacing, "edge of the cube that a node represents")
+          .within(1e-9, 1e6)
           .in(Dimension::length)
           .by_default("the grid's cell"),
-      option("ends", &RandomOptions::ends, kEndsHelp),
+      option("ends", &RandomOptions::ends, kEndsHelp).within(kLeastRandomEnds, 1000),
       option("seed", &RandomOptions::seed, kPlacesHelp),
       option("rescale", &RandomOptions::rescale,
              "scale all springs by one factor from a stretch test, so that the model has its "

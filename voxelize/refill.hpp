@@ -38,7 +38,7 @@ constexpr auto option_rows(const RefillOptions*) {
   return std::tuple(option("style", &RefillOptions::style, "structure of the levels"),
                     option("lattice", &RefillOptions::lattice,
                            "position of the nodes of a lattice, as in s.lattice"),
-                    option("ends", &RefillOptions::ends, kEndsHelp),
+                    option("ends", &RefillOptions::ends, kEndsHelp).within(kLeastRandomEnds, 1000),
                     option("seed", &RefillOptions::seed, kPlacesHelp),
                     option("volumes", &RefillOptions::volumes, kVolumesHelp));
 }

@@ -24,13 +24,16 @@ struct CertifyOptions {
 };
 constexpr auto option_rows(const CertifyOptions*) {
   return std::tuple(
-      option("modes", &CertifyOptions::modes, "number of lowest frequencies to compare"),
+      option("modes", &CertifyOptions::modes, "number of lowest frequencies to compare")
+          .within(1, 1000),
       option("held_out_loads", &CertifyOptions::held_out_loads,
              "number of pinches, and of pushes, on patches of the surface, which are others than "
-             "those of a calibration"),
+             "those of a calibration")
+          .within(0, 10000),
       option("seed", &CertifyOptions::seed, "seed of the positions of the held-out loads"),
       option("radius", &CertifyOptions::radius,
-             "radius of the patches of the held-out loads, in mean spring lengths of the base"),
+             "radius of the patches of the held-out loads, in mean spring lengths of the base")
+          .within(0, 1000),
       nodes_option("within", &CertifyOptions::within,
                    "nodes of the base whose surface the held-out loads act on, such as a region "
                    "given to calibration",
@@ -38,6 +41,7 @@ constexpr auto option_rows(const CertifyOptions*) {
       option("tolerance", &CertifyOptions::tolerance,
              "largest accepted mean error of the ten lowest frequencies; the certificate names "
              "levels that exceed it")
+          .within(0, 10)
           .by_default("none"),
       anchored_option(&CertifyOptions::anchored));
 }

@@ -68,9 +68,11 @@ struct MergeLogOptions {
 constexpr auto option_rows(const MergeLogOptions*) {
   using Options = MergeLogOptions;
   return std::tuple(
-      option("modes", &Options::modes, "number of lowest modes of each level; 0: none"),
+      option("modes", &Options::modes, "number of lowest modes of each level; 0: none")
+          .within(0, 1000),
       option("local_loads", &Options::local_loads,
-             "number of pinches, and of pushes, on patches of the surface; 0: none"),
+             "number of pinches, and of pushes, on patches of the surface; 0: none")
+          .within(0, 10000),
       option("seed", &Options::seed, "seed of the positions of the local loads, as in certify"),
       option("from_base", &Options::from_base,
              "compare each level with the base, even if it was merged from the previous level"),

@@ -100,7 +100,6 @@ int ensemble_binding(Call& call) {
   TableReader reader = call.options(3);
   std::uint32_t first = options.first_start + 1;
   reader.read("first", first);
-  if (first == 0) reader.refuse("first", "1 or more");
   options.first_start = first - 1;
   read_options(call, reader, options);
   options.run.skin = skin_of(*model, read_contact(reader));
@@ -201,6 +200,7 @@ std::vector<Parameter> ensemble_parameters() {
   parameters.push_back(
       {.name = "first",
        .type = "integer",
+       .range = Range{1, 1e9},
        .fallback = fmt::format("{}", usual.first_start + 1),
        .help = "number of the first start, to add other starts to an earlier ensemble"});
   parameters.push_back(contact_parameter());

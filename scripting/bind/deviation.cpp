@@ -27,7 +27,6 @@ int jittered_binding(Call& call) {
   std::uint32_t number = 1;
   TableReader reader = call.options(3);
   reader.read("number", number);
-  if (number == 0) reader.refuse("number", "1 or more");
   reader.read("jitter", options.jitter);
   if (!(options.jitter >= 0 && options.jitter < 1)) reader.refuse("jitter", "in [0, 1)");
   reader.read("seed", options.seed);
@@ -90,10 +89,12 @@ void describe_deviation(Api& api) {
                      .help = "model whose centre of mass is used if the start has no position"}},
       .options = {{.name = "number",
                    .type = "integer",
+                   .range = Range{1, 1e9},
                    .fallback = "1",
                    .help = "number of the start; the first is the scenario's own"},
                   {.name = "jitter",
                    .type = "number",
+                   .range = Range{0, 1},
                    .fallback = fmt::format("{}", usual.jitter),
                    .help = "relative random change of speed and height, as in compare"},
                   {.name = "seed",

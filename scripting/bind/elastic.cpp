@@ -145,6 +145,7 @@ void describe_measurements(Api& api, const Parameter& model) {
                    .choices = words_of(kAxes)},
                   {.name = "cross_section",
                    .type = "number",
+                   .range = Range{1e-18, 1e12},
                    .fallback = "volume / length",
                    .help = "area that the force is divided by [m2]"}},
       .returns = "table: young [Pa], poisson, reaction [N] and strain_energy [J], both at strain 1",

@@ -61,8 +61,8 @@ std::optional<std::uint16_t> filling(lua_State* L, int fill, const Vec3& center,
 }
 
 voxelize::CellIndex read_size(TableReader& reader) {
-  // More cells along an axis than any grid that could be filled cell by cell from a script.
-  constexpr lua_Integer kMost = 4096;
+  // Calls of `fill`: seconds.
+  constexpr lua_Integer kMost = 10'000'000;
   const int given = reader.raw("size");
   lua_State* L = reader.lua();
   voxelize::CellIndex size{};
@@ -75,6 +75,11 @@ voxelize::CellIndex read_size(TableReader& reader) {
     size[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(count);
     lua_pop(L, 1);
   }
+  if (1.0 * size[0] * size[1] * size[2] > kMost)
+    reader.refuse("size",
+                  fmt::format("three counts of cells, together at most {}; {} x {} x {} "
+                              "make {:.2g}",
+                              kMost, size[0], size[1], size[2], 1.0 * size[0] * size[1] * size[2]));
   return size;
 }
 
@@ -101,7 +106,7 @@ int grid_binding(Call& call) {
   voxelize::MaterialGrid& grid = value->grid;
   TableReader reader = call.options(1);
   reader.read("cell", grid.cell);
-  if (!reader.has("cell") || !(grid.cell > 0)) reader.refuse("cell", "given, and above 0");
+  if (!reader.has("cell")) reader.refuse("cell", "given: the edge of a cell");
   const voxelize::CellIndex size = read_size(reader);
   reader.read("origin", grid.origin);
   const int materials = reader.raw("materials");
@@ -201,6 +206,7 @@ void describe_grid(Api& api) {
           {{.name = "cell",
             .type = "quantity",
             .dimension = Dimension::length,
+            .range = Range{1e-9, 1e6},
             .help = "edge of a cell"},
            {.name = "size", .type = "{nx, ny, nz}", .help = "cells along each axis"},
            {.name = "origin",

@@ -26,6 +26,10 @@ int options_of_binding(Call& call) {
     set_field(L, "type", p.type);
     set_field(L, "default", p.fallback);
     set_field(L, "help", p.help);
+    if (p.range) {
+      set_field(L, "least", p.range->least);
+      set_field(L, "most", p.range->most);
+    }
     set_field(L, "choices", p.choices.names());
   });
   return 1;
@@ -44,8 +48,10 @@ void describe_options_of(Api& api) {
                      .help = "function of springlod or name of a table: \"simplify\", "
                              "\"Calibration\""}},
       .returns =
-          "list of tables: name, type, default (text, \"\" if required), help, choices (list "
-          "of words; empty if any value is allowed)",
+          "list of tables: name, type, default (text, \"\" if required), help, least and most "
+          "(ends "
+          "of its range in SI units; nil if none is stated), choices (list of words; empty if any "
+          "value is allowed)",
       .errors = "There is no function or table of that name.",
       .example = "for _, option in ipairs(s.options_of(\"simplify\")) do print(option.name) end",
       .call = options_of_binding});

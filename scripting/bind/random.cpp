@@ -113,6 +113,7 @@ std::vector<Parameter> refill_parameters() {
   parameters.insert(parameters.begin(),
                     {.name = "nodes",
                      .type = "integer or list of integers",
+                     .range = Range{1, voxelize::kMostRandomNodes},
                      .help = "number of nodes of level 1, 2, ...; a lattice has the nearest "
                              "possible number"});
   return parameters;

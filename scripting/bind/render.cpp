@@ -188,7 +188,6 @@ int render_binding(Call& call) {
   reader.read("footer", options.text.footer);
   read_panel_options(call, reader, usual);
   reader.finish();
-  if (options.width == 0 || options.height == 0) reader.refuse("width", "1 or more, height too");
 
   const auto pictures = read_panels(call, options, usual);
   const std::vector<render::Camera> cameras = cameras_of(pictures, options);
@@ -209,11 +208,13 @@ std::vector<Parameter> panel_parameters() {
   std::vector<Parameter> parameters{
       {.name = "frame",
        .type = "integer",
+       .range = Range{1, 1e9},
        .fallback = "the last",
        .help = "frame of a trajectory, counted from 1"},
       {.name = "time",
        .type = "quantity",
        .dimension = Dimension::time,
+       .range = Range{0, 1e9},
        .fallback = "none",
        .help = "time in a trajectory, instead of a frame"},
       {.name = "node_values",
@@ -231,14 +232,17 @@ std::vector<Parameter> render_parameters() {
   std::vector<Parameter> parameters{
       {.name = "width",
        .type = "integer",
+       .range = Range{1, 16384},
        .fallback = fmt::format("{}", usual.width),
        .help = "width of a panel in pixels"},
       {.name = "height",
        .type = "integer",
+       .range = Range{1, 16384},
        .fallback = fmt::format("{}", usual.height),
        .help = "height of a panel in pixels"},
       {.name = "columns",
        .type = "integer",
+       .range = Range{1, 1000},
        .fallback = "all in one row",
        .help = "number of panels in a row"},
       {.name = "camera",
@@ -248,21 +252,29 @@ std::vector<Parameter> render_parameters() {
        .choices = words_of<report::CameraMode>()},
       {.name = "azimuth",
        .type = "number",
+       .range = Range{-360, 360},
        .fallback = fmt::format("{}", usual.azimuth),
        .help = "azimuth of the camera about the vertical, from x, in degrees"},
       {.name = "elevation",
        .type = "number",
+       .range = Range{-90, 90},
        .fallback = fmt::format("{}", usual.elevation),
        .help = "elevation of the camera, in degrees"},
       {.name = "titles",
        .type = "list of strings",
+       .range = Range{0, kLongestTitle},
        .fallback = "none",
        .help = "one title per panel; lines after the first are smaller"},
       {.name = "title",
        .type = "string",
+       .range = Range{0, kLongestTitle},
        .fallback = "none",
        .help = "title above all panels; lines after the first are smaller"},
-      {.name = "footer", .type = "string", .fallback = "none", .help = "line across the bottom"}};
+      {.name = "footer",
+       .type = "string",
+       .range = Range{0, kLongestTitle},
+       .fallback = "none",
+       .help = "line across the bottom"}};
   const std::vector<Parameter> of_panels = panel_parameters();
   parameters.insert(parameters.end(), of_panels.begin(), of_panels.end());
   return parameters;
@@ -271,6 +283,7 @@ std::vector<Parameter> render_parameters() {
 void describe_panel(Api& api) {
   std::vector<Parameter> fields{{.name = "title",
                                  .type = "string",
+                                 .range = Range{0, kLongestTitle},
                                  .fallback = "its entry in titles",
                                  .help = "title in the corner; lines after the first are smaller"}};
   for (Parameter parameter : panel_parameters()) {

@@ -150,6 +150,7 @@ void describe_film(Api& api) {
                      .help = "folder with the frames of animate"}},
       .options = {{.name = "frame_rate",
                    .type = "number",
+                   .range = Range{0.01, 1000},
                    .fallback = fmt::format("{}", report::AnimateOptions{}.frame_rate),
                    .help = "frames per second"}},
       .returns = "boolean, string: whether the video was made, and the command that makes it",

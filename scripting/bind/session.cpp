@@ -29,6 +29,8 @@ using nlohmann::ordered_json;
 constexpr const char* kGroup = "Session";
 // Depth limit, which stops at tables that contain themselves.
 constexpr int kJsonDepth = 64;
+// Limit of the number of values: tables that several others contain grow exponentially with depth.
+constexpr std::size_t kJsonValues = 2'000'000;
 
 int help(Call& call) {
   const Api& api = call.session().api();
@@ -43,7 +45,7 @@ int markdown(Call& call) {
 }
 
 int say(Call& call) {
-  call.session().console().say(call.text(1));
+  call.session().console().print(call.text(1));
   return 0;
 }
 
@@ -103,7 +105,7 @@ int is_folder(Call& call) {
   return call.give(fs::is_directory(call.readable(1), error));
 }
 
-ordered_json to_json(lua_State* L, int index, int depth);
+ordered_json to_json(lua_State* L, int index, int depth, std::size_t& values);
 
 /// Throws InputError if the table has more than the entries 1 .. length.
 void require_list(lua_State* L, int table, lua_Integer length) {
@@ -121,7 +123,7 @@ void require_list(lua_State* L, int table, lua_Integer length) {
   }
 }
 
-ordered_json table_to_json(lua_State* L, int table, int depth) {
+ordered_json table_to_json(lua_State* L, int table, int depth, std::size_t& values) {
   if (depth > kJsonDepth) throw InputError("json: the tables are nested too deeply");
   luaL_checkstack(L, 8, "json");
   const auto length = static_cast<lua_Integer>(lua_rawlen(L, table));
@@ -130,7 +132,7 @@ ordered_json table_to_json(lua_State* L, int table, int depth) {
     ordered_json list = ordered_json::array();
     for (lua_Integer i = 1; i <= length; ++i) {
       lua_rawgeti(L, table, i);
-      list.push_back(to_json(L, lua_gettop(L), depth + 1));
+      list.push_back(to_json(L, lua_gettop(L), depth + 1, values));
       lua_pop(L, 1);
     }
     return list;
@@ -141,7 +143,7 @@ ordered_json table_to_json(lua_State* L, int table, int depth) {
     if (lua_type(L, -2) != LUA_TSTRING)
       throw InputError(fmt::format("json: a table has a key that is {}; keys are words, or 1..n",
                                    describe_type_at(L, -2)));
-    members.emplace_back(lua_tostring(L, -2), to_json(L, lua_gettop(L), depth + 1));
+    members.emplace_back(lua_tostring(L, -2), to_json(L, lua_gettop(L), depth + 1, values));
     lua_pop(L, 1);
   }
   std::sort(members.begin(), members.end(),
@@ -151,7 +153,10 @@ ordered_json table_to_json(lua_State* L, int table, int depth) {
   return object;
 }
 
-ordered_json to_json(lua_State* L, int index, int depth) {
+ordered_json to_json(lua_State* L, int index, int depth, std::size_t& values) {
+  if (++values > kJsonValues)
+    throw InputError(fmt::format(
+        "json: more than {} values; is a table contained in several others?", kJsonValues));
   switch (lua_type(L, index)) {
     case LUA_TNIL:
       return nullptr;
@@ -167,7 +172,7 @@ ordered_json to_json(lua_State* L, int index, int depth) {
       return std::string(text, length);
     }
     case LUA_TTABLE:
-      return table_to_json(L, index, depth);
+      return table_to_json(L, index, depth, values);
     default:
       throw InputError(
           fmt::format("json: cannot write {}; pass plain tables", describe_type_at(L, index)));
@@ -180,7 +185,8 @@ int json(Call& call) {
   options.read("indent", indent);
   options.finish();
   lua_settop(call.lua(), call.index(1));
-  const ordered_json value = to_json(call.lua(), call.index(1), 0);
+  std::size_t values = 0;
+  const ordered_json value = to_json(call.lua(), call.index(1), 0, values);
   return call.give(value.dump(indent, ' ', false, ordered_json::error_handler_t::replace));
 }
 
@@ -250,6 +256,7 @@ void describe_session(Api& api) {
                      .help = "plain Lua data; an empty table is []"}},
       .options = {{.name = "indent",
                    .type = "integer",
+                   .range = Range{-1, 16},
                    .fallback = "2",
                    .help = "spaces per level of nesting; -1: all on one line"}},
       .returns = "string",

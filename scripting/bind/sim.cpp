@@ -223,6 +223,7 @@ std::vector<Parameter> single_run_parameters() {
   parameters.push_back(
       {.name = "threads",
        .type = "integer",
+       .range = Range{0, 1024},
        .fallback = "s.threads",
        .help = "threads of symplectic_euler; 0: chosen by model size; never changes a result"});
   parameters.push_back(

@@ -265,6 +265,7 @@ void describe_voxelize_function(Api& api) {
       .fields = {{.name = "depth",
                   .type = "quantity",
                   .dimension = Dimension::length,
+                  .range = Range{0, 1e6},
                   .help = "depth under the surface; deeper cells are core"},
                  {.name = "material", .type = "Material", .help = "material of the core"}},
       .example = "core = {depth = \"12 mm\", material = {young = \"1 MPa\", density = 1000}}"});
@@ -283,6 +284,7 @@ void describe_voxelize_function(Api& api) {
           {{.name = "cell",
             .type = "quantity",
             .dimension = Dimension::length,
+            .range = Range{1e-9, 1e6},
             .fallback = "longest side / 32",
             .help = "edge of a cell"},
            {.name = "materials",

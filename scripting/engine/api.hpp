@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/choice.hpp"
+#include "base/range.hpp"
 #include "base/units.hpp"
 
 struct lua_State;
@@ -54,6 +55,13 @@ Words words_of() {
   return words_of(choices(E{}));
 }
 
+/// Of numbers without a range of their own: products of three of them stay finite.
+inline constexpr Range kUsualNumbers{-1e15, 1e15};
+/// Of text without a range of its own [bytes]: the longest path of Linux.
+inline constexpr Range kUsualText{0, 4096};
+/// Entries of a list of words or numbers.
+inline constexpr std::size_t kLongestList = 100'000;
+
 // `{}` throughout: descriptions use designated initializers and omit fields that do not apply.
 
 /// An argument or option of a function, or a field of a value.
@@ -61,6 +69,7 @@ struct Parameter {
   std::string name{};
   std::string type{};  ///< "Mesh", "integer", "quantity", "list of Obstacle", "Material", ...
   Dimension dimension = Dimension::number;  ///< of a "quantity": sets the valid units
+  std::optional<Range> range{};             ///< empty: kUsualNumbers, kUsualText
   std::string fallback{};                   ///< default as text; empty: required
   std::string help{};
   Words choices{};  ///< the allowed words; empty: any value

@@ -28,7 +28,7 @@ std::string text_at(lua_State* L, int index) {
 std::string shown(lua_State* L, int index) {
   switch (lua_type(L, index)) {
     case LUA_TSTRING:
-      return fmt::format("\"{}\"", lua_tostring(L, index));
+      return fmt::format("\"{}\"", text_at(L, index));
     case LUA_TNUMBER:
       return lua_isinteger(L, index) != 0 ? fmt::format("{}", lua_tointeger(L, index))
                                           : fmt::format("{}", lua_tonumber(L, index));
@@ -155,6 +155,26 @@ void TableReader::refuse(std::string_view name, const std::string& rule) {
   throw InputError(fmt::format("{}: {} must be {}", owner_, name, rule));
 }
 
+void TableReader::check_range(std::string_view name, double value) {
+  const Parameter& parameter = listed(name);
+  const Range range = parameter.range.value_or(kUsualNumbers);
+  if (!range.contains(value))
+    refuse(name, fmt::format("from {}, got {}", to_string(range, parameter.dimension),
+                             format_quantity(value, parameter.dimension)));
+}
+
+void TableReader::check_text(std::string_view name, std::string_view text) {
+  const Range range = listed(name).range.value_or(kUsualText);
+  if (!range.contains(static_cast<double>(text.size())))
+    refuse(name, fmt::format("text of at most {} bytes, got {}", range.most, text.size()));
+}
+
+void TableReader::check_list(std::string_view name) {
+  const std::size_t size = lua_rawlen(lua_, -1);
+  if (size > kLongestList)
+    refuse(name, fmt::format("a list of at most {} entries, got {}", kLongestList, size));
+}
+
 void TableReader::read(std::string_view name, bool& into) {
   if (!get(name)) return;
   if (!lua_isboolean(lua_, -1)) refuse(name, "true or false, got " + shown(lua_, -1));
@@ -165,6 +185,7 @@ void TableReader::read(std::string_view name, bool& into) {
 void TableReader::read(std::string_view name, double& into) {
   if (!get(name)) return;
   into = quantity_at(lua_, -1, listed(name).dimension, fmt::format("{}: {}", owner_, name));
+  check_range(name, into);
   lua_pop(lua_, 1);
 }
 
@@ -172,12 +193,14 @@ void TableReader::read(std::string_view name, std::string& into) {
   if (!get(name)) return;
   if (lua_type(lua_, -1) != LUA_TSTRING) refuse(name, "text, got " + shown(lua_, -1));
   into = text_at(lua_, -1);
+  check_text(name, into);
   lua_pop(lua_, 1);
 }
 
 void TableReader::read(std::string_view name, Vec3& into) {
   if (!get(name)) return;
   into = vector_at(lua_, -1, listed(name).dimension, fmt::format("{}: {}", owner_, name));
+  for (const double component : into) check_range(name, component);
   lua_pop(lua_, 1);
 }
 
@@ -201,11 +224,12 @@ void TableReader::read(std::string_view name, Colour& into) {
 void TableReader::read(std::string_view name, std::vector<std::string>& into) {
   if (!get(name)) return;
   if (!lua_istable(lua_, -1)) refuse(name, "a list of words, got " + shown(lua_, -1));
+  check_list(name);
   into.clear();
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(lua_, -1)); ++i) {
     if (lua_rawgeti(lua_, -1, i) != LUA_TSTRING)
       refuse(name, fmt::format("a list of words, but entry {} is {}", i, shown(lua_, -1)));
-    into.emplace_back(lua_tostring(lua_, -1));
+    check_text(name, into.emplace_back(text_at(lua_, -1)));
     lua_pop(lua_, 1);
   }
   lua_pop(lua_, 1);
@@ -214,11 +238,13 @@ void TableReader::read(std::string_view name, std::vector<std::string>& into) {
 void TableReader::read(std::string_view name, std::vector<double>& into) {
   if (!get(name)) return;
   if (!lua_istable(lua_, -1)) refuse(name, "a list of numbers, got " + shown(lua_, -1));
+  check_list(name);
   into.clear();
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(lua_, -1)); ++i) {
     lua_rawgeti(lua_, -1, i);
     into.push_back(
         quantity_at(lua_, -1, listed(name).dimension, fmt::format("{}: {}[{}]", owner_, name, i)));
+    check_range(name, into.back());
     lua_pop(lua_, 1);
   }
   lua_pop(lua_, 1);
@@ -227,6 +253,11 @@ void TableReader::read(std::string_view name, std::vector<double>& into) {
 std::optional<long long> TableReader::whole_number(std::string_view name, double least,
                                                    double most) {
   if (!get(name)) return std::nullopt;
+  // The type of the member alone limits numbers without a range, such as seeds.
+  if (const auto& range = listed(name).range) {
+    least = std::max(least, range->least);
+    most = std::min(most, range->most);
+  }
   int exact = 0;
   const lua_Integer value =
       lua_type(lua_, -1) == LUA_TNUMBER ? lua_tointegerx(lua_, -1, &exact) : 0;
@@ -248,9 +279,9 @@ void TableReader::read(std::string_view name, std::vector<std::uint32_t>& into) 
   if (!has(name)) return;
   into.clear();
   for (const double number : numbers) {
-    constexpr double kMost = 1e6;
-    if (!(number >= 0 && number <= kMost && number == std::floor(number)))
-      refuse(name, fmt::format("a list of whole numbers of 0 to {:.0f}, got {}", kMost, number));
+    if (!(number >= 0 && number <= std::numeric_limits<std::uint32_t>::max() &&
+          number == std::floor(number)))
+      refuse(name, fmt::format("a list of whole numbers, got {}", number));
     into.push_back(static_cast<std::uint32_t>(number));
   }
 }

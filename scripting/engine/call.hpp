@@ -85,7 +85,11 @@ class TableReader {
 
  private:
   const Parameter& listed(std::string_view name);
-  bool get(std::string_view name);  // pushes the value and returns true if it is given
+  /// Throws InputError for a number or a length of text outside of the option's range.
+  void check_range(std::string_view name, double value);
+  void check_text(std::string_view name, std::string_view text);
+  void check_list(std::string_view name);  ///< the value on top
+  bool get(std::string_view name);         // pushes the value and returns true if it is given
   std::optional<long long> whole_number(std::string_view name, double least, double most);
   /// Empty if the option is not given.
   std::string chosen_word(std::string_view name, const std::vector<std::string>& words);

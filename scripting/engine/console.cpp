@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "scripting/engine/interrupt.hpp"
 
 namespace springlod::scripting {
@@ -80,6 +81,10 @@ Console::Console(Verbosity verbosity)
       colour_(terminal_ && !is_set("NO_COLOR")) {}
 
 void Console::say(std::string_view text) {
+  print(printable(text));
+}
+
+void Console::print(std::string_view text) {
   if (verbosity_ == Verbosity::quiet) return;
   const std::lock_guard lock(mutex_);
   clear_bar();

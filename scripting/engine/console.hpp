@@ -21,8 +21,10 @@ class Console : public Progress {
  public:
   explicit Console(Verbosity verbosity);
 
-  /// Prints a message; not if quiet.
+  /// Prints a message of the program, made `printable`; not if quiet.
   void say(std::string_view text) override;
+  /// Prints the text of a script as it is; not if quiet.
+  void print(std::string_view text);
   bool verbose() const { return verbosity_ == Verbosity::verbose; }
 
   void begin(std::string_view task, std::uint64_t total) override;

@@ -64,6 +64,13 @@ std::string listing(const std::vector<Parameter>& parameters) {
   return text;
 }
 
+/// "1 ms to 10 s", "at most 1000 bytes".
+std::string range_text(const Parameter& parameter) {
+  if (parameter.type.find("string") != std::string::npos)
+    return fmt::format("at most {} bytes", parameter.range->most);
+  return to_string(*parameter.range, parameter.dimension);
+}
+
 std::vector<Parameter> fields_of(const TypeEntry& type) {
   std::vector<Parameter> fields;
   for (const FieldEntry& field : type.fields) fields.push_back(field.parameter);
@@ -138,6 +145,7 @@ std::string type_and_default(const Parameter& parameter) {
   if (!parameter.choices.empty()) text += fmt::format(" {}", quoted(parameter.choices));
   const std::string_view unit = si_unit(parameter.dimension);
   if (parameter.dimension != Dimension::number) text += fmt::format(" in {}", unit);
+  if (parameter.range) text += ", " + range_text(parameter);
   if (!parameter.fallback.empty()) text += fmt::format("; default {}", parameter.fallback);
   return text;
 }
@@ -253,7 +261,11 @@ std::string api_markdown(const Api& api) {
       "Do not edit.\n\n"
       "A *quantity* is a number in the SI unit named, or text with a unit: `0.005` or `\"5 mm\"`. "
       "Nodes and springs are counted from 1, levels from 0 (the base). Options come in a table "
-      "after the other arguments.\n\n";
+      "after the other arguments. Ranges include both ends. ";
+  text += fmt::format(
+      "Options without a stated range take numbers of {}, text of at most {} bytes and lists of "
+      "at most {} entries; seeds are any whole numbers from 0.\n\n",
+      to_string(kUsualNumbers, Dimension::number), kUsualText.most, kLongestList);
   for (const std::string& group : groups_of(api)) {
     text += fmt::format("## {}\n\n", group);
     for (const FunctionEntry& entry : api.functions())

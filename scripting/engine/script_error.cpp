@@ -9,6 +9,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "base/script_number.hpp"
 
 namespace springlod::scripting {
@@ -93,6 +94,7 @@ std::shared_ptr<const ErrorValue> current_error(lua_State* L) {
     error->kind = "internal";
     error->message = fmt::format("internal error: {}; please report it", e.what());
   }
+  error->message = printable(error->message);
   return error;
 }
 

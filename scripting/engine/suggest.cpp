@@ -35,6 +35,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   // Accepts one edit, or a third of the letters if that is more: "-o" is not near "--cell".
   std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;
   std::string found;
+  // A typing error leaves a name short; the distance to text of any length takes too long.
+  constexpr std::size_t kLongestName = 100;
+  if (name.size() > kLongestName) return found;
   for (const std::string& candidate : candidates) {
     const bool longer = name.size() >= 3 && candidate.starts_with(name);
     const std::size_t distance = longer ? 1 : edit_distance(name, candidate);

@@ -32,24 +32,30 @@ function command.quantity(option, dimension)
   end
 end
 
--- An integer of at least `least`.
-function command.whole(option, least)
+-- Upper limits of options without one of their own: more runs or pictures than anyone waits for,
+-- and the limit of numbers in the API.
+local kMostWhole, kMostNumber = 1000000, 1e15
+
+-- An integer of `least` to `most`.
+function command.whole(option, least, most)
+  most = most or kMostWhole
   return function(text)
     local value = math.tointeger(tonumber(text))
-    if value and value >= least then return value end
-    return nil, ("%s: '%s' must be an integer of at least %d"):format(option, text, least)
+    if value and value >= least and value <= most then return value end
+    return nil, ("%s: '%s' must be an integer of %d to %d"):format(option, text, least, most)
   end
 end
 
--- A number above `limit`, or equal to it if `inclusive`.
-function command.number(option, limit, inclusive)
+-- A number above `limit`, or equal to it if `inclusive`, up to `most`.
+function command.number(option, limit, inclusive, most)
+  most = most or kMostNumber
   return function(text)
     local value = tonumber(text)
-    if value and value < math.huge and (value > limit or inclusive and value == limit) then
+    if value and value <= most and (value > limit or inclusive and value == limit) then
       return value
     end
-    return nil, ("%s: '%s' must be a number %s %g"):format(option, text,
-      inclusive and "of at least" or "above", limit)
+    return nil, ("%s: '%s' must be a number %s %g, up to %g"):format(option, text,
+      inclusive and "of at least" or "above", limit, most)
   end
 end
 

@@ -24,8 +24,12 @@ local function flag(option)
 end
 
 local converters = {
-  integer = function(name) return command.whole(name, 0) end,
-  number = function(name) return command.number(name, 0, true) end,
+  integer = function(name, option)
+    return command.whole(name, option.least or 0, option.most or math.maxinteger)
+  end,
+  number = function(name, option)
+    return command.number(name, option.least or 0, true, option.most)
+  end,
   quantity = function() return function(text) return text end end, -- read by s.simplify
   ["list of numbers"] = function(name) return command.numbers(name, 0) end,
 }
@@ -45,7 +49,7 @@ local function add_option(parser, option, default)
   end
   local converter = converters[option.type]
   if converter then
-    return parser:option(name, help):target(target):convert(converter(name))
+    return parser:option(name, help):target(target):convert(converter(name, option))
       :argname(arguments[option.type] or "<" .. option.type .. ">")
   end
   local returned = ("%s; a Lua file that returns it (%s)"):format(option.help, option.type)

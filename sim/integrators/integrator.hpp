@@ -73,11 +73,14 @@ constexpr auto option_rows(const SolverOptions*) {
   return std::tuple(
       option("iterations", &SolverOptions::iterations,
              "iterations per step of the implicit schemes")
+          .within(1, 10000)
           .by_default("20 for backward Euler, 1 for xpbd, 10 for projective_dynamics"),
       option("tolerance", &SolverOptions::tolerance,
-             "relative residual of the forces at which backward Euler stops iterating"),
+             "relative residual of the forces at which backward Euler stops iterating")
+          .within(1e-15, 0.5),
       option("linear_iterations", &SolverOptions::linear_iterations,
              "largest number of conjugate-gradient iterations in one Newton iteration")
+          .within(1, 1e6)
           .by_default("twice the unknowns"));
 }
 

@@ -29,13 +29,16 @@ struct CompareOptions {
 };
 constexpr auto option_rows(const CompareOptions*) {
   return std::tuple(
-      option("starts", &CompareOptions::starts, "number of starts, the same for every level"),
+      option("starts", &CompareOptions::starts, "number of starts, the same for every level")
+          .within(1, 1e6),
       option("jitter", &CompareOptions::jitter,
-             "relative random change of speed and height of each start after the first"),
+             "relative random change of speed and height of each start after the first")
+          .within(0, 1),
       option("seed", &CompareOptions::seed, "seed of the jitter"),
-      option("threads", &CompareOptions::threads, kThreadsHelp),
+      option("threads", &CompareOptions::threads, kThreadsHelp).within(0, 1024),
       option("error_window", &CompareOptions::error_window,
              "time after the base's first contact up to which errors are averaged")
+          .within(0, 1e6)
           .in(Dimension::time),
       option("variant", &CompareOptions::variant, "infix of the labels: \"hb\" makes \"LOD-hb-1\"")
           .by_default("none"),

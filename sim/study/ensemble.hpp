@@ -52,11 +52,14 @@ struct EnsembleOptions {
 };
 constexpr auto option_rows(const EnsembleOptions*) {
   return std::tuple(
-      option("starts", &EnsembleOptions::starts, "number of starts, the same for every level"),
+      option("starts", &EnsembleOptions::starts, "number of starts, the same for every level")
+          .within(1, 1e6),
       option("jitter", &EnsembleOptions::jitter,
-             "relative random change of speed and height of each start after the first"),
+             "relative random change of speed and height of each start after the first")
+          .within(0, 1),
       option("seed", &EnsembleOptions::seed, "seed of the jitter"),
-      option("threads", &EnsembleOptions::threads, kThreadsHelp), nested(&EnsembleOptions::run));
+      option("threads", &EnsembleOptions::threads, kThreadsHelp).within(0, 1024),
+      nested(&EnsembleOptions::run));
 }
 
 struct EnsembleRun : RunSummary {

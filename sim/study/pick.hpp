@@ -33,8 +33,10 @@ constexpr auto option_rows(const PickOptions*) {
       option("error", &PickOptions::error,
              "largest surface error that the level may have, as a fraction of the base's bounding "
              "diagonal: 0.02 or \"2 %\"")
+          .within(1e-9, 1)
           .by_default("none; give this or budget"),
       option("budget", &PickOptions::budget, "largest processor time for a frame")
+          .within(1e-9, 1000)
           .in(Dimension::time)
           .by_default("none; give this or error"),
       option("measure", &PickOptions::measure,
@@ -42,8 +44,10 @@ constexpr auto option_rows(const PickOptions*) {
              "from the certificates and runs of the coarsest level"),
       option("error_window", &PickOptions::error_window,
              "time after the first contact up to which errors are averaged, as in compare")
+          .within(0, 1e6)
           .in(Dimension::time),
-      option("threads", &PickOptions::threads, kThreadsHelp), nested(&PickOptions::run));
+      option("threads", &PickOptions::threads, kThreadsHelp).within(0, 1024),
+      nested(&PickOptions::run));
 }
 
 /// One level of a chain in one scene.

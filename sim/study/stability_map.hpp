@@ -83,11 +83,14 @@ struct StabilityOptions {
 constexpr auto option_rows(const StabilityOptions*) {
   using Options = StabilityOptions;
   return std::tuple(
-      option("levels", &Options::levels, "levels to map; 0 is the base").by_default("all"),
+      option("levels", &Options::levels, "levels to map; 0 is the base")
+          .within(0, 1000)
+          .by_default("all"),
       option(
           "ratios", &Options::ratios,
           "Young's modulus of the stiff part / that of the softest material, which is unchanged; "
-          "the stiff part of a body of one material is the half beyond the centre of mass"),
+          "the stiff part of a body of one material is the half beyond the centre of mass")
+          .within(1e-9, 1e9),
       option("remake_levels", &Options::remake_levels,
              "change the levels with the ratio, as if merged again from the base; false: only the "
              "base"),
@@ -97,23 +100,31 @@ constexpr auto option_rows(const StabilityOptions*) {
           .by_default("all"),
       option("iterations", &Options::iterations,
              "iterations per step of xpbd and projective_dynamics; each number is run")
+          .within(1, 10000)
           .by_default("the default of each integrator"),
-      option("steps", &Options::steps, "step lengths for explicit integrators / predicted limit"),
+      option("steps", &Options::steps, "step lengths for explicit integrators / predicted limit")
+          .within(1e-3, 1e3),
       option("implicit_steps", &Options::implicit_steps,
-             "step lengths for backward Euler / period of the slowest mode"),
+             "step lengths for backward Euler / period of the slowest mode")
+          .within(1e-5, 1e3),
       option("sweep_steps", &Options::sweep_steps,
-             "step lengths for xpbd and projective_dynamics / period of the slowest mode"),
+             "step lengths for xpbd and projective_dynamics / period of the slowest mode")
+          .within(1e-6, 1e3),
       option(
           "absolute_steps", &Options::absolute_steps,
           "step lengths for all integrators, instead of steps, implicit_steps and sweep_steps [s]")
+          .within(1e-9, 100)
           .in(Dimension::time)
           .by_default("none"),
-      option("periods", &Options::periods, "length of each run in periods of the slowest mode"),
+      option("periods", &Options::periods, "length of each run in periods of the slowest mode")
+          .within(1e-3, 1e3),
       option("duration", &Options::duration, "length of each run")
+          .within(1e-9, 1e5)
           .in(Dimension::time)
           .by_default("from periods"),
       option("threads", &Options::threads,
-             "number of threads; 0: all cores; never changes a result"),
+             "number of threads; 0: all cores; never changes a result")
+          .within(0, 1024),
       option("seed", &Options::seed, "seed of the search for frequencies"));
 }
 

@@ -162,7 +162,7 @@ TEST_CASE(
     CHECK_THAT(wrong.err, Contains(reason) && !Contains("traceback"));
   };
   refused({"--groupings", "stndard"}, 2, "must be one of standard, priority,");
-  refused({"--starts", "4"}, 2, "must be an integer of at least 5");
+  refused({"--starts", "4"}, 2, "must be an integer of 5 to 1000000");
   refused({"--out", (scratch / "other").string(), "--integrators", "xpbd", "--precisions", "single",
            "--errors", "loads"},
           1, "symplectic_euler alone has single precision");
@@ -202,7 +202,7 @@ TEST_CASE("a single start can be run, and a level's trajectory compared with its
   CAPTURE(ran.err);
   CHECK(ran.exit_code == 0);
   CHECK_THAT(ran.out, Contains("level 0") && Contains("jitter must be in [0, 1)") &&
-                          Contains("number must be 1 or more"));
+                          Contains("number must be a whole number of 1 to"));
 }
 
 TEST_CASE("a front has the non-dominated points; medians of few numbers have sign-test intervals") {

@@ -82,6 +82,37 @@ TEST_CASE("Quantities are numbers in SI units or text with a unit of their dimen
   CHECK_THROWS_WITH(read_as<double>("1/0", Dimension::time), Contains("x must be finite"));
 }
 
+TEST_CASE("Values outside of the range of an option are refused; the ends are inside") {
+  const auto read = [](auto value, const std::string& text, Dimension dimension, Range range) {
+    Options options({{.name = "x", .dimension = dimension, .range = range}}, "{x = " + text + "}");
+    options->read("x", value);
+    return value;
+  };
+  const Range seconds{1e-3, 10};
+  CHECK(read(0.0, "10", Dimension::time, seconds) == 10);
+  CHECK(read(0.0, "'1 ms'", Dimension::time, seconds) == 1e-3);
+  CHECK_THROWS_WITH(read(0.0, "'0.9 ms'", Dimension::time, seconds),
+                    "test: x must be from 1 ms to 10 s, got 900 us");
+  CHECK_THROWS_WITH(read(Vec3(), "{1, 2, 11}", Dimension::time, seconds), Contains("got 11 s"));
+  CHECK_THROWS_WITH(read(std::vector<double>(), "{1, 0}", Dimension::time, seconds),
+                    Contains("got 0 s"));
+  CHECK(read(0, "5", Dimension::number, {1, 5}) == 5);
+  CHECK_THROWS_WITH(read(0, "6", Dimension::number, {1, 5}),
+                    "test: x must be a whole number of 1 to 5, got 6");
+  CHECK_THROWS_WITH(read(std::vector<std::uint32_t>(), "{6}", Dimension::number, {1, 5}),
+                    Contains("from 1 to 5, got 6"));
+  CHECK(read(std::string(), "'abc'", Dimension::number, {0, 3}) == "abc");
+  CHECK_THROWS_WITH(read(std::string(), "'abcd'", Dimension::number, {0, 3}),
+                    "test: x must be text of at most 3 bytes, got 4");
+}
+
+TEST_CASE("Options without a range have the usual one; whole numbers that of their type") {
+  CHECK(read_as<double>("1e15") == 1e15);
+  CHECK_THROWS_WITH(read_as<double>("1e16"), Contains("from -1e+15 to 1e+15"));
+  CHECK_THROWS_WITH(read_as<std::string>("('x'):rep(4097)"), Contains("at most 4096 bytes"));
+  CHECK(read_as<std::uint64_t>("math.maxinteger") == 0x7fffffffffffffff);
+}
+
 TEST_CASE("Errors for wrong values name the expected and the actual value") {
   CHECK_THROWS_WITH(read_as<bool>("1"), "test: x must be true or false, got 1");
   CHECK_THROWS_WITH(read_as<std::string>("{}"), "test: x must be text, got a table");

@@ -22,10 +22,6 @@ constexpr ChoiceTable<Choice<ErrorKind>> choices(ErrorKind) {
   return {"error", kErrorKinds};
 }
 
-// Limits of a chart's sides [px]: its text must fit, and other programs must be able to show it.
-constexpr double kLeastChart = 300;
-constexpr double kLargestChart = 8000;
-
 // {x, y, label = ..., low = ..., high = ..., x_low = ..., x_high = ...}
 report::ChartPoint read_point(Call& call, int table, const std::string& owner) {
   lua_State* L = call.lua();
@@ -149,10 +145,6 @@ std::vector<report::ChartSeries> series_from_table(Call& call, int index) {
 
 void read_chart_options(const Call& call, TableReader& reader, report::ChartOptions& options) {
   read_options(call, reader, options);
-  for (const char* side : {"width", "height"})
-    if (const double pixels = std::string_view(side) == "width" ? options.width : options.height;
-        !(pixels >= kLeastChart && pixels <= kLargestChart))
-      reader.refuse(side, fmt::format("{} to {} pixels", kLeastChart, kLargestChart));
   reader.has("error");  // read for comparisons only
 }
 

@@ -83,6 +83,7 @@ Parameter parameter_of(const Option<S, Member>& row, const Member& usual) {
   return {.name = row.name,
           .type = type_of<Member>(row.dimension),
           .dimension = row.dimension,
+          .range = row.range,
           .fallback = *row.fallback != '\0' ? row.fallback : text_of(usual),
           .help = row.help,
           .choices = choices_of<Member>()};
