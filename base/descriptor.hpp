@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include <fcntl.h>
@@ -19,6 +20,12 @@ class Descriptor {
   explicit Descriptor(int number) : number_(number) {}
   Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    if (this == &other) return *this;
+    close();
+    number_ = std::exchange(other.number_, -1);
+    return *this;
+  }
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() { close(); }
   int number() const { return number_; }
@@ -30,6 +37,15 @@ class Descriptor {
  private:
   int number_;
 };
+
+/// As open(2), but never in the place of a closed standard stream, where it would take what is
+/// printed. Programs started by this one do not inherit it.
+inline Descriptor open_file(const std::filesystem::path& path, int flags, mode_t mode = 0) {
+  const int number = ::open(path.c_str(), flags | O_CLOEXEC, mode);
+  if (number < 0 || number > STDERR_FILENO) return Descriptor(number);
+  const Descriptor low(number);
+  return Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1));
+}
 
 /// A pipe that programs started by this one do not inherit.
 struct Pipe {

@@ -7,11 +7,23 @@
 
 namespace springlod::inline base {
 
-/// Calls `write` with a temporary path beside `path`, then renames it to `path`. Readers see either
-/// the old file or the complete new one. Creates missing folders. If `write` throws, the temporary
-/// file is removed and `path` is unchanged. Throws IoError.
+/// Whether a file is on the disk, with its content, before it has its name. Syncing takes some
+/// milliseconds a file. Without it, a file that was written just before a power failure may be
+/// empty afterwards.
+enum class Durability {
+  synced,    ///< a file that a later run relies on
+  unsynced,  ///< one of many files that are quickly made again, such as the frames of a video
+};
+
+/// Calls `write` with a temporary path beside `path`, which is an empty file with the extension of
+/// `path`, then renames it to `path`. Readers see either the old file or the complete new one.
+/// Creates missing folders. Follows links: the file that `path` leads to is replaced. A device or
+/// pipe is written to itself. If `write` throws, the temporary file is removed and `path` is
+/// unchanged; temporary files that processes left when they were killed are removed too. Throws
+/// IoError.
 void write_aside(const std::filesystem::path& path,
-                 const std::function<void(const std::filesystem::path&)>& write);
+                 const std::function<void(const std::filesystem::path&)>& write,
+                 Durability durability = Durability::synced);
 /// Writes through write_aside; throws IoError.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 /// All bytes. Throws IoError, also for a folder.

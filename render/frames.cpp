@@ -23,16 +23,10 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-File open_file(const fs::path& path, const char* mode) {
-  File file(std::fopen(path.c_str(), mode));
-  if (!file) throw IoError(fmt::format("cannot open {}: {}", path.string(), std::strerror(errno)));
-  return file;
-}
-
 // libpng requires that its error callback does not return; the owner below cleans up on the throw.
 [[noreturn]] void png_failed(png_structp png, png_const_charp message) {
   const auto* path = static_cast<const fs::path*>(png_get_error_ptr(png));
-  throw IoError(fmt::format("{}: {}", path->string(), message));
+  throw IoError(fmt::format("cannot write {}: {}", path->string(), message));
 }
 void png_warned(png_structp, png_const_charp) {}
 
@@ -49,8 +43,10 @@ struct Writer {
   Writer& operator=(const Writer&) = delete;
 };
 
-void write_png(const Image& image, const fs::path& path) {
-  File file = open_file(path, "wb");
+// `path` is the name in messages.
+void write_png(const Image& image, const fs::path& aside, const fs::path& path) {
+  File file(std::fopen(aside.c_str(), "wb"));
+  if (!file) throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
   {
     const Writer writer(path);
     png_init_io(writer.png, file.get());
@@ -77,7 +73,8 @@ void save_png(const Image& image, const fs::path& path) {
       image.rgb.size() != std::size_t{3} * image.width * image.height)
     throw InputError(
         fmt::format("{}: the picture is empty or its size does not fit its pixels", path.string()));
-  write_aside(path, [&](const fs::path& aside) { write_png(image, aside); });
+  write_aside(
+      path, [&](const fs::path& aside) { write_png(image, aside, path); }, Durability::unsynced);
 }
 
 Image load_png(const fs::path& path) {

@@ -7,7 +7,8 @@
 
 namespace springlod::render {
 
-/// Writes a PNG (zlib level 1, SUB filter) to a temporary file and renames it. Throws IoError.
+/// Writes a PNG (zlib level 1, SUB filter) through write_aside, unsynced: a video has hundreds.
+/// Throws IoError.
 void save_png(const Image& image, const std::filesystem::path& path);
 /// Reads 8-bit PNG as RGB. Throws IoError.
 Image load_png(const std::filesystem::path& path);

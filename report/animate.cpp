@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/temporary_file.hpp"
 #include "base/units.hpp"
 #include "render/frame_writer.hpp"
 #include "render/frames.hpp"
@@ -360,6 +361,7 @@ Animation animate(const std::vector<ComparedChain>& chains, const fs::path& fold
     task.advance();
   }
   writer.finish();
+  remove_stale_temporaries(folder);
   remove_stale_frames(folder, times.size());
   return {static_cast<std::uint32_t>(times.size()), folder};
 }

@@ -81,7 +81,7 @@ Drawing draw_with_gnuplot(const std::string& script, const fs::path& picture) {
   const auto gnuplot = find_program("gnuplot");
   if (!gnuplot) return drawing;
   write_aside(picture, [&](const fs::path& aside) {
-    const std::string output = "picture=" + gnuplot_quoted(aside.filename().string());
+    const std::string output = "picture=" + gnuplot_quoted(fs::absolute(aside).string());
     const ProgramResult run =
         run_program(*gnuplot, {"-e", output, file.filename().string()}, folder);
     if (run.exit_code != 0)

@@ -58,9 +58,16 @@ std::vector<std::string> gif_options() {
 
 std::vector<std::string> ffmpeg_arguments(const fs::path& folder, double frame_rate,
                                           const fs::path& path) {
-  std::vector<std::string> arguments{
-      "-nostdin",           "-y", "-loglevel", "error", "-framerate", number_text(frame_rate), "-i",
-      frame_pattern(folder)};
+  // xerror: otherwise a full disk is no failure.
+  std::vector<std::string> arguments{"-nostdin",
+                                     "-y",
+                                     "-xerror",
+                                     "-loglevel",
+                                     "error",
+                                     "-framerate",
+                                     number_text(frame_rate),
+                                     "-i",
+                                     frame_pattern(folder)};
   const auto options = path.extension() == ".gif" ? gif_options() : mp4_options();
   arguments.insert(arguments.end(), options.begin(), options.end());
   // A name that starts with a dash would be parsed as an option.

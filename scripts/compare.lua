@@ -3,6 +3,7 @@
 local s = require "springlod"
 local command = require "lib.command"
 local conversion = require "lib.conversion"
+local fit_store = require "lib.fit_store"
 local simplify_options = require "lib.simplify_options"
 
 local parser = command.parser("compare", "Run every level of an asset under one scenario. "
@@ -36,12 +37,26 @@ parser:flag("--springs", "draw the springs under a transparent surface")
 simplify_options.add(parser, conversion.presets.best.simplify)
 local args = parser:parse()
 
--- The levels of the asset, or others of its base. --contact alone changes the runs only.
-local function levels_of(asset)
+local fit_folder = args.out .. "/unfinished"
+
+-- The options of levels that are made anew, or nil. --contact alone changes the runs only.
+local function options_of_levels()
   local given = simplify_options.given(args)
-  if #given == 0 or #given == 1 and args.contact then return asset end
-  local options = simplify_options.read(args, conversion.presets.best.simplify)
-  if options.calibrate == "modes" then conversion.announce_fit(asset[0]) end
+  if #given == 0 or #given == 1 and args.contact then return nil end
+  return simplify_options.read(args, conversion.presets.best.simplify)
+end
+
+local options = options_of_levels()
+local fits = options ~= nil and options.calibrate == "modes"
+
+-- The levels of the asset, or others of its base.
+local function levels_of(asset)
+  if not options then return asset end
+  if fits then
+    conversion.announce_fit(asset[0])
+    options.calibration = options.calibration or {}
+    options.calibration.store = fit_folder
+  end
   return s.simplify(asset[0], options)
 end
 
@@ -70,6 +85,7 @@ local function compare()
   s.csv(args.out .. "/timings.csv", times, {columns = time_columns})
   command.chart(args.out .. "/chart", runs)
   if args.frames > 0 then animate(runs) end
+  fit_store.remove(fit_folder)
   return rows
 end
 
@@ -83,7 +99,7 @@ local function short_rows(rows)
   return short
 end
 
-local ok, rows = command.try(compare)
+local ok, rows = command.try_in(args.out, compare, fits)
 if not ok then command.fail("cannot compare %s: %s", args.asset, rows) end
 print(s.format_table(short_rows(rows), {columns = {
   "level", "nodes", "ends", "step [s]", "limited by", "cost ratio", "surface error [%]",

@@ -4,6 +4,7 @@ local s = require "springlod"
 local command = require "lib.command"
 local certificates = require "lib.certificates"
 local conversion = require "lib.conversion"
+local fit_store = require "lib.fit_store"
 local simplify_options = require "lib.simplify_options"
 
 local parser = command.parser("convert", "Convert meshes to LOD assets. Each asset is one .glb "
@@ -38,32 +39,30 @@ local function store_of(asset)
   return args.resume:gsub("/*$", "") .. "/" .. command.stem(asset)
 end
 
--- Removes the files of the store, among them partial ones of a killed run
--- (".level-1-part-1.PID.bin"), and the folder if it holds nothing else.
-local function remove_store(store)
-  for _, path in ipairs(s.files(store, {endings = {".bin", ".txt"}})) do
-    local name = command.base_name(path)
-    if name:find("^%.?about[%.%d]*%.txt$") or name:find("part%-%d+[%.%d]*%.bin$") then
-      os.remove(path)
+local function refuse_to_overwrite(path, asset)
+  for _, mesh in ipairs{path, table.unpack(args.mesh)} do
+    if s.same_file(mesh, asset) then
+      error(("the asset would overwrite %s; give -o another name"):format(mesh), 0)
     end
   end
-  os.remove(store)
 end
 
 -- The whole conversion: mesh -> cells -> lattice -> levels -> asset.
 local function convert(path, asset)
-  if s.same_file(path, asset) then
-    error(("the asset would overwrite %s; give -o another name"):format(path), 0)
-  end
+  refuse_to_overwrite(path, asset)
   local base = conversion.base(args, preset, path)
   local store = store_of(asset)
+  local function finish()
+    local chain = s.simplify(base, options)
+    s.save(asset, chain, {command = conversion.command_line(arg, args, path)})
+    if store and not args.resume then fit_store.remove(store) end
+    return chain
+  end
+  if not store then return finish() end
   options.calibration = options.calibration or {}
   options.calibration.store = store
-  if store then conversion.announce_fit(base) end
-  local chain = s.simplify(base, options)
-  s.save(asset, chain, {command = conversion.command_line(arg, args, path)})
-  if store and not args.resume then remove_store(store) end
-  return chain
+  conversion.announce_fit(base)
+  return s.in_folder(store, finish, {command = "convert", resumes = true})
 end
 
 local function level_rows(chain)

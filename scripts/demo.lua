@@ -21,89 +21,103 @@ local folder, starts, frame_count = args.folder, args.starts, args.frames
 local samples = s.samples
 
 -- 1. From the mesh to the model, with nodes at the cell centers as in the paper.
-local mesh = s.import(samples .. "/dumbbell.obj", {unit = "dm", up = "z"})
-local grid = s.voxelize(mesh, {
-  cell = "10 cm",
-  materials = dofile(samples .. "/firm_dumbbell_materials.lua"),
-})
-local base = s.lattice(grid, {style = "centers"})
-print(base)
+local function make_base()
+  local mesh = s.import(samples .. "/dumbbell.obj", {unit = "dm", up = "z"})
+  local grid = s.voxelize(mesh, {
+    cell = "10 cm",
+    materials = dofile(samples .. "/firm_dumbbell_materials.lua"),
+  })
+  local base = s.lattice(grid, {style = "centers"})
+  print(base)
+  return base
+end
 
 -- 2. Two levels for each variant of the paper, and fitted ones with as many nodes; saved as assets.
 local variants = table.move(paper_variants, 1, #paper_variants, 1, {})
 variants[#variants + 1] = {name = "fit", grouping = "compact", border = "none", keep = {0.45, 0.2},
                            calibrate = "modes", contact = "surface"}
-local counts, chains = {}, {}
-local function count(name, model)
-  local theirs = paper_numbers.rods[name] or {}
-  counts[#counts + 1] = {
-    name, model.node_count, model.end_count, theirs.nodes or "-", theirs.ends or "-",
-  }
-end
-count("base", base)
-for _, variant in ipairs(variants) do
-  local chain = s.simplify(base, {
-    levels = 2, keep = variant.keep, grouping = variant.grouping, border = variant.border,
-    calibrate = variant.calibrate, contact = variant.contact, seed = s.seed,
-  })
-  for level = 1, 2 do count(paper_variants.label(variant.name, level), chain[level]) end
-  s.save(("%s/%s-chain.glb"):format(folder, paper_variants.label(variant.name):lower()), chain)
-  chains[variant.name] = chain
-end
-local count_columns = {"model", "nodes", "ends", "paper: nodes", "paper: ends"}
-s.csv(folder .. "/counts.csv", counts, {columns = count_columns})
-print()
-print(s.format_table(counts, {columns = count_columns}))
 
--- 3. Run every level from the same starts.
-local scene = s.scenario(dofile(samples .. "/throw_at_wall.lua"))
-local rows, columns, timings, timing_columns = {}, nil, {}, nil
-local series, compared = {}, {}
-for i, variant in ipairs(variants) do
-  local runs = s.compare(chains[variant.name], scene,
-    {starts = starts, jitter = 0.02, seed = s.seed, variant = variant.name})
-  compared[variant.name] = runs
-  local table_rows
-  table_rows, columns = runs:table()
-  local points = {}
-  for _, row in ipairs(table_rows) do
-    -- The base is the same in every comparison.
-    if row.level > 0 or i == 1 then rows[#rows + 1] = row end
-    points[#points + 1] = {
-      1 / row.cost_ratio, row.surface_error_percent, label = row.level > 0 and row.label or nil,
+local function make_chains(base)
+  local counts, chains = {}, {}
+  local function count(name, model)
+    local theirs = paper_numbers.rods[name] or {}
+    counts[#counts + 1] = {
+      name, model.node_count, model.end_count, theirs.nodes or "-", theirs.ends or "-",
     }
   end
-  series[#series + 1] = {name = paper_variants.label(variant.name), points = points}
-  local measured
-  measured, timing_columns = runs:timings()
-  for _, row in ipairs(measured) do timings[#timings + 1] = row end
+  count("base", base)
+  for _, variant in ipairs(variants) do
+    local chain = s.simplify(base, {
+      levels = 2, keep = variant.keep, grouping = variant.grouping, border = variant.border,
+      calibrate = variant.calibrate, contact = variant.contact, seed = s.seed,
+    })
+    for level = 1, 2 do count(paper_variants.label(variant.name, level), chain[level]) end
+    s.save(("%s/%s-chain.glb"):format(folder, paper_variants.label(variant.name):lower()), chain)
+    chains[variant.name] = chain
+  end
+  local count_columns = {"model", "nodes", "ends", "paper: nodes", "paper: ends"}
+  s.csv(folder .. "/counts.csv", counts, {columns = count_columns})
+  print()
+  print(s.format_table(counts, {columns = count_columns}))
+  return chains
 end
-s.csv(folder .. "/table.csv", rows, {columns = columns})
-s.csv(folder .. "/timings.csv", timings, {columns = timing_columns})
-print(s.format_table(rows, {columns = {
-  "label", "nodes", "ends", "cost_ratio", "surface_error_percent", "shape_error_percent",
-  "distance", "distance_spread", "ledger_error",
-}}))
+
+-- 3. Run every level from the same starts.
+local function run_levels(chains)
+  local scene = s.scenario(dofile(samples .. "/throw_at_wall.lua"))
+  local rows, columns, timings, timing_columns = {}, nil, {}, nil
+  local series, compared = {}, {}
+  for i, variant in ipairs(variants) do
+    local runs = s.compare(chains[variant.name], scene,
+      {starts = starts, jitter = 0.02, seed = s.seed, variant = variant.name})
+    compared[variant.name] = runs
+    local table_rows
+    table_rows, columns = runs:table()
+    local points = {}
+    for _, row in ipairs(table_rows) do
+      -- The base is the same in every comparison.
+      if row.level > 0 or i == 1 then rows[#rows + 1] = row end
+      points[#points + 1] = {
+        1 / row.cost_ratio, row.surface_error_percent, label = row.level > 0 and row.label or nil,
+      }
+    end
+    series[#series + 1] = {name = paper_variants.label(variant.name), points = points}
+    local measured
+    measured, timing_columns = runs:timings()
+    for _, row in ipairs(measured) do timings[#timings + 1] = row end
+  end
+  s.csv(folder .. "/table.csv", rows, {columns = columns})
+  s.csv(folder .. "/timings.csv", timings, {columns = timing_columns})
+  print(s.format_table(rows, {columns = {
+    "label", "nodes", "ends", "cost_ratio", "surface_error_percent", "shape_error_percent",
+    "distance", "distance_spread", "ledger_error",
+  }}))
+  return {rows = rows, timings = timings, series = series, compared = compared}
+end
 
 -- 4. Cost and error of each level.
-for _, ending in ipairs {"svg", "png"} do
-  s.chart(folder .. "/chart." .. ending, series, {
-    title = "Two rods thrown at a wall: cost against error",
-    x_label = "cost per simulated second (spring updates, base = 1)",
-    y_label = "surface error (% of the body's diagonal)",
-    log_x = true,
-  })
+local function draw_chart(series)
+  for _, ending in ipairs {"svg", "png"} do
+    s.chart(folder .. "/chart." .. ending, series, {
+      title = "Two rods thrown at a wall: cost against error",
+      x_label = "cost per simulated second (spring updates, base = 1)",
+      y_label = "surface error (% of the body's diagonal)",
+      log_x = true,
+    })
+  end
 end
 
 -- 5. The video: the base, level 2 of LOD-hb and the fitted level 2, synchronized.
-local frames = s.animate(folder .. "/frames", {compared.hb, compared.fit},
-  {frames = frame_count, camera = "follow", levels = {0, 2}, height = 600})
-s.video(folder .. "/comparison.mp4", folder .. "/frames")
-s.say(("%d frames, table.csv, counts.csv, chart.svg, comparison.mp4 and %d assets are in %s")
-  :format(frames, #variants, folder))
+local function make_video(compared)
+  local frames = s.animate(folder .. "/frames", {compared.hb, compared.fit},
+    {frames = frame_count, camera = "follow", levels = {0, 2}, height = 600})
+  s.video(folder .. "/comparison.mp4", folder .. "/frames")
+  s.say(("%d frames, table.csv, counts.csv, chart.svg, comparison.mp4 and %d assets are in %s")
+    :format(frames, #variants, folder))
+end
 
 -- 6. What the runs say, in three sentences.
-local function second_level(of)
+local function second_level(rows, of)
   local found = {}
   for _, row in ipairs(rows) do
     if row.level == 2 and of(row) then found[#found + 1] = row end
@@ -121,7 +135,7 @@ local function range(of, column)
 end
 
 -- Milliseconds of a simulated second.
-local function time_of(label)
+local function time_of(timings, label)
   local wall, simulated = 0, 0
   for _, row in ipairs(timings) do
     if row.label == label then
@@ -131,13 +145,24 @@ local function time_of(label)
   return 1000 * wall / simulated
 end
 
-local fit_label = paper_variants.label("fit", 2)
-local merged = second_level(function(row) return row.label ~= fit_label end)
-local fitted = second_level(function(row) return row.label == fit_label end)
-print(("\nMerged as in the paper, level 2 needs %s times fewer spring updates than the base; its "
-  .. "surface is %s %% of the body's size away from the base's."):format(
-  range(merged, "cost_ratio"), range(merged, "surface_error_percent")))
-print(("Fitted to the base, with contact at its surface, level 2 needs %s times fewer and is %s %% "
-  .. "away."):format(range(fitted, "cost_ratio"), range(fitted, "surface_error_percent")))
-print(("By the clock of this machine, a simulated second takes %.3g ms for the base and %.2g ms "
-  .. "for the fitted level 2."):format(time_of("base"), time_of(fit_label)))
+local function print_results(runs)
+  local fit_label = paper_variants.label("fit", 2)
+  local merged = second_level(runs.rows, function(row) return row.label ~= fit_label end)
+  local fitted = second_level(runs.rows, function(row) return row.label == fit_label end)
+  print(("\nMerged as in the paper, level 2 needs %s times fewer spring updates than the base; its "
+    .. "surface is %s %% of the body's size away from the base's."):format(
+    range(merged, "cost_ratio"), range(merged, "surface_error_percent")))
+  print(("Fitted to the base, with contact at its surface, level 2 needs %s times fewer and is %s "
+    .. "%% away."):format(range(fitted, "cost_ratio"), range(fitted, "surface_error_percent")))
+  print(("By the clock of this machine, a simulated second takes %.3g ms for the base and %.2g ms "
+    .. "for the fitted level 2."):format(
+    time_of(runs.timings, "base"), time_of(runs.timings, fit_label)))
+end
+
+local ok, failure = command.try_in(folder, function()
+  local runs = run_levels(make_chains(make_base()))
+  draw_chart(runs.series)
+  make_video(runs.compared)
+  print_results(runs)
+end)
+if not ok then command.fail("demo: %s", failure) end

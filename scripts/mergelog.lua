@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local fit_store = require "lib.fit_store"
 local merge_ladder = require "lib.merge_ladder"
 
 local parser = command.parser("mergelog", "Merge the base of an asset step by step and certify "
@@ -295,6 +296,8 @@ local function advise(stop, beyond)
   end
 end
 
+local fit_folder = args.out .. "/unfinished"
+
 -- The levels of the asset, or new ones.
 local function make_chain(asset)
   if args.as_made then return s.certify(asset) end
@@ -303,6 +306,7 @@ local function make_chain(asset)
   local chain, shortened = merge_ladder.build(asset[0], fractions, {
     grouping = args.grouping, border = args.border, seed = s.seed, straight = true,
     calibrate = args.calibrate and "modes" or "none",
+    calibration = args.calibrate and {store = fit_folder} or nil,
   })
   if shortened then s.say("fewer levels than requested: " .. shortened) end
   return chain
@@ -325,8 +329,9 @@ local function merge_log()
   draw_errors(levels)
   draw_merges(levels)
   draw_where(chain, beyond or levels[#levels])
+  fit_store.remove(fit_folder)
 end
 
-local ok, failure = command.try(merge_log)
+local ok, failure = command.try_in(args.out, merge_log, args.calibrate)
 if not ok then command.fail("mergelog: %s", failure) end
 s.say("wrote " .. args.out)

@@ -115,7 +115,7 @@ local function cheapest_rows(rows, bodies, most)
   return cells
 end
 
-local ok, map = command.try(stability)
+local ok, map = command.try_in(args.out, stability)
 if not ok then command.fail("cannot map %s: %s", args.asset, map) end
 local rows = map:table()
 local bodies = map:bodies()

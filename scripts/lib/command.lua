@@ -8,9 +8,12 @@ local command = {}
 
 local epilog = "Also: --seed N, --threads N, -q/--quiet and -v/--verbose, as for every command."
 
+local name_of_command -- NAME, as folders remember it
+
 -- A parser for `springlod NAME`. A positional argument may be left out if it has a default; with
 -- args("?") as well, argparse would ignore the default.
 function command.parser(name, summary)
+  name_of_command = name
   local parser = argparse("springlod " .. name, summary, epilog)
     :usage_max_width(88):help_max_width(88)
   function parser:error(message)
@@ -114,6 +117,12 @@ function command.try(work, ...)
   return false, command.reason(results[2])
 end
 
+-- Runs work() as command.try does, while no other run uses `folder`. A folder of another command is
+-- an error. `resumes`: whether work continues a run that did not finish.
+function command.try_in(folder, work, resumes)
+  return command.try(s.in_folder, folder, work, {command = name_of_command, resumes = resumes})
+end
+
 -- Prints one line and ends the command with exit code 1.
 function command.fail(...)
   io.stderr:write("springlod: ", string.format(...), "\n")
@@ -164,6 +173,12 @@ end
 -- Writes s.chart to stem.svg and stem.png.
 function command.chart(stem, data, options)
   for _, ending in ipairs{"svg", "png"} do s.chart(stem .. "." .. ending, data, options) end
+end
+
+function command.exists(path)
+  local file = io.open(path, "r")
+  if file then file:close() end
+  return file ~= nil
 end
 
 -- The file name of a path, with and without its extension.

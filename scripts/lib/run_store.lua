@@ -2,17 +2,12 @@
 -- so that an interrupted script resumes where it stopped.
 
 local s = require "springlod"
+local command = require "lib.command"
 
 local run_store = {}
 
 local Store = {}
 Store.__index = Store
-
-local function exists(path)
-  local file = io.open(path, "r")
-  if file then file:close() end
-  return file ~= nil
-end
 
 -- Reads rows written by s.csv whose cells hold no commas or quotes; numeric cells become numbers.
 local function read_rows(path)
@@ -45,6 +40,7 @@ local function as_text(value)
   table.sort(entries)
   return "{" .. table.concat(entries, "; ") .. "}"
 end
+run_store.as_text = as_text
 
 local function check_settings(path, settings)
   local kept = {}
@@ -61,7 +57,7 @@ end
 -- that a result depends on. A folder with other settings is an error.
 function run_store.open(folder, settings)
   local path = folder .. "/settings.csv"
-  if exists(path) then
+  if command.exists(path) then
     check_settings(path, settings)
   else
     local rows = {}
@@ -75,7 +71,7 @@ function run_store.open(folder, settings)
 end
 
 function Store:path(name) return ("%s/%s.csv"):format(self.folder, name) end
-function Store:has(name) return exists(self:path(name)) end
+function Store:has(name) return command.exists(self:path(name)) end
 
 -- The rows kept under `name`; if there are none, make() computes them.
 function Store:rows(name, columns, make)

@@ -7,6 +7,7 @@ local intervals = require "lib.intervals"
 local lists = require "lib.lists"
 local timed_run = require "lib.timed_run"
 local trade_off = require "studies.accuracy.trade_off"
+local unit_store = require "lib.unit_store"
 
 local methods = {
   {name = "plain merging", options = {grouping = "standard"}},
@@ -115,21 +116,29 @@ local function sample_of(level, method)
   return samples[key]
 end
 
-local function note(body, method, seed, chain)
-  for number, level in ipairs(s.info(chain).levels) do
-    local c = level.certificate
-    if c then
-      local row = {body.name, method.name, seed, number - 1, level.nodes, body.base.node_count}
+-- The number, node count and measured values of each level that a method makes with a seed.
+local function measured_levels(body, method, seed)
+  local chain, levels = make_chain(body, method, seed), {}
+  for number, level in ipairs(chain and s.info(chain).levels or {}) do
+    if level.certificate then
       local values = {}
       for i, measure in ipairs(measures) do
-        values[i] = measure[2](c, body, chain[number - 1])
-        row[#row + 1] = values[i]
+        values[i] = measure[2](level.certificate, body, chain[number - 1])
       end
-      rows[#rows + 1] = row
-      local of_body = sample_of(number - 1, method).by_body
-      of_body[body.name] = of_body[body.name] or {}
-      table.insert(of_body[body.name], values)
+      levels[#levels + 1] = {number = number - 1, nodes = level.nodes, values = values}
     end
+  end
+  return levels
+end
+
+local function note(body, method, seed, levels)
+  for _, level in ipairs(levels) do
+    local row = {body.name, method.name, seed, level.number, level.nodes, body.base.node_count}
+    table.move(level.values, 1, #level.values, #row + 1, row)
+    rows[#rows + 1] = row
+    local of_body = sample_of(level.number, method).by_body
+    of_body[body.name] = of_body[body.name] or {}
+    table.insert(of_body[body.name], level.values)
   end
 end
 
@@ -207,17 +216,21 @@ local function draw_trade_off()
   end)
 end
 
-local ok, failure = command.try(function()
+local ok, failure = command.try_in(args.folder, function()
+  local store = unit_store.open(args.folder, {keep = keep})
   for _, body in ipairs(bodies) do
     if wanted(args.bodies, body) then
       body.base, body.grid, body.lattice = body.make()
       for _, method in ipairs(methods) do
         for seed = 1, wanted(args.methods, method) and seeds or 0 do
-          local made, chain = command.try(make_chain, body, method, seed)
-          if not made then
-            s.say(("%s, %s, seed %d: skipped: %s"):format(body.name, method.name, seed, chain))
-          elseif chain then
-            note(body, method, seed, chain)
+          local unit = ("%s, %s, seed %d"):format(body.name, method.name, seed)
+          local made, levels = command.try(store.value, store, unit, function()
+            return measured_levels(body, method, seed)
+          end)
+          if made then
+            note(body, method, seed, levels)
+          else
+            s.say(("%s: skipped: %s"):format(unit, levels))
           end
         end
       end
@@ -229,6 +242,7 @@ local ok, failure = command.try(function()
   s.csv(args.folder .. "/methods.csv", all, {columns = method_columns})
   show(all)
   if args.trade_off then draw_trade_off() end
-end)
+  store:remove()
+end, true)
 if not ok then command.fail("accuracy: %s", failure) end
 s.say("wrote " .. args.folder)

@@ -11,8 +11,9 @@ parser:argument("folder", "folder to write to"):default("out/figures")
 parser:flag("--quick", "draw smaller pictures")
 local args = parser:parse()
 
-local ok, drawn = command.try(paper_figures.draw, args.folder,
-  {seed = s.seed, quick = args.quick})
+local ok, drawn = command.try_in(args.folder, function()
+  return paper_figures.draw(args.folder, {seed = s.seed, quick = args.quick})
+end)
 if not ok then command.fail("figures: %s", drawn) end
 for _, figure in ipairs(drawn) do
   print(("%s/%s: %s"):format(args.folder, figure.file, figure.title))

@@ -8,6 +8,7 @@ local landing = require "studies.fit.landing"
 local lists = require "lib.lists"
 local motion = require "studies.fit.motion"
 local trade_off = require "studies.fit.trade_off"
+local unit_store = require "lib.unit_store"
 
 local keep = {0.45, 0.2}
 local patch_radius = 2.2 -- of the small patches [mean spring lengths]
@@ -197,17 +198,18 @@ end
 local rows, sums = {}, {}
 
 local function note(body, variant, seed, level, values)
-  local row = {body.name, variant.name, seed, level}
+  local row = {body.name, variant, seed, level}
   table.move(values, 1, #values, #row + 1, row)
   rows[#rows + 1] = row
-  local key = level .. " " .. variant.name
+  local key = level .. " " .. variant
   sums[key] = sums[key] or {count = 0}
   local sum = sums[key]
   sum.count = sum.count + 1
   for i, value in ipairs(values) do sum[i] = (sum[i] or 0) + value end
 end
 
-local function measure(body, variant, seed)
+-- Adds a list for each level: name of the variant, seed, level, and the values of the measures.
+local function measure(body, variant, seed, found)
   local chain, seconds = make_chain(body, variant, seed)
   local certified, patches
   if not args.landings_only then
@@ -224,8 +226,33 @@ local function measure(body, variant, seed)
     if body.landings then of_level.landing = landing.errors(chain[level], body.landings) end
     local values = {}
     for i, one in ipairs(measures) do values[i] = one[2](of_level) end
-    note(body, variant, seed, level, values)
+    found[#found + 1] = {variant.name, seed, level, values}
   end
+end
+
+local function measured_levels(body)
+  body.base = body.make()
+  if not args.landings_only then
+    move_base(body, s.modes(body.base, {count = 1})[1].frequency)
+  end
+  if args.landings > 0 then
+    body.landings = landing.of_base(body.base, args.landings)
+    local noise = body.landings.noise
+    s.say(("%s: the base at half its step differs by %.2g %% in the first 50 ms after landing, "
+      .. "%.2g %% later"):format(body.name, 100 * noise.early, 100 * noise.late))
+  end
+  local found = {}
+  for seed = 1, args.seeds do
+    for _, variant in ipairs(compared) do measure(body, variant, seed, found) end
+  end
+  s.say(("%s: %d nodes measured"):format(body.name, body.base.node_count))
+  return found
+end
+
+-- Everything that the levels of a body depend on.
+local function store_settings()
+  return {variants = compared, seeds = args.seeds, landings = args.landings,
+          landings_only = args.landings_only or false, quick = args.quick or false}
 end
 
 local function mean_rows()
@@ -266,22 +293,11 @@ local function draw_trade_off()
   end)
 end
 
-local ok, failure = command.try(function()
+local ok, failure = command.try_in(args.folder, function()
+  local store = unit_store.open(args.folder, store_settings())
   for _, body in ipairs(chosen_bodies()) do
-    body.base = body.make()
-    if not args.landings_only then
-      move_base(body, s.modes(body.base, {count = 1})[1].frequency)
-    end
-    if args.landings > 0 then
-      body.landings = landing.of_base(body.base, args.landings)
-      local noise = body.landings.noise
-      s.say(("%s: the base at half its step differs by %.2g %% in the first 50 ms after landing, "
-        .. "%.2g %% later"):format(body.name, 100 * noise.early, 100 * noise.late))
-    end
-    for seed = 1, args.seeds do
-      for _, variant in ipairs(compared) do measure(body, variant, seed) end
-    end
-    s.say(("%s: %d nodes measured"):format(body.name, body.base.node_count))
+    local found = store:value(body.name, function() return measured_levels(body) end)
+    for _, level in ipairs(found) do note(body, table.unpack(level)) end
   end
   s.csv(args.folder .. "/levels.csv", rows,
     {columns = with_measures{"body", "variant", "seed", "level"}})
@@ -290,6 +306,7 @@ local ok, failure = command.try(function()
     {columns = with_measures{"level", "variant", "levels"}})
   show(list)
   if args.trade_off then draw_trade_off() end
-end)
+  store:remove()
+end, true)
 if not ok then command.fail("fit: %s", failure) end
 s.say("wrote " .. args.folder)

@@ -8,6 +8,7 @@ local conversion = require "lib.conversion"
 local lists = require "lib.lists"
 local progress = require "lib.progress"
 local scenes = require "studies.picks.scenes"
+local unit_store = require "lib.unit_store"
 
 local keep = {0.45, 0.2}
 local making = conversion.presets.best.simplify -- how convert makes levels
@@ -62,8 +63,8 @@ gains[#gains + 1] = "clock_over_certificate"
 
 local rows = {}
 
--- `level`: of s.info. `measured`: of clock.gains.
-local function note(names, level, measured)
+-- A row. `level`: of s.info. `measured`: of clock.gains.
+local function row_of(names, level, measured)
   local c = level.certificate
   local row = {
     body = names.body, scene = names.scene, base_nodes = names.base_nodes,
@@ -74,11 +75,11 @@ local function note(names, level, measured)
   local usual = measured[usual_column]
   row.low, row.high, row.updates = usual.low, usual.high, usual.updates
   row.clock_over_certificate = usual.value / row.certificate
-  rows[#rows + 1] = row
+  return row
 end
 
-local function measure(body, done)
-  local base = body.make()
+local function measured_rows(body)
+  local found, base = {}, body.make()
   local chain = make_chain(base)
   local levels = s.info(chain).levels
   local frequency = s.modes(base, {count = 1})[1].frequency
@@ -89,13 +90,13 @@ local function measure(body, done)
       local ok, result = command.try(clock.gains, base, chain[level], conditions, args.repeats,
         least_seconds)
       if ok then
-        note(names, levels[level + 1], result)
+        found[#found + 1] = row_of(names, levels[level + 1], result)
       else -- such as a thin body that passes through an obstacle
         s.say(("%s, %s, level %d: left out: %s"):format(body.name, scene[1], level, result))
       end
     end
-    done(body.name .. ", " .. scene[1])
   end
+  return found
 end
 
 local function geometric_mean(list, key)
@@ -160,9 +161,16 @@ local function draw()
   })
 end
 
-local ok, failure = command.try(function()
-  local done = progress(#chosen_bodies * #chosen_scenes)
-  for _, body in ipairs(chosen_bodies) do measure(body, done) end
+local ok, failure = command.try_in(args.folder, function()
+  local store = unit_store.open(args.folder, {
+    scenes = lists.names_of(chosen_scenes), repeats = args.repeats, quick = args.quick or false,
+  })
+  local done = progress(#chosen_bodies)
+  for _, body in ipairs(chosen_bodies) do
+    local found = store:value(body.name, function() return measured_rows(body) end)
+    table.move(found, 1, #found, #rows + 1, rows)
+    done(body.name)
+  end
   if #rows == 0 then error("no run succeeded", 0) end
   s.csv(args.folder .. "/gains.csv", rows, {columns = lists.joined(
     {"body", "scene", "level", "base_nodes", "nodes", "base_kernel", "kernel"}, gains,
@@ -173,6 +181,7 @@ local ok, failure = command.try(function()
   print("\ngeometric means over bodies")
   show(means, mean_columns)
   draw()
-end)
+  store:remove()
+end, true)
 if not ok then command.fail("gains: %s", failure) end
 s.say("wrote " .. args.folder)

@@ -171,9 +171,9 @@ local function paper()
     paper_studies.random_models(settings, store))
   publish("sensitivity", "Sensitivity: growth of a change of 0.1 % in the start",
     paper_studies.sensitivity(settings, store))
+  s.save_text(args.out .. "/tables.md", table.concat(page, "\n") .. "\n")
 end
 
-local ok, reason = command.try(paper)
+local ok, reason = command.try_in(args.out, paper, true)
 if not ok then command.fail("paper: %s", reason) end
-s.save_text(args.out .. "/tables.md", table.concat(page, "\n") .. "\n")
 s.say("tables.md, CSV files, charts and figures are in " .. args.out)

@@ -224,6 +224,6 @@ local function pareto()
   report(study, measure_all(study, measures, left_out), left_out)
 end
 
-local ok, reason = command.try(pareto)
+local ok, reason = command.try_in(args.out, pareto, true)
 if not ok then command.fail("pareto of %s: %s", args.asset, reason) end
 s.say("wrote " .. args.out)

@@ -5,6 +5,7 @@ local bodies = require "studies.picks.bodies"
 local command = require "lib.command"
 local progress = require "lib.progress"
 local scenes = require "studies.picks.scenes"
+local unit_store = require "lib.unit_store"
 
 local most_error = 1.5 -- of a picked level, over the tolerance
 
@@ -74,16 +75,34 @@ local function judge(body, name, levels, tolerance)
     levels[picked + 1].predicted, error, verdict}
 end
 
-local function measure(body, chain, name, scene)
+-- Predicted and measured error of each level in a scene.
+local function measured_levels(chain, scene)
   local function errors(measured)
     return (s.pick(chain, scene, {error = 0.5, measure = measured, contact = args.contact}):table())
   end
   local predicted, measured, levels = errors(false), errors(true), {}
   for i, row in ipairs(predicted) do
-    levels[i] = {level = row.level, predicted = row.error_percent,
-                 measured = measured[i].error_percent}
-    level_rows[#level_rows + 1] = {body.name, name, row.level, row.nodes, row.error_percent,
-      measured[i].error_percent, row.cost, measured[i].cost}
+    levels[i] = {level = row.level, nodes = row.nodes, predicted = row.error_percent,
+                 measured = measured[i].error_percent, predicted_cost = row.cost,
+                 measured_cost = measured[i].cost}
+  end
+  return levels
+end
+
+-- The levels in each scene of the list.
+local function measure(body, list)
+  local chain, base = make_chain(body)
+  local frequency, found = s.modes(base, {count = 1})[1].frequency, {}
+  for i, scene in ipairs(list) do
+    found[i] = measured_levels(chain, s.scenario(scene[2](base.bounds.diagonal, frequency)))
+  end
+  return found
+end
+
+local function note(body, name, levels)
+  for _, level in ipairs(levels) do
+    level_rows[#level_rows + 1] = {body.name, name, level.level, level.nodes, level.predicted,
+      level.measured, level.predicted_cost, level.measured_cost}
   end
   for _, tolerance in ipairs(args.tolerances) do judge(body, name, levels, tolerance) end
 end
@@ -96,20 +115,22 @@ local pick_columns = {"body", "scene", "tolerance", "picked", "best", "predicted
 local function study()
   local chosen, list = chosen_bodies(), scenes[args.set]
   if args.quick then list = {list[1], list[4]} end
-  local done = progress(#chosen * #list)
+  local done = progress(#chosen)
+  local store = unit_store.open(args.folder, {
+    keep = args.keep, plain = args.plain or false, contact = args.contact,
+    quick = args.quick or false,
+  })
   for _, body in ipairs(chosen) do
-    local chain, base = make_chain(body)
-    local frequency = s.modes(base, {count = 1})[1].frequency
-    for _, scene in ipairs(list) do
-      measure(body, chain, scene[1], s.scenario(scene[2](base.bounds.diagonal, frequency)))
-      done(body.name .. ", " .. scene[1])
-    end
+    local found = store:value(body.name, function() return measure(body, list) end)
+    for i, scene in ipairs(list) do note(body, scene[1], found[i]) end
+    done(body.name)
   end
   s.csv(args.folder .. "/levels.csv", level_rows, {columns = level_columns})
   s.csv(args.folder .. "/picks.csv", pick_rows, {columns = pick_columns})
+  store:remove()
 end
 
-local ok, reason = command.try(study)
+local ok, reason = command.try_in(args.folder, study, true)
 if not ok then command.fail("cannot check picks: %s", reason) end
 local lines = {}
 for i, row in ipairs(pick_rows) do

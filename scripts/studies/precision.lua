@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local unit_store = require "lib.unit_store"
 local vibration = require "studies.precision.vibration"
 
 local parser = command.parser("precision", "Compare single and double precision: bodies vibrate in "
@@ -110,14 +111,15 @@ local function vibrate_mode(body, mode, relative_amplitude)
   }
 end
 
+-- The vibrations in each mode, and in the lowest mode with each amplitude.
 local function vibrate_body(body)
-  body.model = body.make(0)
-  body.nodes, body.size = body.model:nodes(), body.model.bounds.diagonal
-  body.modes = s.modes(body.model, {count = mode_count, accuracy = 1e-10, seed = s.seed})
-  body.vibrations = {}
-  for i, mode in ipairs(body.modes) do
-    body.vibrations[i] = vibrate_mode(body, mode, amplitude)
+  local modes = s.modes(body.model, {count = mode_count, accuracy = 1e-10, seed = s.seed})
+  local vibrations, by_amplitude = {}, {}
+  for i, mode in ipairs(modes) do vibrations[i] = vibrate_mode(body, mode, amplitude) end
+  for i, relative in ipairs(amplitudes) do
+    by_amplitude[i] = vibrate_mode(body, modes[1], relative)
   end
+  return {vibrations = vibrations, by_amplitude = by_amplitude}
 end
 
 -- 3. A drop.
@@ -195,14 +197,15 @@ local function drop_body(body)
       frame_rate = frame_rate})
   end
   local double, single, half = drop("double", step), drop("single", step), drop("double", step / 2)
-  body.drop = {step = step, contact = double.first_contact,
+  local found = {step = step, contact = double.first_contact,
     precision = differences(single, double, body.size),
     step_halved = differences(half, double, body.size),
     ledger = {double = ledger_error(double), single = ledger_error(single)}, time = {}}
   for _, precision in ipairs(precisions) do
-    body.drop.time[precision] = time_of(model, scene, {step = step, precision = precision,
+    found.time[precision] = time_of(model, scene, {step = step, precision = precision,
       sleep = 0, frame_rate = 0, ledger = false, threads = 1})
   end
+  return found
 end
 
 -- The last frame before the body touched the floor.
@@ -230,6 +233,27 @@ local function drift(body, damping)
   return list
 end
 
+local function rest_body(body)
+  local list = {}
+  for _, damping in ipairs(body.large and {} or {0, 5e-4}) do
+    list[#list + 1] = {damping, table.unpack(drift(body, damping))}
+  end
+  return list
+end
+
+local function measure(body, store)
+  body.model = body.make(0)
+  body.nodes, body.size = body.model:nodes(), body.model.bounds.diagonal
+  local function kept(what, make)
+    local value = store:value(body.name .. ": " .. what, function() return make(body) end)
+    s.say(("%s: %s done"):format(body.name, what))
+    return value
+  end
+  local vibrating = kept("vibrations", vibrate_body)
+  body.vibrations, body.by_amplitude = vibrating.vibrations, vibrating.by_amplitude
+  body.drop, body.rest = kept("drops", drop_body), kept("rest", rest_body)
+end
+
 -- 5. Tables and chart.
 
 local frequency_columns = {"body", "nodes", "mode", "modal [Hz]", "stepped [Hz]", "double [Hz]",
@@ -252,8 +276,8 @@ local amplitude_columns = {"body", "amplitude / size", "single / double - 1", "s
 local function amplitude_rows()
   local rows = {}
   for _, body in ipairs(bodies) do
-    for _, relative in ipairs(amplitudes) do
-      local one = vibrate_mode(body, body.modes[1], relative)
+    for i, relative in ipairs(amplitudes) do
+      local one = body.by_amplitude[i]
       rows[#rows + 1] = {body.name, relative, one.difference, one.error, one.method_error}
     end
   end
@@ -266,9 +290,7 @@ local rest_columns = {"body", "damping [s]", ("moved in %g s"):format(rest_time 
 local function rest_rows()
   local rows = {}
   for _, body in ipairs(bodies) do
-    for _, damping in ipairs(body.large and {} or {0, 5e-4}) do
-      rows[#rows + 1] = {body.name, damping, table.unpack(drift(body, damping))}
-    end
+    for _, row in ipairs(body.rest) do rows[#rows + 1] = {body.name, table.unpack(row)} end
   end
   return rows
 end
@@ -336,13 +358,9 @@ local function show(rows, columns, formats)
   print()
 end
 
-local ok, failure = command.try(function()
-  for _, body in ipairs(bodies) do
-    vibrate_body(body)
-    s.say(body.name .. ": vibrations done")
-    drop_body(body)
-    s.say(body.name .. ": drops done")
-  end
+local ok, failure = command.try_in(args.folder, function()
+  local store = unit_store.open(args.folder, {quick = args.quick or false})
+  for _, body in ipairs(bodies) do measure(body, store) end
   local tables = {
     {"frequencies", frequency_rows(), frequency_columns,
       {[4] = "%.6g", [5] = "%.6g", [6] = "%.9g", [7] = "%.9g", [8] = "%+.1e", [9] = "%.0e",
@@ -361,6 +379,7 @@ local ok, failure = command.try(function()
     if formats then show(rows, columns, formats) end
   end
   draw(args.folder)
-end)
+  store:remove()
+end, true)
 if not ok then command.fail("precision: %s", failure) end
 s.say("wrote " .. args.folder)

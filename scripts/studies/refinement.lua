@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local unit_store = require "lib.unit_store"
 
 local parser = command.parser("refinement", "Measure the convergence of cantilevers (square "
   .. "section, length 20 heights) with decreasing cell size: tip deflection and first three "
@@ -197,13 +198,13 @@ local function cells_of(row, number)
   return list
 end
 
-local function study()
+local function study(store)
   local rows, of_style = {}, {}
   for _, style in ipairs(styles) do
     of_style[style] = {}
     for _, cells in ipairs(sizes[style]) do
       if cells > args.finest then break end
-      local row = measure(style, cells)
+      local row = store:value(style .. " " .. cells, function() return measure(style, cells) end)
       add_errors(row, of_style[style][#of_style[style]])
       s.say(("%s, %d cells across: deflection error %.2f %%"):format(style, cells, row.errors[1]))
       rows[#rows + 1] = row
@@ -267,8 +268,9 @@ local function report(rows, of_style)
   print(s.format_table(orders, {columns = order_columns}))
 end
 
-local ok, failure = command.try(function()
-  local rows, of_style = study()
+local ok, failure = command.try_in(args.folder, function()
+  local store = unit_store.open(args.folder, {})
+  local rows, of_style = study(store)
   local exact = {}
   for i, row in ipairs(rows) do exact[i] = cells_of(row, function(x) return x end) end
   s.csv(args.folder .. "/table.csv", exact, {columns = columns})
@@ -277,6 +279,7 @@ local ok, failure = command.try(function()
   s.csv(args.folder .. "/orders.csv", order_rows(of_style), {columns = order_columns})
   draw(args.folder, of_style)
   report(rows, of_style)
-end)
+  store:remove()
+end, true)
 if not ok then command.fail("refinement: %s", failure) end
 s.say("wrote " .. args.folder)

@@ -6,6 +6,7 @@ local draw = require "studies.throws.draw"
 local measure = require "studies.throws.measure"
 local progress = require "lib.progress"
 local summary = require "studies.throws.summary"
+local unit_store = require "lib.unit_store"
 
 local parser = command.parser("throws", "Throw random bodies at a floor and a wall, at every "
   .. "level, and count inverted corners (J <= 0) at the end and on the way, failed runs and errors "
@@ -59,16 +60,21 @@ end
 
 local function study()
   local rows, count = {}, args.count or (args.quick and 12 or 1000)
+  local store = unit_store.open(args.out, {cells = cells, options = options})
   local report = progress(count)
   for number = args.first, args.first + count - 1 do
     local throw = draw(s.seed, number, cells)
-    local of_throw = measure.throw(throw, options)
-    table.move(of_throw, 1, #of_throw, #rows + 1, rows)
+    local of_throw = store:value(number, function() return measure.throw(throw, options) end)
+    for _, row in ipairs(of_throw) do
+      row.throw = throw
+      rows[#rows + 1] = row
+    end
     report(("throw %d: %s"):format(number, throw.shape))
   end
   s.csv(args.out .. "/throws.csv", summary.cells(rows), {columns = summary.columns})
   summary.publish(args.out .. "/summary.md", rows, repeated())
   summary.chart(args.out .. "/chart", rows)
+  store:remove()
   s.say("wrote " .. args.out)
 end
 
@@ -76,6 +82,6 @@ local ok, failure
 if args.only then
   ok, failure = command.try(tell, args.only)
 else
-  ok, failure = command.try(study)
+  ok, failure = command.try_in(args.out, study, true)
 end
 if not ok then command.fail("throws: %s", failure) end

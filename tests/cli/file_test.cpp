@@ -8,6 +8,7 @@
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
+using springlod::test::make_bar_asset;
 using springlod::test::Ran;
 using springlod::test::slurp;
 using springlod::test::spit;
@@ -61,6 +62,50 @@ TEST_CASE("standard output that cannot be written is named, and a failure") {
   CHECK_THAT(slurp(errors), Contains("cannot write all of the standard output"));
 }
 
+TEST_CASE("a closed standard output is a failure, and no file takes its place") {
+  const TemporaryFolder scratch;
+  spit(scratch / "write.lua", R"(
+    local s = require "springlod"
+    local folder = ...
+    s.in_folder(folder, function()
+      print(("noise"):rep(10000))
+      s.save_text(folder .. "/text.txt", "text")
+    end)
+  )");
+  const std::string errors = (scratch / "errors.txt").string();
+  const std::string program = (springlod::test::build_folder() / "app/springlod").string();
+  const int status = std::system((program + " run " + (scratch / "write.lua").string() + " -- " +
+                                  (scratch / "out").string() + " >&- 2> " + errors)
+                                     .c_str());
+  CAPTURE(slurp(errors));
+  CHECK(WEXITSTATUS(status) == 1);
+  CHECK_THAT(slurp(errors), Contains("cannot write all of the standard output"));
+  CHECK(slurp(scratch / "out/text.txt") == "text");
+  CHECK_THAT(slurp(scratch / "out/.springlod-run"), !Contains("noise"));
+}
+
+TEST_CASE("a folder that cannot be written to is named by every command") {
+  const TemporaryFolder scratch;
+  make_bar_asset(scratch / "bar.glb", 3, {"--cell", "0.5"});
+  spit(scratch / "drop.lua", "return {duration = 0.01}");
+  const std::string asset = (scratch / "bar.glb").string();
+  const std::string mesh = (scratch / "bar.obj").string();
+  // /sys takes no files, of root neither.
+  const std::vector<std::vector<std::string>> commands{
+      {"convert", mesh, "--unit", "m", "--fast", "--cell", "0.5", "-o", "/sys/bar.glb"},
+      {"convert", mesh, "--unit", "m", "--cell", "0.5", "-o", "/sys/bar.glb"},
+      {"compare", asset, "--scenario", (scratch / "drop.lua").string(), "--out", "/sys"},
+      {"stability", asset, "--quick", "--out", "/sys/out"},
+      {"refinement", "/sys/out", "--quick"}};
+  for (const std::vector<std::string>& command : commands) {
+    const Ran ran = springlod_run(command);
+    CAPTURE(command, ran.err);
+    CHECK(ran.exit_code == 1);
+    CHECK_THAT(ran.err, Contains("cannot") && Contains("/sys"));
+    CHECK_THAT(ran.err, !Contains("internal error"));
+  }
+}
+
 TEST_CASE("files that the system does not let grow are named, and nothing half is left") {
   const TemporaryFolder scratch;
   spit(scratch / "write.lua", R"(
@@ -68,19 +113,32 @@ TEST_CASE("files that the system does not let grow are named, and nothing half i
     local folder = ...
     local points = {}
     for i = 1, 20 do points[i] = {i, i * i % 7} end
-    local cells = s.grid{cell = 1, size = {40, 40, 40}, materials = {m = {young = 1e6}},
+    local cells = s.grid{cell = 1, size = {16, 16, 16}, materials = {m = {young = 1e6}},
                          fill = function(x, y, z) return (x * y + z) % 2 < 1 and "m" or nil end}
+    local chain = s.simplify(s.lattice(cells), {levels = 1})
+    local rows = {}
+    for i = 1, 2000 do rows[i] = {i} end
     local writers = {
+      ["a.csv"] = function(path) s.csv(path, rows, {columns = {"n"}}) end,
+      ["a.glb"] = function(path) s.save(path, chain) end,
+      ["b.png"] = function(path) s.render(path, chain[1], {width = 400, height = 300}) end,
       ["a.png"] = function(path) s.chart(path, {{name = "a", points = points}}) end,
       ["a.svg"] = function(path) s.chart(path, {{name = "a", points = points}}) end,
       ["a.txt"] = function(path) s.save_text(path, ("x"):rep(100000)) end,
       ["a.vdb"] = function(path) s.save_vdb(path, cells) end,
     }
     for name, write in pairs(writers) do
+      local old = assert(io.open(folder .. "/old-" .. name, "w"))
+      old:write("old"):close()
+      assert(not pcall(write, folder .. "/old-" .. name))
+      assert(io.open(folder .. "/old-" .. name):read("a") == "old", name .. " was lost")
       local ok, failure = pcall(write, folder .. "/" .. name)
       assert(not ok, name .. " was written")
       assert(failure.message:find(name, 1, true), failure.message)
       assert(not io.open(folder .. "/" .. name), name .. " is left")
+    end
+    for _, path in ipairs(s.files(folder)) do
+      assert(not path:find(".springlod-", 1, true), path .. " is left")
     end
   )");
   const std::string errors = (scratch / "errors.txt").string();

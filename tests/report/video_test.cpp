@@ -1,8 +1,10 @@
 #include "report/video.hpp"
 
+#include <csignal>
 #include <fstream>
 
 #include <catch2/catch.hpp>
+#include <sys/resource.h>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
@@ -63,6 +65,42 @@ TEST_CASE("without ffmpeg the frames are kept and the command is reported") {
   CHECK(result.command.find("-framerate 25") != std::string::npos);
   CHECK(result.command.find((folder.path() / "frame_%04d.png").string()) != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "a.mp4"));
+}
+
+namespace {
+
+/// While it lives, no file of this process and its children grows beyond some bytes.
+class SmallFiles {
+ public:
+  explicit SmallFiles(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &former_);
+    const rlimit limit{bytes, former_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SmallFiles() {
+    setrlimit(RLIMIT_FSIZE, &former_);
+    std::signal(SIGXFSZ, SIG_DFL);
+  }
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+
+ private:
+  rlimit former_{};
+};
+
+}  // namespace
+
+TEST_CASE("a video that does not fit on the disk is refused, and the old one stays") {
+  if (!find_program("ffmpeg")) return;
+  const TemporaryFolder folder;
+  write_frames(folder.path(), 6);
+  for (const char* name : {"a.mp4", "a.gif"}) {
+    write_text_file(folder / name, "old");
+    const SmallFiles limit(100);
+    CHECK_THROWS_WITH(encode_video(folder.path(), 30, folder / name), Catch::Contains(name));
+    CHECK(read_file(folder / name) == "old");
+  }
 }
 
 TEST_CASE("a video that cannot be made is refused with a reason") {

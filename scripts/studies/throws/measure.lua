@@ -161,11 +161,11 @@ end
 -- visit(row, model, run), if given, is called after each completed run.
 function measure.throw(throw, options, visit)
   local chain, failure = attempt(make_chain, throw)
-  if not chain then return {failed({throw = throw}, failure)} end
+  if not chain then return {failed({}, failure)} end
   local scene, rows = make_scene(throw, chain[0]), {}
   for level = 0, chain.coarsest do
     local model = chain[level]
-    local row = {throw = throw, level = level, nodes = model.node_count,
+    local row = {level = level, nodes = model.node_count,
                  springs = model.spring_count, corners = model.corner_count}
     local run
     run, failure = attempt(run_level, model, scene, throw, options)
