@@ -58,7 +58,7 @@ constexpr auto option_rows(const RunOptions*) {
       option("integrator", &RunOptions::integrator, "time integration scheme"),
       nested(&RunOptions::solver),
       option("step", &RunOptions::step, "time step")
-          .within(1e-9, 100)
+          .within(1e-15, 100)
           .in(Dimension::time)
           .by_default("safety times the predicted stable step; 1 ms for the implicit schemes"),
       option("safety", &RunOptions::safety, "step as a fraction of the predicted stable step")
