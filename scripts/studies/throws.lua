@@ -64,8 +64,11 @@ local function study()
   local report = progress(count)
   for number = args.first, args.first + count - 1 do
     local throw = draw(s.seed, number, cells)
-    local of_throw = store:value(number, function() return measure.throw(throw, options) end)
-    for _, row in ipairs(of_throw) do
+    local kept = store:value(number, function()
+      return {rows = measure.throw(throw, options), cells = throw.cells}
+    end)
+    throw.cells = kept.cells -- measure.throw sets it
+    for _, row in ipairs(kept.rows) do
       row.throw = throw
       rows[#rows + 1] = row
     end

@@ -129,7 +129,7 @@ TEST_CASE("The temporary file of a killed process is removed, that of a living o
   CHECK(read_file(folder / ".springlod-notes.txt") == "of the user");
 }
 
-TEST_CASE("Several threads write to one folder") {
+TEST_CASE("Several threads write to one folder", "[threaded]") {
   const TemporaryFolder folder;
   std::vector<std::thread> threads;
   for (const char* name : {"a", "b", "c", "d"})

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 Ran run_lua(const TemporaryFolder& scratch, const std::string& code) {
-  return springlod_run({"-e", "local s = require 'springlod'\nlocal out = arg[1]\n" + code, "--",
+  return springlod_run({"-e", "local s = require 'springlod'\nlocal out = arg[1]\n" + code,
                         (scratch / "out").string()});
 }
 
@@ -90,23 +90,44 @@ TEST_CASE("two commands do not mix their files in one folder") {
 
 TEST_CASE("an interrupted study continues after its last unit") {
   const TemporaryFolder scratch;
-  const auto throws = [&](const char* out) {
-    return std::vector<std::string>{"throws", "--quick", "--count",
-                                    "6",      "-o",      (scratch / out).string()};
+  const auto refinement = [&](const char* out) {
+    return std::vector<std::string>{"refinement", "--quick", (scratch / out).string()};
   };
-  REQUIRE(springlod_run(throws("whole")).exit_code == 0);
-  const Ran stopped = springlod_interrupted(throws("parts"), "2/6 throw 2");
+  const Ran whole = springlod_run(refinement("whole"));
+  REQUIRE(whole.exit_code == 0);
+  const Ran stopped = springlod_interrupted(refinement("parts"), "corners, 2 cells across");
   CAPTURE(stopped.err);
   CHECK(stopped.exit_code == 130);
   CHECK_THAT(stopped.err, Contains("run the same command again to continue"));
   CHECK(fs::exists(scratch / "parts/unfinished"));
-  CHECK_FALSE(fs::exists(scratch / "parts/throws.csv"));
-  const Ran more = springlod_run(throws("parts"));
+  CHECK_FALSE(fs::exists(scratch / "parts/table.csv"));
+  const Ran more = springlod_run(refinement("parts"));
   CAPTURE(more.err);
   CHECK(more.exit_code == 0);
-  CHECK_THAT(more.err, Contains("continuing an unfinished run of springlod throws"));
-  CHECK(slurp(scratch / "parts/throws.csv") == slurp(scratch / "whole/throws.csv"));
+  CHECK_THAT(more.err, Contains("continuing an unfinished run of springlod refinement"));
+  CHECK(more.out == whole.out);
+  for (const char* table : {"table.csv", "orders.csv"})
+    CHECK(slurp(scratch / "parts" / table) == slurp(scratch / "whole" / table));
   CHECK_FALSE(fs::exists(scratch / "parts/unfinished"));
+}
+
+TEST_CASE("a stopped series of throws writes the same bytes in the end") {
+  const TemporaryFolder scratch;
+  // Throw 4 is not fitted, and small.
+  const auto throws = [&](const char* out, const char* count) {
+    return springlod_run(
+        {"throws", "--quick", "--first", "4", "--count", count, "-o", (scratch / out).string()});
+  };
+  REQUIRE(throws("whole", "2").exit_code == 0);
+  // A folder that cannot take the table stops the command after its last throw.
+  fs::create_directories(scratch / "parts/throws.csv");
+  const Ran stopped = throws("parts", "2");
+  CHECK(stopped.exit_code == 1);
+  CHECK_THAT(stopped.err, Contains("throws.csv: it is a folder"));
+  fs::remove(scratch / "parts/throws.csv");
+  CHECK(throws("parts", "2").exit_code == 0);
+  CHECK(slurp(scratch / "parts/throws.csv") == slurp(scratch / "whole/throws.csv"));
+  CHECK(slurp(scratch / "parts/summary.md") == slurp(scratch / "whole/summary.md"));
 }
 
 TEST_CASE("kept units have the values that were computed, to the last bit") {
