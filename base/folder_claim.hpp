@@ -15,7 +15,8 @@ class FolderClaim {
   /// Makes the folder if it is missing. Throws InputError if another process has claimed it or it
   /// holds files of another command, IoError if it cannot be written to.
   FolderClaim(std::filesystem::path folder, std::string command);
-  /// A folder without any files is left without the mark, and removed if it was made by the command.
+  /// A folder without any files is left without the mark, and removed if it was made by the
+  /// command.
   ~FolderClaim();
   FolderClaim(const FolderClaim&) = delete;
   FolderClaim& operator=(const FolderClaim&) = delete;

@@ -119,7 +119,7 @@ TEST_CASE("files that the system does not let grow are named, and nothing half i
     local rows = {}
     for i = 1, 2000 do rows[i] = {i} end
     local writers = {
-      ["a.csv"] = function(path) s.csv(path, rows, {columns = {"n"}}) end,
+      ["b.csv"] = function(path) s.csv(path, rows, {columns = {"n"}}) end,
       ["a.glb"] = function(path) s.save(path, chain) end,
       ["b.png"] = function(path) s.render(path, chain[1], {width = 400, height = 300}) end,
       ["a.png"] = function(path) s.chart(path, {{name = "a", points = points}}) end,

@@ -103,6 +103,7 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(#loads[1].force == chain[1].node_count and #loads[1].displacement[1] == 3)
     assert(s.quantity("5 mm", "length") == 0.005)
     assert(s.same_file(folder .. "/.", folder) and not s.same_file(folder, folder .. "/no"))
+    assert(s.in_folder(folder .. "/claimed", function() return 7 end) == 7)
     assert(s.is_folder(folder) and #s.files(folder, {endings = {".obj"}}) == 1)
     s.model{nodes = {{0, 0, 0, mass = 1}}}
     s.say("quiet")

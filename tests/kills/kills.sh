@@ -64,8 +64,9 @@ LUA
   "$program" -q convert box.obj --cell 34cm --unit m --fast -o asset.glb >prepare.out
 }
 
-# Results that hold measured times, and the mark of the run, which holds the number of the process.
-times='/timings\.csv$|/points\.csv$|/runs/timed\.csv$|/runs/times/|/\.springlod-run$'
+# Results that hold measured times, the mark of the run, which holds the number of the process, and
+# the command, which names the folder.
+times='/command\.txt$|/timings\.csv$|/points\.csv$|/runs/timed\.csv$|/runs/times/|/\.springlod-run$'
 times+='|^\./o/(frequencies|loads|surface|surface-over-time|ensemble)(-front)?\.(csv|svg|png|gp)$'
 
 # The hash and name of each file of folder $1 but those with times.
