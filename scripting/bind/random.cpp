@@ -2,7 +2,6 @@
 
 #include "voxelize/random.hpp"
 
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -49,29 +48,18 @@ int random_binding(Call& call) {
   return call.give(std::shared_ptr<const ModelValue>(value));
 }
 
-// A count, or a list of them.
-std::vector<std::uint32_t> read_counts(TableReader& reader) {
+// A count, or a list of them. Counts beyond that of the base would take its memory many times over
+// before the level is refused as finer than its base.
+std::vector<std::uint32_t> read_counts(TableReader& reader, std::uint32_t base_nodes) {
   const int given = reader.raw("nodes");
-  lua_State* L = reader.lua();
   if (given == 0) reader.refuse("nodes", "given: how many each level shall have, as in {161, 78}");
-  std::vector<std::uint32_t> counts;
-  const auto take = [&](int index) {
-    int whole = 0;
-    const lua_Integer count = lua_tointegerx(L, index, &whole);
-    if (whole == 0 || lua_type(L, index) != LUA_TNUMBER || count < 1 ||
-        count > std::numeric_limits<std::uint32_t>::max())
-      reader.refuse("nodes", "a whole number of nodes, or a list of them");
-    counts.push_back(static_cast<std::uint32_t>(count));
-  };
-  if (!lua_istable(L, given)) {
-    take(given);
-    return counts;
-  }
-  for (lua_Unsigned i = 1; i <= lua_rawlen(L, given); ++i) {
-    lua_rawgeti(L, given, static_cast<lua_Integer>(i));
-    take(lua_gettop(L));
-    lua_pop(L, 1);
-  }
+  std::vector<std::uint32_t> counts(1);
+  lua_istable(reader.lua(), given) ? reader.read("nodes", counts)
+                                   : reader.read("nodes", counts.front());
+  for (const std::uint32_t count : counts)
+    if (count > base_nodes)
+      reader.refuse("nodes", fmt::format("at most {}, the number of the base's nodes, got {}",
+                                         base_nodes, count));
   return counts;
 }
 
@@ -83,7 +71,7 @@ int refill_binding(Call& call) {
   voxelize::RefillOptions options;
   options.seed = call.session().settings().seed;
   TableReader reader = call.options(3);
-  options.nodes = read_counts(reader);
+  options.nodes = read_counts(reader, base->model->node_count());
   read_options(call, reader, options);
   reader.finish();
   options.progress = call.progress();

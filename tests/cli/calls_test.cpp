@@ -54,6 +54,13 @@ TEST_CASE("Numbers, texts and lists beyond the range of an option are refused") 
     for i = 1, 100001 do endings[i] = ".obj" end
     refusal(s.files, ".", {endings = endings})
     refusal(s.json, {}, {indent = 1000000000})
+    local bushy = {}
+    for _ = 1, 50 do bushy = {bushy, bushy} end
+    refusal(s.json, bushy)
+    local box = s.grid{cell = 1, size = {2, 2, 2}, materials = {a = {}},
+                       fill = function() return "a" end}
+    refusal(s.refill, s.lattice(box), box, {nodes = 2^31})
+    refusal(s.refill, s.lattice(box), box, {nodes = {1000}})
     refusal(s.scenario, {gravity = {0, 0, 1e300}})
     refusal(s.grid, {cell = 1, size = {4096, 4096, 4096}, materials = {a = {}}, fill = print}))");
   CHECK_THAT(out, Contains("run: frame_rate must be from 0 to 1000000, got 1e+09"));
@@ -65,6 +72,9 @@ TEST_CASE("Numbers, texts and lists beyond the range of an option are refused") 
   CHECK_THAT(out, Contains("simplify: keep must be from 0 to 1, got 7"));
   CHECK_THAT(out, Contains("endings must be a list of at most 100000 entries, got 100001"));
   CHECK_THAT(out, Contains("indent must be a whole number of -1 to 16"));
+  CHECK_THAT(out, Contains("json: more than 2000000 values"));
+  CHECK_THAT(out, Contains("refill: nodes must be a whole number of 1 to 2000000, got 2147483648"));
+  CHECK_THAT(out, Contains("refill: nodes must be at most 27, the number of the base's nodes"));
   CHECK_THAT(out, Contains("gravity must be from -1e+15"));
   CHECK_THAT(out, Contains("size must be three counts of cells, together at most 10000000"));
 }
