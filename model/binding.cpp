@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -28,6 +29,12 @@ constexpr double kFlatVariance = 1e-12;
 constexpr double kThin = 0.05;
 /// Least distance of that one from the plane, as a fraction of the width.
 constexpr double kOffPlane = 0.2;
+
+/// Largest weight of an entry [1]. Those of append_weights are at most 1 + sqrt(3) *
+/// kFarthestDeviations, which is 18.4.
+constexpr double kLargestWeight = 100;
+/// Rounding of the sum of the weights of a point [1].
+constexpr double kWeightRounding = 1e-6;
 
 struct Candidate {
   double distance2;
@@ -192,9 +199,17 @@ void validate(const Binding& binding, std::uint32_t node_count) {
     if (binding.node[e] >= node_count)
       throw InputError(fmt::format("binding: entry {} names node {}, but there are only {}",
                                    script_number(e), script_number(binding.node[e]), node_count));
-    if (!std::isfinite(binding.weight[e]))
-      throw InputError(
-          fmt::format("binding: the weight of entry {} is not finite", script_number(e)));
+    if (!(std::abs(binding.weight[e]) <= kLargestWeight))
+      throw InputError(fmt::format("binding: the weight {} of entry {} must lie between {} and {}",
+                                   binding.weight[e], script_number(e), -kLargestWeight,
+                                   kLargestWeight));
+  }
+  for (std::uint32_t p = 0; p < binding.point_count(); ++p) {
+    const auto begin = binding.weight.begin();
+    const double sum = std::accumulate(begin + binding.start[p], begin + binding.start[p + 1], 0.0);
+    if (!(std::abs(sum - 1) <= kWeightRounding))
+      throw InputError(fmt::format("binding: the weights of point {} add up to {}, not to 1",
+                                   script_number(p), sum));
   }
 }
 

@@ -21,8 +21,8 @@ struct Binding {
   }
 };
 
-/// Throws InputError unless the rows are valid, the weights finite and the nodes below
-/// `node_count`.
+/// Throws InputError unless the rows are valid, the nodes below `node_count`, and the weights of
+/// each point bounded, with the sum 1.
 void validate(const Binding& binding, std::uint32_t node_count);
 
 /// Largest number of nodes per point: as in a cell of the lattice. Affine motions need at least 4.

@@ -18,6 +18,13 @@ void check_finite(std::initializer_list<double> numbers, const std::string& owne
       throw InputError(fmt::format("certificate: {} is {}; it must be finite", owner, number));
 }
 
+void check_positive_or_zero(std::initializer_list<double> numbers, const std::string& owner) {
+  check_finite(numbers, owner);
+  for (const double number : numbers)
+    if (number < 0)
+      throw InputError(fmt::format("certificate: {} is {}; it must be 0 or more", owner, number));
+}
+
 }  // namespace
 
 void validate(const Certificate& c) {
@@ -27,7 +34,8 @@ void validate(const Certificate& c) {
   for (std::size_t i = 0; i < c.frequencies.size(); ++i) {
     const Certificate::Frequency& f = c.frequencies[i];
     const std::string owner = fmt::format("frequency {}", script_number(i));
-    check_finite({f.level, f.base, f.mac, f.decay, f.base_decay}, owner);
+    check_positive_or_zero({f.level, f.base, f.mac}, owner);
+    check_finite({f.decay, f.base_decay}, owner);
     if (f.base <= 0)
       throw InputError(
           fmt::format("certificate: {} of the base is {} Hz; it must be above 0; leave out "
@@ -37,13 +45,13 @@ void validate(const Certificate& c) {
   for (const Certificate::Load& load : c.loads)
     check_finite({load.compliance, load.error}, fmt::format("a number of load {}", load.name));
   check_finite({c.mass_error, c.center_shift, c.second_moment_error}, "an error of the mass");
-  check_finite({c.highest_frequency, c.base_highest_frequency}, "a highest frequency");
-  check_finite({c.stable_step, c.base_stable_step}, "a stable time step");
-  check_finite({c.cost, c.base_cost}, "a cost");
+  check_positive_or_zero({c.highest_frequency, c.base_highest_frequency}, "a highest frequency");
+  check_positive_or_zero({c.stable_step, c.base_stable_step}, "a stable time step");
+  check_positive_or_zero({c.cost, c.base_cost}, "a cost");
   check_finite({c.blow_error.value_or(0), c.first_period_error.value_or(0)},
                "an error of the motion");
-  check_finite({c.contact_ratio.value_or(0)}, "the contact area over mass");
-  check_finite({c.tolerance}, "the tolerance");
+  check_positive_or_zero({c.contact_ratio.value_or(0)}, "the contact area over mass");
+  check_positive_or_zero({c.tolerance}, "the tolerance");
 }
 
 double mean_frequency_error(const Certificate& certificate, std::uint32_t first,

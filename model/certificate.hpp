@@ -60,8 +60,8 @@ struct Certificate {
   std::vector<std::string> unmet;
 };
 
-/// Throws InputError for a value that is not finite, and for a frequency of the base that is not
-/// above 0 (errors are relative to it).
+/// Throws InputError for a value that is not finite, for a frequency, step or cost below 0, and for
+/// a frequency of the base that is not above 0 (errors are relative to it).
 void validate(const Certificate& certificate);
 
 /// Mean |error| of the frequencies first .. last-1, counted from 0; missing frequencies are

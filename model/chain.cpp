@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "model/ranges.hpp"
 
 namespace springlod::inline model {
 
@@ -86,6 +87,11 @@ void validate(const LodAsset& asset) {
                       n, base, level.model.node_count()));
   }
   validate(asset.surface);
+  for (std::size_t v = 0; v < asset.surface.positions.size(); ++v)
+    for (const double coordinate : asset.surface.positions[v])
+      if (!range::kCoordinate.holds(coordinate))
+        throw InputError(fmt::format("surface: vertex {}: {}", script_number(v),
+                                     outside("position", coordinate, range::kCoordinate)));
   const std::uint32_t bound = asset.surface_of_base.point_count();
   if (bound != asset.surface.positions.size())
     throw InputError(

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
 #include "model/mass_spring.hpp"
+#include "model/ranges.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -68,7 +70,7 @@ void validate_corner(const MassSpringModel& model, const SpringLookup& springs,
                      std::uint32_t number) {
   const Corner& corner = model.corners[number];
   const auto& [n0, n1, n2, n3] = corner.node;
-  const auto fail = [&](const char* rule) {
+  const auto fail = [&](std::string_view rule) {
     throw InputError(fmt::format("model: corner {} ({} - {}, {}, {}): {}", script_number(number),
                                  script_number(corner.node[0]), script_number(corner.node[1]),
                                  script_number(corner.node[2]), script_number(corner.node[3]),
@@ -85,8 +87,8 @@ void validate_corner(const MassSpringModel& model, const SpringLookup& springs,
   if (n1 > n2 || n1 > n3) fail("its lowest neighbour must come first");
   if (number > 0 && !(model.corners[number - 1].node < corner.node))
     fail("corners must be sorted by their nodes, none twice");
-  if (!(corner.young > 0) || !std::isfinite(corner.young))
-    fail("its Young's modulus must be above 0");
+  if (!range::kYoung.holds(corner.young))
+    fail(outside("Young's modulus", corner.young, range::kYoung));
   if (!(corner_volume(corner, model.rest) > 0)) fail("its volume at rest must be above 0");
   if (!(corner_shape(corner, model.rest) >= (1 - kShapeRounding) * kFlatCorner))
     fail("it is too flat at rest");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "model/ranges.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -24,37 +26,43 @@ void require_sizes(const MassSpringModel& m) {
     throw InputError(fmt::format("model: every spring array must have {} entries", s));
 }
 
-void validate_nodes(const MassSpringModel& m) {
-  for (std::uint32_t i = 0; i < m.node_count(); ++i) {
-    const auto fail = [&](const char* rule) {
-      throw InputError(fmt::format("model: node {}: {}", script_number(i), rule));
-    };
-    if (!m.rest[i].allFinite()) fail("its position is not finite");
-    if (!(m.mass[i] > 0) || !std::isfinite(m.mass[i])) fail("its mass must be above 0");
-    if (!(m.volume[i] > 0) || !std::isfinite(m.volume[i])) fail("its volume must be above 0");
-    if (!(m.contact_area[i] >= 0) || !std::isfinite(m.contact_area[i]))
-      fail("its contact area must be 0 or more");
-    if (m.material[i] >= m.materials.size()) fail("its material number is out of range");
-  }
+void validate_node(const MassSpringModel& m, std::uint32_t i) {
+  const auto fail = [&](std::string_view rule) {
+    throw InputError(fmt::format("model: node {}: {}", script_number(i), rule));
+  };
+  const auto require = [&](const char* quantity, double value, const Range& range) {
+    if (!range.holds(value)) fail(outside(quantity, value, range));
+  };
+  for (const double coordinate : m.rest[i]) require("position", coordinate, range::kCoordinate);
+  require("mass", m.mass[i], range::kMass);
+  require("volume", m.volume[i], range::kVolume);
+  require("contact area", m.contact_area[i],
+          {0, range::kMostFolding * std::pow(m.volume[i], 2.0 / 3), "m2 for its volume"});
+  if (m.border[i] > 1) fail("its border flag must be 0 or 1");
+  if (m.material[i] >= m.materials.size()) fail("its material number is out of range");
 }
 
-void validate_springs(const MassSpringModel& m) {
-  for (std::uint32_t s = 0; s < m.spring_count(); ++s) {
-    const auto fail = [&](const char* rule) {
-      throw InputError(fmt::format("model: spring {} ({} - {}): {}", script_number(s),
-                                   script_number(m.a[s]), script_number(m.b[s]), rule));
-    };
-    if (m.b[s] >= m.node_count()) fail("it refers to a node that does not exist");
-    if (m.a[s] >= m.b[s]) fail("its nodes must differ, the lower one first");
-    if (s > 0 && (m.a[s - 1] > m.a[s] || (m.a[s - 1] == m.a[s] && m.b[s - 1] >= m.b[s])))
-      fail("springs must be sorted by their nodes, no pair twice");
-    if (m.rest[m.a[s]] == m.rest[m.b[s]]) fail("its nodes coincide; move or merge them");
-    if (!(m.rest_length[s] > 0) || !std::isfinite(m.rest_length[s]))
-      fail("its rest length must be above 0");
-    if (!(m.stiffness[s] > 0) || !std::isfinite(m.stiffness[s]))
-      fail("its stiffness must be above 0");
-    if (!(m.damping[s] >= 0) || !std::isfinite(m.damping[s])) fail("its damping must be 0 or more");
-  }
+void validate_spring(const MassSpringModel& m, std::uint32_t s) {
+  const auto fail = [&](std::string_view rule) {
+    throw InputError(fmt::format("model: spring {} ({} - {}): {}", script_number(s),
+                                 script_number(m.a[s]), script_number(m.b[s]), rule));
+  };
+  const auto require = [&](const char* quantity, double value, const Range& range) {
+    if (!range.holds(value)) fail(outside(quantity, value, range));
+  };
+  if (m.b[s] >= m.node_count()) fail("it refers to a node that does not exist");
+  if (m.a[s] >= m.b[s]) fail("its nodes must differ, the lower one first");
+  if (s > 0 && (m.a[s - 1] > m.a[s] || (m.a[s - 1] == m.a[s] && m.b[s - 1] >= m.b[s])))
+    fail("springs must be sorted by their nodes, no pair twice");
+  const double distance = (m.rest[m.a[s]] - m.rest[m.b[s]]).norm();
+  if (!(distance > 0)) fail("its nodes coincide; move or merge them");
+  require("rest length", m.rest_length[s], range::kRestLength);
+  require("rest length", m.rest_length[s],
+          {range::kRestLength.least, range::kMostCompression * distance,
+           "m for the distance of its nodes"});
+  require("stiffness", m.stiffness[s], range::kStiffness);
+  require("damping", m.damping[s],
+          {0, range::kDampingTime.most * m.stiffness[s], "N s/m for its stiffness"});
 }
 
 }  // namespace
@@ -64,8 +72,8 @@ void validate(const MassSpringModel& model) {
   if (model.materials.empty()) throw InputError("model: it has no materials; give at least one");
   for (const Material& material : model.materials) validate(material);
   require_sizes(model);
-  validate_nodes(model);
-  validate_springs(model);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) validate_node(model, i);
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) validate_spring(model, s);
   validate_corners(model);
 }
 

@@ -1,27 +1,26 @@
 #include "model/material.hpp"
 
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "model/ranges.hpp"
 
 namespace springlod::inline model {
 
 void validate(const Material& material) {
   if (material.name.empty()) throw InputError("a material has no name; give it one");
-  const auto require = [&](bool ok, const char* field, double value, const char* rule) {
-    if (!ok)
+  const auto require = [&](const char* field, double value, const Range& range) {
+    if (!range.holds(value))
       throw InputError(
-          fmt::format("material \"{}\": {} = {} must be {}", material.name, field, value, rule));
+          fmt::format("material \"{}\": {}", material.name, outside(field, value, range)));
   };
-  require(std::isfinite(material.young) && material.young > 0, "young", material.young,
-          "a finite number of pascal above 0");
-  require(std::isfinite(material.density) && material.density > 0, "density", material.density,
-          "a finite number of kg/m3 above 0");
-  require(std::isfinite(material.damping) && material.damping >= 0, "damping", material.damping,
-          "a finite number of seconds, 0 or more");
+  require("young", material.young, range::kYoung);
+  require("density", material.density, range::kDensity);
+  require("damping", material.damping, range::kDampingTime);
+  for (const float component : {material.colour.r, material.colour.g, material.colour.b})
+    require("colour", component, range::kColour);
 }
 
 Colour palette_colour(std::size_t index) {

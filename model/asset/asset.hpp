@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "model/chain.hpp"
 
@@ -17,7 +19,10 @@ namespace springlod::inline model {
 void save_asset(const LodAsset& asset, const std::filesystem::path& path);
 
 /// Reads a file of save_asset; all values keep their bits. Throws IoError for a missing file, a
-/// file that is not a springlod asset, a damaged file (its checksum differs) and a newer version.
+/// file that is not a springlod asset, a damaged file and a newer version. Sizes and counts are
+/// checked before memory is allocated, then the checksum, then the rules and ranges of validate().
 LodAsset load_asset(const std::filesystem::path& path);
+/// As load_asset, from the bytes of a file. `name` is that of the file in messages.
+LodAsset parse_asset(std::string_view file, const std::string& name);
 
 }  // namespace springlod::inline model

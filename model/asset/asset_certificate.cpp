@@ -1,14 +1,13 @@
 #include "model/asset/asset_certificate.hpp"
 
 #include <array>
-#include <cstdint>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "model/asset/field_reader.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -33,56 +32,6 @@ constexpr std::array<std::pair<const char*, std::optional<double> Certificate::*
     kOptionalNumbers{{{"blowError", &Certificate::blow_error},
                       {"firstPeriodError", &Certificate::first_period_error},
                       {"contactRatio", &Certificate::contact_ratio}}};
-
-/// A JSON object read with strict types: the JSON library would convert true to 1 and 2.5 to 2.
-class FieldReader {
- public:
-  FieldReader(const json& object, std::string owner) : object_(object), owner_(std::move(owner)) {
-    if (!object.is_object())
-      throw InputError(fmt::format("{} must be an object, not {}", owner_, object.type_name()));
-  }
-
-  double number(const char* key) const {
-    return field(key, &json::is_number, "a number").get<double>();
-  }
-  std::optional<double> optional_number(const char* key) const {
-    return object_.contains(key) ? std::optional(number(key)) : std::nullopt;
-  }
-  bool flag(const char* key) const {
-    return field(key, &json::is_boolean, "true or false").get<bool>();
-  }
-  std::string text(const char* key) const {
-    return field(key, &json::is_string, "text").get<std::string>();
-  }
-  std::uint32_t count(const char* key) const {
-    const auto number = field(key, &json::is_number_unsigned, "a count").get<std::uint64_t>();
-    if (number > std::numeric_limits<std::uint32_t>::max())
-      throw InputError(fmt::format("{}: '{}' cannot be {}", owner_, key, number));
-    return static_cast<std::uint32_t>(number);
-  }
-  /// Calls read(entry, name) for each entry of a list; does nothing if the list is missing.
-  template <class Read>
-  void each(const char* key, const Read& read) const {
-    if (!object_.contains(key)) return;
-    std::size_t place = 0;
-    for (const json& entry : field(key, &json::is_array, "a list"))
-      read(entry, fmt::format("{}, {} {}", owner_, key, ++place));
-  }
-
- private:
-  const json& field(const char* key, bool (json::*is_right)() const noexcept,
-                    const char* right) const {
-    const auto found = object_.find(key);
-    if (found == object_.end()) throw InputError(fmt::format("{}: '{}' is missing", owner_, key));
-    if (!((*found).*is_right)())
-      throw InputError(
-          fmt::format("{}: '{}' must be {}, not {}", owner_, key, right, found->type_name()));
-    return *found;
-  }
-
-  const json& object_;
-  std::string owner_;
-};
 
 Certificate::Moduli read_moduli(const FieldReader& from) {
   return {.material = from.text("material"),

@@ -1,17 +1,20 @@
+#include <algorithm>
 #include <array>
-#include <cstring>
-#include <limits>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "model/asset/array_reader.hpp"
 #include "model/asset/asset.hpp"
 #include "model/asset/asset_certificate.hpp"
 #include "model/asset/asset_format.hpp"
+#include "model/asset/field_reader.hpp"
 #include "model/asset/glb.hpp"
 
 // The extension is read with a JSON parser and explicit range checks. A general glTF reader would
@@ -22,142 +25,147 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLongestValue = 40;  // of a wrong value in a message [characters]
+// Messages may quote what stands in the file, of any length [characters].
+constexpr int kLongestReason = 300;
 
-// A whole number of at most `most`. json::get would convert negative numbers and fractions.
-std::uint64_t whole(const json& number, std::uint64_t most) {
-  if (!number.is_number_unsigned() || number.get<std::uint64_t>() > most)
-    throw Damage(fmt::format("{} stands where a whole number of at most {} must stand",
-                             number.dump().substr(0, kLongestValue), most));
-  return number.get<std::uint64_t>();
+ContactAt read_contact(const std::string& word) {
+  const auto contact = from_string<ContactAt>(word);
+  if (!contact) throw Damage("its contact points are of an unknown kind");
+  return *contact;
 }
 
-std::uint32_t whole(const json& number) {
-  return static_cast<std::uint32_t>(whole(number, std::numeric_limits<std::uint32_t>::max()));
+Colour read_colour(const json& list, const std::string& owner) {
+  if (!list.is_array() || list.size() != 3 ||
+      !std::all_of(list.begin(), list.end(), [](const json& c) { return c.is_number(); }))
+    throw InputError(fmt::format("{}: 'colour' must be a list of three numbers", owner));
+  return {list[0].get<float>(), list[1].get<float>(), list[2].get<float>()};
+}
+
+Material read_material(const json& object, const std::string& owner) {
+  const FieldReader from(object, owner);
+  return {from.text("name"), from.number("young"), from.number("density"), from.number("damping"),
+          read_colour(object.value("colour", json()), owner)};
+}
+
+void read_provenance(const FieldReader& extension, Provenance& provenance) {
+  extension.each("provenance", [&](const json& entry, const std::string& name) {
+    if (!entry.is_array() || entry.size() != 2 || !entry[0].is_string() || !entry[1].is_string())
+      throw InputError(fmt::format("{} must be a pair of texts", name));
+    provenance.entries.emplace_back(entry[0].get<std::string>(), entry[1].get<std::string>());
+  });
+}
+
+std::vector<Corner> read_corners(const FieldReader& from, ArrayReader& arrays) {
+  const std::uint32_t count = from.optional_count("corners");
+  const auto nodes = arrays.take<std::array<std::uint32_t, 4>>(from, "cornerNodes", count);
+  const auto young = arrays.take_any<double>(from, "cornerYoung");
+  const auto number = arrays.take_any<std::uint32_t>(from, "cornerYoungNumber");
+  if (number.empty() ? young.size() > 1 || young.empty() != nodes.empty()
+                     : number.size() != nodes.size())
+    throw Damage("the moduli of its corners do not fit its corners");
+  std::vector<Corner> corners(nodes.size());
+  for (std::size_t c = 0; c < nodes.size(); ++c) {
+    const std::size_t at = number.empty() ? 0 : number[c];
+    if (at >= young.size()) throw Damage("a corner refers to a modulus that does not exist");
+    corners[c] = {nodes[c], young[at]};
+  }
+  return corners;
+}
+
+void read_ends(const FieldReader& from, ArrayReader& arrays, MassSpringModel& model,
+               std::uint32_t spring_count) {
+  const auto ends = arrays.take<std::array<std::uint32_t, 2>>(from, "ends", spring_count);
+  model.a.reserve(ends.size());
+  model.b.reserve(ends.size());
+  for (const auto& [a, b] : ends) {
+    model.a.push_back(a);
+    model.b.push_back(b);
+  }
 }
 
 /// Builds the asset from the extension and verifies the checksum.
 class ExactReader {
  public:
-  ExactReader(const json& gltf, std::string_view binary)
-      : views_(gltf.at("bufferViews")), binary_(binary) {}
+  ExactReader(const json& gltf, std::string_view binary) : arrays_(gltf, binary) {}
 
   LodAsset read(const json& extension) {
+    const FieldReader from(extension, "the extension");
     LodAsset asset;
-    if (extension.contains("provenance"))
-      for (const json& entry : extension.at("provenance"))
-        asset.provenance.entries.emplace_back(entry.at(0).get<std::string>(),
-                                              entry.at(1).get<std::string>());
-    if (extension.contains("contact")) asset.chain.contact = read_contact(extension.at("contact"));
-    has_corners_ = whole(extension.at("version")) >= asset_format::kVersionWithCorners;
-    for (const json& level : extension.at("levels"))
-      asset.chain.levels.push_back(read_level(level, asset.chain.levels.size()));
-    if (extension.contains("surface")) read_surface(extension.at("surface"), asset);
-
-    json rest = extension;
-    rest.erase("checksum");
-    checksum_.add(rest.dump());
-    if (checksum_.text() != extension.at("checksum").get<std::string>())
-      throw Damage("its contents do not match its checksum");
+    read_provenance(from, asset.provenance);
+    if (from.has("contact")) asset.chain.contact = read_contact(from.text("contact"));
+    has_corners_ = from.count("version") >= asset_format::kVersionWithCorners;
+    from.each("levels", [&](const json& level, const std::string&) {
+      const std::size_t number = asset.chain.levels.size();
+      asset.chain.levels.push_back(
+          read_level(level, number, number == 0 ? 0 : asset.chain.levels[0].model.node_count()));
+    });
+    if (from.has("surface")) read_surface(extension["surface"], asset);
+    verify_checksum(extension, from.text("checksum"));
     return asset;
   }
 
  private:
-  std::string_view view(const json& number) const {
-    const json& v = views_.at(whole(number));
-    const std::uint64_t offset = v.contains("byteOffset") ? whole(v.at("byteOffset")) : 0;
-    const std::uint64_t length = whole(v.at("byteLength"));
-    if (whole(v.at("buffer")) != 0 || offset > binary_.size() || length > binary_.size() - offset)
-      throw Damage("an array lies outside the file");
-    return binary_.substr(offset, length);
-  }
-
-  template <class T>
-  std::vector<T> take(const json& object, const char* key) {
-    const std::string_view bytes = object.contains(key) ? view(object.at(key)) : std::string_view{};
-    if (bytes.size() % sizeof(T) != 0) throw Damage(fmt::format("its array {} is cut short", key));
-    checksum_.add(bytes);
-    std::vector<T> array(bytes.size() / sizeof(T));
-    if (!bytes.empty()) std::memcpy(static_cast<void*>(array.data()), bytes.data(), bytes.size());
-    return array;
-  }
-
-  static ContactAt read_contact(const json& word) {
-    const auto contact = from_string<ContactAt>(word.get<std::string>());
-    if (!contact) throw Damage("its contact points are of an unknown kind");
-    return *contact;
-  }
-
-  static Material read_material(const json& object) {
-    const json& colour = object.at("colour");
-    return {object.at("name").get<std::string>(),
-            object.at("young").get<double>(),
-            object.at("density").get<double>(),
-            object.at("damping").get<double>(),
-            {colour.at(0).get<float>(), colour.at(1).get<float>(), colour.at(2).get<float>()}};
-  }
-
-  std::vector<Corner> read_corners(const json& object) {
-    const auto nodes = take<std::array<std::uint32_t, 4>>(object, "cornerNodes");
-    const auto young = take<double>(object, "cornerYoung");
-    const auto number = take<std::uint32_t>(object, "cornerYoungNumber");
-    if (number.empty() ? young.size() > 1 || young.empty() != nodes.empty()
-                       : number.size() != nodes.size())
-      throw Damage("the moduli of its corners do not fit its corners");
-    std::vector<Corner> corners(nodes.size());
-    for (std::size_t c = 0; c < nodes.size(); ++c) {
-      const std::size_t at = number.empty() ? 0 : number[c];
-      if (at >= young.size()) throw Damage("a corner refers to a modulus that does not exist");
-      corners[c] = {nodes[c], young[at]};
-    }
-    return corners;
-  }
-
-  Level read_level(const json& object, std::size_t number) {
+  // `base_nodes`: the number of nodes of level 0, not used for level 0 itself.
+  Level read_level(const json& object, std::size_t number, std::uint32_t base_nodes) {
+    const FieldReader from(object, fmt::format("level {}", number));
+    const std::uint32_t nodes = from.count("nodes");
+    const std::uint32_t springs = from.optional_count("springs");
     Level level;
     MassSpringModel& model = level.model;
-    level.made_by = object.at("madeBy").get<std::string>();
-    for (const json& material : object.at("materials"))
-      model.materials.push_back(read_material(material));
-    model.rest = take<Vec3>(object, "rest");
-    model.mass = take<double>(object, "mass");
-    model.volume = take<double>(object, "volume");
-    model.contact_area = take<double>(object, "contactArea");
-    model.border = take<std::uint8_t>(object, "border");
-    model.material = take<std::uint32_t>(object, "material");
-    for (const auto& [a, b] : take<std::array<std::uint32_t, 2>>(object, "ends")) {
-      model.a.push_back(a);
-      model.b.push_back(b);
-    }
-    model.rest_length = take<double>(object, "restLength");
-    model.stiffness = take<double>(object, "stiffness");
-    model.damping = take<double>(object, "damping");
-    level.of_base.of = take<std::uint32_t>(object, "nodeOfBase");
-    level.of_base.count = model.node_count();
-    if (has_corners_) model.corners = read_corners(object);
-    if (object.contains("certificate"))
-      level.certificate = read_certificate(object.at("certificate"),
+    level.made_by = from.text("madeBy");
+    from.each("materials", [&](const json& material, const std::string& name) {
+      model.materials.push_back(read_material(material, name));
+    });
+    model.rest = arrays_.take<Vec3>(from, "rest", nodes);
+    model.mass = arrays_.take<double>(from, "mass", nodes);
+    model.volume = arrays_.take<double>(from, "volume", nodes);
+    model.contact_area = arrays_.take<double>(from, "contactArea", nodes);
+    model.border = arrays_.take<std::uint8_t>(from, "border", nodes);
+    model.material = arrays_.take<std::uint32_t>(from, "material", nodes);
+    read_ends(from, arrays_, model, springs);
+    model.rest_length = arrays_.take<double>(from, "restLength", springs);
+    model.stiffness = arrays_.take<double>(from, "stiffness", springs);
+    model.damping = arrays_.take<double>(from, "damping", springs);
+    level.of_base.of =
+        arrays_.take<std::uint32_t>(from, "nodeOfBase", number == 0 ? nodes : base_nodes);
+    level.of_base.count = nodes;
+    if (has_corners_) model.corners = read_corners(from, arrays_);
+    if (from.has("certificate"))
+      level.certificate = read_certificate(object["certificate"],
                                            fmt::format("the certificate of level {}", number));
     return level;
   }
 
   void read_surface(const json& object, LodAsset& asset) {
-    if (object.contains("parts"))
-      for (const json& part : object.at("parts"))
-        asset.surface.parts.push_back(
-            {part.at("name").get<std::string>(), part.at("material").get<std::string>(),
-             whole(part.at("firstTriangle")), whole(part.at("triangleCount"))});
-    asset.surface.positions = take<Vec3>(object, "positions");
-    asset.surface.triangles = take<Triangle>(object, "indices");
-    asset.surface_of_base.start = take<std::uint32_t>(object, "bindingStart");
-    asset.surface_of_base.node = take<std::uint32_t>(object, "bindingNode");
-    asset.surface_of_base.weight = take<double>(object, "bindingWeight");
+    const FieldReader from(object, "the surface");
+    const std::uint32_t vertices = from.count("vertices");
+    from.each("parts", [&](const json& entry, const std::string& name) {
+      const FieldReader part(entry, name);
+      asset.surface.parts.push_back({part.text("name"), part.text("material"),
+                                     part.count("firstTriangle"), part.count("triangleCount")});
+    });
+    asset.surface.positions = arrays_.take<Vec3>(from, "positions", vertices);
+    asset.surface.triangles = arrays_.take<Triangle>(from, "indices", from.count("triangles"));
+    Binding& binding = asset.surface_of_base;
+    // Without vertices, the start may be missing.
+    binding.start = arrays_.take<std::uint32_t>(
+        from, "bindingStart", vertices > 0 || from.has("bindingStart") ? vertices + 1ULL : 0);
+    const std::uint32_t entries = binding.start.empty() ? 0 : binding.start.back();
+    binding.node = arrays_.take<std::uint32_t>(from, "bindingNode", entries);
+    binding.weight = arrays_.take<double>(from, "bindingWeight", entries);
   }
 
-  const json& views_;
-  std::string_view binary_;
+  void verify_checksum(const json& extension, const std::string& stated) {
+    json rest = extension;
+    rest.erase("checksum");
+    arrays_.add_to_checksum(rest.dump());
+#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // a fuzzer would hardly pass it
+    if (arrays_.checksum() != stated) throw Damage("its contents do not match its checksum");
+#endif
+  }
+
+  ArrayReader arrays_;
   bool has_corners_ = false;
-  asset_format::Checksum checksum_;
 };
 
 const json* find_extension(const json& gltf) {
@@ -170,13 +178,19 @@ const json* find_extension(const json& gltf) {
 }  // namespace
 
 LodAsset load_asset(const std::filesystem::path& path) {
-  const std::string file = read_file(path);
-  const std::string name = path.string();
+  return parse_asset(read_file(path), path.string());
+}
+
+LodAsset parse_asset(std::string_view file, const std::string& name) {
   if (!is_glb(file))
     throw IoError(
         fmt::format("{} is not a .glb file (binary glTF); springlod convert makes one from "
                     "a mesh",
                     name));
+  const auto damaged = [&](std::string_view reason) {
+    return IoError(
+        fmt::format("{} is damaged: {:.{}}; make it again", name, reason, kLongestReason));
+  };
   try {
     const GlbChunks chunks = split_glb(file);
     const json gltf = json::parse(chunks.json);
@@ -186,7 +200,7 @@ LodAsset load_asset(const std::filesystem::path& path) {
           fmt::format("{} has no level-of-detail chain (extension {}); springlod "
                       "convert makes one from a mesh",
                       name, asset_format::kExtension));
-    const std::uint32_t version = whole(extension->at("version"));
+    const std::uint32_t version = FieldReader(*extension, "the extension").count("version");
     if (version == 0) throw Damage("its format version is 0");
     if (version > asset_format::kVersion)
       throw IoError(
@@ -197,11 +211,13 @@ LodAsset load_asset(const std::filesystem::path& path) {
     validate(asset);
     return asset;
   } catch (const Damage& e) {
-    throw IoError(fmt::format("{} is damaged: {}; make it again", name, e.what()));
+    throw damaged(e.what());
+  } catch (const json::parse_error& e) {
+    throw damaged(fmt::format("its JSON chunk is not valid at byte {}", e.byte));
   } catch (const json::exception& e) {
-    throw IoError(fmt::format("{} is damaged: {}; make it again", name, e.what()));
+    throw damaged(e.what());
   } catch (const InputError& e) {
-    throw IoError(fmt::format("{} is damaged: {}; make it again", name, e.what()));
+    throw damaged(e.what());
   }
 }
 

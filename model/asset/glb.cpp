@@ -14,6 +14,9 @@ constexpr std::uint32_t kJson = 0x4E4F534A;
 constexpr std::uint32_t kBinary = 0x004E4942;
 constexpr std::size_t kHeader = 12;
 constexpr std::size_t kChunkHeader = 8;
+// Of the JSON chunk [bytes]. Parsed, it needs up to 20 times as much memory. An asset has some kB a
+// level, most of them for its certificate.
+constexpr std::size_t kLargestJson = std::size_t{64} << 20;
 constexpr int kMostLevels = 64;  // of JSON; an asset has some 10
 
 std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
@@ -84,6 +87,9 @@ GlbChunks split_glb(std::string_view file) {
   std::string_view rest = file.substr(kHeader);
   GlbChunks chunks;
   chunks.json = take_chunk(rest, kJson, "JSON");
+  if (chunks.json.size() > kLargestJson)
+    throw Damage(fmt::format("its JSON chunk has {} bytes; at most {} are read", chunks.json.size(),
+                             kLargestJson));
   require_shallow(chunks.json);
   chunks.binary = take_chunk(rest, kBinary, "binary");
   return chunks;

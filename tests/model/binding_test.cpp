@@ -12,6 +12,7 @@
 namespace springlod {
 namespace {
 
+using Catch::Matchers::Contains;
 using test::box_lattice;
 using test::make_model;
 
@@ -183,6 +184,18 @@ TEST_CASE("A composed binding equals its two bindings in sequence") {
 
 TEST_CASE("Binding rejects a model without nodes") {
   CHECK_THROWS_AS(bind_points({Vec3::Zero()}, MassSpringModel{}), InputError);
+}
+
+TEST_CASE("Weights that are large or do not add up to 1 are rejected with their point") {
+  const auto two_points = [](const std::vector<double>& weight) {
+    return Binding{{0, 1, 3}, {0, 1, 2}, weight};
+  };
+  CHECK_NOTHROW(validate(two_points({1, 1.5, -0.5}), 3));
+  CHECK_THROWS_WITH(validate(two_points({1, -1.5, -0.5}), 3),
+                    Contains("point 2") && Contains("add up to -2, not to 1"));
+  CHECK_THROWS_WITH(validate(two_points({0.99, 1.5, -0.5}), 3), Contains("point 1"));
+  CHECK_THROWS_WITH(validate(two_points({1, 1e6, 1 - 1e6}), 3), Contains("of entry 2"));
+  CHECK_THROWS_WITH(validate(two_points({1, NAN, 1}), 3), Contains("of entry 2"));
 }
 
 }  // namespace

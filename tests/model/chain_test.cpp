@@ -59,6 +59,10 @@ TEST_CASE("An invalid asset is rejected with the number of the level") {
     asset.surface_of_base.node[5] = 80;
     CHECK_THROWS_WITH(validate(asset), Contains("entry 6") && Contains("node 81"));
   }
+  SECTION("a vertex beyond all planets") {
+    asset.surface.positions[4].z() = -1e300;
+    CHECK_THROWS_WITH(validate(asset), Contains("vertex 5") && Contains("-1e+300 m"));
+  }
   SECTION("rows of the binding out of order") {
     std::swap(asset.surface_of_base.start[2], asset.surface_of_base.start[3]);
     CHECK_THROWS_AS(validate(asset), InputError);

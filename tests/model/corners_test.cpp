@@ -155,6 +155,7 @@ TEST_CASE("A moved, turned and scaled model keeps its corners valid") {
   for (const double scale : {1.0, 1e-4, 1.0 / 3, 123.4}) {
     MassSpringModel moved = m;
     for (Vec3& x : moved.rest) x = scale * (turn * x) + scale * Vec3(10, -20, 7);
+    for (double& length : moved.rest_length) length *= scale;
     CHECK_NOTHROW(validate(moved));
   }
 }

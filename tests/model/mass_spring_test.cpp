@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "model/ranges.hpp"
 #include "tests/support/lattices.hpp"
 
 namespace springlod {
@@ -35,8 +36,19 @@ TEST_CASE("An invalid node or spring is reported with its number") {
       {"node 4", "mass", [](auto& m) { m.mass[3] = kNan; }},
       {"node 3", "volume", [](auto& m) { m.volume[2] = -1; }},
       {"node 6", "contact area", [](auto& m) { m.contact_area[5] = -1e-9; }},
+      {"node 6", "contact area is 1e+12 m2", [](auto& m) { m.contact_area[5] = 1e12; }},
+      {"node 4", "mass is 1e+30 kg", [](auto& m) { m.mass[3] = 1e30; }},
+      {"node 3", "volume is 1e+30 m3", [](auto& m) { m.volume[2] = 1e30; }},
+      {"node 8", "position is 1e+300 m", [](auto& m) { m.rest[7].y() = 1e300; }},
+      {"node 2", "border flag", [](auto& m) { m.border[1] = 2; }},
       {"node 7", "material", [](auto& m) { m.material[6] = 1; }},
       {"spring 5", "rest length", [](auto& m) { m.rest_length[4] = 0; }},
+      {"spring 5", "rest length is 1e+308 m", [](auto& m) { m.rest_length[4] = 1e308; }},
+      {"spring 5", "m for the distance of its nodes",
+       [](auto& m) { m.rest_length[4] *= 1.01 * range::kMostCompression; }},
+      {"spring 10", "stiffness is 1e+30 N/m", [](auto& m) { m.stiffness[9] = 1e30; }},
+      {"spring 2", "N s/m for its stiffness",
+       [](auto& m) { m.damping[1] = 1.01 * range::kDampingTime.most * m.stiffness[1]; }},
       {"spring 5", "nodes coincide", [](auto& m) { m.rest[m.b[4]] = m.rest[m.a[4]]; }},
       {"spring 10", "stiffness", [](auto& m) { m.stiffness[9] = -2; }},
       {"spring 10", "stiffness",
@@ -49,6 +61,21 @@ TEST_CASE("An invalid node or spring is reported with its number") {
   MassSpringModel m = box_lattice(3, 3, 3);
   c.damage(m);
   CHECK_THROWS_WITH(validate(m), Contains(c.named) && Contains(c.rule));
+}
+
+TEST_CASE("Bodies from a cell of a nanometre to a planet are within the ranges") {
+  // Of the softest gel and of diamond; the cells are those of 3 x 3 x 3 nodes.
+  for (const double cell : {1e-9, 1e-3, 1.0, 5e6})
+    for (const double young : {1.0, 1e12}) {
+      CAPTURE(cell, young);
+      MassSpringModel m = box_lattice(3, 3, 3, cell, young * cell);
+      for (std::uint32_t i = 0; i < m.node_count(); ++i) {
+        m.volume[i] = cell * cell * cell;
+        m.mass[i] = 1000 * m.volume[i];
+        m.contact_area[i] = 6 * cell * cell;
+      }
+      CHECK_NOTHROW(validate(m));
+    }
 }
 
 TEST_CASE("Arrays of unequal length, no nodes and no materials are rejected") {

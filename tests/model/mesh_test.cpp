@@ -60,7 +60,13 @@ TEST_CASE("A material out of range is rejected with its name and the field") {
   SECTION("damping") {
     m.damping = std::numeric_limits<double>::quiet_NaN();
   }
-  CHECK_THROWS_WITH(validate(m), Contains("rubber") && Contains("must be"));
+  SECTION("young of no known matter") {
+    m.young = 1e30;
+  }
+  SECTION("colour") {
+    m.colour.g = 1.5F;
+  }
+  CHECK_THROWS_WITH(validate(m), Contains("rubber") && Contains("must lie between"));
   m.name.clear();
   CHECK_THROWS_WITH(validate(m), Contains("no name"));
 }

@@ -110,7 +110,7 @@ TEST_CASE("An asset without certificates has no certificate entry in its JSON") 
   CHECK(read_file(folder / "asset.glb").find("certificate") == std::string::npos);
 }
 
-TEST_CASE("A certificate with values that are not finite is not saved") {
+TEST_CASE("A certificate with values that are not finite or negative is not saved") {
   const TemporaryFolder folder;
   LodAsset asset = certified_asset();
   Certificate& certificate = *asset.chain.levels[1].certificate;
@@ -122,6 +122,10 @@ TEST_CASE("A certificate with values that are not finite is not saved") {
   SECTION("an infinite time step") {
     certificate.stable_step = std::numeric_limits<double>::infinity();
     refused("a stable time step is inf");
+  }
+  SECTION("a negative cost") {
+    certificate.cost = -1;
+    refused("a cost is -1");
   }
   SECTION("a modulus") {
     certificate.moduli[1].poisson = NAN;

@@ -145,9 +145,9 @@ TEST_CASE("Malformed corners are rejected") {
   };
   refused("\"cornerYoung\"", "\"c\"", "a modulus that does not exist");
   refused("\"cornerYoungNumber\"", "\"c\"", "moduli of its corners");
-  refused("\"cornerNodes\"", "\"c\"", "moduli of its corners");
+  refused("\"cornerNodes\"", "\"c\"", "its array cornerNodes has 0 bytes");
   refused("\"cornerNodes\":", "\"cornerNodes\":0,\"c\":", "");
-  refused("\"corners\":4", "\"corners\":5", "checksum");
+  refused("\"corners\":4", "\"corners\":5", "its array cornerNodes has");
 }
 
 TEST_CASE("An asset of format version 1 is read as one without corners") {
@@ -228,6 +228,71 @@ TEST_CASE("A buffer view outside the file is detected") {
     const std::string first = "\"byteLength\":1920";  // level 0: 80 nodes of 24 bytes
     overwrite(path, with_json(bytes, first, fmt::format("\"byteLength\":{}", length)));
     CHECK_THROWS_WITH(load_asset(path), Contains("damaged"));
+  }
+}
+
+TEST_CASE("Counts that do not fit the arrays are refused before memory is allocated") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  save_asset(sample_asset(), path);
+  const std::string bytes = read_file(path);
+  const auto refused = [&](const std::string& from, const std::string& to,
+                           const std::string& reason) {
+    INFO(from << " -> " << to);
+    overwrite(path, with_json(bytes, from, to));
+    CHECK_THROWS_WITH(load_asset(path), Contains("damaged") && Contains(reason));
+  };
+  refused("\"nodes\":80", "\"nodes\":4294967295", "its array rest has 1920 bytes");
+  refused("\"nodes\":80", "\"nodes\":79", "79 entries need 1896");
+  refused("\"nodes\":80", "\"nodes\":true", "'nodes' must be a count");
+  refused("\"springs\":", "\"springs\":9", "its array ends has");
+  refused("\"vertices\":8", "\"vertices\":4294967295", "its array positions has 192 bytes");
+  refused("\"triangles\":12", "\"triangles\":0", "its array indices has 144 bytes");
+  refused("\"bindingWeight\":", "\"w\":", "its array bindingWeight has 0 bytes");
+  refused("\"levels\":[", "\"levels\":7,\"l\":[", "'levels' must be a list");
+  refused("\"mass\":", "\"mass\":99", "its array mass refers to buffer view 99");
+  refused("\"colour\":[", "\"colour\":[,", "its JSON chunk is not valid at byte");
+  refused("\"colour\":[", "\"colour\":[true,", "three numbers");
+  refused("\"density\":1100.0", "\"density\":true", "materials 2: 'density' must be a number");
+}
+
+TEST_CASE("Arrays that overlap are refused: a small file could ask for much memory") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  save_asset(sample_asset(), path);
+  const std::string bytes = read_file(path);
+  const Layout layout(bytes);
+  std::string json = bytes.substr(layout.json_begin, layout.json_end - layout.json_begin);
+  const std::size_t first = json.find("\"levels\":[") + 10;
+  const std::string level = json.substr(first, json.find(",{\"border\"", first) - first);
+  REQUIRE(level.starts_with("{\"border\""));
+  std::string levels;
+  for (int i = 0; i < 100; ++i) levels += level + ",";
+  overwrite(path, with_json(bytes, level, levels + level));
+  CHECK_THROWS_WITH(load_asset(path), Contains("damaged") && Contains("its arrays overlap"));
+}
+
+TEST_CASE("A JSON chunk that is far too large is refused before it is parsed") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  save_asset(sample_asset(), path);
+  overwrite(path, with_json(read_file(path), "\"version\":2",
+                            "\"version\":2" + std::string(std::size_t{64} << 20, ' ')));
+  CHECK_THROWS_WITH(load_asset(path), Contains("damaged") && Contains("at most 67108864"));
+}
+
+TEST_CASE("A reason that quotes long text from a file is cut") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  save_asset(sample_asset(), path);
+  overwrite(path, with_json(read_file(path), "\"density\":1100",
+                            "\"density\":" + std::string(100'000, '9')));
+  try {
+    load_asset(path);
+    FAIL("it was loaded");
+  } catch (const IoError& error) {
+    CHECK_THAT(error.what(), Contains("damaged") && Contains("999"));
+    CHECK(std::string(error.what()).size() < 1000);
   }
 }
 
