@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -30,7 +31,12 @@ constexpr const char* kMaterialCount = "springlod_material_count";
 constexpr const char* kHasDistance = "springlod_has_distance";
 
 // Some messages of OpenVDB hold what it found in the file, of any length [characters].
-constexpr int kLongestReason = 300;
+constexpr std::size_t kLongestReason = 300;
+
+// Processor time for the trial in a child process: files of ours take 0.12 s for each MB, many
+// damaged ones never end.
+constexpr double kLeastSeconds = 2;
+constexpr double kSecondsPerByte = 1e-6;
 
 constexpr std::int32_t kOutside = -1;  // in the grid "material"
 constexpr int kBand = 3;  // half width of a level set in cells, the default of OpenVDB's tools
@@ -113,13 +119,14 @@ void append_hash(const fs::path& aside, const fs::path& path) {
   if (!out) throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
 }
 
-void require_intact(const fs::path& path) {
+// Returns the number of bytes of the file, which has no wrong hash.
+std::size_t intact_size(const fs::path& path) {
   const std::string bytes = read_file(path);
   std::int64_t magic = 0;
   std::memcpy(&magic, bytes.data(), std::min(bytes.size(), sizeof magic));
   if (magic != openvdb::OPENVDB_MAGIC)
     throw IoError(fmt::format("{} is not a .vdb file", path.string()));
-  if (bytes.size() < kHashLine) return;
+  if (bytes.size() < kHashLine) return bytes.size();
   const std::string_view all = bytes;
   const std::string_view line = all.substr(bytes.size() - kHashLine);
   if (line.starts_with(kHashLabel) &&
@@ -128,6 +135,15 @@ void require_intact(const fs::path& path) {
         fmt::format("{} is damaged: its content does not have the hash that it states; make or "
                     "copy it again",
                     path.string()));
+  return bytes.size();
+}
+
+// Messages of OpenVDB quote bytes of the file, which could control the terminal.
+std::string printable(std::string_view text) {
+  std::string clean(text);
+  std::replace_if(
+      clean.begin(), clean.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  return clean;
 }
 
 class Reader {
@@ -249,14 +265,16 @@ void save_vdb(const MaterialGrid& grid, const fs::path& path) {
 }
 
 MaterialGrid load_vdb(const fs::path& path) {
-  require_intact(path);
+  const auto bytes = static_cast<double>(intact_size(path));
   start_openvdb();
   const auto damaged = [&](std::string_view reason) {
-    return IoError(fmt::format("{} is damaged: {:.{}}", path.string(), reason, kLongestReason));
+    return IoError(fmt::format("{} is damaged: {}", path.string(),
+                               printable(reason.substr(0, kLongestReason))));
   };
   try {
     // What OpenVDB survives there, it survives here.
-    run_in_child([&] { return Reader(path).read(), std::string(); }, {});
+    run_in_child([&] { return Reader(path).read(), std::string(); },
+                 {.seconds = std::ceil(kLeastSeconds + kSecondsPerByte * bytes)});
     return Reader(path).read();
   } catch (const ChildFailure& e) {
     throw damaged(fmt::format("OpenVDB {}", e.what()));

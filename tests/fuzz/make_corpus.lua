@@ -1,0 +1,48 @@
+-- Writes the first inputs of the fuzz targets, which the quick mutation runs damage too:
+--   springlod run tests/fuzz/make_corpus.lua -- tests/fuzz/corpus
+-- Small bodies, so that a run of an input takes a millisecond.
+
+local s = require "springlod"
+local folder = (...) or error("name the folder to write to")
+
+local materials = {
+  rubber = {young = "1 MPa", density = 1100, damping = 0.004, colour = {0.9, 0.2, 0.1}},
+  steel = {young = "10 MPa", density = 7800},
+}
+
+-- A box of whole cells, as a mesh file.
+local function box(nx, ny, nz, cell)
+  local lines, at = {"o box"}, {[0] = 0, 1}
+  for corner = 0, 7 do
+    lines[#lines + 1] = ("v %g %g %g"):format(at[corner & 1] * nx * cell,
+                                              at[corner >> 1 & 1] * ny * cell,
+                                              at[corner >> 2] * nz * cell)
+  end
+  for _, face in ipairs{"1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"} do
+    lines[#lines + 1] = "f " .. face
+  end
+  return table.concat(lines, "\n") .. "\n"
+end
+
+local function grid(size, fill, surface)
+  return s.grid{cell = 0.1, size = size, materials = materials, fill = fill, surface = surface}
+end
+
+local function two_materials(x) return x < 0.1 and "rubber" or "steel" end
+local function rubber() return "rubber" end
+
+local mesh_path = folder .. "/mesh/box.obj"
+s.save_text(mesh_path, box(2, 1, 1, 0.1))
+local surface = s.import(mesh_path, {unit = "m"})
+
+local bars = {
+  two_materials = grid({2, 1, 1}, two_materials, surface),
+  one_cell = grid({1, 1, 1}, rubber),
+}
+for name, bar in pairs(bars) do
+  local chain = s.simplify(s.lattice(bar), {levels = 1})
+  s.save(("%s/asset/%s.glb"):format(folder, name), chain)
+  s.save_vdb(("%s/vdb/%s.vdb"):format(folder, name), bar)
+end
+local certified = s.simplify(s.lattice(grid({2, 2, 1}, rubber)), {levels = 1, calibrate = "moduli"})
+s.save(folder .. "/asset/certified.glb", s.certify(certified))
