@@ -7,7 +7,9 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Composite.h>
 #include <openvdb/tools/MeshToVolume.h>
+#include <openvdb/tools/SignedFloodFill.h>
 #include <openvdb/tools/TopologyToLevelSet.h>
+#include <openvdb/tools/ValueTransformer.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -55,7 +57,8 @@ using Leaf = openvdb::FloatTree::LeafNodeType;
 // Assigns cells row by row: x is the innermost index of a frame.
 class Claim {
  public:
-  Claim(const CellFrame& frame, std::uint16_t claimant, std::vector<std::uint16_t>& owner)
+  /// Only counts cells if `owner` is null.
+  Claim(const CellFrame& frame, std::uint16_t claimant, std::vector<std::uint16_t>* owner)
       : frame_(frame),
         box_({0, 0, 0}, coord(frame.size).offsetBy(-1)),
         limit_(static_cast<float>(kOnSurface * frame.cell)),
@@ -83,11 +86,12 @@ class Claim {
     openvdb::Coord c = box.min();
     for (c.z() = box.min().z(); c.z() <= box.max().z(); ++c.z())
       for (c.y() = box.min().y(); c.y() <= box.max().y(); ++c.y()) {
-        std::uint16_t* row = owner_.data() + frame_.number({0, c.y(), c.z()});
+        std::uint16_t* row =
+            owner_ == nullptr ? nullptr : owner_->data() + frame_.number({0, c.y(), c.z()});
         for (c.x() = box.min().x(); c.x() <= box.max().x(); ++c.x()) {
           if (!inside(c)) continue;
           ++count;
-          if (row[c.x()] == 0) row[c.x()] = claimant_;
+          if (row != nullptr && row[c.x()] == 0) row[c.x()] = claimant_;
         }
       }
     return count;
@@ -97,7 +101,7 @@ class Claim {
   openvdb::CoordBBox box_;
   float limit_;
   std::uint16_t claimant_;
-  std::vector<std::uint16_t>& owner_;
+  std::vector<std::uint16_t>* owner_;
 };
 
 // The items must not overlap.
@@ -111,6 +115,20 @@ std::size_t sum_over(const std::vector<Item>& items, Work work) {
         return sum;
       },
       std::plus<>());
+}
+
+std::size_t claim_all(const DistanceField& field, const Claim& claim) {
+  const openvdb::FloatTree& tree = field.grid->tree();
+  std::vector<const Leaf*> leaves;
+  tree.getNodes(leaves);
+  // Values deeper than the band are in inactive tiles with one negative value.
+  std::vector<openvdb::CoordBBox> boxes;
+  auto tile = tree.cbeginValueAll();
+  tile.setMaxDepth(openvdb::FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
+  for (; tile; ++tile)
+    if (claim.holds(*tile)) boxes.push_back(tile.getBoundingBox());
+  return sum_over(leaves, [&](const Leaf* leaf) { return claim.claim_leaf(*leaf); }) +
+         sum_over(boxes, [&](const openvdb::CoordBBox& box) { return claim.claim_box(box); });
 }
 
 }  // namespace
@@ -128,6 +146,23 @@ std::shared_ptr<DistanceField> level_set(const std::vector<Vec3>& positions,
       SurfaceInCells{positions, triangles}, *transform_of(frame), kBand, kBand));
 }
 
+std::shared_ptr<DistanceField> level_set(const std::vector<Vec3>& positions,
+                                         const std::vector<Triangle>& triangles,
+                                         const CellFrame& frame,
+                                         const std::function<bool(const CellIndex&)>& inside) {
+  start_openvdb();
+  const openvdb::FloatGrid::Ptr grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
+      SurfaceInCells{positions, triangles}, *transform_of(frame), kBand, kBand,
+      openvdb::tools::UNSIGNED_DISTANCE_FIELD);
+  openvdb::tools::foreach (grid->beginValueOn(), [&](const openvdb::FloatGrid::ValueOnIter& value) {
+    const openvdb::Coord c = value.getCoord();
+    if (inside({c.x(), c.y(), c.z()})) value.setValue(-*value);
+  });
+  openvdb::tools::signedFloodFill(grid->tree());
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  return std::make_shared<DistanceField>(grid);
+}
+
 std::shared_ptr<DistanceField> level_set(const std::vector<CellIndex>& cells,
                                          const CellFrame& frame) {
   start_openvdb();
@@ -143,24 +178,26 @@ void unite(DistanceField& a, DistanceField& b) {
   openvdb::tools::csgUnion(*a.grid, *b.grid);
 }
 
-void subtract(DistanceField& a, DistanceField& b) {
-  openvdb::tools::csgDifference(*a.grid, *b.grid);
-}
-
 std::size_t claim_cells(const DistanceField& field, const CellFrame& frame, std::uint16_t claimant,
                         std::vector<std::uint16_t>& owner) {
-  const Claim claim(frame, claimant, owner);
-  const openvdb::FloatTree& tree = field.grid->tree();
-  std::vector<const Leaf*> leaves;
-  tree.getNodes(leaves);
-  // Values deeper than the band are in inactive tiles with one negative value.
-  std::vector<openvdb::CoordBBox> boxes;
-  auto tile = tree.cbeginValueAll();
-  tile.setMaxDepth(openvdb::FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
-  for (; tile; ++tile)
-    if (claim.holds(*tile)) boxes.push_back(tile.getBoundingBox());
-  return sum_over(leaves, [&](const Leaf* leaf) { return claim.claim_leaf(*leaf); }) +
-         sum_over(boxes, [&](const openvdb::CoordBBox& box) { return claim.claim_box(box); });
+  return claim_all(field, Claim(frame, claimant, &owner));
+}
+
+std::size_t count_cells(const DistanceField& field, const CellFrame& frame) {
+  return claim_all(field, Claim(frame, 0, nullptr));
+}
+
+std::vector<CellIndex> cells_inside(const DistanceField& field, const CellFrame& frame) {
+  std::vector<std::uint16_t> inside(frame.count(), 0);
+  claim_cells(field, frame, 1, inside);
+  std::vector<CellIndex> cells;
+  for (std::uint32_t n = 0; n < inside.size(); ++n)
+    if (inside[n] != 0) cells.push_back(frame.index(n));
+  return cells;
+}
+
+double distance_at(const DistanceField& field, const CellIndex& cell) {
+  return field.grid->tree().getValue(coord(cell));
 }
 
 }  // namespace springlod::voxelize

@@ -43,6 +43,7 @@ class SolidFaces {
       : mesh_(mesh) {
     report_.part = solid.part;
     gather(solid, welded);
+    report_.without_area = faces_.empty();
     remove_doubled();
     list_edges();
     turn_against_neighbours();
@@ -268,6 +269,7 @@ std::vector<std::string> describe(const SolidRepair& repair) {
   const auto number = [](std::uint64_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
+  if (repair.without_area) say("its triangles have no area; left out");
   if (repair.inside_out) say("all triangles faced inwards; turned");
   if (repair.turned > 0)
     say(number(repair.turned, "triangle") + " faced against their neighbours; turned");

@@ -14,6 +14,7 @@ struct SolidRepair {
   std::string part;                  ///< name of its first mesh part
   std::uint64_t doubled = 0;         ///< triangles removed: another one has the same corners
   std::uint64_t turned = 0;          ///< triangles that faced against those around them, turned
+  bool without_area = false;         ///< all of its triangles were removed: they have no area
   bool inside_out = false;           ///< all of it faced inwards and was turned
   std::uint64_t open_edges = 0;      ///< edges with one triangle
   std::uint64_t holes = 0;           ///< connected groups of them

@@ -1,19 +1,22 @@
 #include "voxelize/shells.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
+#include "voxelize/winding.hpp"
 
 namespace springlod::voxelize {
 namespace {
 
+constexpr double kInside = 0.5;  // winding number above which a point is inside [1]
+
 struct Shell {
   std::vector<Triangle> triangles;
   double volume = 0;  // signed
-  Box3 box;
 };
 
 template <typename Visit>
@@ -38,7 +41,6 @@ std::vector<Shell> split(const TriangleMesh& mesh, const SolidReport& solid,
     const std::uint32_t root = sets.lowest(welded[t[0]]);
     Shell& shell = shells[root];
     shell.triangles.push_back(t);
-    for (const std::uint32_t v : t) shell.box.extend(mesh.positions[v]);
     const Vec3& o = mesh.positions[root];
     shell.volume +=
         (mesh.positions[t[0]] - o).dot((mesh.positions[t[1]] - o).cross(mesh.positions[t[2]] - o)) /
@@ -50,21 +52,39 @@ std::vector<Shell> split(const TriangleMesh& mesh, const SolidReport& solid,
   return list;
 }
 
-Shells sort(std::vector<Shell> all, const SolidReport& solid) {
+// Winding number of the shells that face as the solid as a whole.
+WindingNumber outer_surface(const TriangleMesh& mesh, const std::vector<Shell>& all,
+                            double facing) {
+  std::vector<Triangle> triangles;
+  for (const Shell& shell : all)
+    if (shell.volume * facing > 0)
+      triangles.insert(triangles.end(), shell.triangles.begin(), shell.triangles.end());
+  return {mesh.positions, triangles};
+}
+
+void turn(std::vector<Triangle>& triangles) {
+  for (Triangle& t : triangles) std::swap(t[1], t[2]);
+}
+
+Shells sort(const TriangleMesh& mesh, std::vector<Shell> all, const SolidReport& solid) {
   Shells sorted;
   const double facing = solid.volume < 0 ? -1 : 1;
   sorted.turned = facing < 0;
+  sorted.count = all.size();
+  std::optional<WindingNumber> outer;
   const auto is_cavity = [&](const Shell& shell) {
-    return shell.volume * facing < 0 &&
-           std::any_of(all.begin(), all.end(), [&](const Shell& other) {
-             return other.volume * facing > 0 && other.box.contains(shell.box);
-           });
+    if (shell.volume * facing >= 0) return false;
+    if (!outer) outer = outer_surface(mesh, all, facing);
+    return facing * outer->at(mesh.positions[shell.triangles.front()[0]]) > kInside;
   };
-  for (Shell& shell : all) {
-    const bool cavity = is_cavity(shell);
-    if (!cavity && shell.volume * facing < 0) sorted.turned = true;
-    sorted.volume += (cavity ? -1 : 1) * std::abs(shell.volume);
-    auto& into = cavity ? sorted.cavity : sorted.outer;
+  std::vector<std::uint8_t> cavity;
+  for (const Shell& shell : all) cavity.push_back(is_cavity(shell) ? 1 : 0);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    Shell& shell = all[n];
+    if (cavity[n] == 0 && shell.volume * facing < 0) sorted.turned = true;
+    sorted.volume += (cavity[n] != 0 ? -1 : 1) * std::abs(shell.volume);
+    if (solid.closed() && (cavity[n] != 0) != (shell.volume < 0)) turn(shell.triangles);
+    auto& into = cavity[n] != 0 ? sorted.cavity : sorted.outer;
     if (into.empty())
       into = std::move(shell.triangles);
     else
@@ -81,7 +101,7 @@ std::vector<Shells> sort_shells(const TriangleMesh& mesh, const std::vector<Soli
   std::vector<Shells> sorted;
   sorted.reserve(solids.size());
   for (const SolidReport& solid : solids)
-    sorted.push_back(sort(split(mesh, solid, welded, sets), solid));
+    sorted.push_back(sort(mesh, split(mesh, solid, welded, sets), solid));
   return sorted;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,8 +9,8 @@
 #include <tbb/task_group.h>
 
 #include "base/error.hpp"
-#include "base/units.hpp"
 #include "voxelize/bodies.hpp"
+#include "voxelize/claim_order.hpp"
 #include "voxelize/depth.hpp"
 #include "voxelize/frame.hpp"
 #include "voxelize/grid.hpp"
@@ -17,31 +18,22 @@
 #include "voxelize/material_choice.hpp"
 #include "voxelize/nearest_surface.hpp"
 #include "voxelize/repair.hpp"
+#include "voxelize/resolution.hpp"
 #include "voxelize/shells.hpp"
+#include "voxelize/slivers.hpp"
 #include "voxelize/solid.hpp"
+#include "voxelize/solid_field.hpp"
 #include "voxelize/weld.hpp"
-#include "voxelize/winding_fill.hpp"
 
 namespace springlod::voxelize {
 namespace {
 
 // Default number of cells along the longest side: some thousand nodes.
 constexpr double kDefaultCells = 32;
-// Relative error of a solid's volume in cells above which a warning is given.
-constexpr double kVolumeTolerance = 0.1;
-// Cells across a part of which it consists well enough.
-constexpr double kThin = 3;
 // Factor on the cell that is proposed if no cell is filled.
 constexpr double kFinerCell = 0.25;
 // Solids have 16-bit numbers; 0 is empty.
 constexpr std::size_t kMostSolids = 65535;
-
-std::string quoted(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names)
-    text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
-  return text;
-}
 
 void require_solids(const std::vector<SolidReport>& solids) {
   if (solids.empty()) throw InputError("voxelize: the mesh has no triangles");
@@ -58,33 +50,6 @@ void require_closed(const std::vector<SolidReport>& solids) {
           "{:.6g}, {:.6g}) m; repair = \"auto\" closes holes",
           solid.part, solid.boundary_edges, solid.first_hole.x(), solid.first_hole.y(),
           solid.first_hole.z()));
-}
-
-// Solids in the order in which they claim cells.
-std::vector<std::size_t> claim_order(const TriangleMesh& mesh,
-                                     const std::vector<SolidReport>& solids,
-                                     const std::vector<std::string>& priority) {
-  std::vector<std::size_t> order;
-  const auto take = [&](std::size_t s) {
-    if (std::find(order.begin(), order.end(), s) == order.end()) order.push_back(s);
-  };
-  for (const std::string& name : priority) {
-    bool found = false;
-    for (std::size_t s = 0; s < solids.size(); ++s)
-      for (const std::uint32_t p : solids[s].parts)
-        if (mesh.parts[p].name == name) {
-          take(s);
-          found = true;
-        }
-    if (found) continue;
-    std::vector<std::string> names;
-    names.reserve(solids.size());
-    for (const SolidReport& solid : solids) names.push_back(solid.part);
-    throw InputError(fmt::format("voxelize: priority has the unknown part \"{}\"; the parts are {}",
-                                 name, quoted(names)));
-  }
-  for (std::size_t s = 0; s < solids.size(); ++s) take(s);
-  return order;
 }
 
 // The state of a voxelization; each member function is one stage.
@@ -119,6 +84,7 @@ class Voxelizer {
     mend(welded);
     fill_solids(sort_shells(mesh(), solids_, welded));
     gather_cells();
+    report_slivers();
     assign_part_materials();
     count_bodies();
     if (options_.core_shell || options_.paint) grid().depth = measure_depth(grid(), mesh());
@@ -172,7 +138,7 @@ class Voxelizer {
       return 0;
     };
     // Kept here, because a pipeline that ends with an exception leaks what its filters hand on.
-    std::vector<Field> fields(shells.size());
+    std::vector<SolidField> fields(shells.size());
     const auto make_field = [&](std::size_t s) {
       fields[s] = field_of(solids_[s], shells[s], positions);
       return s;
@@ -198,29 +164,18 @@ class Voxelizer {
 
   // OpenVDB leaks memory if its tasks are cancelled. In a context of their own, they end normally
   // after an interrupt or the failure of another part.
-  Field field_of(const SolidReport& solid, const Shells& shells,
-                 const std::vector<Vec3>& positions) const {
-    Field field;
+  SolidField field_of(const SolidReport& solid, const Shells& shells,
+                      const std::vector<Vec3>& positions) const {
+    SolidField field;
     tbb::task_group_context own(tbb::task_group_context::isolated);
     tbb::task_group(own).run_and_wait([&] {
-      if (!solid.closed()) {
-        field = field_of_open(shells, positions);
-        return;
-      }
-      field = level_set(positions, shells.outer, frame_);
-      if (!shells.cavity.empty()) subtract(*field, *level_set(positions, shells.cavity, frame_));
+      field = solid.closed() ? closed_field(shells, positions, frame_)
+                             : open_field(shells, positions, frame_);
     });
     return field;
   }
 
-  Field field_of_open(const Shells& shells, const std::vector<Vec3>& positions) const {
-    std::vector<Triangle> triangles = shells.outer;
-    triangles.insert(triangles.end(), shells.cavity.begin(), shells.cavity.end());
-    const WindingNumber surface(positions, triangles);
-    return level_set(wound_cells(surface, positions, triangles, frame_), frame_);
-  }
-
-  void fill_solid(std::size_t s, const Shells& shells, Field field) {
+  void fill_solid(std::size_t s, const Shells& shells, SolidField field) {
     const SolidReport& solid = solids_[s];
     if (shells.turned && solid.closed())
       warn(fmt::format("part \"{}\" faced inwards; its triangles were reversed", solid.part));
@@ -229,39 +184,50 @@ class Voxelizer {
           fmt::format("part \"{}\" has {} non-manifold or inconsistently oriented edges; check the "
                       "result",
                       solid.part, solid.nonmanifold_edges));
-    compare_volume(solid, solid.closed() ? shells.volume : solid.volume,
-                   claim_cells(*field, frame_, static_cast<std::uint16_t>(s + 1), owner_));
+    const std::size_t cells =
+        claim_cells(*field.distance, frame_, static_cast<std::uint16_t>(s + 1), owner_);
+    report_crossing(solid, field, cells);
+    const double once = shells.volume - field.doubled + 2 * field.reversed;
+    compare_volume(s, solid.closed() ? once : solid.volume, cells);
     if (distance_ == nullptr)
-      distance_ = std::move(field);
+      distance_ = std::move(field.distance);
     else
-      unite(*distance_, *field);
+      unite(*distance_, *field.distance);
   }
 
-  void compare_volume(const SolidReport& solid, double mesh_volume, std::size_t cells) {
-    report().mesh_volume += mesh_volume;
-    const double filled = static_cast<double>(cells) * std::pow(frame_.cell, 3);
-    if (std::abs(filled - mesh_volume) <= kVolumeTolerance * mesh_volume) return;
-    const std::string fault =
-        cells == 0
-            ? fmt::format("part \"{}\" is lost: no cell of {:.4g} m has its centre inside",
-                          solid.part, frame_.cell)
-            : fmt::format(
-                  "part \"{}\": the volume of its cells has an error of {:+.0f} % ({:.4g} m3 "
-                  "against {:.4g} m3 in the mesh)",
-                  solid.part, 100 * (filled / mesh_volume - 1), filled, mesh_volume);
-    const std::string advice = advice_for(solid, mesh_volume);
+  void report_crossing(const SolidReport& solid, const SolidField& field, std::size_t cells) {
+    const double percent = 100 / (static_cast<double>(cells) * std::pow(frame_.cell, 3));
+    if (field.doubled > 0)
+      repaired(
+          fmt::format("part \"{}\": {:.2g} % of its volume lies inside its surfaces more than "
+                      "once; counted once",
+                      solid.part, percent * field.doubled));
+    if (field.reversed > 0)
+      repaired(
+          fmt::format("part \"{}\": {:.2g} % of its volume is inside out, because its surface "
+                      "crosses itself; filled",
+                      solid.part, percent * field.reversed));
+  }
+
+  // A fault of the mesh that was mended.
+  void repaired(std::string text) {
     if (options_.repair == Repair::strict)
-      throw InputError(fmt::format("voxelize: {}; {}", fault, advice));
-    warn(fault + "; " + advice);
+      throw InputError("voxelize: the mesh needs repair (repair = \"auto\" does this): " + text);
+    report().repairs.push_back(std::move(text));
   }
 
-  std::string advice_for(const SolidReport& solid, double volume) const {
-    const double thick = thickness(mesh(), solid, volume);
-    if (!(thick > 0)) return "it is a sheet and encloses nothing";
-    if (thick > kThin * frame_.cell) return "use a smaller cell or check for crossing surfaces";
-    return fmt::format("it is about {} thick: use a cell of {}",
-                       format_quantity(thick, Dimension::length),
-                       format_quantity(thick / kThin, Dimension::length));
+  // A part that the cells do not resolve.
+  void unresolved(std::string text) {
+    if (options_.repair == Repair::strict) throw InputError("voxelize: " + text);
+    warn(std::move(text));
+  }
+
+  void compare_volume(std::size_t s, double volume, std::size_t cells) {
+    report().mesh_volume += volume;
+    if (auto fault = volume_fault(mesh(), solids_[s], volume, cells, frame_.cell)) {
+      unresolved(std::move(*fault));
+      reported_.insert(s);
+    }
   }
 
   void gather_cells() {
@@ -287,6 +253,18 @@ class Voxelizer {
           grid().material.push_back(static_cast<std::uint16_t>(owner_[n] - 1));
         }
     std::vector<std::uint16_t>().swap(owner_);
+  }
+
+  // Call while grid().material has the numbers of the solids.
+  void report_slivers() {
+    const std::vector<std::uint16_t>& owners = grid().material;
+    for (const Sliver& sliver : find_slivers(grid().cells, owners, *distance_, frame_.cell)) {
+      if (reported_.contains(sliver.solid)) continue;
+      const auto cells =
+          static_cast<std::size_t>(std::count(owners.begin(), owners.end(), sliver.solid));
+      if (auto fault = sliver_fault(solids_[sliver.solid], sliver, cells))
+        unresolved(std::move(*fault));
+    }
   }
 
   // All cells of a solid of one material have that material. In a solid of several, each cell takes
@@ -383,8 +361,9 @@ class Voxelizer {
   CellFrame frame_;
   std::vector<SolidReport> solids_;
   std::vector<std::uint16_t>
-      owner_;                     // solid + 1 of each cell of the frame until cells are gathered
-  DisjointSets::Numbers bodies_;  // that the cells form
+      owner_;                       // solid + 1 of each cell of the frame until cells are gathered
+  std::set<std::size_t> reported_;  // solids whose cells have another volume
+  DisjointSets::Numbers bodies_;    // that the cells form
   Field distance_;
   VoxelizedMesh result_;
 };
