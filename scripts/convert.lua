@@ -47,15 +47,21 @@ local function refuse_to_overwrite(path, asset)
   end
 end
 
--- The whole conversion: mesh -> cells -> lattice -> levels -> asset.
-local function convert(path, asset)
+local written = {}
+
+-- One base model to the asset at `asset`.
+local function convert_base(base, path, asset)
+  if written[asset] then
+    error(("the asset would overwrite %s, made from %s; rename one of the meshes"):format(
+      asset, written[asset]), 0)
+  end
   refuse_to_overwrite(path, asset)
-  local base = conversion.base(args, preset, path)
   local store = store_of(asset)
   local function finish()
     local chain = s.simplify(base, options)
     s.save(asset, chain, {command = conversion.command_line(arg, args, path)})
     if store and not args.resume then fit_store.remove(store) end
+    written[asset] = path
     return chain
   end
   if not store then return finish() end
@@ -63,6 +69,30 @@ local function convert(path, asset)
   options.calibration.store = store
   conversion.announce_fit(base)
   return s.in_folder(store, finish, {command = "convert", resumes = true})
+end
+
+-- The whole conversion: mesh -> cells -> lattices -> levels -> assets. Returns a list of the bodies
+-- that become models: asset, base, and chain or, if one of several failed, the reason.
+local function convert(path, asset)
+  refuse_to_overwrite(path, asset)  -- before the work
+  local bases = conversion.bases(args, preset, path)
+  if #bases == 1 then
+    return {{asset = asset, base = bases[1], chain = convert_base(bases[1], path, asset)}}
+  end
+  local bodies = {}
+  for number, base in ipairs(bases) do
+    local name = asset:gsub("%.[^.]*$", ("-%d%%0"):format(number))
+    local ok, result = command.try(convert_base, base, path, name)
+    bodies[number] = {asset = name, base = base, chain = ok and result or nil,
+                      reason = not ok and result or nil}
+  end
+  return bodies
+end
+
+local function failed_count(bodies)
+  local failed = 0
+  for _, body in ipairs(bodies) do if body.reason then failed = failed + 1 end end
+  return failed
 end
 
 local function level_rows(chain)
@@ -82,6 +112,18 @@ local function node_counts(chain)
   for i, level in ipairs(chain.levels) do counts[i] = tostring(level.node_count) end
   return table.concat(counts, " -> ")
 end
+
+-- A row for each body of a mesh that became several assets.
+local function body_rows(bodies)
+  local rows = {}
+  for number, body in ipairs(bodies) do
+    rows[number] = {number, ("%.4g"):format(body.base.volume),
+                    body.chain and node_counts(body.chain) or "failed", body.reason or body.asset}
+  end
+  return rows
+end
+
+local body_columns = {"body", "volume [m3]", "nodes", "asset or reason"}
 
 -- The mesh files given, and whether they form a batch: a folder or more than one file.
 local function find_meshes()
@@ -125,11 +167,18 @@ if not batch then
   if not args.output:lower():find("%.glb$") then
     parser:error(("-o '%s' must end in .glb"):format(args.output))
   end
-  local ok, chain = command.try(convert, paths[1], args.output)
-  if not ok then command.fail("cannot convert %s: %s", paths[1], chain) end
-  print(s.format_table(level_rows(chain), {columns = level_columns}))
-  certificates.print(s.info(chain).levels)
-  s.say("wrote " .. args.output)
+  local ok, bodies = command.try(convert, paths[1], args.output)
+  if not ok then command.fail("cannot convert %s: %s", paths[1], bodies) end
+  for _, body in ipairs(bodies) do
+    if body.chain then
+      print(s.format_table(level_rows(body.chain), {columns = level_columns}))
+      certificates.print(s.info(body.chain).levels)
+      s.say("wrote " .. body.asset)
+    end
+  end
+  if #bodies > 1 then print(s.format_table(body_rows(bodies), {columns = body_columns})) end
+  local failed = failed_count(bodies)
+  if failed > 0 then command.fail("%d of %d bodies failed", failed, #bodies) end
   return
 end
 
@@ -139,10 +188,13 @@ end
 local rows, failed, assets = {}, 0, asset_names(paths)
 for i, path in ipairs(paths) do
   s.say(path)
-  local ok, result = command.try(convert, path, assets[i])
-  if not ok then failed = failed + 1 end
-  rows[i] = {path, ok and "converted" or "failed", ok and node_counts(result) or "",
-             ok and assets[i] or result}
+  local ok, bodies = command.try(convert, path, assets[i])
+  if not ok then bodies = {{reason = bodies}} end
+  if failed_count(bodies) > 0 then failed = failed + 1 end
+  for _, body in ipairs(bodies) do
+    rows[#rows + 1] = {path, body.chain and "converted" or "failed",
+                       body.chain and node_counts(body.chain) or "", body.reason or body.asset}
+  end
 end
 print(s.format_table(rows, {columns = {"mesh", "result", "nodes", "asset or reason"}}))
 if failed > 0 then command.fail("%d of %d meshes failed", failed, #paths) end

@@ -65,6 +65,10 @@ for key in pairs(info.provenance) do keys[#keys + 1] = key end
 table.sort(keys)
 for _, key in ipairs(keys) do
   local entry = info.provenance[key]
-  if key == "command" then entry = entry .. " " .. command.shell_line{"-o", args.file} end
+  if key == "command" then
+    -- convert --bodies separate appends the number of the body to the name.
+    local asset = info.provenance.body and args.file:gsub("%-%d+(%.%w+)$", "%1") or args.file
+    entry = entry .. " " .. command.shell_line{"-o", asset}
+  end
   print(("%-14s  %s"):format(key, entry))
 end

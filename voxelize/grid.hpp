@@ -30,6 +30,8 @@ struct MaterialGrid {
   /// Depth of each cell's centre under the surface [m] (measure_depth); empty: not measured.
   std::vector<float> depth;
   std::vector<Material> materials;
+  /// The materials as set_materials() got them; empty for grids that come with their materials.
+  std::vector<MaterialInput> inputs;
   std::shared_ptr<const DistanceField>
       distance;  ///< of the whole solid; null for grids from tables
 };

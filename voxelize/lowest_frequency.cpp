@@ -60,6 +60,7 @@ void set_materials(MaterialGrid& grid, const std::vector<MaterialInput>& inputs)
 
 void set_materials(MaterialGrid& grid, const std::vector<MaterialInput>& inputs,
                    const DisjointSets::Numbers& bodies) {
+  grid.inputs = inputs;
   grid.materials.clear();
   for (const MaterialInput& input : inputs) {
     validate(input);

@@ -17,6 +17,7 @@
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
+#include "voxelize/separate.hpp"
 #include "voxelize/vdb_file.hpp"
 
 namespace springlod::scripting {
@@ -164,6 +165,8 @@ void describe_grid_type(Api& api) {
              [](const GridValue& value) { return value.grid.cell; });
   type.field("cell_count", "integer", "number of filled cells",
              [](const GridValue& value) { return value.grid.cells.size(); });
+  type.field("body_count", "integer", "number of bodies that do not touch, not even at a corner",
+             [](const GridValue& value) { return voxelize::count_bodies(value.grid); });
   type.field("volume", "number", "volume of the filled cells [m3]", [](const GridValue& value) {
     return static_cast<double>(value.grid.cells.size()) * value.grid.cell * value.grid.cell *
            value.grid.cell;

@@ -17,6 +17,7 @@ void describe_model(Api& api);
 void describe_elastic(Api& api);
 void describe_voxelize(Api& api);
 void describe_grid(Api& api);       // of voxelize too, called by describe_voxelize
+void describe_bodies(Api& api);     // of voxelize too, called by describe_voxelize
 void describe_random(Api& api);     // of voxelize too, called by describe_voxelize
 void describe_refill(Api& api);     // likewise, called by describe_lod: it makes levels
 void describe_calibrate(Api& api);  // likewise: certificates and what simplify calibrates by

@@ -346,6 +346,7 @@ void describe_voxelize(Api& api) {
       .call = import_binding});
   describe_voxelize_function(api);
   describe_grid(api);
+  describe_bodies(api);
   api.add(FunctionEntry{
       .name = "lattice",
       .group = kGroup,

@@ -31,6 +31,12 @@ fs::path without_links(const fs::path& path) {
   return error ? with_links(path) : without_slash(canonical);
 }
 
+// "ball.calibration" and "ball-2.glb" after "ball".
+bool is_named_after(const fs::path& name, const fs::path& stem) {
+  return name.native().starts_with(stem.native() + ".") ||
+         name.native().starts_with(stem.native() + "-");
+}
+
 bool is_hidden(const fs::path& name) {
   return name.native().starts_with('.');
 }
@@ -76,7 +82,7 @@ bool FileAccess::covers(const Rule& rule, const Name& name) {
       std::mismatch(rule.path.begin(), rule.path.end(), path.begin(), path.end());
   if (end == rule.path.end()) return rule.hidden || std::none_of(rest, path.end(), is_hidden);
   const bool beside = std::next(end) == rule.path.end() && rest != path.end();
-  return rule.siblings && beside && rest->native().starts_with(rule.path.stem().native() + ".");
+  return rule.siblings && beside && is_named_after(*rest, rule.path.stem());
 }
 
 bool FileAccess::may_write(const fs::path& path) const {

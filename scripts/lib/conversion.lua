@@ -38,6 +38,9 @@ function conversion.add_body_options(parser)
       :choices(s.choices.lattice),
     parser:option("--repair", "treatment of holes and other faults of the mesh")
       :choices(s.choices.repair):default("auto"),
+    parser:option("--bodies", "bodies that do not touch: one asset of all, the largest alone, or "
+      .. "an asset for each, NAME-1.glb, NAME-2.glb, ...")
+      :choices(s.choices.bodies):default("together"),
     parser:option("--hinges", "treatment of cells that touch only along an edge or at a corner")
       :choices(s.choices.hinges):default("report"),
     parser:flag("--no-volumes", "build the model from springs alone; by default, the corners of "
@@ -83,8 +86,17 @@ local function materials_of_parts(materials, core, mesh)
   return kept
 end
 
--- The base model of the mesh at `path`.
-function conversion.base(args, preset, path)
+-- The grids of the bodies that --bodies asks for.
+local function bodies_of(grid, args)
+  if args.bodies == "together" and grid.body_count > 1 then
+    s.say(("all %d bodies become one model (--bodies largest or separate takes them apart)"):format(
+      grid.body_count))
+  end
+  return s.bodies(grid, {bodies = args.bodies})
+end
+
+-- The base models of the mesh at `path`, one for each body that --bodies asks for.
+function conversion.bases(args, preset, path)
   local core = core_of(args, args.materials)
   local mesh = s.import(path, {unit = args.unit, up = args.up})
   local materials = core and materials_of_parts(args.materials, args.core, mesh) or args.materials
@@ -92,10 +104,14 @@ function conversion.base(args, preset, path)
     cell = args.cell, materials = materials, core = core,
     priority = args.priority and words_of(args.priority), repair = args.repair,
   })
-  return s.lattice(grid, {
-    style = args.lattice or preset.lattice, hinges = args.hinges,
-    volumes = preset.volumes and not args.no_volumes,
-  })
+  local bases = {}
+  for number, body in ipairs(bodies_of(grid, args)) do
+    bases[number] = s.lattice(body, {
+      style = args.lattice or preset.lattice, hinges = args.hinges,
+      volumes = preset.volumes and not args.no_volumes,
+    })
+  end
+  return bases
 end
 
 -- Time of the fit of two levels of a base of 5000 nodes on two cores [s], and the exponent with

@@ -74,6 +74,7 @@ TEST_CASE("a named file is allowed with what has its stem beside it") {
   files.allow_named(scratch / "ball.glb");
   CHECK(files.may_write(scratch / "ball.glb"));
   CHECK(files.may_write(scratch / "ball.calibration/.level-1.7.bin"));
+  CHECK(files.may_write(scratch / "ball-2.glb"));
   CHECK_FALSE(files.may_write(scratch / "ball"));
   CHECK_FALSE(files.may_write(scratch / "balloon.glb"));
   CHECK_FALSE(files.may_read(scratch / "other.glb"));
