@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include <catch2/catch.hpp>
 
 #include "tests/support/paths.hpp"
@@ -61,4 +63,28 @@ TEST_CASE("Damaged assets and .vdb files are read or refused; none crashes the p
   mutants("assets.lua", "40", "asset/certified.glb");
   // Not those on which OpenVDB asks for all memory, which sanitizers do not limit.
   mutants("vdb.lua", "3-7", "vdb/two_materials.vdb");
+}
+
+TEST_CASE("Meshes with removed faces have the volume of the whole ones") {
+  const auto script = springlod::test::source_folder() / "tests/mutations/holes.lua";
+  const Ran ran = springlod_run({"-q", "run", script.string(), "--", "1", "samples/dumbbell.obj"});
+  CAPTURE(ran.out, ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("hollow torus") && Contains("hollow cube"));
+}
+
+TEST_CASE("Meshes are converted and drawn; a sheet does not count") {
+  const TemporaryFolder scratch;
+  spit(scratch / "box.obj", obj_of_boxes({{"box", 0, 1}}));
+  spit(scratch / "sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nf 1 2 3\n");
+  spit(scratch / "notes.txt", "not a mesh");
+  const auto script = springlod::test::source_folder() / "tests/mutations/models.lua";
+  const Ran ran = springlod_run({"-q", "run", script.string(), "--", (scratch / "out").string(),
+                                 (scratch / "box.obj").string(), (scratch / "sheet.obj").string(),
+                                 (scratch / "notes.txt").string()});
+  CAPTURE(ran.out, ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains("bounds nothing") &&
+                          Contains("1 of 1 meshes that bound anything were converted"));
+  CHECK(std::filesystem::exists(scratch / "out/001.png"));
 }
