@@ -6,8 +6,8 @@
 
 namespace springlod::inline base {
 
-/// The file in which another file of its folder is prepared. A lock that ends with the process shows that it is still in use.
-/// Throws std::system_error.
+/// The file in which another file of its folder is prepared. A lock that ends with the process
+/// shows that it is still in use. Throws std::system_error.
 class TemporaryFile {
  public:
   /// Makes an empty one. Some writers choose the format by the extension.

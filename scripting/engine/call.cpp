@@ -376,14 +376,21 @@ std::string Call::text(int number) const {
   return text_at(lua_, index(number));
 }
 
+std::filesystem::path Call::path(int number) const {
+  const std::string name = text(number);
+  // The system would take the part before it.
+  if (name.find('\0') != std::string::npos) throw InputError("a path must not have a zero byte");
+  return name;
+}
+
 std::filesystem::path Call::readable(int number) const {
-  std::filesystem::path path = text(number);
+  std::filesystem::path path = this->path(number);
   session_.files().require_readable(path);
   return path;
 }
 
 std::filesystem::path Call::writable(int number) const {
-  std::filesystem::path path = text(number);
+  std::filesystem::path path = this->path(number);
   session_.files().require_writable(path);
   return path;
 }

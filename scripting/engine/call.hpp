@@ -158,6 +158,7 @@ class Call {
  private:
   [[noreturn]] void refuse_self() const;
   std::string display_name() const;
+  std::filesystem::path path(int number) const;
 
   lua_State* lua_;
   const FunctionEntry& entry_;

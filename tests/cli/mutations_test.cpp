@@ -73,7 +73,7 @@ TEST_CASE("Meshes with removed faces have the volume of the whole ones") {
   CHECK_THAT(ran.out, Contains("hollow torus") && Contains("hollow cube"));
 }
 
-TEST_CASE("Meshes are converted and drawn; a sheet does not count") {
+TEST_CASE("Meshes are converted and drawn, and a sheet does not count") {
   const TemporaryFolder scratch;
   spit(scratch / "box.obj", obj_of_boxes({{"box", 0, 1}}));
   spit(scratch / "sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0.1\nf 1 2 3\n");

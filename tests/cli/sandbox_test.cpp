@@ -98,6 +98,8 @@ TEST_CASE("a script uses the files of the current folder, and no others") {
       refused(s.load_vdb, path)
       refused(s.csv, path, {{1}})
     end
+    local ok, message = pcall(s.save_text, "name\0.txt", "text")
+    assert(not ok and tostring(message):find("zero byte"))
     refused(dofile, "../secret.lua")
     refused(loadfile, "../secret.lua")
     refused(s.files, "..")

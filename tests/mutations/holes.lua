@@ -42,7 +42,7 @@ end
 
 -- A torus whose tube has the given radius; a negative one turns it inside out.
 local function add_torus(lines, tube)
-  add_ring_surface(lines, 96, 48, function(around, across)
+  add_ring_surface(lines, 48, 24, function(around, across)
     local phi, theta = 2 * math.pi * around, 2 * math.pi * across * (tube < 0 and -1 or 1)
     local radius = 1 + math.abs(tube) * math.cos(theta)
     return radius * math.cos(phi), radius * math.sin(phi), math.abs(tube) * math.sin(theta)
