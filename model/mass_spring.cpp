@@ -30,7 +30,7 @@ void validate_node(const MassSpringModel& m, std::uint32_t i) {
   const auto fail = [&](std::string_view rule) {
     throw InputError(fmt::format("model: node {}: {}", script_number(i), rule));
   };
-  const auto require = [&](const char* quantity, double value, const Range& range) {
+  const auto require = [&](const char* quantity, double value, const PhysicalRange& range) {
     if (!range.holds(value)) fail(outside(quantity, value, range));
   };
   for (const double coordinate : m.rest[i]) require("position", coordinate, range::kCoordinate);
@@ -47,7 +47,7 @@ void validate_spring(const MassSpringModel& m, std::uint32_t s) {
     throw InputError(fmt::format("model: spring {} ({} - {}): {}", script_number(s),
                                  script_number(m.a[s]), script_number(m.b[s]), rule));
   };
-  const auto require = [&](const char* quantity, double value, const Range& range) {
+  const auto require = [&](const char* quantity, double value, const PhysicalRange& range) {
     if (!range.holds(value)) fail(outside(quantity, value, range));
   };
   if (m.b[s] >= m.node_count()) fail("it refers to a node that does not exist");
