@@ -42,11 +42,10 @@ local function outcome(path, picture)
   local ok, model = pcall(function()
     local grid = s.voxelize(mesh)
     local model = s.lattice(grid)
-    s.render(picture, {mesh, model, model}, {springs = true, titles = {path, "with the model",
-                                                                       "the model"}})
+    s.render(picture, {mesh, model}, {springs = true, titles = {path, tostring(grid)}})
     return model
   end)
-  if ok then return "converted", tostring(model), true end
+  if ok then return "converted", tostring(model), bounded end
   return bounded and "refused" or "bounds nothing", tostring(model), bounded
 end
 
@@ -56,9 +55,12 @@ for _, path in ipairs(files) do
   if is_mesh[(path:match("%.%w+$") or ""):lower()] then
     local picture = ("%s/%03d.png"):format(pictures, #rows + 1)
     local word, remark, counts = outcome(path, picture)
-    if counts then counted = counted + 1 end
-    if word == "converted" then converted = converted + 1 end
+    if counts then
+      counted = counted + 1
+      if word == "converted" then converted = converted + 1 end
+    end
     rows[#rows + 1] = {#rows + 1, path, word, remark}
+    collectgarbage() -- Lua does not know how large models are
   end
 end
 print(s.format_table(rows, {columns = {"picture", "mesh", "outcome", "model or reason"}}))
