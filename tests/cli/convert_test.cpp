@@ -32,7 +32,7 @@ std::string small_dumbbell() {
 
 }  // namespace
 
-TEST_CASE("convert writes an asset and prints its levels; info prints its contents") {
+TEST_CASE("convert writes an asset and prints its levels, info prints its contents") {
   const TemporaryFolder scratch;
   spit(scratch / "bar.obj", small_dumbbell());
   spit(scratch / "materials.lua", kMaterials);

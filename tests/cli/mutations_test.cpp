@@ -30,7 +30,7 @@ const char* const kStl =
 
 }  // namespace
 
-TEST_CASE("Damaged meshes are imported or refused; none crashes the program") {
+TEST_CASE("Damaged meshes are imported or refused, none crashes the program") {
   const TemporaryFolder scratch;
   spit(scratch / "box.obj", obj_of_boxes({{"box", 0, 1}}));
   spit(scratch / "tip.ply", kPly);
@@ -45,7 +45,7 @@ TEST_CASE("Damaged meshes are imported or refused; none crashes the program") {
   for (const char* format : {".obj", ".ply", ".off", ".stl"}) CHECK_THAT(ran.out, Contains(format));
 }
 
-TEST_CASE("Damaged assets and .vdb files are read or refused; none crashes the program") {
+TEST_CASE("Damaged assets and .vdb files are read or refused, none crashes the program") {
   const TemporaryFolder scratch;
   const auto source = springlod::test::source_folder() / "tests";
   const Ran made = springlod_run(

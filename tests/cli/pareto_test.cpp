@@ -205,7 +205,7 @@ TEST_CASE("a single start can be run, and a level's trajectory compared with its
                           Contains("number must be a whole number of 1 to"));
 }
 
-TEST_CASE("a front has the non-dominated points; medians of few numbers have sign-test intervals") {
+TEST_CASE("a front has the non-dominated points, medians of few numbers have sign-test intervals") {
   CHECK(printed(R"(local front = require("studies.pareto.front")({{x = 2, y = 1}, {x = 1, y = 3},
     {x = 1, y = 2}, {x = 3, y = 0.995}, {x = 4, y = 0.5}, {x = 1.5, y = 2.5},
     {x = 5, y = 0.02}, {x = 6, y = 0}}, 0.1)

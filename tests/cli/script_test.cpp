@@ -300,7 +300,7 @@ TEST_CASE("messages name function, option and expected value") {
   message("m:node(2)", "bad argument 1 (number) of Model:node");
 }
 
-TEST_CASE("JSON has sorted keys; values without JSON form are refused") {
+TEST_CASE("JSON has sorted keys, values without JSON form are refused") {
   const Ran ran = run_lua(R"(
     print(s.json({b = {1, 2.5, true}, a = "x\"y", c = {}, d = 1/0}, {indent = -1}))
     local loop = {}

@@ -94,7 +94,7 @@ TEST_CASE("Shapes are mass-normalised, orthogonal and solve K x = omega^2 M x") 
   }
 }
 
-TEST_CASE("A chain has longitudinal modes of a row of masses; its lateral motions are mechanisms") {
+TEST_CASE("A chain has longitudinal modes of a row of masses, its lateral motions are mechanisms") {
   const std::uint32_t n = GENERATE(6U, 150U);
   const double k = 40;
   const Modes found = lowest_modes(test::chain_of_nodes(n, k), {.count = 5});

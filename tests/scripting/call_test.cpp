@@ -53,7 +53,7 @@ T read_as(const std::string& text, Dimension dimension = Dimension::number, T va
 
 }  // namespace
 
-TEST_CASE("Options are read by their type; omitted options keep their defaults") {
+TEST_CASE("Options are read by their type, omitted options keep their defaults") {
   CHECK(read_as<bool>("true"));
   CHECK(read_as<double>("2.5") == 2.5);
   CHECK(read_as<int>("-3") == -3);
@@ -82,7 +82,7 @@ TEST_CASE("Quantities are numbers in SI units or text with a unit of their dimen
   CHECK_THROWS_WITH(read_as<double>("1/0", Dimension::time), Contains("x must be finite"));
 }
 
-TEST_CASE("Values outside of the range of an option are refused; the ends are inside") {
+TEST_CASE("Values outside of the range of an option are refused, the ends are inside") {
   const auto read = [](auto value, const std::string& text, Dimension dimension, Range range) {
     Options options({{.name = "x", .dimension = dimension, .range = range}}, "{x = " + text + "}");
     options->read("x", value);
@@ -106,7 +106,7 @@ TEST_CASE("Values outside of the range of an option are refused; the ends are in
                     "test: x must be text of at most 3 bytes, got 4");
 }
 
-TEST_CASE("Options without a range have the usual one; whole numbers that of their type") {
+TEST_CASE("Options without a range have the usual one, whole numbers that of their type") {
   CHECK(read_as<double>("1e15") == 1e15);
   CHECK_THROWS_WITH(read_as<double>("1e16"),
                     Contains("from -1000000000000000 to 1000000000000000"));

@@ -87,7 +87,7 @@ TEST_CASE("Ctrl-C stops a chunk, also inside pcall, and is cleared afterwards") 
   CHECK(found(state) == "2");
 }
 
-TEST_CASE("Scripts receive arguments; a failed script reports its line and a traceback") {
+TEST_CASE("Scripts receive arguments, a failed script reports its line and a traceback") {
   ScriptState state({}, make_api());
   CHECK(
       state.run_text("local a, b = ... found = a .. b .. arg[2] .. #arg", "test", {"1", "2"}).done);

@@ -80,7 +80,7 @@ TEST_CASE("The help of a function has all fields of its description, wrapped to 
   for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 88);
 }
 
-TEST_CASE("Help by name finds functions and records; errors suggest similar names") {
+TEST_CASE("Help by name finds functions and records, errors suggest similar names") {
   const Api api = sample_api();
   CHECK(help_for(api, "soften") == help_for(api.functions().front()));
   CHECK(help_for(api, "Stone") == help_for(api.records().front()));

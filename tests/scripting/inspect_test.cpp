@@ -27,7 +27,7 @@ std::string shown(const std::string& expression, const InspectOptions& options =
 
 }  // namespace
 
-TEST_CASE("Plain values are shown by tostring; text is quoted only in tables") {
+TEST_CASE("Plain values are shown by tostring, text is quoted only in tables") {
   CHECK(shown("nil") == "nil");
   CHECK(shown("true") == "true");
   CHECK(shown("1.5") == "1.5");

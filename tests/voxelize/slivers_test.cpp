@@ -36,7 +36,7 @@ TriangleMesh block_with_plate(double thick) {
 
 }  // namespace
 
-TEST_CASE("A plate one cell thick is a sliver; its thickness is measured") {
+TEST_CASE("A plate one cell thick is a sliver, its thickness is measured") {
   const double thick = GENERATE(0.95, 1.05);
   CAPTURE(thick);
   const VoxelizedMesh result = cells_of(block_with_plate(thick));

@@ -91,7 +91,7 @@ TEST_CASE("Closed parts that share a face remain separate solids") {
   CHECK(check_solid(mesh).size() == 2);
 }
 
-TEST_CASE("An inverted box has a negative volume; one reversed triangle gives non-manifold edges") {
+TEST_CASE("An inverted box has a negative volume, one reversed triangle gives non-manifold edges") {
   TriangleMesh mesh;
   add_box(mesh, "box", {0, 0, 0}, {1, 1, 1});
   std::swap(mesh.triangles[4][1], mesh.triangles[4][2]);

@@ -82,7 +82,7 @@ TEST_CASE("Local loads depend on the seed only") {
   CHECK(first[2].name == "push 3");
 }
 
-TEST_CASE("Local loads need a surface; a body too small for two patches has no pairs") {
+TEST_CASE("Local loads need a surface, a body too small for two patches has no pairs") {
   MassSpringModel inner = kBar;
   inner.border.assign(inner.node_count(), 0);
   CHECK_THROWS_AS(pushes(inner, {}), InputError);

@@ -106,7 +106,7 @@ TEST_CASE("The same nodes come in the same order every time") {
   }
 }
 
-TEST_CASE("A small body is one supernode; a body of no nodes has none") {
+TEST_CASE("A small body is one supernode, a body of no nodes has none") {
   const Dissection few = dissected(chain_of_nodes(10));
   check_order(few, 10);
   REQUIRE(few.supernodes.size() == 1);

@@ -237,7 +237,7 @@ TEST_CASE("the error of a nearly rigid level is finite") {
   CHECK(mean_error(step, Answer::Kind::smooth) > 1);
 }
 
-TEST_CASE("a log is bit-identical for any number of threads; a chain without merges is an error",
+TEST_CASE("a log is bit-identical for any number of threads, a chain without merges is an error",
           "[threaded]") {
   const LodChain chain = simplify(ball(), {.levels = 2});
   const MergeLog one = log_merges(chain, {.local_loads = 4, .threads = 1});

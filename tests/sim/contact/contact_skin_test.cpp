@@ -213,7 +213,7 @@ TEST_CASE("The force of a skin's contacts is the slope of their energy") {
     }
 }
 
-TEST_CASE("Friction on a skin removes the energy it reports; stick springs store a part of it") {
+TEST_CASE("Friction on a skin removes the energy it reports, stick springs store a part of it") {
   const Pressed body;
   std::vector<Contact> contacts = body.contacts_at(body.x);
   std::vector<Vec3> v = random_vectors(body.x.size(), 2, 7);

@@ -117,7 +117,7 @@ double stopping_rate(const MassSpringModel& model) {
 
 }  // namespace
 
-TEST_CASE("A corner is turned back before it is flat; energy and momenta add up in each step") {
+TEST_CASE("A corner is turned back before it is flat, energy and momenta add up in each step") {
   const MassSpringModel model = one_corner();
   const double speed = GENERATE(0.3, 0.7, 1.0);  // of what its energy can stop, without damping
   const bool spins = GENERATE(false, true);

@@ -108,7 +108,7 @@ void check_throw(const Trajectory& t, const MassSpringModel& model) {
 
 }  // namespace
 
-TEST_CASE("No corner of a soft bar is inside out after a hard impact; the ledger closes") {
+TEST_CASE("No corner of a soft bar is inside out after a hard impact, the ledger closes") {
   const double speed = GENERATE(4.0, 8.0, 12.0);
   CAPTURE(speed);
   for_all_runs(bar(), test::bar_throw(speed), true,
@@ -118,7 +118,7 @@ TEST_CASE("No corner of a soft bar is inside out after a hard impact; the ledger
                });
 }
 
-TEST_CASE("No corner of a soft cube is inside out after a fall from 2 m; the ledger closes") {
+TEST_CASE("No corner of a soft cube is inside out after a fall from 2 m, the ledger closes") {
   const bool tilted = GENERATE(false, true);
   CAPTURE(tilted);
   for_all_runs(cube(), drop(tilted), true, check_throw);

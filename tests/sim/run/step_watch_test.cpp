@@ -113,7 +113,7 @@ TEST_CASE("A body let go stretched to twice its size only holds with the step ad
   CHECK_THROWS_AS(run(model, scene, start, options), UnstableError);
 }
 
-TEST_CASE("A body at rest sleeps at no cost; one that falls, floats or has sleep = 0 does not") {
+TEST_CASE("A body at rest sleeps at no cost, one that falls, floats or has sleep = 0 does not") {
   const MassSpringModel model = test::block(3, 3, 3, 0.1, test::material("m", 1e6, 1000, 0.01),
                                             voxelize::LatticeStyle::corners);
   Scenario scene;
