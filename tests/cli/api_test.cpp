@@ -46,7 +46,7 @@ TEST_CASE("every function of the module has help, and only these") {
 TEST_CASE("help explains functions, values, types, tables and refuses the rest with near names") {
   CHECK_THAT(springlod_run({"-e", "help()"}).out, Contains("simplify"));
   const Ran record = springlod_run({"-e", "help('Material')"});
-  CHECK_THAT(record.out, Contains("quantity in Pa; default 1000000"));
+  CHECK_THAT(record.out, Contains("quantity in Pa, 0.001 Pa to 1e+06 GPa; default 1000000"));
   const Ran value =
       springlod_run({"-e", "help(require('springlod').model{nodes = {{0, 0, 0, mass = 1}}})"});
   CHECK_THAT(value.out, Contains("model:springs() -> list of Spring"));

@@ -74,7 +74,7 @@ TEST_CASE("a script refills a grid and reads the node count that a lattice reach
   CHECK_THAT(ran.out + ran.err, Contains("the nearest to 211 that a lattice has"));
   const Ran wrong = with_grid("s.refill(s.lattice(grid), grid, {nodes = {'many'}})");
   CHECK(wrong.exit_code == 1);
-  CHECK_THAT(wrong.err, Contains("a whole number of nodes, or a list of them"));
+  CHECK_THAT(wrong.err, Contains("refill: nodes[1]: \"many\" does not start with a number"));
   CHECK_THAT(with_grid("s.refill(s.lattice(grid), grid)").err, Contains("refill: nodes must be"));
 }
 

@@ -60,9 +60,9 @@ TEST_CASE("scripts set regions of interest and weights") {
        {"calibration: regions[1]: nodes must be given",
         "regions[1]: nodes[1] must be a node number", "regions must be a list of Region tables",
         "targets = \"modes\" excludes the loads of regions",
-        "nodes of region 1 is a border node that is free to move", "load_weight = -2 must be 0 or",
-        "keep_every = -1 must be 0 or more", "no targets are left", "many\t2",
-        "certify: within[1] must be a node number"})
+        "nodes of region 1 is a border node that is free to move",
+        "load_weight must be from 0 to 1000000, got -2", "keep_every must be from 0",
+        "no targets are left", "many\t2", "certify: within[1] must be a node number"})
     CHECK_THAT(ran.out, Contains(reason));
 }
 

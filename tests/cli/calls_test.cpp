@@ -87,7 +87,7 @@ TEST_CASE("Help, options_of and the reference name the ranges") {
       if option.name == "held_out_loads" then print(option.least, option.most) end
       if option.name == "seed" then print("seed", option.least) end
     end)");
-  CHECK_THAT(out, Contains("quantity in s, 0.001 us to 100 s; default safety"));
+  CHECK_THAT(out, Contains("quantity in s, 1e-09 us to 100 s; default safety"));
   CHECK_THAT(out, Contains("integer, 1 to 10000; default 20 for backward Euler"));
   CHECK_THAT(out, Contains("string, at most 1000 bytes; default the scenario's name"));
   CHECK_THAT(out, Contains("0.0\t10000.0") && Contains("seed\tnil"));

@@ -123,7 +123,7 @@ TEST_CASE("Ctrl-C stops a Lua loop that catches every error") {
 
 TEST_CASE("SIGTERM stops a script as Ctrl-C does") {
   const Ran ran = springlod_interrupted(
-      {"-e", "io.stderr:write('going\n') while true do pcall(function() end) end"}, "going\n",
+      {"-e", "io.stderr:write('going\\n') while true do pcall(function() end) end"}, "going\n",
       SIGTERM);
   CHECK(ran.exit_code == 143);
   CHECK_THAT(ran.err, Contains("springlod: terminated"));
@@ -136,7 +136,7 @@ TEST_CASE("Ctrl-C stops a long simulation") {
        "local m = s.model{nodes = {{0, 0, 0, mass = 1}, {1, 0, 0, mass = 1}},\n"
        "                  springs = {{1, 2, k = 100}}}\n"
        "io.stderr:write('going\\n')\n"
-       "s.run(m, {duration = 1e9}, {step = 1e-3, frame_rate = 0})"},
+       "s.run(m, {duration = 1e5}, {step = 1e-9, frame_rate = 0})"},
       "going\n");
   CHECK(ran.exit_code == 130);
   CHECK_THAT(ran.err, Contains("interrupted"));

@@ -90,9 +90,10 @@ TEST_CASE("damping as a time and as a ratio, or a ratio out of range, is an erro
   CHECK_THAT(refused("{damping = '1 ms', damping_ratio = 0.1}"),
              Contains("materials.bar: damping and damping_ratio are both given"));
   CHECK_THAT(refused("{damping_ratio = 1/0}"), Contains("damping_ratio must be finite"));
-  for (const char* ratio : {"-0.1", "1"})
-    CHECK_THAT(refused(std::string("{damping_ratio = ") + ratio + "}"),
-               Contains("material \"bar\": damping_ratio = ") && Contains("below 1"));
+  CHECK_THAT(refused("{damping_ratio = -0.1}"),
+             Contains("materials.bar: damping_ratio must be from 0 to 1, got -0.1"));
+  CHECK_THAT(refused("{damping_ratio = 1}"),
+             Contains("material \"bar\": damping_ratio = ") && Contains("below 1"));
 }
 
 TEST_CASE("a run names what limits its step, and hints at damping") {
