@@ -33,7 +33,7 @@ constexpr auto option_rows(const PickOptions*) {
       option("error", &PickOptions::error,
              "largest surface error that the level may have, as a fraction of the base's bounding "
              "diagonal: 0.02 or \"2 %\"")
-          .within(1e-9, 1)
+          .within(1e-9, 100)
           .by_default("none; give this or budget"),
       option("budget", &PickOptions::budget, "largest processor time for a frame")
           .within(1e-9, 1000)
