@@ -14,7 +14,7 @@ class FileAccess {
   /// with a dot: they configure other programs (.git/hooks, .bashrc) or hold keys (.ssh).
   void allow_project(const std::filesystem::path& folder);
   /// What the user names, a file or a folder that need not exist, and what lies beside a file with
-  /// the same stem, such as the folder ball.calibration or ball-2.glb beside ball.glb; all below these.
+  /// the same stem, such as ball.calibration or ball-2.glb beside ball.glb; all below these.
   void allow_named(const std::filesystem::path& path);
   /// A folder, all below it, for reading.
   void allow_reading(const std::filesystem::path& folder);
