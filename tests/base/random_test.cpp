@@ -31,7 +31,7 @@ TEST_CASE("A random stream repeats for one seed and differs between stream numbe
   CHECK(equal == 0);
 }
 
-TEST_CASE("below() is uniform, and unit() covers [0, 1)") {
+TEST_CASE("below() is uniform, and unit() lies between 0 and 1") {
   RandomStream random(1);
   constexpr int kDraws = 70000;
   std::array<int, 7> hits{};

@@ -141,7 +141,7 @@ TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat 
 }
 
 TEST_CASE(
-    "pareto skips levels that cannot be built, with the reason; wrong use fails before any run") {
+    "pareto skips levels that cannot be built, with the reason, wrong use fails before any run") {
   const TemporaryFolder scratch;
   make_asset(scratch);
   const Ran ran = springlod_run(arguments(
@@ -165,7 +165,7 @@ TEST_CASE(
   refused({"--starts", "4"}, 2, "must be an integer of 5 to 1000000");
   refused({"--out", (scratch / "other").string(), "--integrators", "xpbd", "--precisions", "single",
            "--errors", "loads"},
-          1, "symplectic_euler alone has single precision");
+          1, "only symplectic_euler supports single precision");
   spit(scratch / "drop.lua", "return {duratoin = 1}");
   refused({}, 1, "did you mean 'duration'?");
   spit(scratch / "drop.lua", kScenario);

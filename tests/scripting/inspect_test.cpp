@@ -52,7 +52,7 @@ TEST_CASE("Recursive and deeply nested tables are truncated") {
 }
 
 TEST_CASE(
-    "Long tables are truncated with the count of hidden entries; wide ones use several lines") {
+    "Long tables are truncated with the count of hidden entries, wide ones use several lines") {
   const InspectOptions few{.entries = 2};
   CHECK(shown("{1, 2, 3, 4, 5}", few) == "{1, 2, ... 3 more}");
   CHECK(shown("{a = 1, b = 2, c = 3}", few) == "{a = 1, b = 2, ... 1 more}");

@@ -55,7 +55,7 @@ TEST_CASE("Local loads act on border nodes only, with at most 1 N on a patch") {
 }
 
 TEST_CASE(
-    "Forces of two patches cancel; along their line also the moments, up to the patch width") {
+    "Forces of two patches cancel, along their line also the moments, up to the patch width") {
   for (const auto& loads : {patch_pairs(kBar, {.count = 10}), pinches(kBar, {.count = 10})}) {
     REQUIRE(loads.size() == 10);
     for (const StaticLoad& load : loads) CHECK(total(load).norm() < 1e-12);
