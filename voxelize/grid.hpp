@@ -34,6 +34,10 @@ struct MaterialGrid {
   std::vector<MaterialInput> inputs;
   std::shared_ptr<const DistanceField>
       distance;  ///< of the whole solid; null for grids from tables
+
+  Vec3 center(const CellIndex& c) const {
+    return origin + cell * Vec3(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5);
+  }
 };
 
 /// Throws InputError for a cell size or origin that makes no sense, cells that are not sorted or

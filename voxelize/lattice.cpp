@@ -31,10 +31,6 @@ Vec3 corner_position(const MaterialGrid& grid, const CellIndex& at) {
   return grid.origin + grid.cell * Vec3(at[0], at[1], at[2]);
 }
 
-Vec3 center_position(const MaterialGrid& grid, const CellIndex& at) {
-  return grid.origin + grid.cell * Vec3(at[0] + 0.5, at[1] + 0.5, at[2] + 0.5);
-}
-
 void add_node(MassSpringModel& model, const Vec3& rest, double mass, double volume, double area,
               bool border, std::uint32_t material) {
   model.rest.push_back(rest);
@@ -242,8 +238,8 @@ MassSpringModel centers_model(const MaterialGrid& grid, bool volumes) {
       border = true;
       if (along_axis(step)) area += face;
     }
-    add_node(model, center_position(grid, cell), grid.materials[grid.material[n]].density * volume,
-             volume, area, border, grid.material[n]);
+    add_node(model, grid.center(cell), grid.materials[grid.material[n]].density * volume, volume,
+             area, border, grid.material[n]);
   }
   for (std::uint32_t n = 0; n < model.node_count(); ++n)
     for (const std::uint32_t other : higher[n]) {

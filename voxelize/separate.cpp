@@ -37,7 +37,7 @@ std::vector<std::uint32_t> bodies_of_triangles(const TriangleMesh& mesh, const M
   std::vector<Vec3> centers;
   Box3 box;
   for (const CellIndex& c : grid.cells) {
-    centers.push_back(grid.origin + grid.cell * Vec3(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5));
+    centers.push_back(grid.center(c));
     box.extend(centers.back());
   }
   const PointBins bins(centers, box, grid.cell);

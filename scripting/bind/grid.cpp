@@ -90,9 +90,7 @@ void fill_cells(lua_State* L, int fill, const voxelize::CellIndex& size,
   for (cell[2] = 0; cell[2] < size[2]; ++cell[2])
     for (cell[1] = 0; cell[1] < size[1]; ++cell[1])
       for (cell[0] = 0; cell[0] < size[0]; ++cell[0]) {
-        const Vec3 center =
-            grid.origin + grid.cell * Vec3(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5);
-        const auto material = filling(L, fill, center, numbers);
+        const auto material = filling(L, fill, grid.center(cell), numbers);
         if (!material) continue;
         grid.cells.push_back(cell);
         grid.material.push_back(*material);
@@ -184,9 +182,7 @@ void describe_grid_type(Api& api) {
                      const voxelize::MaterialGrid grid = with_depth(value);
                      begin_list(L, grid.cells.size());
                      for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-                       const voxelize::CellIndex& cell = grid.cells[i];
-                       push(L, Vec3(grid.origin +
-                                    grid.cell * Vec3(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5)));
+                       push(L, grid.center(grid.cells[i]));
                        if (i < grid.depth.size())
                          set_field(L, "depth", static_cast<double>(grid.depth[i]));
                        set_field(L, "material", grid.materials[grid.material[i]].name);
