@@ -89,7 +89,7 @@ void validate(const LodAsset& asset) {
   validate(asset.surface);
   for (std::size_t v = 0; v < asset.surface.positions.size(); ++v)
     for (const double coordinate : asset.surface.positions[v])
-      if (!range::kCoordinate.holds(coordinate))
+      if (!range::kCoordinate.contains(coordinate))
         throw InputError(fmt::format("surface: vertex {}: {}", script_number(v),
                                      outside("position", coordinate, range::kCoordinate)));
   const std::uint32_t bound = asset.surface_of_base.point_count();

@@ -87,7 +87,7 @@ void validate_corner(const MassSpringModel& model, const SpringLookup& springs,
   if (n1 > n2 || n1 > n3) fail("its lowest neighbour must come first");
   if (number > 0 && !(model.corners[number - 1].node < corner.node))
     fail("corners must be sorted by their nodes, none twice");
-  if (!range::kYoung.holds(corner.young))
+  if (!range::kYoung.contains(corner.young))
     fail(outside("Young's modulus", corner.young, range::kYoung));
   if (!(corner_volume(corner, model.rest) > 0)) fail("its volume at rest must be above 0");
   if (!(corner_shape(corner, model.rest) >= (1 - kShapeRounding) * kFlatCorner))

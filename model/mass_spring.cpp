@@ -31,7 +31,7 @@ void validate_node(const MassSpringModel& m, std::uint32_t i) {
     throw InputError(fmt::format("model: node {}: {}", script_number(i), rule));
   };
   const auto require = [&](const char* quantity, double value, const PhysicalRange& range) {
-    if (!range.holds(value)) fail(outside(quantity, value, range));
+    if (!range.contains(value)) fail(outside(quantity, value, range));
   };
   for (const double coordinate : m.rest[i]) require("position", coordinate, range::kCoordinate);
   require("mass", m.mass[i], range::kMass);
@@ -48,7 +48,7 @@ void validate_spring(const MassSpringModel& m, std::uint32_t s) {
                                  script_number(m.a[s]), script_number(m.b[s]), rule));
   };
   const auto require = [&](const char* quantity, double value, const PhysicalRange& range) {
-    if (!range.holds(value)) fail(outside(quantity, value, range));
+    if (!range.contains(value)) fail(outside(quantity, value, range));
   };
   if (m.b[s] >= m.node_count()) fail("it refers to a node that does not exist");
   if (m.a[s] >= m.b[s]) fail("its nodes must differ, the lower one first");

@@ -12,7 +12,7 @@ namespace springlod::inline model {
 void validate(const Material& material) {
   if (material.name.empty()) throw InputError("a material has no name; give it one");
   const auto require = [&](const char* field, double value, const PhysicalRange& range) {
-    if (!range.holds(value))
+    if (!range.contains(value))
       throw InputError(
           fmt::format("material \"{}\": {}", material.name, outside(field, value, range)));
   };
