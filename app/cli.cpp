@@ -106,6 +106,20 @@ Leave unknown_command(const std::string& name,
                                scripting::name_hint(name, names, "commands are")));
 }
 
+// Parses arguments with the flags of add_settings.
+std::optional<Leave> parse_settings(CLI::App& app, std::vector<std::string> arguments,
+                                    const Switches& switches, scripting::Settings& settings) {
+  try {
+    app.parse(reversed(std::move(arguments)));
+    settle(switches, settings);
+  } catch (const CLI::ParseError& error) {
+    return wrong_use(error.what());
+  } catch (const InputError& error) {
+    return wrong_use(error.what());
+  }
+  return std::nullopt;
+}
+
 // Parses the flags before the command. The other arguments go to `rest`.
 std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
                                  const std::vector<scripting::StockCommand>& commands,
@@ -121,14 +135,7 @@ std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
   app.add_option("-e", line.code);
   app.add_flag("-i", line.prompt_after);
   add_settings(app, line.settings, switches);
-  try {
-    app.parse(reversed(arguments));
-    settle(switches, line.settings);
-  } catch (const CLI::ParseError& error) {
-    return wrong_use(error.what());
-  } catch (const InputError& error) {
-    return wrong_use(error.what());
-  }
+  if (auto leave = parse_settings(app, arguments, switches, line.settings)) return leave;
   rest = app.remaining();
   if (help) return Leave{0, usage_text(commands)};
   if (show_version) return Leave{0, fmt::format("springlod {}\n", scripting::version())};
@@ -147,14 +154,8 @@ std::optional<Leave> parse_back(const std::vector<std::string>& arguments, bool 
   app.allow_extras();
   add_settings(app, line.settings, switches);
   if (own_script) app.add_flag("-i", line.prompt_after);
-  try {
-    app.parse(reversed({arguments.begin(), separator}));
-    settle(switches, line.settings);
-  } catch (const CLI::ParseError& error) {
-    return wrong_use(error.what());
-  } catch (const InputError& error) {
-    return wrong_use(error.what());
-  }
+  if (auto leave = parse_settings(app, {arguments.begin(), separator}, switches, line.settings))
+    return leave;
   line.arguments = app.remaining();
   if (separator != arguments.end())
     line.arguments.insert(line.arguments.end(), separator + (own_script ? 1 : 0), arguments.end());
