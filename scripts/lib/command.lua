@@ -181,6 +181,16 @@ function command.exists(path)
   return file ~= nil
 end
 
+-- Removes the files of a folder that have one of the endings and whose name is_own(name) accepts,
+-- and the folder if it holds nothing else.
+function command.clear_folder(folder, endings, is_own)
+  if not s.is_folder(folder) then return end
+  for _, path in ipairs(s.files(folder, {endings = endings})) do
+    if is_own(command.base_name(path)) then os.remove(path) end
+  end
+  os.remove(folder)
+end
+
 -- The file name of a path, with and without its extension.
 function command.base_name(path) return path:match("([^/]+)/*$") or path end
 function command.stem(path) return (command.base_name(path):gsub("%.[^.]*$", "")) end

@@ -88,9 +88,10 @@ end
 
 -- The grids of the bodies that --bodies asks for.
 local function bodies_of(grid, args)
-  if args.bodies == "together" and grid.body_count > 1 then
+  local count = args.bodies == "together" and grid.body_count or 0 -- counted at each reading
+  if count > 1 then
     s.say(("all %d bodies become one model (--bodies largest or separate takes them apart)"):format(
-      grid.body_count))
+      count))
   end
   return s.bodies(grid, {bodies = args.bodies})
 end

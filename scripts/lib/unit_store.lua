@@ -39,11 +39,7 @@ end
 
 -- Removes all units.
 function Store:remove()
-  if not s.is_folder(self.folder) then return end
-  for _, path in ipairs(s.files(self.folder, {endings = {".lua"}})) do
-    if command.stem(path):find("^%x+$") then os.remove(path) end
-  end
-  os.remove(self.folder)
+  command.clear_folder(self.folder, {".lua"}, function(name) return name:find("^%x+%.lua$") end)
 end
 
 return unit_store

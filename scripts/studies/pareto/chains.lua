@@ -2,6 +2,7 @@
 -- the integrator.
 
 local s = require "springlod"
+local command = require "lib.command"
 local intervals = require "lib.intervals"
 
 local pareto_chains = {}
@@ -24,12 +25,6 @@ local function simplify(base, making, settings, seed)
   return making.calibration == "modes" and chain or s.certify(chain)
 end
 
-local function exists(path)
-  local file = io.open(path, "rb")
-  if file then file:close() end
-  return file ~= nil
-end
-
 -- The certified chains of a simplification method, one per seed. `study`: base, settings, folder.
 -- Calls report(name) after each chain.
 function pareto_chains.of(study, making, report)
@@ -38,7 +33,7 @@ function pareto_chains.of(study, making, report)
   for i = 1, study.settings.seeds do
     local seed = study.settings.seed + i - 1
     local path = ("%s/models/%s-seed-%d.glb"):format(study.folder, making.name, seed)
-    if not exists(path) then
+    if not command.exists(path) then
       s.save(path, simplify(study.base, making, study.settings, seed))
     end
     chains[i] = s.load(path)
