@@ -14,6 +14,7 @@
 #include "base/child_work.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/message.hpp"
 #include "voxelize/distance_field.hpp"
 #include "voxelize/index_lookup.hpp"
 
@@ -136,14 +137,6 @@ std::size_t intact_size(const fs::path& path) {
                     "copy it again",
                     path.string()));
   return bytes.size();
-}
-
-// Messages of OpenVDB quote bytes of the file, which could control the terminal.
-std::string printable(std::string_view text) {
-  std::string clean(text);
-  std::replace_if(
-      clean.begin(), clean.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
-  return clean;
 }
 
 class Reader {
