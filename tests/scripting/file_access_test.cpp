@@ -48,8 +48,8 @@ TEST_CASE("a project in a hidden folder is a project") {
   const test::TemporaryFolder scratch;
   FileAccess files;
   files.restrict();
-  files.allow_project(scratch / ".cache/work");
-  CHECK(files.may_write(scratch / ".cache/work/file"));
+  files.allow_project(scratch / ".cache/project");
+  CHECK(files.may_write(scratch / ".cache/project/file"));
   CHECK_FALSE(files.may_write(scratch / ".cache/file"));
 }
 
