@@ -107,7 +107,7 @@ TEST_CASE("the prompt remembers its lines for the next session") {
   CHECK(terminal.shows("\nfirst session"));
 }
 
-TEST_CASE("-i opens a prompt after the code, with its globals") {
+TEST_CASE("the flag -i opens a prompt after the code, with its globals") {
   const TemporaryFolder scratch;
   Terminal terminal({"-i", "-e", "answer = 42"}, scratch.path());
   REQUIRE(terminal.shows("> "));
@@ -115,7 +115,7 @@ TEST_CASE("-i opens a prompt after the code, with its globals") {
   CHECK(terminal.shows("\n42"));
 }
 
-TEST_CASE("-i without a terminal reads lines from stdin") {
+TEST_CASE("the flag -i without a terminal reads lines from stdin") {
   const Ran ran = springlod_run({"-i"}, "x = 20\nx + 1\nfor i = 1, 1 do\nprint('in')\nend\n");
   CHECK(ran.exit_code == 0);
   CHECK(ran.out == "21\nin\n");
