@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/script_number.hpp"
 #include "elastic/solver/dense_kernels.hpp"
@@ -188,10 +189,26 @@ void require_finite(const ElasticComponent& component) {
         script_number(component.nodes.front())));
 }
 
+void require_memory(const ElasticComponent& component, Eigen::Index count) {
+  // Of each mode at least: two vectors of the basis, the shape in the unknowns and at the nodes.
+  constexpr double kVectors = 4;
+  constexpr double kGigabyte = 1e9;
+  const double of_each = kVectors * sizeof(double) * static_cast<double>(component.unknowns());
+  const double needed = of_each * static_cast<double>(count);
+  const double available = available_memory();
+  if (needed > available)
+    throw InputError(fmt::format(
+        "modes: {} modes of {} nodes need {:.3g} GB of memory, and {:.3g} GB are free; request at "
+        "most {:.0f}",
+        count, component.nodes.size(), needed / kGigabyte, available / kGigabyte,
+        std::floor(available / of_each)));
+}
+
 ComponentSpectrum solve(const ElasticComponent& component, const ModeOptions& options) {
   require_finite(component);
   const Eigen::Index there = component.unknowns() - component.zero_modes.cols();
   const auto count = std::min(static_cast<Eigen::Index>(options.count), there);
+  require_memory(component, count);
   if (component.unknowns() > kDenseUnknowns)
     if (auto spectrum = BlockLanczos(component, count, options).run()) return *std::move(spectrum);
   if (component.unknowns() > kMostDenseUnknowns)

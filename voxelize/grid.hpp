@@ -90,6 +90,8 @@ struct VoxelizeOptions {
   std::optional<CoreShell> core_shell;
   PaintFunction paint;
   Repair repair = Repair::automatic;
+  /// Whether build_lattice() follows: then its memory is required too, before the cells are made.
+  bool for_lattice = false;
   std::uint32_t threads = 0;  ///< 0: all cores. Never changes the result
   Progress* progress = nullptr;
 };
@@ -117,10 +119,11 @@ struct VoxelizedMesh {
 /// 1/2 (wound_cells), after repair().
 ///
 /// Throws InputError: a cell too large (no cell is filled) or too small (the message has the
-/// smallest possible one), coordinates that are not finite, a mesh too far from the origin, a flat
-/// mesh, unknown names in `priority` or from `paint`, different materials of one name; with
-/// Repair::strict any fault of the mesh, and parts whose cells have a volume that is far off; with
-/// Repair::off an open solid (the message has the part and a hole).
+/// smallest possible one), more cells than the memory holds, coordinates that are not finite, a
+/// mesh too far from the origin, a flat mesh, unknown names in `priority` or from `paint`,
+/// different materials of one name; with Repair::strict any fault of the mesh, and parts whose
+/// cells have a volume that is far off; with Repair::off an open solid (the message has the part
+/// and a hole).
 VoxelizedMesh voxelize(const TriangleMesh& mesh, const VoxelizeOptions& options);
 
 }  // namespace springlod::voxelize

@@ -11,6 +11,7 @@
 #include "voxelize/cell_material.hpp"
 #include "voxelize/corner_nodes.hpp"
 #include "voxelize/corner_young.hpp"
+#include "voxelize/enough_memory.hpp"
 #include "voxelize/hinges.hpp"
 #include "voxelize/index_lookup.hpp"
 
@@ -268,6 +269,12 @@ void require_buildable(const MaterialGrid& grid) {
         fmt::format("lattice: {} cells are too many; use larger cells", grid.cells.size()));
 }
 
+void require_memory_for(std::size_t nodes, const MaterialGrid& grid) {
+  const auto cells = static_cast<double>(grid.cells.size());
+  require_memory("lattice", cells, kLatticeBytesPerNode * static_cast<double>(nodes) / cells,
+                 grid.cell);
+}
+
 LatticeModel build_corners(MaterialGrid grid, const LatticeOptions& options) {
   LatticeModel lattice;
   CornerNodes nodes = corner_nodes(grid.cells);
@@ -278,6 +285,7 @@ LatticeModel build_corners(MaterialGrid grid, const LatticeOptions& options) {
   }
   if (!lattice.hinges.empty() && options.hinges == HingePolicy::separate)
     nodes = separate_clusters(nodes);
+  require_memory_for(nodes.at.size(), grid);
   lattice.model = corners_model(grid, nodes, options.volumes);
   return lattice;
 }
@@ -286,6 +294,7 @@ LatticeModel build_corners(MaterialGrid grid, const LatticeOptions& options) {
 
 LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& options) {
   require_buildable(grid);
+  require_memory_for(grid.cells.size(), grid);
   LatticeModel lattice;
   if (options.style == LatticeStyle::corners)
     lattice = build_corners(grid, options);

@@ -12,6 +12,7 @@
 #include "voxelize/bodies.hpp"
 #include "voxelize/claim_order.hpp"
 #include "voxelize/depth.hpp"
+#include "voxelize/enough_memory.hpp"
 #include "voxelize/frame.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/inside.hpp"
@@ -32,6 +33,11 @@ namespace {
 constexpr double kDefaultCells = 32;
 // Factor on the cell that is proposed if no cell is filled.
 constexpr double kFinerCell = 0.25;
+// Memory per filled cell [bytes]: its index, material and body, and the lists that make them.
+constexpr double kBytesPerCell = 60;
+// Memory per cell that the surface crosses [bytes]: the narrow band, and what OpenVDB needs to make
+// it. Of a needle of 3 x 3 cells.
+constexpr double kBytesPerSurfaceCell = 1200;
 // Solids have 16-bit numbers; 0 is empty.
 constexpr std::size_t kMostSolids = 65535;
 
@@ -82,6 +88,7 @@ class Voxelizer {
     solids_ = check_solid(mesh(), welded);
     require_solids(solids_);
     mend(welded);
+    require_memory_for_cells();
     fill_solids(sort_shells(mesh(), solids_, welded));
     gather_cells();
     report_slivers();
@@ -123,6 +130,25 @@ class Voxelizer {
         options_.cell.value_or(box.isEmpty() ? 0 : box.sizes().maxCoeff() / kDefaultCells);
     frame_ = frame_around(box, report().cell);
     owner_.assign(frame_.count(), 0);
+  }
+
+  void require_memory_for_cells() const {
+    const double volume_of_cell = std::pow(frame_.cell, 3);
+    const double area_of_cell = frame_.cell * frame_.cell;
+    double filled = 0;
+    double touched = 0;
+    for (const SolidReport& solid : solids_) {
+      const double volume = std::abs(solid.volume);
+      filled += volume / volume_of_cell;
+      if (const double thick = thickness(mesh(), solid, volume); thick > 0)
+        touched += 2 * volume / thick / area_of_cell;
+    }
+    if (!(filled > 0)) return;
+    const auto all = static_cast<double>(frame_.count());
+    const double bytes = sizeof(owner_[0]) * all + kBytesPerCell * filled +
+                         kBytesPerSurfaceCell * touched +
+                         (options_.for_lattice ? kLatticeBytesPerNode * filled : 0);
+    require_memory("voxelize", filled, bytes / filled, frame_.cell);
   }
 
   // The level sets of as many solids as there are threads are made at once. The solids then claim

@@ -1,5 +1,6 @@
 #include "lod/calibration/calibrate.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/available_memory.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/script_number.hpp"
@@ -275,9 +277,28 @@ class Calibrator {
   std::atomic<bool> reported_store_{false}, resumed_{false};
 };
 
+// Cubes of 10,000 and 100,000 nodes take 55 and 64 kB a node (bench_calibrate); flat bodies, whose
+// factors are sparser, less.
+void require_memory(const MassSpringModel& base) {
+  constexpr double kLeastBytesPerNode = 30e3;
+  constexpr double kGigabyte = 1e9;
+  const Components components = connected_components(base);
+  std::vector<std::uint32_t> nodes(components.count, 0);
+  for (const std::uint32_t component : components.of_node) ++nodes[component];
+  const std::uint32_t most = *std::max_element(nodes.begin(), nodes.end());
+  const double needed = kLeastBytesPerNode * most;
+  const double available = available_memory();
+  if (needed > available)
+    throw InputError(fmt::format(
+        "calibration: a body of {} nodes needs at least {:.3g} GB of memory, and {:.3g} GB are "
+        "free; use larger cells, or merge only (calibrate = \"none\", convert --fast)",
+        most, needed / kGigabyte, available / kGigabyte));
+}
+
 }  // namespace
 
 void calibrate(LodChain& chain, const CalibrateOptions& options) {
+  require_memory(chain.levels.front().model);
   Calibrator(chain, options).run();
 }
 

@@ -106,6 +106,7 @@ int voxelize_binding(Call& call) {
     options.paint = paint_function(call.lua(), function);
   }
   reader.read("repair", options.repair);
+  reader.read("for_lattice", options.for_lattice);
   reader.finish();
   options.threads = call.session().settings().threads;
   options.progress = call.progress();
@@ -310,11 +311,17 @@ void describe_voxelize_function(Api& api) {
             .type = "one of",
             .fallback = "\"auto\"",
             .help = "what to do with holes and other faults of the mesh",
-            .choices = words_of<voxelize::Repair>()}},
+            .choices = words_of<voxelize::Repair>()},
+           {.name = "for_lattice",
+            .type = "boolean",
+            .fallback = "false",
+            .help = "whether a lattice will be built on the cells: its memory is then checked too, "
+                    "before the cells are made"}},
       .returns = "Grid",
-      .errors =
-          "A mesh that encloses nothing, cells too large or too small; without repair, an open "
-          "part (the message names part and hole).",
+      .errors = "A mesh that encloses nothing, cells too large or too small, or more than the "
+                "memory holds; "
+                "without repair, an open "
+                "part (the message names part and hole).",
       .example = "local grid = s.voxelize(mesh, {cell = \"2 mm\", materials = {\n"
                  "  rod = {young = \"10 MPa\", density = 1000, damping = 0.004}}})",
       .call = voxelize_binding});

@@ -104,6 +104,7 @@ function conversion.bases(args, preset, path)
   local grid = s.voxelize(mesh, {
     cell = args.cell, materials = materials, core = core,
     priority = args.priority and words_of(args.priority), repair = args.repair,
+    for_lattice = true,
   })
   local bases = {}
   for number, body in ipairs(bodies_of(grid, args)) do
