@@ -1,5 +1,5 @@
 // Two levels of a cube, 45 % and 20 % of its nodes, merged and calibrated on all threads. Run by
-// ./dev bench, except 100k nodes, which take minutes:
+// ./dev bench, except 100k nodes, which take a quarter of an hour:
 //   bench_calibrate --benchmark_filter=100k
 
 #include <benchmark/benchmark.h>

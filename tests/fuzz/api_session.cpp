@@ -1,17 +1,15 @@
 #include "tests/fuzz/api_session.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <iterator>
 #include <string_view>
 
 #include <lua.hpp>
 
 #include "scripting/bind/topics.hpp"
-#include "scripting/engine/interrupt.hpp"
+#include "tests/fuzz/deadline.hpp"
 
 namespace springlod::fuzz {
 namespace {
@@ -51,28 +49,6 @@ end
 // Kinds of errors that are results: see the type Error of the API. "internal" is a bug, and
 // "memory" what should have been refused before.
 constexpr std::string_view kRefusals[] = {"input", "io", "unstable", "tunnelled", "interrupted"};
-
-/// Sends this process Ctrl-C after a while: long runs are no bugs, but they must end then.
-class Deadline {
- public:
-  Deadline() {
-    sigevent event{};
-    event.sigev_notify = SIGEV_SIGNAL;
-    event.sigev_signo = SIGINT;
-    timer_create(CLOCK_MONOTONIC, &event, &timer_);
-    constexpr itimerspec kOnce{{}, {.tv_sec = 1, .tv_nsec = 0}};
-    timer_settime(timer_, 0, &kOnce, nullptr);
-  }
-  Deadline(const Deadline&) = delete;
-  Deadline& operator=(const Deadline&) = delete;
-  ~Deadline() {
-    timer_delete(timer_);
-    scripting::clear_interrupt();
-  }
-
- private:
-  timer_t timer_{};
-};
 
 bool is_refusal(lua_State* L) {
   if (lua_type(L, -1) == LUA_TSTRING) return true;  // of Lua itself, or of a function of the script

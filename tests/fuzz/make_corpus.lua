@@ -44,5 +44,18 @@ for name, bar in pairs(bars) do
   s.save(("%s/asset/%s.glb"):format(folder, name), chain)
   s.save_vdb(("%s/vdb/%s.vdb"):format(folder, name), bar)
 end
+s.save_text(folder .. "/materials/two.lua", [[
+return {rubber = {young = "1 MPa", density = 1100, damping = 0.004, colour = {0.9, 0.2, 0.1}},
+        steel = {young = 1e7, density = 7800, damping = "2 ms"}}
+]])
+s.save_text(folder .. "/materials/computed.lua", [[
+local materials = {}
+for _, name in ipairs{"rubber", "steel"} do
+  local soft = name:find("^rub") ~= nil
+  materials[name] = {young = (soft and 1 or 10) * 1e6, density = math.max(1000, 2 ^ 10),
+                     damping_ratio = soft and 0.05 or nil}
+end
+return setmetatable(materials, {__index = function() return {young = "2 MPa"} end})
+]])
 local certified = s.simplify(s.lattice(grid({2, 2, 1}, rubber)), {levels = 1, calibrate = "moduli"})
 s.save(folder .. "/asset/certified.glb", s.certify(certified))
