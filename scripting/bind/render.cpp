@@ -41,8 +41,8 @@ std::vector<double> numbers_of(TableReader& reader, const char* name) {
   std::vector<double> numbers;
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, table)); ++i) {
     lua_rawgeti(L, table, i);
-    numbers.push_back(
-        quantity_at(L, -1, Dimension::number, fmt::format("{}: {}[{}]", reader.owner(), name, i)));
+    numbers.push_back(usual_quantity_at(L, -1, Dimension::number,
+                                        fmt::format("{}: {}[{}]", reader.owner(), name, i)));
     lua_pop(L, 1);
   }
   lua_pop(L, 1);

@@ -81,6 +81,15 @@ double quantity_at(lua_State* L, int index, Dimension dimension, std::string_vie
   return value;
 }
 
+double usual_quantity_at(lua_State* L, int index, Dimension dimension, std::string_view what) {
+  const double value = quantity_at(L, index, dimension, what);
+  if (!kUsualNumbers.contains(value))
+    throw InputError(fmt::format("{} must be from {}, got {}", what,
+                                 to_string(kUsualNumbers, dimension),
+                                 format_quantity(value, dimension)));
+  return value;
+}
+
 Vec3 vector_at(lua_State* L, int index, Dimension dimension, std::string_view what) {
   const int table = lua_absindex(L, index);
   if (lua_type(L, table) != LUA_TTABLE || lua_rawlen(L, table) != 3)
@@ -91,7 +100,7 @@ Vec3 vector_at(lua_State* L, int index, Dimension dimension, std::string_view wh
   Vec3 vector;
   for (int axis = 0; axis < 3; ++axis) {
     lua_rawgeti(L, table, axis + 1);
-    vector[axis] = quantity_at(L, -1, dimension, fmt::format("{}[{}]", what, axis + 1));
+    vector[axis] = usual_quantity_at(L, -1, dimension, fmt::format("{}[{}]", what, axis + 1));
     lua_pop(L, 1);
   }
   return vector;

@@ -173,7 +173,9 @@ const FunctionEntry* entry_of_function(lua_State* L, int index);
 
 /// A number, or text with a unit, at `index`. Throws InputError naming `what`.
 double quantity_at(lua_State* L, int index, Dimension dimension, std::string_view what);
-/// {x, y, z} of quantities at `index`.
+/// The same within kUsualNumbers.
+double usual_quantity_at(lua_State* L, int index, Dimension dimension, std::string_view what);
+/// {x, y, z} of quantities at `index`, within kUsualNumbers.
 Vec3 vector_at(lua_State* L, int index, Dimension dimension, std::string_view what);
 
 }  // namespace springlod::scripting

@@ -29,9 +29,9 @@ report::ChartPoint read_point(Call& call, int table, const std::string& owner) {
     throw InputError(fmt::format("{} must be {{x, y}}", owner));
   report::ChartPoint point;
   lua_rawgeti(L, table, 1);
-  point.x = quantity_at(L, -1, Dimension::number, owner + "[1]");
+  point.x = usual_quantity_at(L, -1, Dimension::number, owner + "[1]");
   lua_rawgeti(L, table, 2);
-  point.y = quantity_at(L, -1, Dimension::number, owner + "[2]");
+  point.y = usual_quantity_at(L, -1, Dimension::number, owner + "[2]");
   lua_pop(L, 2);
   lua_newtable(L);
   for_each_option(point, [&](const auto& row, const auto& /*usual*/) {

@@ -18,9 +18,9 @@ std::pair<double, double> read_range(TableReader& reader, const char* name) {
   std::pair<double, double> range;
   const std::string what = reader.owner() + ": " + name;
   lua_rawgeti(L, table, 1);
-  range.first = quantity_at(L, -1, Dimension::number, what + "[1]");
+  range.first = usual_quantity_at(L, -1, Dimension::number, what + "[1]");
   lua_rawgeti(L, table, 2);
-  range.second = quantity_at(L, -1, Dimension::number, what + "[2]");
+  range.second = usual_quantity_at(L, -1, Dimension::number, what + "[2]");
   lua_pop(L, 3);
   if (!(range.first < range.second))
     reader.refuse(name, fmt::format("{{low, high}} with low < high, got {{{}, {}}}", range.first,
@@ -37,8 +37,8 @@ render::DrawnPlane read_cut(TableReader& reader, const char* name) {
   double numbers[4];
   for (int i = 0; i < 4; ++i) {
     lua_rawgeti(L, table, i + 1);
-    numbers[i] = quantity_at(L, -1, Dimension::number,
-                             fmt::format("{}: {}[{}]", reader.owner(), name, i + 1));
+    numbers[i] = usual_quantity_at(L, -1, Dimension::number,
+                                   fmt::format("{}: {}[{}]", reader.owner(), name, i + 1));
     lua_pop(L, 1);
   }
   lua_pop(L, 1);

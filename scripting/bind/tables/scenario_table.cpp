@@ -35,8 +35,8 @@ sim::Plane read_plane(lua_State* L, int table, const std::string& owner) {
   double value[4];
   for (int i = 0; i < 4; ++i) {
     lua_rawgeti(L, table, i + 1);
-    value[i] = quantity_at(L, -1, i == 3 ? Dimension::length : Dimension::number,
-                           fmt::format("{}[{}]", owner, i + 1));
+    value[i] = usual_quantity_at(L, -1, i == 3 ? Dimension::length : Dimension::number,
+                                 fmt::format("{}[{}]", owner, i + 1));
     lua_pop(L, 1);
   }
   const Vec3 normal(value[0], value[1], value[2]);
