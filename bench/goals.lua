@@ -110,6 +110,10 @@ local function add_jobs(to, by_name, counter, ratio)
     to.at_most(("a %s of a million triangles in 256^3 cells: time / time of bare OpenVDB")
                :format(body), counter(("voxelize_%s_1M/threads:1"):format(body), "ratio"), 1.15)
   end
+  for _, sphere in ipairs{{142, "20,000"}, {1000, "a million"}} do
+    to.at_most(("importing %s triangles: more than in this process"):format(sphere[2]),
+               counter(("import_sphere/sectors:%d"):format(sphere[1]), "more_ms"), 50, " ms")
+  end
   local convert = by_name.convert_100k_nodes
   to.at_most("whole conversion of a mesh to an asset of 100,000 nodes", convert and convert.ms
              and convert.ms / 1e3, 3, " s")

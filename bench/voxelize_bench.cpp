@@ -1,6 +1,6 @@
 // Voxelization of a million triangles in 256^3 cells, compared with the bare OpenVDB call on the
-// same mesh in the same run, and a whole `springlod convert` to about 100,000 nodes. Run by ./dev
-// bench.
+// same mesh in the same run; imports, compared with reading in this process; and a whole
+// `springlod convert` to about 100,000 nodes. Run by ./dev bench.
 
 #include <algorithm>
 #include <chrono>
@@ -22,6 +22,8 @@
 
 #include "voxelize/frame.hpp"
 #include "voxelize/grid.hpp"
+#include "voxelize/import.hpp"
+#include "voxelize/read_mesh.hpp"
 
 namespace {
 
@@ -181,6 +183,35 @@ void write_obj(const TriangleMesh& mesh, const std::filesystem::path& path) {
   for (const Triangle& t : mesh.triangles)
     out << fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
 }
+
+/// Imports a sphere and reads it in this process, alternately; the time is that of the import.
+/// `more_ms` is what the import takes longer, of the shortest times. The argument is the number of
+/// sectors; a sphere has about as many triangles as its square.
+void import_sphere(benchmark::State& state) {
+  const auto sectors = static_cast<std::uint32_t>(state.range(0));
+  const TriangleMesh mesh = sphere_mesh(sectors, sectors / 2);
+  const auto path = std::filesystem::temp_directory_path() / "springlod_bench_import.obj";
+  write_obj(mesh, path);
+  const voxelize::ImportOptions options{.unit = 1, .up = voxelize::UpAxis::z};
+  Shortest here;
+  Shortest import;
+  for (auto _ : state) {
+    here.time([&] { benchmark::DoNotOptimize(voxelize::read_mesh(path, options)); });
+    state.SetIterationTime(
+        import.time([&] { benchmark::DoNotOptimize(voxelize::import_mesh(path, options)); }));
+  }
+  std::filesystem::remove(path);
+  state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+  state.counters["here_ms"] = 1e3 * here.real;
+  state.counters["more_ms"] = 1e3 * (import.real - here.real);
+}
+BENCHMARK(import_sphere)
+    ->ArgName("sectors")
+    ->Arg(142)
+    ->Arg(1000)
+    ->Iterations(5)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// Runs the program on a sphere of 20,000 triangles: an asset of about 100,000 nodes and two
 /// coarser levels.
