@@ -75,7 +75,7 @@ TEST_CASE("Numbers, texts and lists beyond the range of an option are refused") 
   CHECK_THAT(out, Contains("json: more than 2000000 values"));
   CHECK_THAT(out, Contains("refill: nodes must be a whole number of 1 to 2000000, got 2147483648"));
   CHECK_THAT(out, Contains("refill: nodes must be at most 27, the number of the base's nodes"));
-  CHECK_THAT(out, Contains("gravity must be from -1e+15"));
+  CHECK_THAT(out, Contains("gravity[3] must be from -1e+15 m/s2"));
   CHECK_THAT(out, Contains("size must be three counts of cells, together at most 10000000"));
 }
 
