@@ -169,7 +169,7 @@ TEST_CASE("The normal force of the last step moves the anchor of the stick sprin
   CHECK(now.stretch == before.stretch);
 }
 
-TEST_CASE("A level that lands on its corner and slides keeps its energy account closed") {
+TEST_CASE("A level that lands on its corner and slides keeps its energy account closed", "[long]") {
   const LodChain chain = compact_levels();
   const std::uint32_t level = GENERATE(1U, 2U);
   const auto integrator = GENERATE(Integrator::symplectic_euler, Integrator::velocity_verlet);
