@@ -5,8 +5,11 @@
 #include <limits>
 #include <string>
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#include "base/error.hpp"
 
 namespace springlod::inline base {
 namespace {
@@ -47,6 +50,15 @@ double left_in_address_space() {
 
 double available_memory() {
   return std::max(0., std::min({free_on_machine(), left_in_group(), left_in_address_space()}));
+}
+
+void require_memory(double needed, std::string_view what,
+                    const std::function<std::string(double)>& advice) {
+  constexpr double kGigabyte = 1e9;
+  const double available = available_memory();
+  if (needed > available)
+    throw InputError(fmt::format("{} {:.3g} GB of memory, and {:.3g} GB are free; {}", what,
+                                 needed / kGigabyte, available / kGigabyte, advice(available)));
 }
 
 }  // namespace springlod::inline base

@@ -189,26 +189,32 @@ void require_finite(const ElasticComponent& component) {
         script_number(component.nodes.front())));
 }
 
-void require_memory(const ElasticComponent& component, Eigen::Index count) {
+/// Number of modes to look for in a component.
+Eigen::Index count_of(const ElasticComponent& component, const ModeOptions& options) {
+  const Eigen::Index there = component.unknowns() - component.zero_modes.cols();
+  return std::min(static_cast<Eigen::Index>(options.count), there);
+}
+
+/// For the largest component: the others need less.
+void require_memory_for(const ElasticBody& body, const ModeOptions& options) {
   // Of each mode at least: two vectors of the basis, the shape in the unknowns and at the nodes.
   constexpr double kVectors = 4;
-  constexpr double kGigabyte = 1e9;
-  const double of_each = kVectors * sizeof(double) * static_cast<double>(component.unknowns());
-  const double needed = of_each * static_cast<double>(count);
-  const double available = available_memory();
-  if (needed > available)
-    throw InputError(fmt::format(
-        "modes: {} modes of {} nodes need {:.3g} GB of memory, and {:.3g} GB are free; request at "
-        "most {:.0f}",
-        count, component.nodes.size(), needed / kGigabyte, available / kGigabyte,
-        std::floor(available / of_each)));
+  const auto largest =
+      std::max_element(body.components.begin(), body.components.end(),
+                       [](const auto& l, const auto& r) { return l.unknowns() < r.unknowns(); });
+  if (largest == body.components.end()) return;
+  const Eigen::Index count = count_of(*largest, options);
+  const double of_each = kVectors * sizeof(double) * static_cast<double>(largest->unknowns());
+  require_memory(of_each * static_cast<double>(count),
+                 fmt::format("modes: {} modes of {} nodes need", count, largest->nodes.size()),
+                 [&](double available) {
+                   return fmt::format("request at most {:.0f}", std::floor(available / of_each));
+                 });
 }
 
 ComponentSpectrum solve(const ElasticComponent& component, const ModeOptions& options) {
   require_finite(component);
-  const Eigen::Index there = component.unknowns() - component.zero_modes.cols();
-  const auto count = std::min(static_cast<Eigen::Index>(options.count), there);
-  require_memory(component, count);
+  const Eigen::Index count = count_of(component, options);
   if (component.unknowns() > kDenseUnknowns)
     if (auto spectrum = BlockLanczos(component, count, options).run()) return *std::move(spectrum);
   if (component.unknowns() > kMostDenseUnknowns)
@@ -235,6 +241,7 @@ double Mode::frequency() const {
 
 Modes lowest_modes(const ElasticBody& body, const ModeOptions& options) {
   check(options);
+  require_memory_for(body, options);
   struct Found {
     double squared_frequency;
     std::size_t component;

@@ -11,6 +11,6 @@ inline constexpr double kLatticeBytesPerNode = 900;
 
 /// Throws InputError, with a cell that fits, if `cells` cells of edge `cell` [m] need more memory
 /// than there is. `bytes`: of each; `stage`: "voxelize".
-void require_memory(std::string_view stage, double cells, double bytes, double cell);
+void require_memory_of_cells(std::string_view stage, double cells, double bytes, double cell);
 
 }  // namespace springlod::voxelize

@@ -271,8 +271,8 @@ void require_buildable(const MaterialGrid& grid) {
 
 void require_memory_for(std::size_t nodes, const MaterialGrid& grid) {
   const auto cells = static_cast<double>(grid.cells.size());
-  require_memory("lattice", cells, kLatticeBytesPerNode * static_cast<double>(nodes) / cells,
-                 grid.cell);
+  require_memory_of_cells("lattice", cells,
+                          kLatticeBytesPerNode * static_cast<double>(nodes) / cells, grid.cell);
 }
 
 LatticeModel build_corners(MaterialGrid grid, const LatticeOptions& options) {

@@ -133,22 +133,16 @@ class Voxelizer {
   }
 
   void require_memory_for_cells() const {
-    const double volume_of_cell = std::pow(frame_.cell, 3);
-    const double area_of_cell = frame_.cell * frame_.cell;
-    double filled = 0;
-    double touched = 0;
-    for (const SolidReport& solid : solids_) {
-      const double volume = std::abs(solid.volume);
-      filled += volume / volume_of_cell;
-      if (const double thick = thickness(mesh(), solid, volume); thick > 0)
-        touched += 2 * volume / thick / area_of_cell;
-    }
+    double volume = 0;
+    for (const SolidReport& solid : solids_) volume += std::abs(solid.volume);
+    const double filled = volume / std::pow(frame_.cell, 3);
+    const double touched = surface_area(mesh()) / std::pow(frame_.cell, 2);
     if (!(filled > 0)) return;
     const auto all = static_cast<double>(frame_.count());
     const double bytes = sizeof(owner_[0]) * all + kBytesPerCell * filled +
                          kBytesPerSurfaceCell * touched +
                          (options_.for_lattice ? kLatticeBytesPerNode * filled : 0);
-    require_memory("voxelize", filled, bytes / filled, frame_.cell);
+    require_memory_of_cells("voxelize", filled, bytes / filled, frame_.cell);
   }
 
   // The level sets of as many solids as there are threads are made at once. The solids then claim

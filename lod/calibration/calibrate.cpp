@@ -95,6 +95,18 @@ std::vector<Groups> groups_of_part(const ModelComponent& part, const LodChain& c
   return all;
 }
 
+// Cubes of 10,000 and 100,000 nodes take 55 and 64 kB a node (bench_calibrate); flat bodies, whose
+// factors are sparser, less. Components are fitted one after the other.
+void require_memory_for(const std::vector<ModelComponent>& parts) {
+  constexpr double kLeastBytesPerNode = 30e3;
+  std::size_t most = 0;
+  for (const ModelComponent& part : parts) most = std::max(most, part.nodes.size());
+  require_memory(kLeastBytesPerNode * static_cast<double>(most),
+                 fmt::format("calibration: a body of {} nodes needs at least", most), [](double) {
+                   return "use larger cells, or merge only (calibrate = \"none\", convert --fast)";
+                 });
+}
+
 std::vector<MeasuredPart> measure_parts(const LodChain& chain, const CalibrateOptions& options,
                                         const CalibrationStore* store) {
   const MassSpringModel& base = chain.levels.front().model;
@@ -103,8 +115,10 @@ std::vector<MeasuredPart> measure_parts(const LodChain& chain, const CalibrateOp
   std::vector<std::vector<std::uint8_t>> regions;
   for (const TargetRegion& region : options.targets.regions)
     regions.push_back(anchor_flags(base, region.nodes));
+  std::vector<ModelComponent> parts = split_components(base, connected_components(base));
+  require_memory_for(parts);
   std::vector<MeasuredPart> all;
-  for (ModelComponent& part : split_components(base, connected_components(base))) {
+  for (ModelComponent& part : parts) {
     const TargetOptions of_part = options_of_part(part, anchored, regions, options);
     std::vector<LoadTarget> loads = target_loads(part.model, of_part);
     std::vector<Groups> groups = groups_of_part(part, chain);
@@ -277,28 +291,9 @@ class Calibrator {
   std::atomic<bool> reported_store_{false}, resumed_{false};
 };
 
-// Cubes of 10,000 and 100,000 nodes take 55 and 64 kB a node (bench_calibrate); flat bodies, whose
-// factors are sparser, less.
-void require_memory(const MassSpringModel& base) {
-  constexpr double kLeastBytesPerNode = 30e3;
-  constexpr double kGigabyte = 1e9;
-  const Components components = connected_components(base);
-  std::vector<std::uint32_t> nodes(components.count, 0);
-  for (const std::uint32_t component : components.of_node) ++nodes[component];
-  const std::uint32_t most = *std::max_element(nodes.begin(), nodes.end());
-  const double needed = kLeastBytesPerNode * most;
-  const double available = available_memory();
-  if (needed > available)
-    throw InputError(fmt::format(
-        "calibration: a body of {} nodes needs at least {:.3g} GB of memory, and {:.3g} GB are "
-        "free; use larger cells, or merge only (calibrate = \"none\", convert --fast)",
-        most, needed / kGigabyte, available / kGigabyte));
-}
-
 }  // namespace
 
 void calibrate(LodChain& chain, const CalibrateOptions& options) {
-  require_memory(chain.levels.front().model);
   Calibrator(chain, options).run();
 }
 

@@ -319,9 +319,7 @@ void describe_voxelize_function(Api& api) {
                     "before the cells are made"}},
       .returns = "Grid",
       .errors = "A mesh that encloses nothing, cells too large or too small, or more than the "
-                "memory holds; "
-                "without repair, an open "
-                "part (the message names part and hole).",
+                "memory holds; without repair, an open part (the message names part and hole).",
       .example = "local grid = s.voxelize(mesh, {cell = \"2 mm\", materials = {\n"
                  "  rod = {young = \"10 MPa\", density = 1000, damping = 0.004}}})",
       .call = voxelize_binding});

@@ -81,12 +81,19 @@ double quantity_at(lua_State* L, int index, Dimension dimension, std::string_vie
   return value;
 }
 
+namespace {
+
+std::string within(const Range& range, Dimension dimension, double value) {
+  return fmt::format("from {}, got {}", to_string(range, dimension),
+                     format_quantity(value, dimension));
+}
+
+}  // namespace
+
 double usual_quantity_at(lua_State* L, int index, Dimension dimension, std::string_view what) {
   const double value = quantity_at(L, index, dimension, what);
   if (!kUsualNumbers.contains(value))
-    throw InputError(fmt::format("{} must be from {}, got {}", what,
-                                 to_string(kUsualNumbers, dimension),
-                                 format_quantity(value, dimension)));
+    throw InputError(fmt::format("{} must be {}", what, within(kUsualNumbers, dimension, value)));
   return value;
 }
 
@@ -167,9 +174,7 @@ void TableReader::refuse(std::string_view name, const std::string& rule) {
 void TableReader::check_range(std::string_view name, double value) {
   const Parameter& parameter = listed(name);
   const Range range = parameter.range.value_or(kUsualNumbers);
-  if (!range.contains(value))
-    refuse(name, fmt::format("from {}, got {}", to_string(range, parameter.dimension),
-                             format_quantity(value, parameter.dimension)));
+  if (!range.contains(value)) refuse(name, within(range, parameter.dimension, value));
 }
 
 void TableReader::check_text(std::string_view name, std::string_view text) {

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
+#include "tests/support/sanitized.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
@@ -15,12 +16,6 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::Equals;
 
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 [[noreturn]] void spin() {
   const volatile bool forever = true;
@@ -97,7 +92,7 @@ TEST_CASE("A child process is stopped at its limits") {
                       Equals("took longer than 0.1 s"));
   }
   SECTION("of memory") {
-    if (kSanitized) return;
+    if (springlod::test::kSanitized) return;
     limits.memory = std::uint64_t{1} << 28U;
     CHECK_THROWS_WITH(run_in_child([] { return std::string(std::size_t{1} << 29U, 'x'); }, limits),
                       Equals("needed more than 0.25 GB of memory"));

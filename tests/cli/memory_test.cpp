@@ -5,20 +5,15 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/program.hpp"
+#include "tests/support/sanitized.hpp"
 
 using Catch::Matchers::Contains;
 using springlod::test::slurp;
 using springlod::test::spit;
 using springlod::test::TemporaryFolder;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // it reserves more address space than the limit
-#else
-constexpr bool kSanitized = false;
-#endif
-
 TEST_CASE("Lattices, modes and fits that need more memory than there is are refused") {
-  if (kSanitized) return;
+  if (springlod::test::kSanitized) return;
   const TemporaryFolder scratch;
   spit(scratch / "memory.lua", R"(
     local s = require "springlod"

@@ -13,7 +13,7 @@ TEST_CASE("More cells than the memory holds are refused with a cell that fits") 
   // No machine has 1e18 bytes.
   std::string message;
   try {
-    require_memory("lattice", 1e15, 1000, 0.001);
+    require_memory_of_cells("lattice", 1e15, 1000, 0.001);
   } catch (const InputError& error) {
     message = error.what();
   }
@@ -24,11 +24,11 @@ TEST_CASE("More cells than the memory holds are refused with a cell that fits") 
   const double fits = std::stod(message.substr(at + before.size()));
   CHECK(fits > 0.001);
   const double cells = 1e15 * std::pow(0.001 / fits, 3);
-  CHECK_NOTHROW(require_memory("lattice", cells, 1000, fits));
+  CHECK_NOTHROW(require_memory_of_cells("lattice", cells, 1000, fits));
 }
 
 TEST_CASE("What fits is accepted") {
-  CHECK_NOTHROW(require_memory("lattice", 10, 1000, 0.1));
+  CHECK_NOTHROW(require_memory_of_cells("lattice", 10, 1000, 0.1));
 }
 
 }  // namespace springlod::voxelize
