@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -16,16 +17,6 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-double free_on_machine() {
-  constexpr double kKilobyte = 1024;
-  std::ifstream file("/proc/meminfo");
-  std::string line;
-  while (std::getline(file, line))
-    if (line.starts_with("MemAvailable:"))
-      return kKilobyte * std::stod(line.substr(line.find(':') + 1));
-  return kUnlimited;
-}
-
 /// The number in a file; unlimited for "max", or if there is no file.
 double number_in(const std::string& path) {
   std::ifstream file(path);
@@ -33,10 +24,29 @@ double number_in(const std::string& path) {
   return file >> number ? number : kUnlimited;
 }
 
-// In a container, its own control group is the root of what it sees.
+/// The number after a label at the start of a line.
+std::optional<double> number_after(const std::string& label, const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  while (std::getline(file, line))
+    if (line.starts_with(label)) return std::stod(line.substr(label.size()));
+  return std::nullopt;
+}
+
+double free_on_machine() {
+  constexpr double kKilobyte = 1024;
+  const auto kilobytes = number_after("MemAvailable:", "/proc/meminfo");
+  return kilobytes ? kKilobyte * *kilobytes : kUnlimited;
+}
+
+// In a container, its own control group is the root of what it sees. What it uses includes files
+// that were read, which the kernel drops when memory is needed.
 double left_in_group() {
-  const double limit = number_in("/sys/fs/cgroup/memory.max");
-  return limit < kUnlimited ? limit - number_in("/sys/fs/cgroup/memory.current") : kUnlimited;
+  const std::string group = "/sys/fs/cgroup/memory.";
+  const double limit = number_in(group + "max");
+  if (limit == kUnlimited) return kUnlimited;
+  return limit - number_in(group + "current") +
+         number_after("inactive_file ", group + "stat").value_or(0);
 }
 
 double left_in_address_space() {
