@@ -1,5 +1,6 @@
 -- What a mesh is, and what convert would do with it.
 
+local command = require "lib.command"
 local s = require "springlod"
 
 local mesh_info = {}
@@ -33,27 +34,39 @@ local function doubt(mesh, side)
     #others > 0 and table.concat(others, ", ") or "give --unit")
 end
 
+-- The cells that convert would make by default, or why it would refuse the mesh. Warnings are
+-- printed as by convert.
+local function default_grid(mesh, cell)
+  local made, grid = command.try(s.voxelize, mesh, {cell = cell})
+  if not made then return {refusal = grid} end
+  return {cells = grid.cell_count, bodies = grid.body_count}
+end
+
 -- A table of what is known, for JSON too.
 function mesh_info.of(mesh)
   local side = longest_side(mesh)
   local solids, volume, thinnest = mesh.solids, 0, math.huge
   for _, solid in ipairs(solids) do
-    volume = volume + solid.volume
+    volume = volume + math.abs(solid.volume)
     if solid.thickness > 0 then thinnest = math.min(thinnest, solid.thickness) end
   end
   local cell = side / default_cells
+  local grid = default_grid(mesh, cell)
   return {
     format = mesh.format, unit = mesh.unit, unit_assumed = mesh.unit_assumed,
     size = {mesh.max[1] - mesh.min[1], mesh.max[2] - mesh.min[2], mesh.max[3] - mesh.min[3]},
     vertices = mesh.vertex_count, triangles = mesh.triangle_count, volume = volume,
     parts = mesh.parts, solids = solids, doubt = doubt(mesh, side),
-    default_cell = cell, default_cells = math.floor(volume / cell ^ 3 + 0.5),
+    default_cell = cell, default_cells = grid.cells, bodies = grid.bodies, refusal = grid.refusal,
     fine_cell = thinnest < math.huge and math.min(cell, thinnest / cells_across) or cell,
   }
 end
 
-local function cells_line(volume, cell, remark)
-  return ("  --cell %.3gm  about %.0f cells%s"):format(cell, volume / cell ^ 3, remark)
+-- What becomes of the mesh by default.
+local function default_line(info)
+  return ("  --cell %.3gm  %d cells, the default%s"):format(info.default_cell, info.default_cells,
+    info.bodies > 1 and ("; they form %d bodies that do not touch (see convert --bodies)"):format(
+      info.bodies) or "")
 end
 
 -- The same as text.
@@ -86,11 +99,15 @@ function mesh_info.text(info)
   else
     say("No faults.")
   end
+  if info.refusal then
+    say("convert would refuse it: %s", info.refusal)
+    return table.concat(lines, "\n")
+  end
   say("Cells:")
-  say("%s", cells_line(info.volume, info.default_cell, ", the default"))
+  say("%s", default_line(info))
   if info.fine_cell < 0.99 * info.default_cell then
-    say("%s", cells_line(info.volume, info.fine_cell, (", %d across the thinnest solid"):format(
-      cells_across)))
+    say("  --cell %.3gm  about %.0f cells, %d across the thinnest solid", info.fine_cell,
+        info.volume / info.fine_cell ^ 3, cells_across)
   end
   return table.concat(lines, "\n")
 end

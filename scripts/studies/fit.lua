@@ -164,6 +164,7 @@ local elastic_measures = {
   {"held-out loads", function(l) return 100 * l.certificate.held_out_load_error end},
   {"small patches", function(l) return 100 * l.patches.held_out_load_error end},
   {"modulus", function(l) return worst_modulus(l.certificate) end},
+  {"area / mass", function(l) return l.certificate.contact_ratio end},
   {"gain", function(l) return l.certificate.base_cost / l.certificate.cost end},
   {"impulse", function(l) return 100 * l.motion.impulse end},
   {"period 1", function(l) return 100 * l.motion.first end},

@@ -31,11 +31,34 @@ TEST_CASE("info of a mesh tells its parts, size, faults and cells") {
   CHECK(info.at("solids").at(0).at("volume").get<double>() == Approx(1e-9));
   CHECK(info.at("unit_assumed") == false);
   CHECK_FALSE(info.contains("doubt"));
+  CHECK(info.at("default_cells") == 32 * 32 * 32);
+  CHECK(info.at("bodies") == 1);
+  CHECK_FALSE(info.contains("refusal"));
 
   spit(scratch / "huge.obj", obj_of_boxes({{"bar", 0, 50}}));
   const Ran huge = springlod_run({"info", (scratch / "huge.obj").string()});
   CHECK_THAT(huge.out, Contains("unusual size") && Contains("--unit cm makes it 0.5 m") &&
                            Contains("No faults."));
+}
+
+TEST_CASE("info of a mesh counts the bodies that convert would make") {
+  const TemporaryFolder scratch;
+  spit(scratch / "two.obj", obj_of_boxes({{"left", 0, 1}, {"right", 2, 1}}));
+  const std::string mesh = (scratch / "two.obj").string();
+  const Ran text = springlod_run({"info", mesh});
+  CAPTURE(text.out, text.err);
+  CHECK_THAT(text.out, Contains("2 bodies that do not touch"));
+  CHECK(json::parse(springlod_run({"info", mesh, "--json"}).out).at("bodies") == 2);
+}
+
+TEST_CASE("info of a mesh says that convert would refuse it") {
+  const TemporaryFolder scratch;
+  spit(scratch / "sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+  const std::string mesh = (scratch / "sheet.obj").string();
+  const Ran text = springlod_run({"info", mesh});
+  CAPTURE(text.out, text.err);
+  CHECK(text.exit_code == 0);
+  CHECK_THAT(text.out, Contains("convert would refuse it: ") && Contains("encloses"));
 }
 
 TEST_CASE("info prints the certificates of levels") {
