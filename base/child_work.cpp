@@ -9,7 +9,10 @@
 #include <cstring>
 #include <fstream>
 #include <new>
+#include <optional>
+#include <span>
 #include <string_view>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -26,19 +29,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kAskEvery = 100;             // interval of looks at progress and clock [ms]
-constexpr std::size_t kChunk = 1U << 16U;  // of the pipe, its capacity on Linux [bytes]
+constexpr int kAskEvery = 100;  // interval of looks at progress and clock [ms]
 
 // Libraries put what they find in a damaged file into their messages [characters].
 constexpr std::size_t kLongestMessage = 2000;
 
-// The first byte of what a child sends says what the others are.
+// What a child sends: a header, then bytes.
 enum class Kind : char {
   result = 'r',
   input_error = 'i',
   io_error = 'o',
   memory = 'm',
   other = 'e'
+};
+struct Header {
+  Kind kind = Kind::other;
+  std::uint64_t size = 0;  // of the bytes that follow
 };
 
 // ---------------------------------------------------------------- in the child
@@ -83,8 +89,10 @@ bool write_all(int descriptor, std::string_view bytes) {
 
 bool send(int descriptor, Kind kind, std::string_view bytes) {
   if (kind != Kind::result) bytes = bytes.substr(0, kLongestMessage);
-  const char first = static_cast<char>(kind);
-  return write_all(descriptor, {&first, 1}) && write_all(descriptor, bytes);
+  const Header header{kind, bytes.size()};
+  std::array<char, sizeof header> first{};
+  std::memcpy(first.data(), &header, sizeof header);
+  return write_all(descriptor, {first.data(), first.size()}) && write_all(descriptor, bytes);
 }
 
 bool work_and_send(int descriptor, const std::function<std::string()>& work) {
@@ -150,22 +158,52 @@ std::string too_large(const ChildLimits& limits) {
                      static_cast<double>(limits.memory) / (1U << 30U));
 }
 
-// All that the child sends, or as much as it does before it ends.
-std::string receive(int descriptor, const ChildLimits& limits, Progress* progress) {
-  const auto end = Clock::now() + std::chrono::duration<double>(2 * limits.seconds);
-  std::string bytes;
-  std::array<char, kChunk> chunk{};
-  for (;;) {
-    pollfd wanted{descriptor, POLLIN, 0};
-    const int ready = ::poll(&wanted, 1, kAskEvery);
-    if (progress != nullptr) progress->advance(0);
-    if (Clock::now() > end) throw ChildFailure(too_long(limits));
-    if (ready <= 0) continue;
-    const ssize_t count = ::read(descriptor, chunk.data(), chunk.size());
-    if (count == 0 || (count < 0 && errno != EINTR)) return bytes;
-    if (count > 0) bytes.append(chunk.data(), static_cast<std::size_t>(count));
-    if (bytes.size() > limits.result) throw ChildFailure("gave a result that is too large");
+/// The end of the pipe that the parent reads.
+class Receiver {
+ public:
+  Receiver(int descriptor, const ChildLimits& limits, Progress* progress)
+      : descriptor_(descriptor),
+        limits_(&limits),
+        progress_(progress),
+        end_(Clock::now() + std::chrono::duration<double>(2 * limits.seconds)) {}
+
+  /// Fills `bytes`. False if the child ends before.
+  bool fill(std::span<char> bytes) {
+    while (!bytes.empty()) {
+      pollfd wanted{descriptor_, POLLIN, 0};
+      const int ready = ::poll(&wanted, 1, kAskEvery);
+      if (progress_ != nullptr) progress_->advance(0);
+      if (Clock::now() > end_) throw ChildFailure(too_long(*limits_));
+      if (ready <= 0) continue;
+      const ssize_t count = ::read(descriptor_, bytes.data(), bytes.size());
+      if (count == 0 || (count < 0 && errno != EINTR)) return false;
+      if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+    return true;
   }
+
+ private:
+  int descriptor_;
+  const ChildLimits* limits_;
+  Progress* progress_;
+  std::chrono::time_point<Clock, std::chrono::duration<double>> end_;
+};
+
+struct Message {
+  Kind kind = Kind::other;
+  std::string bytes;
+};
+
+/// Empty if the child ended without a whole message.
+std::optional<Message> receive(Receiver from, const ChildLimits& limits) {
+  Header header;
+  std::array<char, sizeof header> first{};
+  if (!from.fill(first)) return std::nullopt;
+  std::memcpy(&header, first.data(), sizeof header);
+  if (header.size > limits.result) throw ChildFailure("gave a result that is too large");
+  Message message{header.kind, std::string(header.size, '\0')};
+  if (!from.fill(message.bytes)) return std::nullopt;
+  return message;
 }
 
 [[noreturn]] void throw_ending(int status, const ChildLimits& limits) {
@@ -177,23 +215,20 @@ std::string receive(int descriptor, const ChildLimits& limits, Progress* progres
   throw ChildFailure(fmt::format("crashed ({})", strsignal(signal)));
 }
 
-std::string result_of(std::string bytes, int status, const ChildLimits& limits) {
-  if (bytes.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0) throw_ending(status, limits);
-  const auto kind = static_cast<Kind>(bytes.front());
-  bytes.erase(0, 1);
-  switch (kind) {
+std::string result_of(Message message, const ChildLimits& limits) {
+  switch (message.kind) {
     case Kind::result:
-      return bytes;
+      return std::move(message.bytes);
     case Kind::input_error:
-      throw InputError(bytes);
+      throw InputError(message.bytes);
     case Kind::io_error:
-      throw IoError(bytes);
+      throw IoError(message.bytes);
     case Kind::memory:
       throw ChildFailure(too_large(limits));
     case Kind::other:
       break;
   }
-  throw ChildFailure(fmt::format("failed ({})", bytes));
+  throw ChildFailure(fmt::format("failed ({})", message.bytes));
 }
 
 }  // namespace
@@ -211,8 +246,9 @@ std::string run_in_child(const std::function<std::string()>& work, const ChildLi
   }
   Child child(number);
   pipe.writing.close();  // otherwise reading would never reach its end
-  std::string bytes = receive(pipe.reading.number(), limits, progress);
-  return result_of(std::move(bytes), child.wait(), limits);
+  std::optional<Message> message = receive({pipe.reading.number(), limits, progress}, limits);
+  if (!message) throw_ending(child.wait(), limits);
+  return result_of(std::move(*message), limits);
 }
 
 }  // namespace springlod::inline base

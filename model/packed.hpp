@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -13,9 +15,17 @@
 
 namespace springlod::inline model {
 
+/// Numbers, and arrays of them such as Triangle: their bytes are their values.
+template <class T>
+inline constexpr bool kPackable = std::is_arithmetic_v<T>;
+template <class T, std::size_t n>
+inline constexpr bool kPackable<std::array<T, n>> = std::is_arithmetic_v<T>;
+
 /// Serializes numbers to bytes in the byte order of the machine: for hashes, and for files that are
 /// read on the same machine.
 class Packer {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double), "vectors in a list follow directly");
+
  public:
   template <class T>
   requires std::is_arithmetic_v<T>
@@ -23,17 +33,17 @@ class Packer {
   void add(std::string_view text) { add(std::span<const char>(text.data(), text.size())); }
   /// Adds the count, then the values.
   template <class T>
-  requires std::is_arithmetic_v<T>
+  requires kPackable<T>
   void add(std::span<const T> values) {
     add(static_cast<std::uint64_t>(values.size()));
     append(values.data(), values.size_bytes());
   }
   template <class T>
-  requires std::is_arithmetic_v<T>
+  requires kPackable<T>
   void add(const std::vector<T>& values) { add(std::span<const T>(values)); }
   void add(const std::vector<Vec3>& vectors) {
     add(static_cast<std::uint64_t>(vectors.size()));
-    for (const Vec3& v : vectors) append(v.data(), 3 * sizeof(double));
+    append(vectors.data(), vectors.size() * sizeof(Vec3));
   }
 
   const std::string& bytes() const { return bytes_; }
@@ -59,7 +69,7 @@ class Unpacker {
     return value;
   }
   template <class T>
-  requires std::is_arithmetic_v<T> std::vector<T> take_list() {
+  requires kPackable<T> std::vector<T> take_list() {
     const auto count = take<std::uint64_t>();
     const char* from = next(count, sizeof(T));
     std::vector<T> values(count);
@@ -68,10 +78,9 @@ class Unpacker {
   }
   std::vector<Vec3> take_vectors() {
     const auto count = take<std::uint64_t>();
-    const char* from = next(count, 3 * sizeof(double));
+    const char* from = next(count, sizeof(Vec3));
     std::vector<Vec3> vectors(count);
-    for (std::size_t i = 0; i < count; ++i)
-      std::memcpy(vectors[i].data(), from + 3 * sizeof(double) * i, 3 * sizeof(double));
+    if (count > 0) std::memcpy(vectors.front().data(), from, count * sizeof(Vec3));
     return vectors;
   }
   std::string take_text() {

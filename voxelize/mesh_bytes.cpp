@@ -1,14 +1,9 @@
 #include "voxelize/mesh_bytes.hpp"
 
-#include <algorithm>
-#include <span>
-
 #include "model/packed.hpp"
 
 namespace springlod::voxelize {
 namespace {
-
-constexpr std::size_t kCorners = std::tuple_size_v<Triangle>;
 
 void pack(Packer& to, const ImportReport& report) {
   to.add(report.format);
@@ -32,8 +27,7 @@ void take(Unpacker& from, ImportReport& report) {
 
 void pack(Packer& to, const TriangleMesh& mesh) {
   to.add(mesh.positions);
-  to.add(std::span<const std::uint32_t>(mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
-                                        kCorners * mesh.triangles.size()));
+  to.add(mesh.triangles);
   to.add(std::uint64_t{mesh.parts.size()});
   for (const MeshPart& part : mesh.parts) {
     to.add(part.name);
@@ -45,11 +39,7 @@ void pack(Packer& to, const TriangleMesh& mesh) {
 
 void take(Unpacker& from, TriangleMesh& mesh) {
   mesh.positions = from.take_vectors();
-  const std::vector<std::uint32_t> corners = from.take_list<std::uint32_t>();
-  mesh.triangles.resize(corners.size() / kCorners);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(kCorners * t), kCorners,
-                mesh.triangles[t].begin());
+  mesh.triangles = from.take_list<Triangle>();
   for (auto left = from.take<std::uint64_t>(); left > 0; --left) {
     MeshPart& part = mesh.parts.emplace_back();
     part.name = from.take_text();

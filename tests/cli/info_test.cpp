@@ -43,7 +43,7 @@ TEST_CASE("info of a mesh tells its parts, size, faults and cells") {
 
 TEST_CASE("info of a mesh counts the bodies that convert would make") {
   const TemporaryFolder scratch;
-  spit(scratch / "two.obj", obj_of_boxes({{"left", 0, 1}, {"right", 2, 1}}));
+  spit(scratch / "two.obj", obj_of_boxes({{"left", 0, 1}, {"right", 2, 3}}));
   const std::string mesh = (scratch / "two.obj").string();
   const Ran text = springlod_run({"info", mesh});
   CAPTURE(text.out, text.err);
