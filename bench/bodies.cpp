@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lod/build.hpp"
-#include "voxelize/lattice.hpp"
+#include "voxelize/lattice/lattice.hpp"
 
 namespace springlod::bench {
 namespace {

@@ -18,7 +18,7 @@
 #include "lod/build.hpp"
 #include "sim/fast/step_time.hpp"
 #include "sim/run.hpp"
-#include "voxelize/lattice.hpp"
+#include "voxelize/lattice/lattice.hpp"
 
 namespace springlod::bench {
 namespace {

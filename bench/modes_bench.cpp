@@ -5,7 +5,7 @@
 #include "elastic/elastic_body.hpp"
 #include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
-#include "voxelize/lattice.hpp"
+#include "voxelize/lattice/lattice.hpp"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "report/animate.hpp"
 #include "report/video.hpp"
 #include "sim/study/compare.hpp"
-#include "voxelize/lattice.hpp"
+#include "voxelize/lattice/lattice.hpp"
 
 namespace {
 

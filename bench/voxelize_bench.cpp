@@ -21,10 +21,10 @@
 #include <openvdb/tools/MeshToVolume.h>
 #include <tbb/global_control.h>
 
-#include "voxelize/frame.hpp"
+#include "voxelize/cells/frame.hpp"
 #include "voxelize/grid.hpp"
-#include "voxelize/import.hpp"
-#include "voxelize/read_mesh.hpp"
+#include "voxelize/mesh/import.hpp"
+#include "voxelize/mesh/read_mesh.hpp"
 
 namespace {
 

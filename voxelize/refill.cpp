@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "voxelize/corner_nodes.hpp"
 #include "voxelize/index_lookup.hpp"
-#include "voxelize/random.hpp"
+#include "voxelize/lattice/corner_nodes.hpp"
+#include "voxelize/random/random.hpp"
 
 namespace springlod::voxelize {
 namespace {

@@ -8,8 +8,8 @@
 #include "base/progress.hpp"
 #include "model/chain.hpp"
 #include "voxelize/grid.hpp"
-#include "voxelize/lattice.hpp"
-#include "voxelize/random.hpp"
+#include "voxelize/lattice/lattice.hpp"
+#include "voxelize/random/random.hpp"
 
 namespace springlod::voxelize {
 

@@ -15,7 +15,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/message.hpp"
-#include "voxelize/distance_field.hpp"
+#include "voxelize/cells/distance_field.hpp"
 #include "voxelize/index_lookup.hpp"
 
 namespace springlod::voxelize {

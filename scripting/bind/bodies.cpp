@@ -7,7 +7,7 @@
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
-#include "voxelize/separate.hpp"
+#include "voxelize/cells/separate.hpp"
 
 namespace springlod::scripting {
 namespace {

@@ -17,7 +17,7 @@
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
-#include "voxelize/separate.hpp"
+#include "voxelize/cells/separate.hpp"
 #include "voxelize/vdb_file.hpp"
 
 namespace springlod::scripting {

@@ -1,6 +1,6 @@
 // Random-node models, and levels made by refilling a grid with fewer nodes.
 
-#include "voxelize/random.hpp"
+#include "voxelize/random/random.hpp"
 
 #include <utility>
 

@@ -14,9 +14,9 @@
 #include "scripting/engine/call.hpp"
 #include "scripting/engine/result_table.hpp"
 #include "voxelize/grid.hpp"
-#include "voxelize/import.hpp"
-#include "voxelize/lattice.hpp"
-#include "voxelize/repair.hpp"
+#include "voxelize/lattice/lattice.hpp"
+#include "voxelize/mesh/import.hpp"
+#include "voxelize/mesh/repair.hpp"
 
 namespace springlod::scripting {
 

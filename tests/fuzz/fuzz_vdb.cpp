@@ -10,7 +10,7 @@
 #include <sanitizer/common_interface_defs.h>
 
 #include "base/error.hpp"
-#include "voxelize/lattice.hpp"
+#include "voxelize/lattice/lattice.hpp"
 #include "voxelize/vdb_file.hpp"
 
 namespace {

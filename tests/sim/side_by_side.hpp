@@ -11,7 +11,7 @@
 #include "sim/integrators/step_limit.hpp"
 #include "sim/integrators/stepper.hpp"
 #include "tests/sim/scenes.hpp"
-#include "voxelize/lattice.hpp"
+#include "voxelize/lattice/lattice.hpp"
 
 /// Compares steppers in a scene with all kinds of contact.
 namespace springlod::test {

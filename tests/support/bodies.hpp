@@ -8,7 +8,7 @@
 
 #include "model/mass_spring.hpp"
 #include "voxelize/grid.hpp"
-#include "voxelize/lattice.hpp"
+#include "voxelize/lattice/lattice.hpp"
 
 namespace springlod::test {
 

@@ -9,8 +9,8 @@
 #include <catch2/catch.hpp>
 
 #include "tests/voxelize/grids.hpp"
-#include "voxelize/lattice.hpp"
-#include "voxelize/random.hpp"
+#include "voxelize/lattice/lattice.hpp"
+#include "voxelize/random/random.hpp"
 #include "voxelize/refill.hpp"
 
 namespace springlod::voxelize {

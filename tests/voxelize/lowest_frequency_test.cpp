@@ -10,7 +10,7 @@
 #include "elastic/stable_step.hpp"
 #include "tests/voxelize/grids.hpp"
 #include "tests/voxelize/shapes.hpp"
-#include "voxelize/lattice.hpp"
+#include "voxelize/lattice/lattice.hpp"
 
 using namespace springlod;
 using namespace springlod::voxelize;

@@ -8,7 +8,7 @@
 
 #include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
-#include "voxelize/lattice.hpp"
+#include "voxelize/lattice/lattice.hpp"
 
 namespace springlod::voxelize {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "lod/transfer.hpp"
-#include "voxelize/depth.hpp"
+#include "voxelize/cells/depth.hpp"
 
 namespace springlod::scripting {
 

@@ -16,7 +16,7 @@
 #include "sim/scenario.hpp"
 #include "sim/study/compare.hpp"
 #include "voxelize/grid.hpp"
-#include "voxelize/import.hpp"
+#include "voxelize/mesh/import.hpp"
 
 namespace springlod::sim {
 struct StabilityMap;

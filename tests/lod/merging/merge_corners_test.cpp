@@ -15,7 +15,7 @@
 #include "tests/support/bodies.hpp"
 #include "tests/support/corners.hpp"
 #include "tests/support/models.hpp"
-#include "voxelize/random.hpp"
+#include "voxelize/random/random.hpp"
 #include "voxelize/refill.hpp"
 
 using namespace springlod;

@@ -6,7 +6,7 @@
 
 #include "tests/sim/correction/throws.hpp"
 #include "tests/support/bodies.hpp"
-#include "voxelize/random.hpp"
+#include "voxelize/random/random.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;

@@ -16,7 +16,7 @@
 #include "tests/sim/side_by_side.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/models.hpp"
-#include "voxelize/random.hpp"
+#include "voxelize/random/random.hpp"
 
 namespace springlod::test {
 
