@@ -1,0 +1,80 @@
+-- Compare the base and its fitted levels with known answers of mechanics.
+
+local s = require "springlod"
+local command = require "lib.command"
+local lists = require "lib.lists"
+local problems = require "studies.validate.problems"
+local report = require "studies.validate.report"
+local unit_store = require "lib.unit_store"
+
+local keep = {0.45, 0.2} -- nodes of the fitted levels over those of the base
+local quick_iterations = 3 -- of a fit
+
+local parser = command.parser("validate", "Solve problems whose answer is known, with the base at "
+  .. "three sizes and with levels of 45 % and 20 % of its nodes, fitted by default. Writes "
+  .. "validation.md (text, tables, verdicts), table.csv, and a chart of each problem to images.")
+parser:option("-o --out", "folder to write to"):default("out/validation")
+parser:option("--problems", "any of " .. table.concat(lists.names_of(problems), ", "))
+  :default("all"):convert(command.words_of("--problems",
+    table.move(lists.names_of(problems), 1, #problems, 2, {"all"})))
+parser:flag("--quick", "two small sizes of each problem, hardly fitted; takes seconds")
+local args = parser:parse()
+
+local function chosen(problem)
+  for _, word in ipairs(args.problems) do
+    if word == "all" or word == problem.name then return true end
+  end
+  return false
+end
+
+-- The base (level 0) and its fitted levels, by level.
+local function models_of(problem, size)
+  local base = problem.body(size)
+  if not problem.fitted then return {[0] = base} end
+  local chain = s.simplify(base, {
+    keep = keep, grouping = "compact", calibrate = "modes", seed = s.seed,
+    calibration = args.quick and {iterations = quick_iterations} or {},
+  })
+  return {[0] = base, chain[1], chain[2]}
+end
+
+-- List of {level, nodes, values}.
+local function measured(problem, size)
+  local rows, models = {}, models_of(problem, size)
+  for level = 0, #models do
+    local model = models[level]
+    rows[level + 1] = {level = level, nodes = model.node_count,
+                       values = problem.measure(model, size)}
+  end
+  return rows
+end
+
+local function solve(problem, store)
+  local sizes, rows = args.quick and problem.quick or problem.sizes, {}
+  for _, size in ipairs(sizes) do
+    local found = store:value(problem.name .. " " .. size, function()
+      return measured(problem, size)
+    end)
+    for _, row in ipairs(found) do
+      row.size = size
+      rows[#rows + 1] = row
+    end
+    s.say(("%s: %d %s"):format(problem.title, size, problem.size_name))
+  end
+  return rows
+end
+
+local ok, failure = command.try_in(args.out, function()
+  local store = unit_store.open(args.out, {quick = args.quick or false})
+  local pages = {}
+  for _, problem in ipairs(problems) do
+    if chosen(problem) then
+      pages[#pages + 1] = report.page(problem, solve(problem, store), not args.quick)
+    end
+  end
+  report.write(args.out, pages)
+  report.print(pages)
+  store:remove()
+end, true)
+if not ok then command.fail("validate: %s", failure) end
+s.say("wrote " .. args.out)

@@ -1,0 +1,96 @@
+// springlod validate.
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/csv_rows.hpp"
+#include "tests/support/program.hpp"
+
+using Catch::Matchers::Contains;
+using springlod::test::number;
+using springlod::test::Ran;
+using springlod::test::Row;
+using springlod::test::rows_of;
+using springlod::test::slurp;
+using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
+
+namespace {
+
+/// The rows of a problem's quantity at one level, by size.
+std::map<int, Row> by_size(const std::vector<Row>& table, const std::string& problem,
+                           const std::string& quantity, const std::string& level) {
+  std::map<int, Row> found;
+  for (const Row& row : table)
+    if (row.at("problem") == problem && row.at("quantity") == quantity && row.at("level") == level)
+      found[std::stoi(row.at("size"))] = row;
+  return found;
+}
+
+/// Error of the base at a size [%].
+double error_at(const std::vector<Row>& table, const std::string& problem,
+                const std::string& quantity, int size) {
+  return number(by_size(table, problem, quantity, "0").at(size), "error");
+}
+
+}  // namespace
+
+TEST_CASE("validate --quick: the base converges to known answers with order 2") {
+  const TemporaryFolder out;
+  const Ran ran = springlod_run({"-q", "validate", "--quick", "-o", out.path().string()});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  const auto table = rows_of(slurp(out / "table.csv"));
+
+  // An exact solution on an exact body: order 2 from the start.
+  const auto cube = by_size(table, "cube", "omega a / c_t", "0");
+  REQUIRE(cube.size() == 2);
+  CHECK(number(cube.at(6), "reference") == Approx(4.44288).epsilon(1e-6));
+  CHECK(std::abs(number(cube.at(6), "error")) < 1);
+  CHECK(number(cube.at(6), "order") == Approx(2).margin(0.25));
+
+  for (const char* kind : {"0T2", "0S2", "0S1"}) {
+    CAPTURE(kind);
+    CHECK(std::abs(error_at(table, "sphere", kind, 8)) <
+          std::abs(error_at(table, "sphere", kind, 6)));
+    CHECK(std::abs(error_at(table, "sphere", kind, 8)) < 12);
+  }
+  for (const char* quantity : {"tip [m/N]", "f1 [Hz]", "f2 [Hz]", "f3 [Hz]"}) {
+    CAPTURE(quantity);
+    const auto rows = by_size(table, "cantilever", quantity, "0");
+    CHECK(std::abs(number(rows.at(4), "error")) < 6);
+    CHECK(number(rows.at(4), "order") > 1.6);
+  }
+  CHECK(std::abs(error_at(table, "sliding", "deceleration / g", 3)) < 1);
+  for (const char* level : {"0", "1", "2"})
+    for (const char* quantity : {"change of momentum", "change of angular momentum"}) {
+      CAPTURE(level, quantity);
+      CHECK(number(by_size(table, "spin", quantity, level).at(3), "error") < 1e-12);
+    }
+  // Small sizes are not judged.
+  for (const Row& row : table) CHECK(row.at("within").empty());
+  CHECK_THAT(slurp(out / "validation.md"),
+             Contains("## Vibrations of a sphere") && Contains("images/validation-cube.png"));
+  CHECK(std::filesystem::file_size(out / "images/validation-cube.png") > 0);
+}
+
+TEST_CASE(
+    "validate solves the problems that are asked for, and names the others if one is unknown") {
+  const TemporaryFolder out;
+  const std::string folder = out.path().string();
+  const Ran ran =
+      springlod_run({"-q", "validate", "--problems", "spin,cube", "--quick", "-o", folder});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  std::map<std::string, int> problems;
+  for (const Row& row : rows_of(slurp(out / "table.csv"))) ++problems[row.at("problem")];
+  CHECK(problems.size() == 2);
+  CHECK(problems["spin"] == 2 * 3 * 2);
+  const Ran unknown = springlod_run({"validate", "--problems", "sphre", "-o", folder});
+  CHECK(unknown.exit_code == 2);
+  CHECK_THAT(unknown.err, Contains("'sphre' must be one of all, cube, sphere"));
+}
