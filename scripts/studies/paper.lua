@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local markdown = require "lib.markdown"
 local paper_figures = require "studies.paper.figures"
 local paper_numbers = require "studies.paper.numbers"
 local paper_runs = require "studies.paper.runs"
@@ -79,17 +80,17 @@ local function publish(name, title, rows, columns, shown, shown_columns)
   shown, shown_columns = shown or rows, shown_columns or columns
   print("\n" .. title .. "\n")
   print(s.format_table(shown, {columns = shown_columns}))
-  write_page(("\n## %s\n\n| %s |\n|%s"):format(title, table.concat(shown_columns, " | "),
-    ("---|"):rep(#shown_columns)))
-  for _, row in ipairs(shown) do
+  local texts = {}
+  for number, row in ipairs(shown) do
     local cells = {}
     for i, column in ipairs(shown_columns) do
       local cell = row[i] == nil and row[column] or row[i]
       if math.type(cell) == "float" then cell = ("%.4g"):format(cell) end
       cells[i] = tostring(cell == nil and "" or cell)
     end
-    write_page("| " .. table.concat(cells, " | ") .. " |")
+    texts[number] = cells
   end
+  write_page(("\n## %s\n\n%s"):format(title, markdown.table(texts, shown_columns)))
 end
 
 local function table_1(ball)

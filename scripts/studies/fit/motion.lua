@@ -1,5 +1,7 @@
 -- Smooth velocity fields, means over groups, and displacements without their rigid motion.
 
+local cross = require("lib.vectors").cross
+
 local motion = {}
 
 -- A smooth random field: `waves` waves of random direction and phase with at most half a wave
@@ -45,10 +47,6 @@ function motion.divided(vectors, divisors)
     list[i] = {v[1] / divisors[i], v[2] / divisors[i], v[3] / divisors[i]}
   end
   return list
-end
-
-local function cross(a, b)
-  return {a[2] * b[3] - a[3] * b[2], a[3] * b[1] - a[1] * b[3], a[1] * b[2] - a[2] * b[1]}
 end
 
 -- Solves m x = b for a symmetric 3 x 3 matrix by its adjugate. A body without inertia about an axis

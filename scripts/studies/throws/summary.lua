@@ -3,6 +3,7 @@
 local s = require "springlod"
 local command = require "lib.command"
 local lists = require "lib.lists"
+local markdown = require "lib.markdown"
 
 local summary = {}
 
@@ -157,23 +158,18 @@ local function short_description(throw)
     throw.young / 1e6, throw.ratio, throw.speed)
 end
 
-local function markdown(rows, columns)
-  local lines = {"| " .. table.concat(columns, " | ") .. " |", "|" .. ("---|"):rep(#columns)}
-  for _, row in ipairs(rows) do lines[#lines + 1] = "| " .. table.concat(row, " | ") .. " |" end
-  return table.concat(lines, "\n") .. "\n"
-end
-
 -- Prints the counts and the worst runs, and writes them to `path`. `repeated`: the command that
 -- repeats throw N.
 function summary.publish(path, rows, repeated)
   local counted = counts(rows)
   print(s.format_table(counted, {columns = count_columns}))
-  local text = "# Throws\n\n" .. markdown(counted, count_columns)
+  local text = "# Throws\n\n" .. markdown.table(counted, count_columns) .. "\n"
   local shown, columns = worst_rows(rows, short_description)
   if #shown > 0 then
     local how = ("Repeat throw N, with all its parameters, with: %s"):format(repeated)
     print("\n" .. s.format_table(shown, {columns = columns}) .. "\n\n" .. how)
-    text = text .. "\n" .. markdown(worst_rows(rows, summary.description)) .. "\n" .. how .. "\n"
+    text = ("%s\n%s\n\n%s\n"):format(text,
+      markdown.table(worst_rows(rows, summary.description)), how)
   end
   s.save_text(path, text)
 end

@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local markdown = require "lib.markdown"
 
 local report = {}
 
@@ -28,7 +29,7 @@ end
 
 -- The entries of one quantity at one level, by size. If `judged`, the finest has a verdict: "yes",
 -- "no", or nothing without a goal.
-local function series(quantity, number, rows, level, judged)
+local function series_of(quantity, number, rows, level, judged)
   local list = {}
   for _, row in ipairs(rows) do
     if row.level == level then
@@ -47,17 +48,19 @@ local function series(quantity, number, rows, level, judged)
   return list
 end
 
--- A problem with its entries. `judged`: whether the goals are for these sizes.
+-- A problem with its entries, in one list, and by quantity and level (`series`, a list of lists).
+-- `judged`: whether the goals are for these sizes.
 function report.page(problem, rows, judged)
-  local levels, entries = 0, {}
+  local page, levels = {problem = problem, entries = {}, series = {}}, 0
   for _, row in ipairs(rows) do levels = math.max(levels, row.level) end
   for number, quantity in ipairs(problem.quantities) do
     for level = 0, levels do
-      local list = series(quantity, number, rows, level, judged)
-      table.move(list, 1, #list, #entries + 1, entries)
+      local list = series_of(quantity, number, rows, level, judged)
+      page.series[#page.series + 1] = list
+      table.move(list, 1, #list, #page.entries + 1, page.entries)
     end
   end
-  return {problem = problem, entries = entries}
+  return page
 end
 
 local function value_text(entry)
@@ -81,9 +84,12 @@ local function cells_of(entry)
           entry.verdict or ""}
 end
 
-local function columns_of(problem)
-  return {"quantity", "model", problem.size_name, "nodes", "value", "error", "order", "goal",
-          "within"}
+-- The rows of a page's table, and its columns.
+local function table_of(page)
+  local rows = {}
+  for i, entry in ipairs(page.entries) do rows[i] = cells_of(entry) end
+  return rows, {"quantity", "model", page.problem.size_name, "nodes", "value", "error", "order",
+                "goal", "within"}
 end
 
 local function references(problem)
@@ -96,23 +102,10 @@ end
 
 function report.print(pages)
   for _, page in ipairs(pages) do
-    local rows = {}
-    for i, entry in ipairs(page.entries) do rows[i] = cells_of(entry) end
+    local rows, columns = table_of(page)
     print(("\n%s (%s)"):format(page.problem.title, references(page.problem)))
-    print(s.format_table(rows, {columns = columns_of(page.problem)}))
+    print(s.format_table(rows, {columns = columns}))
   end
-end
-
-local function markdown_row(cells)
-  local texts = {}
-  for i, cell in ipairs(cells) do texts[i] = tostring(cell) end
-  return "| " .. table.concat(texts, " | ") .. " |"
-end
-
-local function markdown_table(columns, rows)
-  local lines = {markdown_row(columns), "|" .. ("---|"):rep(#columns)}
-  for _, row in ipairs(rows) do lines[#lines + 1] = markdown_row(row) end
-  return table.concat(lines, "\n")
 end
 
 local function chart_name(problem) return "validation-" .. problem.name end
@@ -126,11 +119,10 @@ local function has_chart(page)
 end
 
 local function section(page)
-  local problem, rows = page.problem, {}
-  for i, entry in ipairs(page.entries) do rows[i] = cells_of(entry) end
+  local problem = page.problem
   local lines = {"## " .. problem.title, "", problem.text, "",
     ("Reference: %s %s."):format(problem.source, references(problem)), "",
-    markdown_table(columns_of(problem), rows), ""}
+    markdown.table(table_of(page)), ""}
   if has_chart(page) then
     lines[#lines + 1] = ("![%s: error against cell size](images/%s.png)\n"):format(problem.title,
       chart_name(problem))
@@ -170,30 +162,27 @@ the size before. "Not found" means that a small model has no mode of this kind a
 ]]
 
 local function page_text(pages)
-  local parts = {head .. markdown_table({"problem", "quantity", "model", "size", "error", "goal",
-                                         "within"}, verdicts(pages)) .. "\n"}
+  local parts = {head .. markdown.table(verdicts(pages), {"problem", "quantity", "model", "size",
+    "error", "goal", "within"}) .. "\n"}
   for _, page in ipairs(pages) do parts[#parts + 1] = section(page) end
   return table.concat(parts, "\n")
 end
 
-local colours = {"blue", "orange", "green", "pink"} -- by quantity
+local colours = {"blue", "orange", "green", "pink"} -- of the quantities
 local symbols = {[0] = "disc", "square", "triangle"} -- by level
 
--- A line for each quantity and level.
+-- A line for each series that has errors.
 local function lines_of(page)
-  local lines = {}
-  for number, quantity in ipairs(page.problem.quantities) do
-    for level = 0, #symbols do
-      local points = {}
-      for _, entry in ipairs(page.entries) do
-        if entry.quantity == quantity and entry.level == level and entry.error then
-          points[#points + 1] = {1 / entry.size, math.abs(entry.error)}
-        end
-      end
-      if #points > 0 then
-        lines[#lines + 1] = {name = quantity.name .. ", " .. level_name(level), points = points,
-          colour = colours[number], symbol = symbols[level], dashed = level > 0}
-      end
+  local lines, colour_of = {}, {}
+  for i, quantity in ipairs(page.problem.quantities) do colour_of[quantity] = colours[i] end
+  for _, list in ipairs(page.series) do
+    local quantity, level, points = list[1].quantity, list[1].level, {}
+    for _, entry in ipairs(list) do
+      if entry.error then points[#points + 1] = {1 / entry.size, math.abs(entry.error)} end
+    end
+    if #points > 0 then
+      lines[#lines + 1] = {name = quantity.name .. ", " .. level_name(level), points = points,
+        colour = colour_of[quantity], symbol = symbols[level], dashed = level > 0}
     end
   end
   return lines

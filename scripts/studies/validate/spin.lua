@@ -1,5 +1,6 @@
 local s = require "springlod"
 local bodies = require "studies.validate.bodies"
+local vectors = require "lib.vectors"
 
 local spin, velocity, duration = {3, 5, 7}, {1, 2, 3}, 2 -- [rad/s], [m/s], [s]
 
@@ -8,29 +9,21 @@ local function angular_momentum(model, state)
   local center, mean = bodies.position(model, state), bodies.velocity(model, state)
   local sum = {0, 0, 0}
   for i, node in ipairs(model:nodes()) do
-    local r, u = {}, {}
-    for d = 1, 3 do r[d], u[d] = state.x[i][d] - center[d], state.v[i][d] - mean[d] end
-    for d = 1, 3 do
-      local e, f = d % 3 + 1, (d + 1) % 3 + 1
-      sum[d] = sum[d] + node.mass * (r[e] * u[f] - r[f] * u[e])
-    end
+    local of_node = vectors.cross(vectors.minus(state.x[i], center),
+      vectors.minus(state.v[i], mean))
+    for d = 1, 3 do sum[d] = sum[d] + node.mass * of_node[d] end
   end
   return sum
 end
 
 -- The state in which the run begins.
 local function thrown(model)
-  local nodes, state = model:nodes(), {x = {}, v = {}}
-  for i, node in ipairs(nodes) do state.x[i] = {node.x, node.y, node.z} end
+  local state = {x = {}, v = {}}
+  for i, node in ipairs(model:nodes()) do state.x[i] = {node.x, node.y, node.z} end
   local center = bodies.position(model, state)
-  for i = 1, #nodes do
-    local r, v = {}, {}
-    for d = 1, 3 do r[d] = state.x[i][d] - center[d] end
-    for d = 1, 3 do
-      local e, f = d % 3 + 1, (d + 1) % 3 + 1
-      v[d] = velocity[d] + spin[e] * r[f] - spin[f] * r[e]
-    end
-    state.v[i] = v
+  for i, x in ipairs(state.x) do
+    local turning = vectors.cross(spin, vectors.minus(x, center))
+    state.v[i] = {velocity[1] + turning[1], velocity[2] + turning[2], velocity[3] + turning[3]}
   end
   return state
 end
