@@ -1,4 +1,5 @@
 #include <cmath>
+#include <random>
 
 #include <catch2/catch.hpp>
 
@@ -115,6 +116,38 @@ TEST_CASE("Displacements are those of the pseudo-inverse of a dense solver") {
     CHECK((test::flatten(solutions[l].displacement) - expected).norm() < 1e-9 * expected.norm());
     CHECK(solutions[l].compliance == Approx(part.dot(inverse.cwiseProduct(part))).epsilon(1e-9));
     CHECK(solutions[l].residual < 1e-9);
+  }
+}
+
+// Solved exactly in one step, after which there is only rounding to follow.
+TEST_CASE("A spring between two nodes is strained by what the loads have along it alone") {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto any = [&] { return Vec3(number(random), number(random), number(random)); };
+  for (int i = 0; i < 50; ++i) {
+    const double k = std::pow(10, 6 + 3 * number(random));
+    const Vec3 first = any();
+    const Vec3 second = i % 2 == 0 ? any() : Vec3(first + number(random) * Vec3::Unit(i % 3));
+    MassSpringModel m = test::make_model({first, second}, {{0, 1}}, k);
+    m.mass[0] = 2 + number(random);
+    m.mass[1] = i % 4 < 2 ? m.mass[0] : 2 + number(random);
+    const Vec3 u = spring_direction(m, 0);
+    std::vector<StaticLoad> loads;
+    for (int l = 0; l < 4; ++l) loads.push_back({"any", {any(), any()}});
+    loads.push_back({"across", {u.unitOrthogonal(), Vec3::Zero()}});
+    const std::vector<StaticSolution> solved = solve_static(elastic_body(m), loads);
+    for (std::size_t l = 0; l < loads.size(); ++l) {
+      CAPTURE(i, l);
+      // What accelerates both nodes equally is balanced by inertia.
+      const double share = m.mass[1] / (m.mass[0] + m.mass[1]);
+      const double along = loads[l].force[1].dot(u);
+      const double back = loads[l].force[0].dot(u);
+      const double tension = along * (1 - share) - back * share;
+      const std::vector<Vec3>& x = solved[l].displacement;
+      CHECK(u.dot(x[1] - x[0]) == Approx(tension / k).margin(1e-12 / k));
+      CHECK(x[0].norm() + x[1].norm() < 2 / k);
+      CHECK(solved[l].compliance == Approx(tension * tension / k).margin(1e-12 / k));
+    }
   }
 }
 
