@@ -75,8 +75,12 @@ void factorise(ElasticComponent& component, const MassSpringModel& model,
   }
   throw InputError(fmt::format(
       "elastic analysis: the stiffness of the component at node {} cannot be factorised; "
-      "its springs or masses differ too much",
-      script_number(component.nodes.front())));
+      "its springs or masses differ too much{}",
+      script_number(component.nodes.front()),
+      model.dilatation.empty()
+          ? ""
+          : ", or the dilatation terms of a Poisson's ratio below 1/4 soften a motion of its nodes "
+            "more than its springs stiffen it"));
 }
 
 /// Inverse iteration: in each pass, motions that no spring resists grow relative to the others by
@@ -144,6 +148,12 @@ void require_finite(const MassSpringModel& model) {
           fmt::format("elastic analysis: the spring of the nodes {} and {} has a "
                       "stiffness of {} N/m, which must be finite",
                       script_number(model.a[s]), script_number(model.b[s]), model.stiffness[s]));
+  for (std::uint32_t t = 0; t < model.dilatation.count(); ++t)
+    if (!std::isfinite(model.dilatation.modulus[t]))
+      throw InputError(
+          fmt::format("elastic analysis: dilatation term {} has a modulus of {} J, which must be "
+                      "finite",
+                      script_number(t), model.dilatation.modulus[t]));
 }
 
 }  // namespace

@@ -13,17 +13,18 @@ namespace springlod::elastic {
 // Estimated by eq. 2 (estimate.cpp).
 
 /// Moduli of some nodes of a model by eq. 2 (docs/method.md). With W the sum of k L^2 over their
-/// springs, half of a spring at either end, and V the volume: E = W / (6 V), lambda = mu = W / (15
-/// V), K = W / (9 V).
+/// springs, half of a spring at either end, Lambda V their shares of the dilatation terms, and V
+/// the volume: mu = W / (15 V), K = W / (9 V) + Lambda, and E from both; without terms W / (6 V).
 struct Eq2Estimate {
   std::uint32_t nodes = 0;
-  double mass = 0;     ///< [kg]
-  double volume = 0;   ///< [m3]
-  double work = 0;     ///< W [N m]
-  double density = 0;  ///< [kg/m3]
-  double young = 0;    ///< E [Pa]
-  double shear = 0;    ///< mu, and Lame's lambda [Pa]
-  double bulk = 0;     ///< K [Pa]
+  double mass = 0;        ///< [kg]
+  double volume = 0;      ///< [m3]
+  double work = 0;        ///< W [N m]
+  double dilatation = 0;  ///< Lambda V [J]
+  double density = 0;     ///< [kg/m3]
+  double young = 0;       ///< E [Pa]
+  double shear = 0;       ///< mu [Pa]; without terms also Lame's lambda
+  double bulk = 0;        ///< K [Pa]
 };
 
 struct ModelEstimate {
@@ -50,9 +51,10 @@ struct MaterialModuli {
 
 /// E and nu of each material, fitted to static solutions (docs/method.md, eqs. 9 and 10): the
 /// isotropic law closest to the volume averages of stress (virial of the springs; one between two
-/// materials counts half for each) and strain (of each node from its springs within the material).
-/// A solution counts by how little its strains cancel; those whose averages are near zero (bends,
-/// twists) are left out. Soft and stiff loads count alike.
+/// materials counts half for each, and dilatation terms count in equal parts for their nodes) and
+/// strain (of each node from its springs within the material). A solution counts by how little its
+/// strains cancel; those whose averages are near zero (bends, twists) are left out. Soft and stiff
+/// loads count alike.
 ///
 /// The error is below 1 % for one material on a lattice, and some percent where much of a material
 /// lies at an interface, whose nodes have springs of both materials.

@@ -31,7 +31,7 @@ class MassWeightedStiffness {
   using Scalar = double;
 
   explicit MassWeightedStiffness(const MassSpringModel& model)
-      : node_count_(model.node_count()), a_(model.a), b_(model.b) {
+      : node_count_(model.node_count()), a_(model.a), b_(model.b), terms_(model.dilatation) {
     std::vector<double> weight(node_count_);
     for (std::uint32_t i = 0; i < node_count_; ++i) weight[i] = 1 / std::sqrt(model.mass[i]);
     end_a_.reserve(a_.size());
@@ -41,6 +41,8 @@ class MassWeightedStiffness {
       end_a_.emplace_back(weight[a_[s]] * row);
       end_b_.emplace_back(weight[b_[s]] * row);
     }
+    for (std::size_t e = 0; e < terms_.node.size(); ++e)
+      gradient_.emplace_back(weight[terms_.node[e]] * terms_.gradient[e]);
   }
 
   Eigen::Index rows() const { return 3 * static_cast<Eigen::Index>(node_count_); }
@@ -55,13 +57,26 @@ class MassWeightedStiffness {
       y.col(a_[s]) += stretch * end_a_[s];
       y.col(b_[s]) -= stretch * end_b_[s];
     }
+    for (std::uint32_t t = 0; t < terms_.count(); ++t) add_term(t, x, y);
   }
 
  private:
+  void add_term(std::uint32_t t, const Eigen::Map<const Eigen::Matrix3Xd>& x,
+                Eigen::Map<Eigen::Matrix3Xd>& y) const {
+    double strain = 0;
+    for (std::uint32_t e = terms_.start[t]; e < terms_.start[t + 1]; ++e)
+      strain += gradient_[e].dot(x.col(terms_.node[e]));
+    const double stress = terms_.modulus[t] * strain;
+    for (std::uint32_t e = terms_.start[t]; e < terms_.start[t + 1]; ++e)
+      y.col(terms_.node[e]) += stress * gradient_[e];
+  }
+
   std::uint32_t node_count_;
   const std::vector<std::uint32_t>& a_;
   const std::vector<std::uint32_t>& b_;
+  const DilatationTerms& terms_;
   std::vector<Vec3> end_a_, end_b_;  // sqrt(k/m) u at either end
+  std::vector<Vec3> gradient_;       // b / sqrt(m) of the terms
 };
 
 double largest_eigenvalue_dense(const MassWeightedStiffness& op) {
@@ -115,9 +130,46 @@ Mat3 spring_stiffness_at(const MassSpringModel& model, std::uint32_t s,
   return model.stiffness[s] * (lengthwise + across * (Mat3::Identity() - lengthwise));
 }
 
+/// Adds to A_i what dilatation terms add in the state x. The second derivative of T eps^2 / 2 has a
+/// part T (d eps)^2, bounded as at rest, and one by the curvature of J, a quadratic form of dF
+/// whose eigenvalues are at most twice the norm of F. Terms for which `wanted` is false are left
+/// out.
+template <class Wanted>
+void add_terms_at(const DilatationTerms& terms, const std::vector<Vec3>& x, const Wanted& wanted,
+                  std::vector<Mat3>& stiffness) {
+  std::vector<Vec3> by_node;
+  for (std::uint32_t t = 0; t < terms.count(); ++t) {
+    if (!wanted(t)) continue;
+    const double modulus = terms.modulus[t];
+    const Mat3 gradient = mean_gradient(terms, t, x);
+    const VolumeRatio ratio = volume_ratio(gradient);
+    const Dilatation eps = dilatation(ratio.value, modulus);
+    by_node.clear();
+    double sum = 0;
+    for (const Vec3& b : terms.gradients(t)) {
+      by_node.emplace_back(eps.slope * (ratio.by_gradient * b));
+      sum += b.norm();
+    }
+    const double bent = std::abs(modulus * eps.strain * eps.slope) * gradient.norm() * sum;
+    const auto nodes = terms.nodes(t);
+    for (std::size_t e = 0; e < nodes.size(); ++e) {
+      if (modulus > 0) stiffness[nodes[e]] += modulus * bounding_share(by_node, e);
+      stiffness[nodes[e]] += bent * terms.gradients(t)[e].norm() * Mat3::Identity();
+    }
+  }
+}
+
+/// sum_j k_ij u u^T of each node.
+std::vector<Mat3> spring_sums(const MassSpringModel& model) {
+  return sum_at_nodes(model, [&](std::uint32_t s) -> Mat3 {
+    const Vec3 u = spring_direction(model, s);
+    return model.stiffness[s] * u * u.transpose();
+  });
+}
+
 /// omega^2 <= max_i 2 lambda_max(A_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
 double squared_bound(const MassSpringModel& model) {
-  const std::vector<Mat3> stiffness = node_stiffness(model);
+  const std::vector<Mat3> stiffness = bounding_node_stiffness(model);
   double bound = 0;
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
     const double top = Eigen::SelfAdjointEigenSolver<Mat3>(stiffness[i], Eigen::EigenvaluesOnly)
@@ -151,16 +203,42 @@ double frequency_bound(const MassSpringModel& model) {
 }
 
 std::vector<Mat3> node_stiffness(const MassSpringModel& model) {
-  return sum_at_nodes(model, [&](std::uint32_t s) -> Mat3 {
-    const Vec3 u = spring_direction(model, s);
-    return model.stiffness[s] * u * u.transpose();
-  });
+  std::vector<Mat3> stiffness = spring_sums(model);
+  const DilatationTerms& terms = model.dilatation;
+  for (std::uint32_t t = 0; t < terms.count(); ++t)
+    for (std::uint32_t e = terms.start[t]; e < terms.start[t + 1]; ++e)
+      stiffness[terms.node[e]] +=
+          terms.modulus[t] * terms.gradient[e] * terms.gradient[e].transpose();
+  return stiffness;
+}
+
+std::vector<Mat3> bounding_node_stiffness(const MassSpringModel& model) {
+  std::vector<Mat3> stiffness = spring_sums(model);
+  const DilatationTerms& terms = model.dilatation;
+  for (std::uint32_t t = 0; t < terms.count(); ++t) {
+    if (!(terms.modulus[t] > 0)) continue;
+    const auto nodes = terms.nodes(t);
+    for (std::size_t e = 0; e < nodes.size(); ++e)
+      stiffness[nodes[e]] += terms.modulus[t] * bounding_share(terms.gradients(t), e);
+  }
+  return stiffness;
+}
+
+Mat3 bounding_share(std::span<const Vec3> gradients, std::size_t entry) {
+  double sum = 0;
+  for (const Vec3& gradient : gradients) sum += gradient.norm();
+  const Vec3& own = gradients[entry];
+  const double size = own.norm();
+  if (!(size > 0)) return Mat3::Zero();
+  return sum / (2 * size) * own * own.transpose();
 }
 
 std::vector<double> node_frequency_bounds(const MassSpringModel& model,
                                           const std::vector<Vec3>& x) {
-  const std::vector<Mat3> stiffness = sum_at_nodes(
+  std::vector<Mat3> stiffness = sum_at_nodes(
       model, [&](std::uint32_t s) -> Mat3 { return spring_stiffness_at(model, s, x); });
+  add_terms_at(
+      model.dilatation, x, [](std::uint32_t) { return true; }, stiffness);
   std::vector<double> bounds(stiffness.size());
   for (std::size_t i = 0; i < stiffness.size(); ++i)
     bounds[i] = 2 * eigenvalue_bound(stiffness[i]) / model.mass[i];
@@ -184,6 +262,12 @@ std::vector<double> strained_frequency_bounds(const MassSpringModel& model,
     stiffness[model.a[s]] += k;
     stiffness[model.b[s]] += k;
   }
+  const auto near_strained = [&](std::uint32_t t) {
+    const auto nodes = model.dilatation.nodes(t);
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [&](std::uint32_t node) { return strained[node] != 0; });
+  };
+  add_terms_at(model.dilatation, x, near_strained, stiffness);
   std::vector<double> bounds(model.node_count(), 0);
   for (std::size_t i = 0; i < stiffness.size(); ++i)
     if (strained[i] != 0) bounds[i] = 2 * eigenvalue_bound(stiffness[i]) / model.mass[i];
@@ -194,6 +278,7 @@ double largest_damping_time(const MassSpringModel& model) {
   double longest = 0;
   for (std::uint32_t s = 0; s < model.spring_count(); ++s)
     longest = std::max(longest, model.damping[s] / model.stiffness[s]);
+  for (const double time : model.dilatation.damping_time) longest = std::max(longest, time);
   return longest;
 }
 

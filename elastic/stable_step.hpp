@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/mass_spring.hpp"
@@ -15,13 +17,22 @@ namespace springlod::elastic {
 double largest_frequency(const MassSpringModel& model, std::uint64_t seed = 1);
 
 /// Upper bound of the largest angular frequency without iterating [rad/s]: omega^2 <= 2 max_i
-/// lambda_max(A_i) / m_i, A_i = sum_j k_ij u u^T (docs/method.md, eq. 15).
+/// lambda_max(A_i) / m_i, with the bounding stiffness A_i of each node (docs/method.md, eq. 15).
 double frequency_bound(const MassSpringModel& model);
-/// A_i of each node [N/m], N: the stiffness of its springs while its neighbours are held.
+/// Stiffness of each node while all others are held [N/m], N: sum_j k_ij u u^T, and T b b^T of its
+/// dilatation terms.
 std::vector<Mat3> node_stiffness(const MassSpringModel& model);
+/// A_i of frequency_bound [N/m], N: sum_j k_ij u u^T, and bounding_share of its dilatation terms
+/// with T > 0; without terms, node_stiffness.
+std::vector<Mat3> bounding_node_stiffness(const MassSpringModel& model);
+/// What a term adds to A_i of its entry `entry` for T = 1 J [1/m2]: sum_j |b_j| b_i b_i^T / (2
+/// |b_i|). By Cauchy's inequality, (sum_j b_j.u_j)^2 <= sum_j |b_j| sum_i (b_i.u_i)^2 / |b_i|.
+Mat3 bounding_share(std::span<const Vec3> gradients, std::size_t entry);
 /// Contribution of each node to that bound in a deformed state x: 2 lambda / m_i
 /// [rad2/s2], N, with A_i = sum_j k_ij (u u^T + max(0, 1 - L/l) (1 - u u^T)): a stretched spring is
-/// stiff across its direction, too (docs/method.md, eqs. 15 and 16).
+/// stiff across its direction, too (docs/method.md, eqs. 15 and 16). Dilatation terms add
+/// bounding_share with the derivatives of eps in that state, and a bound on their geometric
+/// stiffness (eq. 16b).
 ///
 /// lambda = q + 2p >= lambda_max(A_i), where q is the mean of the eigenvalues and 6 p^2 the sum of
 /// their squared deviations from it. It is exact for one large and two equal eigenvalues, cheap,
@@ -33,7 +44,7 @@ std::vector<double> node_frequency_bounds(const MassSpringModel& model, const st
 std::vector<double> strained_frequency_bounds(const MassSpringModel& model,
                                               const std::vector<Vec3>& x, double strain);
 
-/// Largest damping time c/k of the springs [s].
+/// Largest damping time of the springs, c/k, and of the dilatation terms [s].
 double largest_damping_time(const MassSpringModel& model);
 
 /// Largest stable time step of explicit symplectic Euler with damping evaluated at the old velocity

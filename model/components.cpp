@@ -4,6 +4,23 @@
 
 namespace springlod::inline model {
 
+namespace {
+
+void split_terms(const DilatationTerms& terms, const Components& components,
+                 const std::vector<std::uint32_t>& place, std::vector<ModelComponent>& all) {
+  std::vector<std::uint32_t> nodes;
+  for (std::uint32_t t = 0; t < terms.count(); ++t) {
+    ModelComponent& component = all[components.of_node[terms.nodes(t).front()]];
+    nodes.clear();
+    for (const std::uint32_t node : terms.nodes(t)) nodes.push_back(place[node]);
+    component.terms.push_back(t);
+    component.model.dilatation.add(terms.modulus[t], terms.damping_time[t], nodes,
+                                   terms.gradients(t));
+  }
+}
+
+}  // namespace
+
 std::vector<ModelComponent> split_components(const MassSpringModel& model,
                                              const Components& components) {
   assert(components.of_node.size() == model.node_count());
@@ -34,6 +51,7 @@ std::vector<ModelComponent> split_components(const MassSpringModel& model,
     // Nodes keep their order, so the corners stay in the standard form and sorted.
     for (std::uint32_t& node : kept.node) node = place[node];
   }
+  split_terms(model.dilatation, components, place, all);
   for (ModelComponent& component : all) component.model.materials = model.materials;
   return all;
 }

@@ -12,6 +12,7 @@ struct ModelComponent {
   MassSpringModel model;
   std::vector<std::uint32_t> nodes;    ///< number of each node in the whole model, ascending
   std::vector<std::uint32_t> springs;  ///< number of each spring in the whole model, ascending
+  std::vector<std::uint32_t> terms;    ///< number of each dilatation term, ascending
 };
 
 /// Splits a model into its connected components. `components` is connected_components(model).

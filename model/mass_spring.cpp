@@ -10,6 +10,7 @@
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "model/material.hpp"
 #include "model/ranges.hpp"
 
 namespace springlod::inline model {
@@ -75,6 +76,7 @@ void validate(const MassSpringModel& model) {
   for (std::uint32_t i = 0; i < model.node_count(); ++i) validate_node(model, i);
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) validate_spring(model, s);
   validate_corners(model);
+  validate_dilatation(model);
 }
 
 State rest_state(const MassSpringModel& model) {
@@ -131,7 +133,10 @@ double spring_work(const MassSpringModel& model) {
 }
 
 double estimated_young(const MassSpringModel& model) {
-  return spring_work(model) / (6 * mass_properties(model).volume);
+  const double volume = mass_properties(model).volume;
+  const std::vector<double>& moduli = model.dilatation.modulus;
+  const double dilatation = std::accumulate(moduli.begin(), moduli.end(), 0.0);
+  return affine_young(spring_work(model), dilatation, volume);
 }
 
 }  // namespace springlod::inline model

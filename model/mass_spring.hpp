@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/corners.hpp"
+#include "model/dilatation.hpp"
 #include "model/material.hpp"
 #include "model/vec.hpp"
 
@@ -33,6 +34,9 @@ struct MassSpringModel {
   /// states the rules.
   std::vector<Corner> corners;
 
+  /// What gives materials a Poisson's ratio other than 1/4; empty if all have 1/4.
+  DilatationTerms dilatation;
+
   std::vector<Material> materials;  ///< at least one
 
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(rest.size()); }
@@ -41,7 +45,7 @@ struct MassSpringModel {
   std::uint32_t corner_count() const { return static_cast<std::uint32_t>(corners.size()); }
 };
 
-/// Throws InputError with the first node, spring or corner that breaks a rule stated above.
+/// Throws InputError with the first node, spring, corner or term that breaks a rule stated above.
 void validate(const MassSpringModel& model);
 
 /// Positions [m] and velocities [m/s] of the N nodes at time t [s].
@@ -86,8 +90,8 @@ Components connected_components(const MassSpringModel& model);
 double mean_spring_length(const MassSpringModel& model);
 /// Sum of k L^2 over the springs [N m]: W of eq. 2.
 double spring_work(const MassSpringModel& model);
-/// Young's modulus by eq. 2, W / (6 V) [Pa]: an upper bound, which assumes that nodes move
-/// affinely.
+/// Young's modulus by eq. 2 [Pa], W / (6 V) without dilatation terms: an upper bound, which assumes
+/// that nodes move affinely.
 double estimated_young(const MassSpringModel& model);
 
 }  // namespace springlod::inline model

@@ -9,6 +9,22 @@
 
 namespace springlod::inline model {
 
+double spring_young(const Material& material) {
+  return material.young * ((1 + kSpringPoisson) / (1 + material.poisson));
+}
+
+double dilatation_modulus(const Material& material) {
+  const double nu = material.poisson;
+  return material.young * (4 * nu - 1) / (2 * (1 + nu) * (1 - 2 * nu));
+}
+
+double affine_young(double work, double dilatation, double volume) {
+  if (dilatation == 0) return work / (6 * volume);
+  const double shear = work / (15 * volume);
+  const double bulk = (work / 9 + dilatation) / volume;
+  return 9 * bulk * shear / (3 * bulk + shear);
+}
+
 void validate(const Material& material) {
   if (material.name.empty()) throw InputError("a material has no name; give it one");
   const auto require = [&](const char* field, double value, const PhysicalRange& range) {
@@ -19,6 +35,7 @@ void validate(const Material& material) {
   require("young", material.young, range::kYoung);
   require("density", material.density, range::kDensity);
   require("damping", material.damping, range::kDampingTime);
+  require("poisson", material.poisson, range::kPoisson);
   for (const float component : {material.colour.r, material.colour.g, material.colour.b})
     require("colour", component, range::kColour);
 }

@@ -31,6 +31,13 @@ inline constexpr PhysicalRange kYoung{{1e-6, 1e15}, "Pa"};
 inline constexpr PhysicalRange kDensity{{1e-6, 1e9}, "kg/m3"};
 /// c/k of a material or spring. Glaciers creep within 1e5 s.
 inline constexpr PhysicalRange kDampingTime{{0, 1e6}, "s"};
+/// Poisson's ratio. Few solids have less than 0; at 0.5, nothing changes its volume, and no
+/// explicit step is stable.
+inline constexpr PhysicalRange kPoisson{{-0.2, 0.495}, ""};
+/// Lambda V of a dilatation term: 1e-3 Pa in 1 nm3 to 1e15 Pa in 1e15 m3.
+inline constexpr PhysicalRange kDilatation{{1e-36, 1e30}, "J"};
+/// Gradient of a node in a dilatation term: the inverse of a length.
+inline constexpr PhysicalRange kGradient{{-1e12, 1e12}, "1/m"};
 /// Components of a colour.
 inline constexpr PhysicalRange kColour{{0, 1}, ""};
 

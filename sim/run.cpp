@@ -39,6 +39,14 @@ void validate(const RunOptions& options) {
                                  options.frame_rate));
 }
 
+void require_known_forces(const MassSpringModel& model, Integrator integrator) {
+  if (model.dilatation.empty() || !is_implicit(integrator)) return;
+  throw InputError(fmt::format(
+      "run: integrator = \"{}\" knows springs only, and the model has the dilatation terms of a "
+      "Poisson's ratio other than {}; use symplectic_euler, velocity_verlet or runge_kutta_4",
+      to_string(integrator), kSpringPoisson));
+}
+
 void require_step_count(double duration, double step) {
   constexpr double kMost = 1e15;  // more would take years
   if (step > duration)
@@ -99,6 +107,7 @@ RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
   validate(model);
   validate(scenario);
   validate(options);
+  require_known_forces(model, options.integrator);
   RunPlan plan{.limit = std::make_shared<const StepLimit>(step_limit(model, options.integrator))};
   if (choice_of(options.integrator).traits.fast)
     plan.layout = make_fast_model(model, options.precision, options.layout);

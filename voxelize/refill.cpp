@@ -90,6 +90,8 @@ void fit(MassSpringModel& model, const GridSums& target) {
     model.stiffness[s] *= length;
     model.damping[s] *= length;
   }
+  for (double& modulus : model.dilatation.modulus) modulus *= target.volume / now.volume;
+  for (Vec3& gradient : model.dilatation.gradient) gradient /= length;
 }
 
 Level refilled_level(const MaterialGrid& grid, std::uint32_t nodes, const RefillOptions& options) {

@@ -23,8 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Version of the metadata below; it grows when their meaning changes.
-constexpr std::int32_t kFileVersion = 1;
+// Version of the metadata below; it grows when their meaning changes. Only files with a Poisson's
+// ratio other than that of springs have version 2; programs that do not know it must not read them.
+constexpr std::int32_t kFileVersion = 2;
+constexpr std::int32_t kWithoutPoisson = 1;
 constexpr const char* kVersion = "springlod_version";
 constexpr const char* kCell = "springlod_cell";
 constexpr const char* kOrigin = "springlod_origin";
@@ -69,7 +71,10 @@ typename Grid::Ptr cell_grid(const MaterialGrid& grid, const char* name,
 
 openvdb::MetaMap metadata_of(const MaterialGrid& grid) {
   openvdb::MetaMap meta;
-  meta.insertMeta(kVersion, openvdb::Int32Metadata(kFileVersion));
+  const bool has_poisson =
+      std::any_of(grid.materials.begin(), grid.materials.end(),
+                  [](const Material& m) { return m.poisson != kSpringPoisson; });
+  meta.insertMeta(kVersion, openvdb::Int32Metadata(has_poisson ? kFileVersion : kWithoutPoisson));
   meta.insertMeta(kCell, openvdb::DoubleMetadata(grid.cell));
   meta.insertMeta(kOrigin,
                   openvdb::Vec3DMetadata({grid.origin.x(), grid.origin.y(), grid.origin.z()}));
@@ -84,6 +89,8 @@ openvdb::MetaMap metadata_of(const MaterialGrid& grid) {
     meta.insertMeta(material_key(n, "damping"), openvdb::DoubleMetadata(m.damping));
     meta.insertMeta(material_key(n, "colour"),
                     openvdb::Vec3SMetadata({m.colour.r, m.colour.g, m.colour.b}));
+    if (m.poisson != kSpringPoisson)
+      meta.insertMeta(material_key(n, "poisson"), openvdb::DoubleMetadata(m.poisson));
   }
   return meta;
 }
@@ -200,6 +207,8 @@ class Reader {
       m.damping = value<double>(material_key(n, "damping"));
       const auto colour = value<openvdb::Vec3s>(material_key(n, "colour"));
       m.colour = {colour.x(), colour.y(), colour.z()};
+      const std::string poisson = material_key(n, "poisson");
+      if ((*meta_)[poisson] != nullptr) m.poisson = value<double>(poisson);
       grid.materials.push_back(m);
     }
   }

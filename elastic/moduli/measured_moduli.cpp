@@ -103,6 +103,14 @@ std::vector<Sums> material_sums(const MassSpringModel& model, const std::vector<
     sums[model.material[a]].stress += half;
     sums[model.material[b]].stress += half;
   }
+  const DilatationTerms& terms = model.dilatation;
+  for (std::uint32_t t = 0; t < terms.count(); ++t) {
+    const auto nodes = terms.nodes(t);
+    const double each = terms.modulus[t] * linear_dilatation(terms, t, displacement) /
+                        static_cast<double>(nodes.size());
+    for (const std::uint32_t node : nodes)
+      sums[model.material[node]].stress += each * Mat3::Identity();
+  }
   const std::vector<Mat3> strain = node_strains(model, inverse, displacement);
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     Sums& of = sums[model.material[i]];

@@ -136,6 +136,8 @@ void write_back(const ModelComponent& part, const MassSpringModel& fitted, MassS
     level.stiffness[part.springs[s]] = fitted.stiffness[s];
     level.damping[part.springs[s]] = fitted.damping[s];
   }
+  for (std::size_t t = 0; t < part.terms.size(); ++t)
+    level.dilatation.modulus[part.terms[t]] = fitted.dilatation.modulus[t];
 }
 
 /// Saves the state of one fit at intervals [s].

@@ -38,6 +38,11 @@ void pack(Packer& to, const MassSpringModel& model) {
   to.add(model.rest_length);
   to.add(model.stiffness);
   to.add(model.damping);
+  to.add(model.dilatation.modulus);
+  to.add(model.dilatation.damping_time);
+  to.add(model.dilatation.start);
+  to.add(model.dilatation.node);
+  to.add(model.dilatation.gradient);
 }
 
 void pack(Packer& to, const Groups& groups) {

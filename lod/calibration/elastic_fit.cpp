@@ -35,6 +35,14 @@ auto as_vector(const std::vector<double>& numbers) {
                                            static_cast<Eigen::Index>(numbers.size()));
 }
 
+/// k of each spring [N/m], then T of each dilatation term [J].
+Eigen::ArrayXd moduli_of(const MassSpringModel& level) {
+  Eigen::ArrayXd moduli(level.spring_count() + level.dilatation.count());
+  moduli.head(level.spring_count()) = as_vector(level.stiffness).array();
+  moduli.tail(level.dilatation.count()) = as_vector(level.dilatation.modulus).array();
+  return moduli;
+}
+
 /// x_i . y_i of each node.
 Eigen::VectorXd dots(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
   Eigen::VectorXd dot(static_cast<Eigen::Index>(x.size()));
@@ -63,7 +71,8 @@ ElasticFit::ElasticFit(const MassSpringModel& level, const Groups& of_base,
       free_masses_(options.masses == NodeMasses::free),
       anchored_(mapped_nodes(of_base, targets.anchored)),
       modal_(modal_loads(level, of_base, targets, anchored_)),
-      stretch_(level.spring_count(), 3 * static_cast<Eigen::Index>(level.node_count())) {
+      stretch_(level.spring_count() + level.dilatation.count(),
+               3 * static_cast<Eigen::Index>(level.node_count())) {
   for (const LoadTarget& target : targets.loads)
     loads_.push_back(summed_over_groups(of_base, target.load));
   std::vector<Eigen::Triplet<double>> entries;
@@ -74,6 +83,11 @@ ElasticFit::ElasticFit(const MassSpringModel& level, const Groups& of_base,
       entries.emplace_back(s, 3 * level.b[s] + d, u[d]);
     }
   }
+  const DilatationTerms& terms = level.dilatation;
+  for (std::uint32_t t = 0; t < terms.count(); ++t)
+    for (std::uint32_t e = terms.start[t]; e < terms.start[t + 1]; ++e)
+      for (int d = 0; d < 3; ++d)
+        entries.emplace_back(level.spring_count() + t, 3 * terms.node[e] + d, terms.gradient[e][d]);
   stretch_.setFromTriplets(entries.begin(), entries.end());
 }
 
@@ -111,7 +125,7 @@ ElasticResiduals ElasticFit::residuals(const MassSpringModel& level) const {
 
 void ElasticFit::jacobian(const MassSpringModel& level, const ElasticResiduals& of_level,
                           Eigen::MatrixXd& into) const {
-  into.resize(level.spring_count() + (free_masses_ ? level.node_count() : 0), rows().end);
+  into.resize(stretch_.rows() + (free_masses_ ? level.node_count() : 0), rows().end);
   run_jobs(2, threads_, [&](std::uint64_t job, const std::function<bool()>&) {
     if (job == 0) add_modes(level, of_level, into);
     if (job == 0) add_shapes(level, of_level, into);
@@ -141,7 +155,7 @@ void ElasticFit::add_modes(const MassSpringModel& level, const ElasticResiduals&
   const std::vector<elastic::Mode>& found = of_level.modes;
   std::vector<Eigen::VectorXd> stretch;
   for (const elastic::Mode& mode : found) stretch.emplace_back(stretch_ * flat(mode.shape));
-  const auto k = as_vector(level.stiffness).array();
+  const Eigen::ArrayXd k = moduli_of(level);
   const auto m = as_vector(level.mass).array();
   Eigen::Index row = 0;
   for (const auto& [i, j] : mode_pairs()) {
@@ -174,7 +188,7 @@ void ElasticFit::solve_loads(const elastic::ElasticBody& body, ElasticResiduals&
 
 void ElasticFit::add_loads(const MassSpringModel& level, const ElasticResiduals& of_level,
                            Eigen::MatrixXd& into) const {
-  const auto k = as_vector(level.stiffness).array();
+  const Eigen::ArrayXd k = moduli_of(level);
   const auto m = as_vector(level.mass).array();
   for (std::size_t l = 0; l < loads_.size(); ++l) {
     auto column = into.col(rows().loads + static_cast<Eigen::Index>(l));
@@ -222,7 +236,7 @@ void ElasticFit::add_shapes(const MassSpringModel& level, const ElasticResiduals
   std::vector<Eigen::VectorXd> stretch;
   for (const elastic::StaticSolution& one : solved)
     stretch.emplace_back(stretch_ * flat(one.displacement));
-  const auto k = as_vector(level.stiffness).array();
+  const Eigen::ArrayXd k = moduli_of(level);
   const auto m = as_vector(level.mass).array();
   Eigen::Index row = rows().shapes;
   for (std::size_t i = 0; i < solved.size(); ++i)

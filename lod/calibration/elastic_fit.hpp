@@ -42,8 +42,9 @@ class ElasticFit {
   /// Modes are matched in ascending order of lambda = omega^2.
   ElasticResiduals residuals(const MassSpringModel& level) const;
 
-  /// Sets G = -dr / d(ln k, ln m), S rows, or S + N with NodeMasses::free, by R [1]; its memory is
-  /// used again. The derivatives are
+  /// Sets G = -dr / d(ln k, ln |T|, ln m), S + T rows, or S + T + N with NodeMasses::free, by R
+  /// [1]; its memory is used again. For dilatation terms, T and their gradients take the places of
+  /// k and b. The derivatives are
   ///   d ln lambda / d ln k = k (b.phi)^2 / lambda,   d ln lambda / d ln m = -m |phi|^2,
   ///   d ln c / d ln k = -k (b.u)^2 / c,              d ln c / d ln m = -2 m u.a / c,
   /// with the compliance c = f.u of a load f and the rigid acceleration a of the free body under f.
@@ -83,7 +84,8 @@ class ElasticFit {
   std::vector<std::uint32_t> anchored_;
   std::vector<elastic::StaticLoad> loads_;
   ModalLoads modal_;
-  Eigen::SparseMatrix<double, Eigen::RowMajor> stretch_;  // S x 3N: b of each spring
+  // (S + T) x 3N: b of each spring, and of each term.
+  Eigen::SparseMatrix<double, Eigen::RowMajor> stretch_;
 };
 
 }  // namespace springlod::lod

@@ -41,8 +41,35 @@ double bound_of(const SchattenNorm& norm, double mass) {
   return 2 * norm.value() / mass;
 }
 
+/// The parts of A_i that dilatation terms make up, by node.
+class BoundingTerms {
+ public:
+  explicit BoundingTerms(const MassSpringModel& model) : parts_(model.node_count()) {
+    const DilatationTerms& terms = model.dilatation;
+    for (std::uint32_t t = 0; t < terms.count(); ++t) {
+      if (!(terms.modulus[t] > 0)) continue;
+      const auto nodes = terms.nodes(t);
+      for (std::size_t e = 0; e < nodes.size(); ++e)
+        parts_[nodes[e]].push_back(
+            {t, terms.modulus[t] * elastic::bounding_share(terms.gradients(t), e)});
+    }
+  }
+  /// Calls visit(term, part) for each term of the node.
+  template <class Visit>
+  void for_each(std::uint32_t node, const Visit& visit) const {
+    for (const Part& part : parts_[node]) visit(part.term, part.stiffness);
+  }
+
+ private:
+  struct Part {
+    std::uint32_t term;
+    Mat3 stiffness;
+  };
+  std::vector<std::vector<Part>> parts_;  // N
+};
+
 std::vector<double> node_bounds(const MassSpringModel& model) {
-  const std::vector<Mat3> held = elastic::node_stiffness(model);
+  const std::vector<Mat3> held = elastic::bounding_node_stiffness(model);
   std::vector<double> bounds;
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
     bounds.push_back(bound_of(SchattenNorm(held[i]), model.mass[i]));
@@ -55,7 +82,9 @@ FrequencyConstraints frequency_constraints(const MassSpringModel& model, double 
                                            NodeMasses masses) {
   const bool free_masses = masses == NodeMasses::free;
   const SpringRows springs(model);
-  const std::vector<Mat3> held = elastic::node_stiffness(model);
+  const std::vector<Mat3> held = elastic::bounding_node_stiffness(model);
+  const BoundingTerms terms(model);
+  const auto moduli = static_cast<int>(model.spring_count() + model.dilatation.count());
   std::vector<double> values;
   std::vector<Eigen::Triplet<double>> jacobian;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
@@ -69,13 +98,17 @@ FrequencyConstraints frequency_constraints(const MassSpringModel& model, double 
       const Vec3 u = spring_direction(model, s);
       jacobian.emplace_back(row, static_cast<int>(s), model.stiffness[s] * u.dot(gradient * u));
     });
-    if (free_masses) jacobian.emplace_back(row, static_cast<int>(model.spring_count() + i), -1.0);
+    terms.for_each(i, [&](std::uint32_t t, const Mat3& share) {
+      jacobian.emplace_back(row, static_cast<int>(model.spring_count() + t),
+                            gradient.cwiseProduct(share).sum());
+    });
+    if (free_masses) jacobian.emplace_back(row, moduli + static_cast<int>(i), -1.0);
   }
   FrequencyConstraints constraints;
   constraints.value =
       Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   const Eigen::Index unknowns =
-      model.spring_count() + static_cast<Eigen::Index>(free_masses ? model.node_count() : 0);
+      moduli + static_cast<Eigen::Index>(free_masses ? model.node_count() : 0);
   constraints.jacobian.resize(constraints.value.size(), unknowns);
   constraints.jacobian.setFromTriplets(jacobian.begin(), jacobian.end());
   return constraints;

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "lod/merging/merge_dilatation.hpp"
+
 namespace springlod::lod {
 namespace {
 
@@ -75,6 +77,8 @@ void restore_second_moments(const MassSpringModel& base, const Groups& of_base,
     level.rest_length[s] = length;
   }
   settle_corners(level.corners, level.rest);
+  // The directions of the springs have changed.
+  level.dilatation = merge_dilatation(base, of_base, level);
 }
 
 }  // namespace springlod::lod

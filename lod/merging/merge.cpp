@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/script_number.hpp"
 #include "lod/merging/merge_corners.hpp"
+#include "lod/merging/merge_dilatation.hpp"
 #include "lod/merging/relink.hpp"
 
 namespace springlod::lod {
@@ -107,6 +108,7 @@ MassSpringModel merge(const MassSpringModel& fine, const Groups& groups) {
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links) {
   MassSpringModel coarse = merge_springs(fine, groups, std::move(links));
   coarse.corners = merge_corners(fine.corners, groups, coarse.rest);
+  coarse.dilatation = merge_dilatation(fine, groups, coarse);
   return coarse;
 }
 

@@ -11,14 +11,14 @@ namespace springlod::lod {
 /// node if any node of the group is. A spring to another group is reattached with k = k0 L0 / L (c
 /// likewise), where L0 is its old rest length and L the distance of its new ends; parallel springs
 /// add up. A spring is copied bit for bit if neither of its ends was merged. Corners are merged as
-/// in merge_corners.
+/// in merge_corners, dilatation terms as in merge_dilatation.
 ///
 /// No guards are applied. Throws InputError if two joined groups have the same centre of mass
 /// (L = 0): see guard_groups.
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups);
 /// The same with the result of relink for `fine` and `groups`.
 MassSpringModel merge(const MassSpringModel& fine, const Groups& groups, Relinking links);
-/// The same without corners, which groupings do not need.
+/// The same without corners and dilatation terms, which groupings do not need.
 MassSpringModel merge_springs(const MassSpringModel& fine, const Groups& groups, Relinking links);
 
 /// MassRule::proximity (docs/method.md, eq. 25): redistributes masses and volumes of `base` to the

@@ -1,5 +1,7 @@
 #include "lod/quality/compliance_change.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/error.hpp"
@@ -23,6 +25,13 @@ double work(const MassSpringModel& model, std::uint32_t spring, const std::vecto
   return model.stiffness[spring] * along.dot(x[b] - x[a]) * along.dot(y[b] - y[a]);
 }
 
+/// Contribution of one dilatation term to x.Ky [J].
+double term_work(const DilatationTerms& terms, std::uint32_t term, const std::vector<Vec3>& x,
+                 const std::vector<Vec3>& y) {
+  return terms.modulus[term] * linear_dilatation(terms, term, x) *
+         linear_dilatation(terms, term, y);
+}
+
 /// Contributions of the coarse nodes to the change of compliance of one load.
 class Contributions {
  public:
@@ -41,6 +50,16 @@ class Contributions {
     for (std::uint32_t s = 0; s < pair_.coarse.spring_count(); ++s)
       share(pair_.coarse.a[s], pair_.coarse.b[s], -work(pair_.coarse, s, w, coarse_u),
             contribution);
+    const DilatationTerms& fine = pair_.fine.dilatation;
+    for (std::uint32_t t = 0; t < fine.count(); ++t)
+      share_term(
+          fine, t, term_work(fine, t, u, v),
+          [&](std::uint32_t node) { return pair_.groups.of[node]; }, contribution);
+    const DilatationTerms& coarse = pair_.coarse.dilatation;
+    for (std::uint32_t t = 0; t < coarse.count(); ++t)
+      share_term(
+          coarse, t, -term_work(coarse, t, w, coarse_u), [](std::uint32_t node) { return node; },
+          contribution);
     std::vector<Vec3> force;
     elastic::apply_stiffness(pair_.fine, u, force);
     for (std::uint32_t i = 0; i < pair_.fine.node_count(); ++i)
@@ -60,6 +79,20 @@ class Contributions {
     const double of_a = only_a ? 1 : only_b ? 0 : kHalf;
     contribution[a] += of_a * amount;
     contribution[b] += (1 - of_a) * amount;
+  }
+
+  /// In equal parts for the nodes of the term whose groups have several nodes, or for all of them
+  /// if none or all have.
+  template <class GroupOf>
+  void share_term(const DilatationTerms& terms, std::uint32_t term, double amount,
+                  const GroupOf& group_of, std::vector<double>& contribution) const {
+    const auto nodes = terms.nodes(term);
+    const auto several = [&](std::uint32_t node) { return members_[group_of(node)] > 1; };
+    auto count = static_cast<std::size_t>(std::count_if(nodes.begin(), nodes.end(), several));
+    const bool all = count == 0;
+    if (all) count = nodes.size();
+    for (const std::uint32_t node : nodes)
+      if (all || several(node)) contribution[group_of(node)] += amount / static_cast<double>(count);
   }
 
   MergedPair pair_;

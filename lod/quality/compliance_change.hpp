@@ -25,9 +25,9 @@ struct MergedPair {
 /// where v is u' interpolated to the fine nodes (base_from_level) and w is the mean of u over each
 /// group. The first bracket is a sum over springs. A spring inside a group counts for that group; a
 /// spring between two groups counts for the one with several nodes, or half for each if both or
-/// neither have several. The other two brackets are sums over nodes. All terms are 0 where nothing
-/// was merged and no spring changed, so a merge is not charged for energy that it only moves
-/// elsewhere. Throws InputError for displacements of the wrong size.
+/// neither have several; dilatation terms likewise. The other two brackets are sums over nodes. All
+/// terms are 0 where nothing was merged and no spring changed, so a merge is not charged for energy
+/// that it only moves elsewhere. Throws InputError for displacements of the wrong size.
 std::vector<std::vector<double>> compliance_changes(const MergedPair& pair,
                                                     const std::vector<std::vector<Vec3>>& fine,
                                                     const std::vector<std::vector<Vec3>>& coarse);

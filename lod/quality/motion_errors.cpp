@@ -85,6 +85,11 @@ double decay_rate(const MassSpringModel& model, const elastic::Mode& mode) {
         spring_direction(model, s).dot(mode.shape[model.b[s]] - mode.shape[model.a[s]]);
     power += model.damping[s] * rate * rate;
   }
+  const DilatationTerms& terms = model.dilatation;
+  for (std::uint32_t t = 0; t < terms.count(); ++t) {
+    const double rate = linear_dilatation(terms, t, mode.shape);
+    power += terms.damping_time[t] * terms.modulus[t] * rate * rate;
+  }
   return power / 2;  // shapes are mass-normalised
 }
 

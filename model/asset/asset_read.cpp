@@ -43,8 +43,12 @@ Colour read_colour(const json& list, const std::string& owner) {
 
 Material read_material(const json& object, const std::string& owner) {
   const FieldReader from(object, owner);
-  return {from.text("name"), from.number("young"), from.number("density"), from.number("damping"),
-          read_colour(object.value("colour", json()), owner)};
+  return {from.text("name"),
+          from.number("young"),
+          from.number("density"),
+          from.number("damping"),
+          read_colour(object.value("colour", json()), owner),
+          from.optional_number("poisson").value_or(kSpringPoisson)};
 }
 
 void read_provenance(const FieldReader& extension, Provenance& provenance) {
@@ -72,6 +76,18 @@ std::vector<Corner> read_corners(const FieldReader& from, ArrayReader& arrays) {
   return corners;
 }
 
+DilatationTerms read_dilatation(const FieldReader& from, ArrayReader& arrays) {
+  DilatationTerms terms;
+  const std::uint32_t count = from.optional_count("terms");
+  if (count == 0) return terms;
+  terms.modulus = arrays.take<double>(from, "termModulus", count);
+  terms.damping_time = arrays.take<double>(from, "termDampingTime", count);
+  terms.start = arrays.take<std::uint32_t>(from, "termStart", count + 1ULL);
+  terms.node = arrays.take<std::uint32_t>(from, "termNode", terms.start.back());
+  terms.gradient = arrays.take<Vec3>(from, "termGradient", terms.start.back());
+  return terms;
+}
+
 void read_ends(const FieldReader& from, ArrayReader& arrays, MassSpringModel& model,
                std::uint32_t spring_count) {
   const auto ends = arrays.take<std::array<std::uint32_t, 2>>(from, "ends", spring_count);
@@ -94,6 +110,7 @@ class ExactReader {
     read_provenance(from, asset.provenance);
     if (from.has("contact")) asset.chain.contact = read_contact(from.text("contact"));
     has_corners_ = from.count("version") >= asset_format::kVersionWithCorners;
+    has_dilatation_ = from.count("version") >= asset_format::kVersionWithDilatation;
     from.each("levels", [&](const json& level, const std::string&) {
       const std::size_t number = asset.chain.levels.size();
       asset.chain.levels.push_back(
@@ -130,6 +147,7 @@ class ExactReader {
         arrays_.take<std::uint32_t>(from, "nodeOfBase", number == 0 ? nodes : base_nodes);
     level.of_base.count = nodes;
     if (has_corners_) model.corners = read_corners(from, arrays_);
+    if (has_dilatation_) model.dilatation = read_dilatation(from, arrays_);
     if (from.has("certificate"))
       level.certificate = read_certificate(object["certificate"],
                                            fmt::format("the certificate of level {}", number));
@@ -166,6 +184,7 @@ class ExactReader {
 
   ArrayReader arrays_;
   bool has_corners_ = false;
+  bool has_dilatation_ = false;
 };
 
 const json* find_extension(const json& gltf) {

@@ -30,7 +30,7 @@ class ExactWriter {
   std::vector<std::optional<std::size_t>> spring_ends;
 
   json describe(const LodAsset& asset) {
-    json extension{{"version", asset_format::kVersion}};
+    json extension{{"version", version_of(asset.chain)}};
     // Empty lists are omitted, here and below.
     for (const auto& [key, value] : asset.provenance.entries)
       extension["provenance"].push_back({key, value});
@@ -46,6 +46,17 @@ class ExactWriter {
   }
 
  private:
+  static int version_of(const LodChain& chain) {
+    const auto with_dilatation = [](const Level& level) {
+      return !level.model.dilatation.empty() ||
+             std::any_of(level.model.materials.begin(), level.model.materials.end(),
+                         [](const Material& m) { return m.poisson != kSpringPoisson; });
+    };
+    return std::any_of(chain.levels.begin(), chain.levels.end(), with_dilatation)
+               ? asset_format::kVersionWithDilatation
+               : asset_format::kVersionWithDilatation - 1;
+  }
+
   template <class T>
   std::optional<std::size_t> put(json& object, const char* key, const std::vector<T>& array,
                                  gltf::Target target = gltf::Target::none) {
@@ -57,11 +68,13 @@ class ExactWriter {
   }
 
   static json describe(const Material& material) {
-    return {{"name", material.name},
-            {"young", material.young},
-            {"density", material.density},
-            {"damping", material.damping},
-            {"colour", {material.colour.r, material.colour.g, material.colour.b}}};
+    json object{{"name", material.name},
+                {"young", material.young},
+                {"density", material.density},
+                {"damping", material.damping},
+                {"colour", {material.colour.r, material.colour.g, material.colour.b}}};
+    if (material.poisson != kSpringPoisson) object["poisson"] = material.poisson;
+    return object;
   }
 
   /// The nodes of each corner, the different Young's moduli, and the modulus of each corner. A body
@@ -90,6 +103,16 @@ class ExactWriter {
     put(object, "cornerYoungNumber", young_of);
   }
 
+  void put_dilatation(json& object, const DilatationTerms& terms) {
+    if (terms.empty()) return;
+    object["terms"] = terms.count();
+    put(object, "termModulus", terms.modulus);
+    put(object, "termDampingTime", terms.damping_time);
+    put(object, "termStart", terms.start);
+    put(object, "termNode", terms.node);
+    put(object, "termGradient", terms.gradient);
+  }
+
   json describe(const Level& level) {
     const MassSpringModel& model = level.model;
     json object{{"nodes", model.node_count()},
@@ -115,6 +138,7 @@ class ExactWriter {
     put(object, "damping", model.damping);
     put(object, "nodeOfBase", level.of_base.of);
     put_corners(object, model.corners);
+    put_dilatation(object, model.dilatation);
     if (level.certificate) object["certificate"] = certificate_json(*level.certificate);
     return object;
   }
@@ -138,12 +162,14 @@ class ExactWriter {
   asset_format::Checksum checksum_;
 };
 
-/// Estimated size of the buffer: 112 B per node, 32 B per spring and 20 B per corner, rounded up.
+/// Estimated size of the buffer: 112 B per node, 32 B per spring, 20 B per corner, and 20 B per
+/// dilatation term and 28 B per node of it, rounded up.
 std::size_t expected_bytes(const LodAsset& asset) {
   std::size_t bytes = std::size_t{64} * 1024;
   for (const Level& level : asset.chain.levels)
     bytes += 128 * level.model.rest.size() + 32 * level.model.a.size() +
-             20 * level.model.corners.size() + 4 * level.of_base.of.size();
+             20 * level.model.corners.size() + 4 * level.of_base.of.size() +
+             20 * level.model.dilatation.modulus.size() + 28 * level.model.dilatation.node.size();
   return bytes + 64 * asset.surface.positions.size() + 12 * asset.surface.triangles.size() +
          12 * asset.surface_of_base.node.size();
 }

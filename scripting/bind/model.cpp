@@ -328,7 +328,8 @@ void describe_material(Api& api) {
   const Material& usual = input.material;
   api.add(RecordEntry{
       .name = "Material",
-      .summary = "An elastic material. Its Poisson's ratio is that of spring networks, about 1/4.",
+      .summary = "An elastic material. Springs alone have Poisson's ratio 1/4; with any other one, "
+                 "the model gets dilatation terms, which take shorter steps.",
       .fields =
           {{.name = "name", .type = "string", .fallback = "its key", .help = "name in reports"},
            {.name = "young",
@@ -337,6 +338,13 @@ void describe_material(Api& api) {
             .range = Range{1e-3, 1e15},
             .fallback = fmt::format("{}", usual.young),
             .help = "Young's modulus"},
+           {.name = "poisson",
+            .type = "number",
+            .range = Range{-0.2, 0.495},
+            .fallback = fmt::format("{}", usual.poisson),
+            .help =
+                "Poisson's ratio: how much a stretched bar thins; rubber and flesh 0.45 to 0.5, "
+                "cork 0"},
            {.name = "density",
             .type = "quantity",
             .dimension = Dimension::density,

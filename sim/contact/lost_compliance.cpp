@@ -30,7 +30,14 @@ class HeldRegion {
  public:
   /// `ties`: of the nodes to their places [N/m] > 0. Both must outlive this.
   HeldRegion(const MassSpringModel& model, const std::vector<double>& ties)
-      : model_(&model), ties_(&ties), springs_(model), place_(model.node_count(), kOutside) {}
+      : model_(&model),
+        ties_(&ties),
+        springs_(model),
+        terms_of_(model.node_count()),
+        place_(model.node_count(), kOutside) {
+    for (std::uint32_t t = 0; t < model.dilatation.count(); ++t)
+      for (const std::uint32_t node : model.dilatation.nodes(t)) terms_of_[node].push_back(t);
+  }
 
   void take(const std::vector<std::uint32_t>& nodes);
   /// Of one of the points, whose nodes must be in the region [m/N].
@@ -39,13 +46,28 @@ class HeldRegion {
  private:
   static constexpr Eigen::Index kOutside = -1;
 
+  /// Adds the rows of the node in a dilatation term.
+  void add_term(std::uint32_t term, std::uint32_t node);
+
   const MassSpringModel* model_;
   const std::vector<double>* ties_;
   SpringRows springs_;
+  std::vector<std::vector<std::uint32_t>> terms_of_;  // N
   std::vector<std::uint32_t> nodes_;
   std::vector<Eigen::Index> place_;  // of each node in the region, or kOutside
   Eigen::MatrixXd factor_;           // of the stiffness [(N/m)^1/2], lower triangle
 };
+
+void HeldRegion::add_term(std::uint32_t term, std::uint32_t node) {
+  const DilatationTerms& terms = model_->dilatation;
+  const auto nodes = terms.nodes(term);
+  const auto gradients = terms.gradients(term);
+  const auto own = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
+  const Vec3 pressure = terms.modulus[term] * gradients[static_cast<std::size_t>(own)];
+  for (std::size_t e = 0; e < nodes.size(); ++e)
+    if (place_[nodes[e]] != kOutside)
+      factor_.block<3, 3>(place_[node], place_[nodes[e]]) += pressure * gradients[e].transpose();
+}
 
 void HeldRegion::take(const std::vector<std::uint32_t>& nodes) {
   for (const std::uint32_t node : nodes_) place_[node] = kOutside;
@@ -66,6 +88,7 @@ void HeldRegion::take(const std::vector<std::uint32_t>& nodes) {
       own += block;
       if (place_[other] != kOutside) factor_.block<3, 3>(row, place_[other]) -= block;
     });
+    for (const std::uint32_t term : terms_of_[node]) add_term(term, node);
   }
   [[maybe_unused]] const bool positive = elastic::factorise_lower(factor_);
   assert(positive);  // by the ties

@@ -1,5 +1,6 @@
 #include "sim/fast/fast_model.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "sim/fast/look/row_corners.hpp"
@@ -28,16 +29,24 @@ class Laid final : public FastModel {
 
 template <class Real>
 bool fills_rows(const MassSpringModel& model, const RowLayout<Real>& rows) {
-  return model.spring_count() >= kLeastFill * rows.rows.size();
+  return model.spring_count() >= kLeastFill * rows.rows.size() &&
+         model.dilatation.count() >= kLeastFill * rows.dilatation.rows.size();
+}
+
+/// Rows, if the model has what they take and fills them.
+template <class Real>
+std::optional<RowLayout<Real>> filled_rows(const MassSpringModel& model) {
+  if (!has_terms_of_cells(model)) return std::nullopt;
+  RowLayout<Real> rows = make_row_layout<Real>(model);
+  return fills_rows(model, rows) ? std::optional(std::move(rows)) : std::nullopt;
 }
 
 template <class Real>
 std::unique_ptr<FastModel> lay_out(const MassSpringModel& model, Layout layout) {
   if (layout == Layout::fastest) {
-    RowLayout<Real> rows = make_row_layout<Real>(model);
-    if (fills_rows(model, rows)) {
-      rows.corners = place_corners(model, rows);
-      return std::make_unique<Laid<RowLayout<Real>, RowBody<Real>>>(std::move(rows));
+    if (auto rows = filled_rows<Real>(model)) {
+      rows->corners = place_corners(model, *rows);
+      return std::make_unique<Laid<RowLayout<Real>, RowBody<Real>>>(*std::move(rows));
     }
   }
   return std::make_unique<Laid<QuadLayout<Real>, QuadBody<Real>>>(make_quad_layout<Real>(model));
@@ -62,8 +71,8 @@ StepWork work_of(const QuadLayout<Real>& layout) {
 
 template <class Real>
 StepWork fastest_work(const MassSpringModel& model) {
-  const RowLayout<Real> rows = make_row_layout<Real>(model);
-  return fills_rows(model, rows) ? work_of(rows) : work_of(make_quad_layout<Real>(model));
+  const auto rows = filled_rows<Real>(model);
+  return rows ? work_of(*rows) : work_of(make_quad_layout<Real>(model));
 }
 
 }  // namespace

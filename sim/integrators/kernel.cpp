@@ -59,7 +59,7 @@ double elastic_energy(const MassSpringModel& model, const std::vector<Vec3>& x) 
     const double stretch = (x[model.b[s]] - x[model.a[s]]).norm() - model.rest_length[s];
     energy += 0.5 * model.stiffness[s] * stretch * stretch;
   }
-  return energy;
+  return energy + dilatation_energy(model.dilatation, x);
 }
 
 }  // namespace springlod::sim

@@ -24,7 +24,7 @@ extern template void add_spring_forces<false>(const MassSpringModel&, const std:
                                               const std::vector<Vec3>&, std::vector<Vec3>&,
                                               std::vector<Vec3>&);
 
-/// Sum of k (l - L)^2 / 2 [J].
+/// Sum of k (l - L)^2 / 2, and the energy of the dilatation terms [J].
 double elastic_energy(const MassSpringModel& model, const std::vector<Vec3>& x);
 
 }  // namespace springlod::sim

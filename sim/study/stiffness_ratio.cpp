@@ -105,11 +105,29 @@ std::vector<double> level_factors(const MassSpringModel& base, const StiffPart& 
   return after;
 }
 
+/// A dilatation term changes as the springs at its nodes do in the mean.
+void scale_terms(MassSpringModel& model, const std::vector<double>& factor_of_spring) {
+  std::vector<double> sum(model.node_count(), 0), count(model.node_count(), 0);
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+    for (const std::uint32_t node : {model.a[s], model.b[s]}) {
+      sum[node] += factor_of_spring[s];
+      count[node] += 1;
+    }
+  DilatationTerms& terms = model.dilatation;
+  for (std::uint32_t t = 0; t < terms.count(); ++t) {
+    double factor = 0;
+    for (const std::uint32_t node : terms.nodes(t))
+      factor += count[node] > 0 ? sum[node] / count[node] : 1;
+    terms.modulus[t] *= factor / static_cast<double>(terms.nodes(t).size());
+  }
+}
+
 void scale_springs(MassSpringModel& model, const std::vector<double>& factor) {
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
     model.stiffness[s] *= factor[s];
     model.damping[s] *= factor[s];
   }
+  if (!model.dilatation.empty()) scale_terms(model, factor);
 }
 
 /// Reports show the materials, so they are changed too, except in a body of one material.

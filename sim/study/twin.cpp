@@ -58,6 +58,7 @@ MassSpringModel stiffened(const MassSpringModel& model, double factor) {
   MassSpringModel changed = model;
   for (double& k : changed.stiffness) k *= factor;
   for (double& c : changed.damping) c *= factor;
+  for (double& modulus : changed.dilatation.modulus) modulus *= factor;
   return changed;
 }
 

@@ -1,11 +1,14 @@
 #include "elastic/stable_step.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
+#include "elastic/stiffness.hpp"
+#include "tests/support/dilatation.hpp"
 #include "tests/support/lattices.hpp"
 
 namespace springlod::elastic {
@@ -61,6 +64,67 @@ TEST_CASE("frequency_bound is nearly attained in a lattice") {
   const MassSpringModel m = box_lattice(10, 10, 10);
   CHECK(frequency_bound(m) == Approx(std::sqrt(12.0)).epsilon(1e-12));
   CHECK(largest_frequency(m) > 0.95 * frequency_bound(m));
+}
+
+TEST_CASE("Dilatation terms raise the largest frequency, and its bounds stay above it") {
+  const MassSpringModel m =
+      GENERATE(test::lattice_with_terms(5, 5, 5), test::random_model_with_terms(6, 4, false));
+  const Eigen::MatrixXd k(stiffness_matrix(m));
+  Eigen::VectorXd root(k.rows());
+  for (std::uint32_t i = 0; i < m.node_count(); ++i)
+    root.segment<3>(3 * i).setConstant(1 / std::sqrt(m.mass[i]));
+  const Eigen::MatrixXd scaled = root.asDiagonal() * k * root.asDiagonal();
+  const double exact =
+      std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly)
+                    .eigenvalues()
+                    .maxCoeff());
+  CHECK(largest_frequency(m) == Approx(exact).epsilon(1.1e-4));
+  CHECK(largest_frequency(m) >= exact * (1 - 1e-12));
+  CHECK(frequency_bound(m) >= exact);
+  CHECK(frequency_bound(m) < 1.6 * exact);
+  MassSpringModel springs = m;
+  springs.dilatation = {};
+  CHECK(largest_frequency(springs) < exact);
+  const std::vector<double> bounds = node_frequency_bounds(m, m.rest);
+  CHECK(*std::max_element(bounds.begin(), bounds.end()) >= exact * exact);
+  MassSpringModel damped = m;
+  damped.dilatation.damping_time[1] = 0.3;
+  CHECK(largest_damping_time(damped) == 0.3);
+}
+
+TEST_CASE("The bounds of a strained body with terms are above its largest frequency") {
+  const MassSpringModel m =
+      GENERATE(test::lattice_with_terms(3, 3, 3), test::random_model_with_terms(7, 3, true));
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    std::vector<Vec3> x = m.rest;
+    const std::vector<Vec3> moves = test::random_vectors(seed, x.size(), 0.25);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += moves[i];
+    // The second derivative of the energy of the terms, by finite differences; springs cannot have
+    // more than their bound.
+    MassSpringModel terms = m;
+    for (double& stiffness : terms.stiffness) stiffness = 1e-9;
+    const auto energy = [&](const Eigen::VectorXd& direction, double h) {
+      std::vector<Vec3> at = x;
+      for (std::size_t i = 0; i < at.size(); ++i)
+        at[i] += h * direction.segment<3>(3 * static_cast<Eigen::Index>(i));
+      return dilatation_energy(m.dilatation, at);
+    };
+    const std::vector<double> bounds = node_frequency_bounds(terms, x);
+    const std::vector<Vec3> random = test::random_vectors(seed + 100, x.size(), 1);
+    Eigen::VectorXd direction(3 * m.node_count());
+    double kinetic = 0;
+    for (std::uint32_t i = 0; i < m.node_count(); ++i) {
+      direction.segment<3>(3 * i) = random[i];
+      kinetic += bounds[i] * m.mass[i] * random[i].squaredNorm();
+    }
+    constexpr double h = 1e-4;
+    const double curvature =
+        (energy(direction, h) + energy(direction, -h) - 2 * energy(direction, 0)) / (h * h);
+    CHECK(curvature <= kinetic * (1 + 1e-3));
+    const std::vector<double> strained = strained_frequency_bounds(terms, x, 1e-3);
+    for (std::uint32_t i = 0; i < m.node_count(); ++i)
+      if (strained[i] > 0) CHECK(strained[i] == Approx(bounds[i]));
+  }
 }
 
 TEST_CASE("The largest frequency is that of the stiffest connected component") {

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "elastic/moduli.hpp"
+#include "tests/support/dilatation.hpp"
 #include "tests/support/lattices.hpp"
 
 namespace springlod::elastic {
@@ -42,6 +43,37 @@ TEST_CASE("The stiffness matrix is the second derivative of the elastic energy")
   for (std::uint32_t i = 0; i < m.node_count(); ++i) twice_energy += u[i].dot(f[i]);
   const double h = 1e-4;
   CHECK(twice_energy == Approx((energy(m, u, h) + energy(m, u, -h)) / (h * h)).epsilon(1e-5));
+}
+
+TEST_CASE("Dilatation terms are in the assembled matrix, which is the derivative of their energy") {
+  const MassSpringModel m =
+      GENERATE(test::lattice_with_terms(3, 3, 2), test::random_model_with_terms(5, 3));
+  const auto u = some_displacements(m.node_count());
+  std::vector<Vec3> f;
+  apply_stiffness(m, u, f);
+  Eigen::VectorXd flat(3 * m.node_count());
+  for (std::uint32_t i = 0; i < m.node_count(); ++i) flat.segment<3>(3 * i) = u[i];
+  const Eigen::MatrixXd k(stiffness_matrix(m));
+  const Eigen::VectorXd product = k * flat;
+  double twice_energy = 0;
+  for (std::uint32_t i = 0; i < m.node_count(); ++i) {
+    CHECK((product.segment<3>(3 * i) - f[i]).norm() < 1e-12 * product.norm());
+    twice_energy += u[i].dot(f[i]);
+  }
+  CHECK((k - k.transpose()).norm() < 1e-14 * k.norm());
+  MassSpringModel springs = m;
+  springs.dilatation = {};
+  apply_stiffness(springs, u, f);
+  double springs_alone = 0;
+  for (std::uint32_t i = 0; i < m.node_count(); ++i) springs_alone += u[i].dot(f[i]);
+  const double h = 1e-4;
+  const auto terms_at = [&](double scale) {
+    std::vector<Vec3> x = m.rest;
+    for (std::uint32_t i = 0; i < m.node_count(); ++i) x[i] += scale * u[i];
+    return dilatation_energy(m.dilatation, x);
+  };
+  CHECK(twice_energy - springs_alone ==
+        Approx((terms_at(h) + terms_at(-h)) / (h * h)).epsilon(1e-4));
 }
 
 TEST_CASE("The assembled matrix is symmetric and agrees with apply_stiffness") {

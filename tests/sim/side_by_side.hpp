@@ -16,12 +16,15 @@
 /// Compares steppers in a scene with all kinds of contact.
 namespace springlod::test {
 
-/// A block of cells of two materials with a notch.
-inline MassSpringModel two_material_block(int side) {
+/// A block of cells of two materials with a notch, with these Poisson's ratios.
+inline MassSpringModel two_material_block(int side, double soft_poisson = kSpringPoisson,
+                                          double hard_poisson = kSpringPoisson) {
   voxelize::MaterialGrid grid;
   grid.cell = 0.01;
   grid.materials = {Material{.name = "soft", .young = 1e5, .damping = 0.002},
                     Material{.name = "hard", .young = 8e5, .damping = 0.001}};
+  grid.materials[0].poisson = soft_poisson;
+  grid.materials[1].poisson = hard_poisson;
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side + 1; ++y)
       for (int x = 0; x < side + 3; ++x) {

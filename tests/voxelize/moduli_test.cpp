@@ -2,10 +2,13 @@
 
 #include "elastic/moduli.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "elastic/elastic_body.hpp"
+#include "elastic/modes.hpp"
 #include "elastic/zero_modes.hpp"
 #include "tests/voxelize/grids.hpp"
 #include "voxelize/lattice/lattice.hpp"
@@ -39,6 +42,51 @@ TEST_CASE("A stretched corners bar of one material has its E and nu = 1/4") {
   // Exact (docs/method.md, eq. 4).
   CHECK(r.young == Approx(kYoung).epsilon(1e-7));
   CHECK(r.poisson == Approx(0.25).margin(1e-7));
+}
+
+TEST_CASE("A stretched corners bar has the E and nu that its material asks for") {
+  const double nu = GENERATE(-0.2, -0.1, 0., 0.1, 0.3, 0.4, 0.45, 0.49, 0.495);
+  const bool two = GENERATE(false, true);
+  MaterialGrid grid = bar(4, 3, 8, 1e6, 3e6);
+  for (Material& material : grid.materials) material.poisson = nu;
+  if (two)
+    for (std::size_t c = 0; c < grid.cells.size(); ++c) grid.material[c] = grid.cells[c][0] < 1;
+  const MassSpringModel model = lattice(grid);
+  const elastic::StretchResult r = elastic::stretch_test(model);
+  const double young = two ? 0.75 * 1e6 + 0.25 * 3e6 : 1e6;
+  CHECK(r.young == Approx(young).epsilon(1e-6));
+  CHECK(r.poisson == Approx(nu).margin(1e-6));
+  CHECK(model.dilatation.count() == grid.cells.size());
+  // Terms add no mechanism, and negative ones make none.
+  CHECK(elastic::elastic_body(model).zero_mode_count() == 6);
+  CHECK(elastic::lowest_modes(model, {.count = 1}).modes.front().angular_frequency > 0);
+}
+
+TEST_CASE("A centers lattice has a term for each node, and nu inside") {
+  MaterialGrid grid = bar(7, 7, 24);
+  grid.materials[0].poisson = 0.45;
+  const MassSpringModel model = lattice(grid, LatticeStyle::centers);
+  CHECK(model.dilatation.count() == model.node_count());
+  CHECK(elastic::stretch_test(model).poisson == Approx(0.45).margin(0.02));
+}
+
+TEST_CASE("Cells with and without terms stand side by side") {
+  MaterialGrid grid = bar(4, 2, 2);
+  grid.materials[1].poisson = 0.4;
+  for (std::size_t c = 0; c < grid.cells.size(); ++c) grid.material[c] = grid.cells[c][0] < 1;
+  const MassSpringModel model = lattice(grid);
+  CHECK(model.dilatation.count() == 4);
+  for (std::uint32_t t = 0; t < 4; ++t)
+    CHECK(model.dilatation.modulus[t] ==
+          Approx(dilatation_modulus(grid.materials[1]) * std::pow(kCell, 3)));
+}
+
+TEST_CASE("Separated hinges keep the terms of their cells") {
+  MaterialGrid grid = grid_of({{0, 0, 0}, {1, 1, 0}}, kCell);
+  grid.materials[0].poisson = 0.4;
+  const MassSpringModel model = build_lattice(grid, {.hinges = HingePolicy::separate}).model;
+  CHECK(connected_components(model).count == 2);
+  CHECK(model.dilatation.count() == 2);
 }
 
 TEST_CASE("A stretched corners body of any cross-section has its E") {

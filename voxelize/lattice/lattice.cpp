@@ -11,6 +11,7 @@
 #include "voxelize/cell_material.hpp"
 #include "voxelize/enough_memory.hpp"
 #include "voxelize/index_lookup.hpp"
+#include "voxelize/lattice/cell_dilatation.hpp"
 #include "voxelize/lattice/corner_nodes.hpp"
 #include "voxelize/lattice/corner_young.hpp"
 #include "voxelize/lattice/hinges.hpp"
@@ -25,7 +26,7 @@ constexpr double kEdgeShare = 0.25;
 constexpr double kDiagonalShare = 0.5;
 
 double cell_stiffness(const Material& material, double cell) {
-  return material.young * cell / kYoungPerStiffness;
+  return spring_young(material) * cell / kYoungPerStiffness;
 }
 
 Vec3 corner_position(const MaterialGrid& grid, const CellIndex& at) {
@@ -148,6 +149,7 @@ MassSpringModel corners_model(const MaterialGrid& grid, const CornerNodes& nodes
     gather_springs(grid, nodes, node, sums);
     for (const SpringSum& sum : sums) add_spring(model, node, sum.to, sum.k, sum.c);
   }
+  model.dilatation = cell_terms(grid, nodes);
   if (!volumes) return model;
   model.corners.reserve(8 * grid.cells.size());
   for (std::uint32_t node = 0; node < count; ++node) add_cell_corners(grid, nodes, node, model);
@@ -253,6 +255,7 @@ MassSpringModel centers_model(const MaterialGrid& grid, bool volumes) {
               : series(here, grid.materials[grid.material[other]], grid.cell);
       add_spring(model, n, other, spring.k, spring.c);
     }
+  model.dilatation = center_terms(model);
   if (volumes)
     for (std::uint32_t n = 0; n < model.node_count(); ++n)
       add_center_corners(grid, lookup, n, model);

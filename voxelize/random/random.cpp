@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "elastic/moduli.hpp"
+#include "model/node_dilatation.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/random/random_corners.hpp"
 #include "voxelize/random/random_nodes.hpp"
@@ -116,6 +117,9 @@ std::vector<Vec3> share_surface(const GridSamples& samples, double spacing,
 struct Measured {
   double young = 0;  // as a fraction of the target
   double poisson = 0;
+
+  double shear() const { return young / (2 * (1 + poisson)); }
+  double bulk() const { return young / (3 * (1 - 2 * poisson)); }
 };
 
 bool is_box(const MaterialGrid& grid) {
@@ -145,14 +149,15 @@ Measured measure(const MaterialGrid& grid, const MassSpringModel& model,
   return mean;
 }
 
-struct PairMaterial {
+/// What the springs of a material, or between two materials, are made of.
+struct SpringMaterial {
   double young = 0;
   double damping = 0;
 };
 
 /// Two half springs in series, as in a `centers` lattice (docs/method.md, eq. 8).
-PairMaterial series(const Material& m1, const Material& m2) {
-  if (m1.young == m2.young && m1.damping == m2.damping) return {m1.young, m1.damping};
+SpringMaterial series(const SpringMaterial& m1, const SpringMaterial& m2) {
+  if (m1.young == m2.young && m1.damping == m2.damping) return m1;
   const double sum = m1.young + m2.young;
   return {2 * m1.young * m2.young / sum, (m1.damping * m2.young + m2.damping * m1.young) / sum};
 }
@@ -168,13 +173,119 @@ void add_unit_springs(const std::vector<NodePair>& pairs, MassSpringModel& model
   }
 }
 
-void apply_materials(double factor, MassSpringModel& model) {
+/// Factors with which the network has the moduli of a material, and the moduli measured with them.
+struct Rescaling {
+  double springs = 1;
+  double terms = 1;
+  double eq2_young = 0;  // measured without the factors
+  Measured measured;
+};
+
+/// The dilatation terms of a network of unit springs for one material, E = 1 Pa.
+DilatationTerms unit_terms(const MassSpringModel& unit, const Material& material, double factor) {
+  std::vector<NodeDilatation> of_nodes;
+  for (const double volume : unit.volume)
+    of_nodes.push_back({factor * dilatation_modulus(material) * volume, 0});
+  return node_terms(unit, of_nodes);
+}
+
+Measured measure_with(const MaterialGrid& grid, const MassSpringModel& unit,
+                      const std::vector<Vec3>& surface, const Material& material,
+                      const Rescaling& factors) {
+  MassSpringModel model = unit;
+  for (double& k : model.stiffness) k *= factors.springs * spring_young(material);
+  model.dilatation = unit_terms(unit, material, factors.terms);
+  return measure(grid, model, surface);
+}
+
+/// Nodes do not move affinely, by which springs lose more than terms do: both factors follow from
+/// the shear and the bulk modulus measured with the last ones.
+void fit_factors(const MaterialGrid& grid, const MassSpringModel& unit,
+                 const std::vector<Vec3>& surface, const Material& material, Rescaling& factors) {
+  constexpr int kMostTests = 12;
+  constexpr double kCloseYoung = 2e-3, kClosePoisson = 1e-3;
+  constexpr double kMostChange = 2;  // of the factor of the terms in one test
+  const Measured wanted{1, material.poisson};
+  const double modulus = dilatation_modulus(material);
+  for (int test = 0; test < kMostTests; ++test) {
+    Measured& found = factors.measured;
+    if (std::abs(found.young - 1) < kCloseYoung &&
+        std::abs(found.poisson - material.poisson) < kClosePoisson)
+      return;
+    // A test may show more than 1/2, where the bulk modulus has no meaning.
+    constexpr double kMostPoisson = 0.4995;
+    const Measured sound{found.young, std::min(found.poisson, kMostPoisson)};
+    const double shear = wanted.shear() / sound.shear();
+    const double missing = wanted.bulk() - shear * sound.bulk();
+    const double change = (shear * factors.terms * modulus + missing) / (factors.terms * modulus);
+    factors.springs *= shear;
+    factors.terms *= std::clamp(change, 1 / kMostChange, kMostChange);
+    found = measure_with(grid, unit, surface, material, factors);
+  }
+}
+
+/// One test serves all materials with the ratio of springs.
+std::vector<Rescaling> rescalings(const MaterialGrid& grid, const MassSpringModel& unit,
+                                  const std::vector<Vec3>& surface, bool rescale) {
+  std::vector<Rescaling> all;
+  for (std::size_t m = 0; m < grid.materials.size(); ++m) {
+    Material material = grid.materials[m];
+    const auto same = std::find_if(
+        grid.materials.begin(), grid.materials.begin() + static_cast<std::ptrdiff_t>(m),
+        [&](const Material& other) { return other.poisson == material.poisson; });
+    const auto before = static_cast<std::size_t>(same - grid.materials.begin());
+    if (before < m) {
+      all.push_back(all[before]);
+      continue;
+    }
+    material.young = 1;
+    Rescaling& factors = all.emplace_back();
+    factors.measured = measure_with(grid, unit, surface, material, factors);
+    factors.eq2_young = factors.measured.young;
+    if (!rescale) continue;
+    if (material.poisson == kSpringPoisson) {
+      factors.springs = 1 / factors.measured.young;
+      factors.measured.young *= factors.springs;
+    } else {
+      fit_factors(grid, unit, surface, material, factors);
+    }
+  }
+  return all;
+}
+
+std::vector<std::uint32_t> nodes_of_materials(const MassSpringModel& model) {
+  std::vector<std::uint32_t> count(model.materials.size(), 0);
+  for (const std::uint32_t m : model.material) ++count[m];
+  return count;
+}
+
+void apply_materials(const std::vector<Rescaling>& factors, MassSpringModel& model) {
+  const auto springs_of = [&](std::uint32_t node) {
+    const Material& material = model.materials[model.material[node]];
+    return SpringMaterial{spring_young(material), material.damping};
+  };
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    const PairMaterial pair = series(model.materials[model.material[model.a[s]]],
-                                     model.materials[model.material[model.b[s]]]);
+    SpringMaterial a = springs_of(model.a[s]);
+    SpringMaterial b = springs_of(model.b[s]);
+    double factor = factors[model.material[model.a[s]]].springs;
+    const double other = factors[model.material[model.b[s]]].springs;
+    if (factor != other) {
+      a.young *= factor;
+      b.young *= other;
+      factor = 1;
+    }
+    const SpringMaterial pair = series(a, b);
     model.stiffness[s] *= factor * pair.young;
     model.damping[s] = pair.damping * model.stiffness[s];
   }
+  std::vector<NodeDilatation> of_nodes;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    const Material& material = model.materials[model.material[i]];
+    of_nodes.push_back(
+        {factors[model.material[i]].terms * dilatation_modulus(material) * model.volume[i],
+         material.damping});
+  }
+  model.dilatation = node_terms(model, of_nodes);
 }
 
 void count_ends(RandomModel& random) {
@@ -209,12 +320,16 @@ RandomModel build_random(const MaterialGrid& grid, const RandomOptions& options)
   random.components = connected_components(model).count;
   count_ends(random);
 
-  const Measured measured = measure(grid, model, surface);
-  random.eq2_young = measured.young;
-  random.poisson = measured.poisson;
-  if (options.rescale) random.rescaled = 1 / measured.young;
-  random.young = measured.young * random.rescaled;
-  apply_materials(random.rescaled, model);
+  const std::vector<Rescaling> factors = rescalings(grid, model, surface, options.rescale);
+  const std::vector<std::uint32_t> nodes_of = nodes_of_materials(model);
+  const Rescaling& main = factors[static_cast<std::size_t>(
+      std::max_element(nodes_of.begin(), nodes_of.end()) - nodes_of.begin())];
+  random.eq2_young = main.eq2_young;
+  random.young = main.measured.young;
+  random.poisson = main.measured.poisson;
+  random.rescaled = main.springs;
+  random.rescaled_terms = main.terms;
+  apply_materials(factors, model);
   if (options.volumes) model.corners = choose_corners(model);
   return random;
 }

@@ -25,7 +25,8 @@ struct RandomOptions {
   /// nodes need 14 too, so a model that is mostly surface has a higher mean than 14.
   double ends = 18;
   std::uint64_t seed = 1;
-  /// Scale all springs by one factor, measured by a stretch test.
+  /// Scale all springs by one factor, measured by a stretch test; with a Poisson's ratio other than
+  /// 1/4, springs and dilatation terms by two, until E and nu are those of the material.
   bool rescale = true;
   /// Whether the model gets corners (choose_corners of voxelize/random_corners.hpp).
   bool volumes = true;
@@ -52,15 +53,17 @@ constexpr auto option_rows(const RandomOptions*) {
       option("volumes", &RandomOptions::volumes, kVolumesHelp));
 }
 
-/// A random model and the measured moduli of its network, taken with one material for all springs:
-/// in a box of cells the means of the stretch tests along its three edges, in any other shape those
-/// of surface_stretch. Young's moduli are fractions of the target.
+/// A random model and the measured moduli of its network, taken with one material for all springs,
+/// the one with most of the volume: in a box of cells the means of the stretch tests along its
+/// three edges, in any other shape those of surface_stretch. Young's moduli are fractions of the
+/// target.
 struct RandomModel {
   MassSpringModel model;
-  double eq2_young = 0;  ///< before rescaling, with k by eq. 2
-  double young = 0;      ///< after rescaling: 1 up to the solver's residual
-  double poisson = 0;    ///< rescaling does not change it
-  double rescaled = 1;   ///< factor of all stiffnesses and damping coefficients
+  double eq2_young = 0;       ///< before rescaling, with k by eq. 2
+  double young = 0;           ///< after rescaling: 1 up to the solver's residual, without terms
+  double poisson = 0;         ///< after rescaling
+  double rescaled = 1;        ///< factor of all stiffnesses and damping coefficients
+  double rescaled_terms = 1;  ///< factor of the moduli of all dilatation terms
   double mean_ends = 0;
   std::uint32_t least_ends = 0;
   std::uint32_t components = 0;  ///< number of connected components
@@ -70,9 +73,10 @@ struct RandomModel {
 /// its surface, each connected with its nearest ones. Masses, volumes and contact areas are those
 /// of small samples of the cells and exposed faces: each sample belongs to its nearest node (faces:
 /// surface node), so the sums are those of the grid. k satisfies eq. 2 at each node
-/// (unit_stiffness) and is then multiplied by one factor for the whole network. Between two
-/// materials E is the harmonic mean, as in a `centers` lattice. The material of a node is that of
-/// most of its volume. Border nodes are the nodes on the surface.
+/// (unit_stiffness) and is then multiplied by one factor for the whole network; a node of a
+/// material with nu other than 1/4 has a dilatation term, and then each nu has its own two factors.
+/// Between two materials E is the harmonic mean, as in a `centers` lattice. The material of a node
+/// is that of most of its volume. Border nodes are the nodes on the surface.
 ///
 /// Nodes are in the order (z, y, x). The same seed gives the same bits. Throws InputError: an empty
 /// grid, fewer than 15 nodes or more than the cells have room for, fewer than 14 ends.

@@ -18,6 +18,7 @@ MaterialInput read_material(Call& call, int index, const std::string& owner,
   reader.read("density", material.density);
   reader.read("damping", material.damping);
   reader.read("damping_ratio", input.damping_ratio);
+  reader.read("poisson", material.poisson);
   reader.read("colour", material.colour);
   reader.finish();
   if (reader.has("damping") && reader.has("damping_ratio"))
@@ -53,6 +54,7 @@ void push_material(lua_State* L, const Material& material) {
   begin_table(L);
   set_field(L, "name", material.name);
   set_field(L, "young", material.young);
+  set_field(L, "poisson", material.poisson);
   set_field(L, "density", material.density);
   set_field(L, "damping", material.damping);
   // Single precision shown as double would read 0.699999988.

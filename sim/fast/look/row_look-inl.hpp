@@ -24,11 +24,6 @@ namespace springlod::sim::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <class D>
-HWY_INLINE Vector3<D> cross(const Vector3<D>& p, const Vector3<D>& q) {
-  return {hn::NegMulAdd(p.z, q.y, hn::Mul(p.y, q.z)), hn::NegMulAdd(p.x, q.z, hn::Mul(p.z, q.x)),
-          hn::NegMulAdd(p.y, q.x, hn::Mul(p.x, q.y))};
-}
 template <class Real>
 Vec3 departure(const RowLayout<Real>& layout, std::uint32_t number, double drift,
                const RigidMotion& motion, const RowState<Real>& state) {

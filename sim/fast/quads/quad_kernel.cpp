@@ -14,6 +14,7 @@
 #include "sim/fast/move-inl.hpp"
 #include "sim/fast/quads/quad_copies-inl.hpp"
 #include "sim/fast/quads/quad_forces-inl.hpp"
+#include "sim/fast/quads/quad_terms-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace springlod::sim::HWY_NAMESPACE {
@@ -29,10 +30,13 @@ void find_forces(const QuadLayout<Real>& layout, std::uint32_t number, QuadState
   std::fill(own.forces.begin(), own.forces.end(), NodeVector<Real>{});
   std::fill(own.damping_forces.begin(), own.damping_forces.end(), NodeVector<Real>{});
   const auto damping_time = static_cast<Real>(layout.damping_time);
-  if (own.damping_forces.empty())
+  if (own.damping_forces.empty()) {
     add_forces<false>(block, damping_time, own);
-  else
+    add_terms<false>(block.dilatation, own);
+  } else {
     add_forces<true>(block, damping_time, own);
+    add_terms<true>(block.dilatation, own);
+  }
 }
 
 /// Adds the forces of other blocks on their copies of this block's nodes.

@@ -71,10 +71,12 @@ class Laying {
         order_(order_in_blocks(model.rest, block_nodes)),
         rank_(model.node_count()),
         block_of_(model.node_count()),
-        damping_time_(common_damping_time(model)) {
+        damping_time_(common_damping_time(model)),
+        terms_of_(order_.first.size() - 1) {
     for (std::uint32_t i = 0; i < model.node_count(); ++i) rank_[order_.point[i]] = i;
     for (std::uint32_t b = 0; b + 1 < order_.first.size(); ++b)
       std::fill(block_of_.begin() + order_.first[b], block_of_.begin() + order_.first[b + 1], b);
+    assign_terms();
   }
 
   /// No value if a block has too many neighbours for its indices.
@@ -115,6 +117,9 @@ class Laying {
     for (std::uint32_t i = 0; i < block.own; ++i)
       for (const HalfSpring& half : springs[first + i])
         if (block_of_[half.other] != number) halo.emplace(half.other, 0);
+    for (const std::uint32_t term : terms_of_[number])
+      for (const std::uint32_t node : model_.dilatation.nodes(term))
+        if (block_of_[rank_[node]] != number) halo.emplace(rank_[node], 0);
     for (auto& [rank, index] : halo) {
       index = block.nowhere();
       block.halo.push_back(place(rank));
@@ -135,7 +140,40 @@ class Laying {
         add_spring((quads - 1) * kQuad + s % kQuad, index_of(own[s].other), own[s].spring, block);
       }
     }
+    for (const std::uint32_t term : terms_of_[number])
+      add_term(
+          term, [&](std::uint32_t node) { return index_of(rank_[node]); }, block.dilatation);
     return true;
+  }
+
+  /// Terms of a block follow its nodes.
+  void assign_terms() {
+    const auto middle = [&](std::uint32_t term) {
+      const auto nodes = model_.dilatation.nodes(term);
+      return rank_[nodes[nodes.size() / 2]];
+    };
+    for (std::uint32_t t = 0; t < model_.dilatation.count(); ++t)
+      terms_of_[block_of_[middle(t)]].push_back(t);
+    for (std::vector<std::uint32_t>& terms : terms_of_)
+      std::stable_sort(terms.begin(), terms.end(),
+                       [&](std::uint32_t l, std::uint32_t r) { return middle(l) < middle(r); });
+  }
+
+  template <class IndexOf>
+  void add_term(std::uint32_t term, const IndexOf& index_of, QuadTerms<Real>& to) const {
+    const DilatationTerms& terms = model_.dilatation;
+    const auto nodes = terms.nodes(term);
+    to.terms.push_back(
+        {.modulus = static_cast<Real>(terms.modulus[term]),
+         .damping = static_cast<Real>(terms.modulus[term] * terms.damping_time[term]),
+         .first = static_cast<std::uint32_t>(to.entries.size()),
+         .number = static_cast<std::uint32_t>(nodes.size())});
+    for (std::size_t e = 0; e < nodes.size(); ++e) {
+      auto& entry = to.entries.emplace_back();
+      for (int axis = 0; axis < 3; ++axis)
+        entry.gradient[axis] = static_cast<Real>(terms.gradients(term)[e][axis]);
+      entry.index = scaled(index_of(nodes[e]));
+    }
   }
 
   /// A pair of quads that consist of gaps, to be filled with springs.
@@ -166,6 +204,7 @@ class Laying {
   std::vector<std::uint32_t> rank_;      // node -> rank
   std::vector<std::uint32_t> block_of_;  // by rank
   std::optional<double> damping_time_;
+  std::vector<std::vector<std::uint32_t>> terms_of_;  // by block
 };
 
 }  // namespace

@@ -39,6 +39,22 @@ struct CornerEight {
   Real offset[2 * kQuad] = {};            ///< [m]
 };
 
+/// Dilatation terms of a block, as one stream through memory.
+template <class Real>
+struct QuadTerms {
+  struct Term {
+    Real modulus = 0;                     ///< T [J]
+    Real damping = 0;                     ///< beta T [J s]
+    std::uint32_t first = 0, number = 0;  ///< entries
+  };
+  struct Entry {
+    Real gradient[3] = {};    ///< b [1/m]
+    std::uint32_t index = 0;  ///< of the node in the block, scaled as in QuadPair
+  };
+  std::vector<Term> terms;
+  std::vector<Entry> entries;
+};
+
 /// Neighbouring nodes and the springs that this block computes. The four springs of a *quad* share
 /// an own node; their other ends are own nodes or copies of other blocks' nodes (the *halo*).
 ///
@@ -53,6 +69,8 @@ struct QuadBlock {
 
   std::vector<QuadPair<Real>> pairs;
   std::vector<std::array<Real, 2 * kQuad>> damping;  ///< c [N s/m] by pair; empty if damping_time k
+
+  QuadTerms<Real> dilatation;  ///< those whose middle entry is an own node
 
   std::vector<CornerEight<Real>> corners;    ///< those whose node[0] is an own node
   std::vector<std::uint32_t> corner_number;  ///< in the model, by corner; or kNoCorner

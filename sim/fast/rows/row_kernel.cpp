@@ -11,6 +11,7 @@
 #include "sim/fast/inverse_root-inl.hpp"
 #include "sim/fast/look/row_look-inl.hpp"
 #include "sim/fast/move-inl.hpp"
+#include "sim/fast/rows/row_terms-inl.hpp"
 #include "sim/fast/rows/row_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -157,10 +158,13 @@ void move(const RowLayout<Real>& layout, std::uint32_t number, double kick, doub
 
 template <class Real>
 void find_all_forces(const RowLayout<Real>& layout, std::uint32_t block, RowState<Real>& state) {
-  if (state.damping_force.empty())
+  if (state.damping_force.empty()) {
     find_forces<false>(layout, block, state);
-  else
+    add_terms<false>(layout, block, state);
+  } else {
     find_forces<true>(layout, block, state);
+    add_terms<true>(layout, block, state);
+  }
 }
 
 template <class Real>

@@ -96,6 +96,78 @@ void lay_rows(const MassSpringModel& model, const std::vector<PlacedSpring>& spr
   layout.first_row.push_back(static_cast<std::uint32_t>(layout.rows.size()));
 }
 
+/// A dilatation term between places.
+template <class Real>
+struct PlacedTerm {
+  std::uint32_t first = 0;
+  std::array<std::uint32_t, kCellNodes> ahead = {};
+  std::uint32_t shape = 0;
+  std::uint32_t term = 0;
+
+  bool same_row(const PlacedTerm& other) const {
+    return first / kRowLanes == other.first / kRowLanes && ahead == other.ahead &&
+           shape == other.shape;
+  }
+};
+
+/// Sorted by the eight places in which they begin.
+template <class Real>
+std::vector<PlacedTerm<Real>> place_terms(const MassSpringModel& model,
+                                          const std::vector<std::uint32_t>& order,
+                                          std::vector<TermShape<Real>>& shapes) {
+  const DilatationTerms& terms = model.dilatation;
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t p = 0; p < order.size(); ++p) place[order[p]] = p;
+  Palette palette(shapes);
+  std::vector<PlacedTerm<Real>> placed;
+  for (std::uint32_t t = 0; t < terms.count(); ++t) {
+    std::array<std::pair<std::uint32_t, std::size_t>, kCellNodes> nodes;  // place, entry
+    for (std::size_t e = 0; e < kCellNodes; ++e) nodes[e] = {place[terms.nodes(t)[e]], e};
+    std::sort(nodes.begin(), nodes.end());
+    PlacedTerm<Real>& to = placed.emplace_back();
+    to.first = nodes.front().first;
+    to.term = t;
+    TermShape<Real> shape;
+    for (std::size_t e = 0; e < kCellNodes; ++e) {
+      to.ahead[e] = nodes[e].first - to.first;
+      for (int axis = 0; axis < 3; ++axis)
+        shape.gradient[e][axis] = static_cast<Real>(terms.gradients(t)[nodes[e].second][axis]);
+    }
+    to.shape = palette.number(shape);
+  }
+  std::sort(placed.begin(), placed.end(), [](const auto& p, const auto& q) {
+    return std::tuple(p.first / kRowLanes, p.ahead, p.shape, p.first) <
+           std::tuple(q.first / kRowLanes, q.ahead, q.shape, q.first);
+  });
+  return placed;
+}
+
+template <class Real>
+void lay_terms(const MassSpringModel& model, RowLayout<Real>& layout) {
+  const DilatationTerms& terms = model.dilatation;
+  if (terms.empty()) return;
+  RowTerms<Real>& to = layout.dilatation;
+  const std::vector<PlacedTerm<Real>> placed = place_terms(model, layout.node, to.shapes);
+  Palette palette(to.properties);
+  auto next = placed.begin();
+  const auto eights = static_cast<std::uint32_t>(layout.inverse_mass.size()) / kRowLanes;
+  for (std::uint32_t eight = 0; eight < eights; ++eight) {
+    to.first_row.push_back(static_cast<std::uint32_t>(to.rows.size()));
+    while (next != placed.end() && next->first / kRowLanes == eight) {
+      const PlacedTerm<Real>& leader = *next;
+      TermProperties<Real> row;
+      for (; next != placed.end() && next->same_row(leader); ++next) {
+        const std::uint32_t lane = next->first % kRowLanes;
+        row.modulus[lane] = static_cast<Real>(terms.modulus[next->term]);
+        row.damping[lane] =
+            static_cast<Real>(terms.modulus[next->term] * terms.damping_time[next->term]);
+      }
+      to.rows.push_back({leader.ahead, palette.number(row), leader.shape});
+    }
+  }
+  to.first_row.push_back(static_cast<std::uint32_t>(to.rows.size()));
+}
+
 template <class Real>
 RowLengths<Real> lengths_of(const RowProperties<Real>& properties) {
   RowLengths<Real> lengths;
@@ -120,6 +192,7 @@ void cut_blocks(RowLayout<Real>& layout) {
   const auto n = static_cast<std::uint32_t>(layout.node.size());
   std::uint32_t farthest = 0;
   for (const SpringRow& row : layout.rows) farthest = std::max(farthest, row.ahead);
+  for (const TermRow& row : layout.dilatation.rows) farthest = std::max(farthest, row.ahead.back());
   // An even number of blocks of equal size, so that two threads get equal work.
   const std::uint32_t count = n / std::max(kBlockNodes, kBlocksReach * farthest);
   layout.block_places = whole_rows((n - 1) / std::max(1U, count - count % 2) + 1);
@@ -128,9 +201,7 @@ void cut_blocks(RowLayout<Real>& layout) {
     RowBlock block{first, std::min(layout.block_places, n - first), 0};
     std::uint32_t end = first + block.places();
     for (std::uint32_t p = first; p < first + block.own; p += kRowLanes)
-      for (std::uint32_t r = layout.first_row[p / kRowLanes];
-           r < layout.first_row[p / kRowLanes + 1]; ++r)
-        end = std::max(end, p + kRowLanes + layout.rows[r].ahead);
+      end = std::max(end, p + kRowLanes + layout.farthest_ahead(p / kRowLanes));
     block.reach = whole_rows(end - (first + block.places()));
     for (std::uint32_t i = 0; i < block.own; ++i)
       layout.place[layout.node[first + i]] = {static_cast<std::uint32_t>(layout.blocks.size()), i};
@@ -140,6 +211,24 @@ void cut_blocks(RowLayout<Real>& layout) {
 }
 
 }  // namespace
+
+template <class Real>
+std::uint32_t RowLayout<Real>::farthest_ahead(std::uint32_t eight) const {
+  std::uint32_t farthest = 0;
+  for (std::uint32_t r = first_row[eight]; r < first_row[eight + 1]; ++r)
+    farthest = std::max(farthest, rows[r].ahead);
+  if (dilatation.first_row.empty()) return farthest;
+  for (std::uint32_t r = dilatation.first_row[eight]; r < dilatation.first_row[eight + 1]; ++r)
+    farthest = std::max(farthest, dilatation.rows[r].ahead.back());
+  return farthest;
+}
+
+bool has_terms_of_cells(const MassSpringModel& model) {
+  const DilatationTerms& terms = model.dilatation;
+  for (std::uint32_t t = 0; t < terms.count(); ++t)
+    if (terms.nodes(t).size() != kCellNodes) return false;
+  return true;
+}
 
 template <class Real>
 RowLayout<Real> make_row_layout(const MassSpringModel& model) {
@@ -152,6 +241,7 @@ RowLayout<Real> make_row_layout(const MassSpringModel& model) {
   lay_rows(model, place_springs(model, layout.node), layout);
   for (const RowProperties<Real>& each : layout.properties)
     layout.lengths.push_back(lengths_of(each));
+  lay_terms(model, layout);
   cut_blocks(layout);
   return layout;
 }

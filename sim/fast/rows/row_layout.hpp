@@ -27,6 +27,40 @@ struct RowProperties {
   bool operator==(const RowProperties&) const = default;
 };
 
+/// Nodes of the dilatation term of a cell.
+inline constexpr std::uint32_t kCellNodes = 8;
+
+/// The dilatation terms of eight cells, whose first nodes are at consecutive places.
+struct TermRow {
+  std::array<std::uint32_t, kCellNodes> ahead = {};  ///< places of the nodes after the first
+  std::uint32_t properties = 0;                      ///< index into RowTerms::properties
+  std::uint32_t shape = 0;                           ///< index into RowTerms::shapes
+};
+
+/// Moduli of the eight terms of a row; all 0 for a missing term.
+template <class Real>
+struct TermProperties {
+  Real modulus[kRowLanes] = {};  ///< T [J]
+  Real damping[kRowLanes] = {};  ///< beta T [J s]
+  bool operator==(const TermProperties&) const = default;
+};
+
+/// b [1/m] of the nodes of the cells of a row, which they share, in the order of the places.
+template <class Real>
+struct TermShape {
+  Real gradient[kCellNodes][3] = {};
+  bool operator==(const TermShape&) const = default;
+};
+
+/// Dilatation terms in rows.
+template <class Real>
+struct RowTerms {
+  std::vector<TermRow> rows;             ///< in the order of the places of their first nodes
+  std::vector<std::uint32_t> first_row;  ///< of each eight places, and the end; empty without terms
+  std::vector<TermProperties<Real>> properties;
+  std::vector<TermShape<Real>> shapes;
+};
+
 /// Lengths of the eight springs of a row.
 template <class Real>
 struct RowLengths {
@@ -90,13 +124,17 @@ struct RowLayout {
   std::vector<SpringRow> rows;           ///< in the order of the places
   std::vector<RowProperties<Real>> properties;
   std::vector<RowLengths<Real>> lengths;  ///< by the index of the properties
-  RowCorners<Real> corners;               ///< see make_row_layout()
+  RowTerms<Real> dilatation;
+  RowCorners<Real> corners;  ///< see make_row_layout()
   std::vector<RowBlock> blocks;
   std::vector<Place> place;        ///< place of each node; N
   std::vector<Real> inverse_mass;  ///< by place, padded with 0 to a multiple of kRowLanes [1/kg]
   std::uint32_t reach = 0;         ///< largest reach of a block
 
   std::uint32_t block_places = 0;  ///< places of every block but the last
+
+  /// Places that the rows of eight places reach ahead.
+  std::uint32_t farthest_ahead(std::uint32_t eight) const;
 
   /// The first block whose springs may end at places of this block.
   std::uint32_t first_contributor(std::uint32_t block) const {
@@ -105,8 +143,12 @@ struct RowLayout {
   }
 };
 
+/// Whether all dilatation terms of the model are those of cells: each over eight nodes. Rows take
+/// no others.
+bool has_terms_of_cells(const MassSpringModel& model);
+
 /// Without corners, which place_corners() makes: few models that are laid out to count their rows
-/// run in them.
+/// run in them. The model must have no dilatation terms but those of cells.
 template <class Real>
 RowLayout<Real> make_row_layout(const MassSpringModel& model);
 

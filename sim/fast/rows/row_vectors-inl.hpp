@@ -75,6 +75,12 @@ HWY_INLINE hn::Vec<D> dot(const Vector3<D>& p, const Vector3<D>& q) {
   return hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::Mul(p.z, q.z)));
 }
 
+template <class D>
+HWY_INLINE Vector3<D> cross(const Vector3<D>& p, const Vector3<D>& q) {
+  return {hn::NegMulAdd(p.z, q.y, hn::Mul(p.y, q.z)), hn::NegMulAdd(p.x, q.z, hn::Mul(p.z, q.x)),
+          hn::NegMulAdd(p.y, q.x, hn::Mul(p.x, q.y))};
+}
+
 template <class Real>
 std::uint32_t lane_count() {
   return static_cast<std::uint32_t>(hn::Lanes(Lanes<Real>()));

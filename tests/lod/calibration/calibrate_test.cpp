@@ -17,12 +17,14 @@
 #include "lod/quality/grade.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/models.hpp"
+#include "tests/support/soft_blocks.hpp"
 
 using namespace springlod;
 using namespace springlod::lod;
 using springlod::test::ball;
 using springlod::test::block;
 using springlod::test::rods;
+using springlod::test::soft_block;
 
 namespace {
 
@@ -32,18 +34,21 @@ Level plain_level(const MassSpringModel& base, double keep) {
       .levels[1];
 }
 
-/// The level with ln k, then ln m, changed by h times `direction`.
+/// The level with ln k, then ln |T|, then ln m, changed by h times `direction`.
 MassSpringModel moved(MassSpringModel level, const Eigen::VectorXd& direction, double h) {
   for (std::uint32_t s = 0; s < level.spring_count(); ++s)
     level.stiffness[s] *= std::exp(h * direction[s]);
+  const std::uint32_t moduli = level.spring_count() + level.dilatation.count();
+  for (std::uint32_t t = 0; t < level.dilatation.count(); ++t)
+    level.dilatation.modulus[t] *= std::exp(h * direction[level.spring_count() + t]);
   for (std::uint32_t i = 0; i < level.node_count(); ++i)
-    level.mass[i] *= std::exp(h * direction[level.spring_count() + i]);
+    level.mass[i] *= std::exp(h * direction[moduli + i]);
   return level;
 }
 
 Eigen::VectorXd any_direction(const MassSpringModel& level, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  Eigen::VectorXd direction(level.spring_count() + level.node_count());
+  Eigen::VectorXd direction(level.spring_count() + level.dilatation.count() + level.node_count());
   for (double& each : direction) each = 2 * test::uniform(random) - 1;
   return direction;
 }
@@ -130,8 +135,8 @@ TEST_CASE("Rescaled moduli of one material are those of the base by eq. 2 of doc
 
 TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
   const NodeMasses masses = GENERATE(NodeMasses::group, NodeMasses::free);
+  const MassSpringModel base = GENERATE(rods(), soft_block(4, 5, 9, 0.45));
   for (const bool anchored : {false, true}) {
-    const MassSpringModel base = rods();
     TargetOptions options{.modes = 8, .patches = 6};
     if (anchored)
       for (std::uint32_t i = 0; i < base.node_count(); ++i)
@@ -159,7 +164,7 @@ TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
 }
 
 TEST_CASE("The Jacobian of the frequency constraints agrees with finite differences") {
-  const MassSpringModel level = plain_level(ball(), 0.4).model;
+  const MassSpringModel level = plain_level(GENERATE(ball(), soft_block(5, 5, 5, 0.45)), 0.4).model;
   const FrequencyConstraints here = frequency_constraints(level, 1, 1e3, NodeMasses::free);
   REQUIRE(here.value.size() == level.node_count());
   const Eigen::VectorXd direction = any_direction(level, 4);
@@ -171,7 +176,8 @@ TEST_CASE("The Jacobian of the frequency constraints agrees with finite differen
   CHECK((here.jacobian * direction - measured).cwiseAbs().maxCoeff() < 1e-6);
   const Eigen::MatrixXd by_springs =
       frequency_constraints(level, 1, 1e3, NodeMasses::group).jacobian;
-  CHECK(by_springs == Eigen::MatrixXd(here.jacobian).leftCols(level.spring_count()));
+  CHECK(by_springs ==
+        Eigen::MatrixXd(here.jacobian).leftCols(here.jacobian.cols() - level.node_count()));
   const double bound = largest_node_bound(level);
   CHECK(std::log(bound) == Approx(here.value.maxCoeff()));
   CHECK(bound >= std::pow(elastic::frequency_bound(level), 2) * (1 - 1e-12));
@@ -220,6 +226,26 @@ TEST_CASE("Calibrated levels match frequencies and compliances of the base at a 
     CHECK(grade(before) == Grade::rough);
     CHECK(grade(after) < Grade::rough);
     CHECK(after.unmet.empty());  // no bound was requested
+  }
+}
+
+TEST_CASE("Fitted levels of soft rubber match their base and keep its Poisson's ratio") {
+  const MassSpringModel base = soft_block(9, 7, 12, 0.45);
+  const LodChain chain = simplify(base, {.levels = 2,
+                                         .keep = {0.42, 0.18},
+                                         .grouping = {.grouping = Grouping::compact},
+                                         .calibrate = Calibrate::modes});
+  for (std::size_t n = 1; n <= 2; ++n) {
+    const Certificate& c = chain.levels[n].certificate.value();
+    CAPTURE(n, c.highest_frequency / c.base_highest_frequency, mean_frequency_error(c, 10, 20),
+            mean_load_error(c, true), c.moduli.at(0).young, c.moduli.at(0).poisson);
+    CHECK(c.zero_modes == 6);
+    CHECK(mean_frequency_error(c, 0, 10) < (n == 1 ? 0.005 : 0.008));
+    CHECK(mean_frequency_error(c, 10, 20) < (n == 1 ? 0.02 : 0.03));
+    CHECK(mean_load_error(c, true) < (n == 1 ? 0.05 : 0.08));
+    CHECK(c.highest_frequency < (n == 1 ? 0.8 : 0.65) * c.base_highest_frequency);
+    CHECK(c.moduli.at(0).poisson == Approx(0.45).margin(0.02));
+    CHECK(c.moduli.at(0).base_poisson == Approx(0.45).margin(0.005));
   }
 }
 

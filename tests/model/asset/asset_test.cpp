@@ -11,6 +11,7 @@
 #include "base/file.hpp"
 #include "tests/model/asset/glb_text.hpp"
 #include "tests/support/assets.hpp"
+#include "tests/support/dilatation.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -51,6 +52,11 @@ void check_same(const LodAsset& a, const LodAsset& b) {
     CHECK(same_bits(p.model.stiffness, q.model.stiffness));
     CHECK(same_bits(p.model.damping, q.model.damping));
     CHECK(p.model.corners == q.model.corners);
+    CHECK(same_bits(p.model.dilatation.modulus, q.model.dilatation.modulus));
+    CHECK(same_bits(p.model.dilatation.damping_time, q.model.dilatation.damping_time));
+    CHECK(same_bits(p.model.dilatation.start, q.model.dilatation.start));
+    CHECK(same_bits(p.model.dilatation.node, q.model.dilatation.node));
+    CHECK(same_bits(p.model.dilatation.gradient, q.model.dilatation.gradient));
   }
   CHECK(same_bits(a.surface.positions, b.surface.positions));
   CHECK(same_bits(a.surface.triangles, b.surface.triangles));
@@ -163,6 +169,44 @@ TEST_CASE("An asset of format version 1 is read as one without corners") {
   check_same(load_asset(folder / "asset.glb"), asset);
 }
 
+TEST_CASE("Dilatation terms and Poisson's ratio survive in version 3, which others do not have") {
+  const TemporaryFolder folder;
+  const auto version_of = [&](const LodAsset& asset) {
+    save_asset(asset, folder / "asset.glb");
+    check_same(load_asset(folder / "asset.glb"), asset);
+    const std::string bytes = read_file(folder / "asset.glb");
+    // The asset itself has the version "2.0" of glTF.
+    const std::size_t at = bytes.find("\"version\":", bytes.find("\"version\":") + 1);
+    return bytes.substr(std::min(at, bytes.size()), std::string("\"version\":2").size());
+  };
+  LodAsset asset;
+  asset.chain.levels.push_back({test::lattice_with_terms(3, 3, 3), identity_groups(27), "base"});
+  CHECK(version_of(asset) == "\"version\":3");
+  asset.chain.levels[0].model.materials[0].poisson = 0.4;
+  asset.chain.levels[0].model.dilatation = {};
+  CHECK(version_of(asset) == "\"version\":3");  // by the material
+  asset.chain.levels[0].model.materials[0].poisson = kSpringPoisson;
+  CHECK(version_of(asset) == "\"version\":2");
+}
+
+TEST_CASE("Damaged dilatation terms are refused") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  LodAsset asset;
+  asset.chain.levels.push_back({test::lattice_with_terms(3, 3, 3), identity_groups(27), "base"});
+  save_asset(asset, path);
+  const std::string bytes = read_file(path);
+  for (const auto& [from, to] :
+       {std::pair("\"terms\":8", "\"terms\":9"),
+        std::pair("\"termNode\":", "\"termNode\":0,\"c\":"), std::pair("\"termStart\"", "\"c\""),
+        std::pair("\"termModulus\"", "\"c\"")}) {
+    INFO(from << " -> " << to);
+    overwrite(path, with_json(bytes, from, to));
+    CHECK_THROWS_AS(load_asset(path), IoError);
+    CHECK_THROWS_WITH(load_asset(path), Contains("damaged"));
+  }
+}
+
 TEST_CASE("Names that are not UTF-8 are saved with invalid bytes replaced") {
   const TemporaryFolder folder;
   LodAsset asset = sample_asset();
@@ -194,8 +238,8 @@ TEST_CASE("A file that is not an asset is rejected with the reason") {
   const std::string bytes = read_file(path);
   overwrite(path, with_json(bytes, "\"extensions\":", "\"extras\":"));
   CHECK_THROWS_WITH(load_asset(path), Contains("no level-of-detail chain"));
-  overwrite(path, with_json(bytes, "\"version\":2", "\"version\":3"));
-  CHECK_THROWS_WITH(load_asset(path), Contains("version 3") && Contains("update"));
+  overwrite(path, with_json(bytes, "\"version\":2", "\"version\":4"));
+  CHECK_THROWS_WITH(load_asset(path), Contains("version 4") && Contains("update"));
   overwrite(path, with_json(bytes, "by hand", "by mind"));
   CHECK_THROWS_WITH(load_asset(path), Contains("damaged") && Contains("checksum"));
   CHECK_THROWS_AS(load_asset(path), IoError);

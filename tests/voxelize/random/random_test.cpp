@@ -128,6 +128,38 @@ TEST_CASE("A random ball is measured by surface tractions") {
   CHECK(random.poisson == Approx(0.26).margin(0.03));
 }
 
+TEST_CASE("A random model has the E and nu that its material asks for") {
+  const double nu = GENERATE(-0.1, 0.1, 0.4, 0.49);
+  MaterialGrid grid = box_grid(8, 8, 12, 0.01);
+  grid.materials[0].poisson = nu;
+  const RandomModel random = build_random(grid, {.nodes = 900U, .seed = 3});
+  validate(random.model);
+  CHECK(random.young == Approx(1).margin(0.02));
+  CHECK(random.poisson == Approx(nu).margin(0.02));
+  double young = 0, poisson = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const elastic::StretchResult r = elastic::stretch_test(random.model, {.axis = axis});
+    young += r.young / 3;
+    poisson += r.poisson / 3;
+  }
+  CHECK(young == Approx(grid.materials[0].young).epsilon(0.02));
+  CHECK(poisson == Approx(nu).margin(0.02));
+}
+
+TEST_CASE("Each material of a random model has the factors of its own nu") {
+  MaterialGrid grid = box_grid(8, 8, 8, 0.01);
+  grid.materials[1].poisson = 0.45;
+  for (std::size_t c = 0; c < grid.cells.size(); ++c) grid.material[c] = grid.cells[c][2] < 4;
+  const RandomModel random = build_random(grid, {.nodes = 500U});
+  for (const double modulus : random.model.dilatation.modulus) CHECK(modulus > 0);
+  const auto soft = std::count(random.model.material.begin(), random.model.material.end(), 1U);
+  CHECK(random.model.dilatation.count() == static_cast<std::uint32_t>(soft));
+  // All nodes of one material: its own model has the same factor of springs.
+  for (std::uint16_t& material : grid.material) material = 0;
+  const RandomModel stiff = build_random(grid, {.nodes = 500U});
+  CHECK(stiff.model.dilatation.empty());
+}
+
 TEST_CASE("No spring of a random model reaches across a slot") {
   const RandomModel random = build_random(slotted_grid(), {.nodes = 600});
   const MassSpringModel& m = random.model;
