@@ -57,8 +57,8 @@ for i, name in ipairs{"inertia", "", ""} do
   print(("%-14s  %.4g %.4g %.4g kg m2"):format(name, table.unpack(base.inertia[i])))
 end
 for _, material in ipairs(base.materials) do
-  print(("material        %s: young %.4g Pa, density %.4g kg/m3, damping %.4g s"):format(
-    material.name, material.young, material.density, material.damping))
+  print(("material        %s: young %.4g Pa, poisson %.3g, density %.4g kg/m3, damping %.4g s")
+    :format(material.name, material.young, material.poisson, material.density, material.damping))
 end
 local keys = {}
 for key in pairs(info.provenance) do keys[#keys + 1] = key end

@@ -7,8 +7,7 @@ local cantilever = {}
 -- The bar lies along x, is clamped at x = 0 and loaded at x = length [m].
 local height, slenderness = 0.1, 20
 local length = slenderness * height
-local material = {young = 1e7, density = 1000, damping = 0}
-local poisson = 0.25 -- the value of all central-force spring lattices
+local young, density = 1e7, 1000
 local frequency_count = 3
 
 cantilever.height, cantilever.slenderness = height, slenderness
@@ -16,16 +15,21 @@ cantilever.height, cantilever.slenderness = height, slenderness
 cantilever.names = {"tip", "f1", "f2", "f3"}
 
 -- Shear coefficient of a rectangle (Cowper 1966).
-cantilever.shear_coefficient = 10 * (1 + poisson) / (12 + 11 * poisson)
+function cantilever.shear_coefficient(poisson)
+  return 10 * (1 + poisson) / (12 + 11 * poisson)
+end
+
 local area, inertia = height ^ 2, height ^ 4 / 12
-local bending = material.young * inertia
-local shearing = cantilever.shear_coefficient * material.young / (2 * (1 + poisson)) * area
+local bending = young * inertia
+local function shearing(poisson)
+  return cantilever.shear_coefficient(poisson) * young / (2 * (1 + poisson)) * area
+end
 
 -- Frequency equation of a clamped-free beam with shear and rotary inertia (Huang 1961); its roots
 -- are b = omega length^2 sqrt(density area / bending).
-local function frequency_equation(b)
+local function frequency_equation(b, poisson)
   local rotary = inertia / (area * length ^ 2)
-  local shear = bending / (shearing * length ^ 2)
+  local shear = bending / (shearing(poisson) * length ^ 2)
   local root = math.sqrt((rotary - shear) ^ 2 + 4 / b ^ 2)
   local alpha = math.sqrt((root - rotary - shear) / 2)
   local beta = math.sqrt((root + rotary + shear) / 2)
@@ -45,13 +49,14 @@ local function root_between(f, low, high)
   return (low + high) / 2
 end
 
-local function timoshenko_frequencies()
-  local unit = math.sqrt(bending / (material.density * area)) / length ^ 2 / (2 * math.pi)
+local function timoshenko_frequencies(poisson)
+  local unit = math.sqrt(bending / (density * area)) / length ^ 2 / (2 * math.pi)
+  local function equation(b) return frequency_equation(b, poisson) end
   local found = {}
   local step, b = 0.1, 0.1 -- roots lie at 3.5, 21, 58: far apart
   while #found < frequency_count do
-    if frequency_equation(b) * frequency_equation(b + step) <= 0 then
-      found[#found + 1] = unit * root_between(frequency_equation, b, b + step)
+    if equation(b) * equation(b + step) <= 0 then
+      found[#found + 1] = unit * root_between(equation, b, b + step)
     end
     b = b + step
   end
@@ -59,17 +64,17 @@ local function timoshenko_frequencies()
 end
 
 -- The values of Timoshenko's beam.
-function cantilever.timoshenko()
-  local deflection = length ^ 3 / (3 * bending) + length / shearing -- per newton
-  return {deflection, table.unpack(timoshenko_frequencies())}
+function cantilever.timoshenko(poisson)
+  local deflection = length ^ 3 / (3 * bending) + length / shearing(poisson) -- per newton
+  return {deflection, table.unpack(timoshenko_frequencies(poisson))}
 end
 
 -- A lattice of the given style with `cells` cells across the height.
-function cantilever.model(style, cells)
+function cantilever.model(style, cells, poisson)
   return s.lattice(s.grid{
     cell = height / cells,
     size = {slenderness * cells, cells, cells},
-    materials = {bar = material},
+    materials = {bar = {young = young, density = density, damping = 0, poisson = poisson}},
     fill = function() return "bar" end,
   }, {style = style})
 end

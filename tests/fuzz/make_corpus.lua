@@ -8,6 +8,7 @@ local folder = (...) or error("name the folder to write to")
 local materials = {
   rubber = {young = "1 MPa", density = 1100, damping = 0.004, colour = {0.9, 0.2, 0.1}},
   steel = {young = "10 MPa", density = 7800},
+  gel = {young = "0.1 MPa", density = 1000, damping = 0.004, poisson = 0.45},
 }
 
 -- A box of whole cells, as a mesh file.
@@ -30,6 +31,7 @@ end
 
 local function two_materials(x) return x < 0.1 and "rubber" or "steel" end
 local function rubber() return "rubber" end
+local function gel() return "gel" end
 
 local mesh_path = folder .. "/mesh/box.obj"
 s.save_text(mesh_path, box(2, 1, 1, 0.1))
@@ -38,6 +40,7 @@ local surface = s.import(mesh_path, {unit = "m"})
 local bars = {
   two_materials = grid({2, 1, 1}, two_materials, surface),
   one_cell = grid({1, 1, 1}, rubber),
+  dilatation = grid({2, 2, 1}, gel),
 }
 for name, bar in pairs(bars) do
   local chain = s.simplify(s.lattice(bar), {levels = 1})
@@ -46,7 +49,7 @@ for name, bar in pairs(bars) do
 end
 s.save_text(folder .. "/materials/two.lua", [[
 return {rubber = {young = "1 MPa", density = 1100, damping = 0.004, colour = {0.9, 0.2, 0.1}},
-        steel = {young = 1e7, density = 7800, damping = "2 ms"}}
+        steel = {young = 1e7, density = 7800, damping = "2 ms", poisson = 0.3}}
 ]])
 s.save_text(folder .. "/materials/computed.lua", [[
 local materials = {}

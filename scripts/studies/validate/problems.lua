@@ -8,7 +8,11 @@
 --   measure(model, size)         list of values, false for what the model does not show
 
 local problems = {}
-for i, name in ipairs{"cube", "sphere", "cantilever", "bar", "sliding", "spin"} do
-  problems[i] = require("studies.validate." .. name)
+local files = {"stretch", "cube", "sphere", "rayleigh", "cantilever",
+               "two_materials", "bar", "sliding", "spin"}
+for _, name in ipairs(files) do
+  local found = require("studies.validate." .. name)
+  -- A file may have several.
+  for _, problem in ipairs(found.name and {found} or found) do problems[#problems + 1] = problem end
 end
 return problems

@@ -94,8 +94,10 @@ end
 
 local function references(problem)
   local list = {}
-  for i, quantity in ipairs(problem.quantities) do
-    list[i] = ("%s = %.6g"):format(quantity.name, quantity.reference)
+  for _, quantity in ipairs(problem.quantities) do
+    if quantity.reference ~= 0 then
+      list[#list + 1] = ("%s = %.6g"):format(quantity.name, quantity.reference)
+    end
   end
   return table.concat(list, ", ")
 end
@@ -103,7 +105,8 @@ end
 function report.print(pages)
   for _, page in ipairs(pages) do
     local rows, columns = table_of(page)
-    print(("\n%s (%s)"):format(page.problem.title, references(page.problem)))
+    local known = references(page.problem)
+    print("\n" .. page.problem.title .. (known ~= "" and (" (%s)"):format(known) or ""))
     print(s.format_table(rows, {columns = columns}))
   end
 end
@@ -120,8 +123,9 @@ end
 
 local function section(page)
   local problem = page.problem
+  local known = references(problem)
   local lines = {"## " .. problem.title, "", problem.text, "",
-    ("Reference: %s %s."):format(problem.source, references(problem)), "",
+    "Reference: " .. problem.source .. (known ~= "" and (" %s."):format(known) or ""), "",
     markdown.table(table_of(page)), ""}
   if has_chart(page) then
     lines[#lines + 1] = ("![%s: error against cell size](images/%s.png)\n"):format(problem.title,
@@ -155,9 +159,10 @@ springlod validate -o out/validation
 
 This command solves problems of mechanics whose answer is known, and writes this page. Each
 problem is solved by the base at three cell sizes, and by two levels with 45 % and 20 % of its
-nodes, fitted by default, whose contact points are on the base's surface. All bodies have Poisson's
-ratio 1/4 and no damping. A goal is for the finest size. The order is the order of convergence from
-the size before. "Not found" means that a small model has no mode of this kind among its lowest.
+nodes, fitted by default, whose contact points are on the base's surface. Bodies have Poisson's
+ratio 1/4, unless the problem says otherwise, and no damping. A goal is for the finest size. The
+order is the order of convergence from the size before. "Not found" means that a small model has no
+mode of this kind among its lowest.
 
 ]]
 

@@ -97,7 +97,6 @@ void lay_rows(const MassSpringModel& model, const std::vector<PlacedSpring>& spr
 }
 
 /// A dilatation term between places.
-template <class Real>
 struct PlacedTerm {
   std::uint32_t first = 0;
   std::array<std::uint32_t, kCellNodes> ahead = {};
@@ -112,19 +111,19 @@ struct PlacedTerm {
 
 /// Sorted by the eight places in which they begin.
 template <class Real>
-std::vector<PlacedTerm<Real>> place_terms(const MassSpringModel& model,
-                                          const std::vector<std::uint32_t>& order,
-                                          std::vector<TermShape<Real>>& shapes) {
+std::vector<PlacedTerm> place_terms(const MassSpringModel& model,
+                                    const std::vector<std::uint32_t>& order,
+                                    std::vector<TermShape<Real>>& shapes) {
   const DilatationTerms& terms = model.dilatation;
   std::vector<std::uint32_t> place(order.size());
   for (std::uint32_t p = 0; p < order.size(); ++p) place[order[p]] = p;
   Palette palette(shapes);
-  std::vector<PlacedTerm<Real>> placed;
+  std::vector<PlacedTerm> placed;
   for (std::uint32_t t = 0; t < terms.count(); ++t) {
     std::array<std::pair<std::uint32_t, std::size_t>, kCellNodes> nodes;  // place, entry
     for (std::size_t e = 0; e < kCellNodes; ++e) nodes[e] = {place[terms.nodes(t)[e]], e};
     std::sort(nodes.begin(), nodes.end());
-    PlacedTerm<Real>& to = placed.emplace_back();
+    PlacedTerm& to = placed.emplace_back();
     to.first = nodes.front().first;
     to.term = t;
     TermShape<Real> shape;
@@ -147,14 +146,14 @@ void lay_terms(const MassSpringModel& model, RowLayout<Real>& layout) {
   const DilatationTerms& terms = model.dilatation;
   if (terms.empty()) return;
   RowTerms<Real>& to = layout.dilatation;
-  const std::vector<PlacedTerm<Real>> placed = place_terms(model, layout.node, to.shapes);
+  const std::vector<PlacedTerm> placed = place_terms(model, layout.node, to.shapes);
   Palette palette(to.properties);
   auto next = placed.begin();
   const auto eights = static_cast<std::uint32_t>(layout.inverse_mass.size()) / kRowLanes;
   for (std::uint32_t eight = 0; eight < eights; ++eight) {
     to.first_row.push_back(static_cast<std::uint32_t>(to.rows.size()));
     while (next != placed.end() && next->first / kRowLanes == eight) {
-      const PlacedTerm<Real>& leader = *next;
+      const PlacedTerm& leader = *next;
       TermProperties<Real> row;
       for (; next != placed.end() && next->same_row(leader); ++next) {
         const std::uint32_t lane = next->first % kRowLanes;
