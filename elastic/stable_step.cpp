@@ -145,15 +145,14 @@ void add_terms_at(const DilatationTerms& terms, const std::vector<Vec3>& x, cons
     const VolumeRatio ratio = volume_ratio(gradient);
     const Dilatation eps = dilatation(ratio.value, modulus);
     by_node.clear();
-    double sum = 0;
-    for (const Vec3& b : terms.gradients(t)) {
+    for (const Vec3& b : terms.gradients(t))
       by_node.emplace_back(eps.slope * (ratio.by_gradient * b));
-      sum += b.norm();
-    }
-    const double bent = std::abs(modulus * eps.strain * eps.slope) * gradient.norm() * sum;
+    const double sum = sum_of_norms(by_node);
+    const double bent = std::abs(modulus * eps.strain * eps.slope) * gradient.norm() *
+                        sum_of_norms(terms.gradients(t));
     const auto nodes = terms.nodes(t);
     for (std::size_t e = 0; e < nodes.size(); ++e) {
-      if (modulus > 0) stiffness[nodes[e]] += modulus * bounding_share(by_node, e);
+      if (modulus > 0) stiffness[nodes[e]] += modulus * bounding_share(sum, by_node[e]);
       stiffness[nodes[e]] += bent * terms.gradients(t)[e].norm() * Mat3::Identity();
     }
   }
@@ -217,20 +216,23 @@ std::vector<Mat3> bounding_node_stiffness(const MassSpringModel& model) {
   const DilatationTerms& terms = model.dilatation;
   for (std::uint32_t t = 0; t < terms.count(); ++t) {
     if (!(terms.modulus[t] > 0)) continue;
-    const auto nodes = terms.nodes(t);
-    for (std::size_t e = 0; e < nodes.size(); ++e)
-      stiffness[nodes[e]] += terms.modulus[t] * bounding_share(terms.gradients(t), e);
+    const double sum = sum_of_norms(terms.gradients(t));
+    for (std::uint32_t e = terms.start[t]; e < terms.start[t + 1]; ++e)
+      stiffness[terms.node[e]] += terms.modulus[t] * bounding_share(sum, terms.gradient[e]);
   }
   return stiffness;
 }
 
-Mat3 bounding_share(std::span<const Vec3> gradients, std::size_t entry) {
+Mat3 bounding_share(double sum_of_norms, const Vec3& gradient) {
+  const double size = gradient.norm();
+  if (!(size > 0)) return Mat3::Zero();
+  return sum_of_norms / (2 * size) * gradient * gradient.transpose();
+}
+
+double sum_of_norms(std::span<const Vec3> gradients) {
   double sum = 0;
   for (const Vec3& gradient : gradients) sum += gradient.norm();
-  const Vec3& own = gradients[entry];
-  const double size = own.norm();
-  if (!(size > 0)) return Mat3::Zero();
-  return sum / (2 * size) * own * own.transpose();
+  return sum;
 }
 
 std::vector<double> node_frequency_bounds(const MassSpringModel& model,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,14 +24,16 @@ std::vector<Mat3> node_stiffness(const MassSpringModel& model);
 /// A_i of frequency_bound [N/m], N: sum_j k_ij u u^T, and bounding_share of its dilatation terms
 /// with T > 0; without terms, node_stiffness.
 std::vector<Mat3> bounding_node_stiffness(const MassSpringModel& model);
-/// What a term adds to A_i of its entry `entry` for T = 1 J [1/m2]: sum_j |b_j| b_i b_i^T / (2
-/// |b_i|). By Cauchy's inequality, (sum_j b_j.u_j)^2 <= sum_j |b_j| sum_i (b_i.u_i)^2 / |b_i|.
-Mat3 bounding_share(std::span<const Vec3> gradients, std::size_t entry);
+/// What a term adds to A_i of a node for T = 1 J [1/m2]: B b_i b_i^T / (2 |b_i|), with the sum B of
+/// all |b_j| (sum_of_norms). By Cauchy's inequality, (sum_j b_j.u_j)^2 <= B sum_i (b_i.u_i)^2 /
+/// |b_i|.
+Mat3 bounding_share(double sum_of_norms, const Vec3& gradient);
+double sum_of_norms(std::span<const Vec3> gradients);
 /// Contribution of each node to that bound in a deformed state x: 2 lambda / m_i
 /// [rad2/s2], N, with A_i = sum_j k_ij (u u^T + max(0, 1 - L/l) (1 - u u^T)): a stretched spring is
 /// stiff across its direction, too (docs/method.md, eqs. 15 and 16). Dilatation terms add
 /// bounding_share with the derivatives of eps in that state, and a bound on their geometric
-/// stiffness (eq. 16b).
+/// stiffness (eq. 16a).
 ///
 /// lambda = q + 2p >= lambda_max(A_i), where q is the mean of the eigenvalues and 6 p^2 the sum of
 /// their squared deviations from it. It is exact for one large and two equal eigenvalues, cheap,

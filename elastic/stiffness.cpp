@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "model/spring_rows.hpp"
+#include "model/terms_of_nodes.hpp"
 
 namespace springlod::elastic {
 
@@ -24,19 +25,15 @@ class TermColumns {
  public:
   explicit TermColumns(const MassSpringModel& model)
       : terms_(model.dilatation),
-        entries_of_(model.node_count()),
+        of_nodes_(model),
         sum_(model.node_count()),
-        in_sum_(model.node_count(), 0) {
-    for (std::uint32_t t = 0; t < terms_.count(); ++t)
-      for (std::uint32_t e = terms_.start[t]; e < terms_.start[t + 1]; ++e)
-        entries_of_[terms_.node[e]].push_back({t, e});
-  }
+        in_sum_(model.node_count(), 0) {}
 
   /// Adds the blocks T b_i b_j^T of the terms of node j to its column.
   void add_to(std::uint32_t j, std::vector<Block>& column) {
     rows_.clear();
     for (const Block& block : column) block_at(block.row) += block.value;
-    for (const auto& [term, own] : entries_of_[j]) {
+    for (const auto& [term, own] : of_nodes_.of(j)) {
       const Vec3 pressure = terms_.modulus[term] * terms_.gradient[own];
       for (std::uint32_t e = terms_.start[term]; e < terms_.start[term + 1]; ++e)
         block_at(terms_.node[e]) += terms_.gradient[e] * pressure.transpose();
@@ -50,9 +47,6 @@ class TermColumns {
   }
 
  private:
-  struct Own {
-    std::uint32_t term, entry;
-  };
   Mat3& block_at(std::uint32_t row) {
     if (in_sum_[row] == 0) {
       in_sum_[row] = 1;
@@ -63,9 +57,9 @@ class TermColumns {
   }
 
   const DilatationTerms& terms_;
-  std::vector<std::vector<Own>> entries_of_;  // N
-  std::vector<Mat3> sum_;                     // N: of the rows in rows_
-  std::vector<std::uint8_t> in_sum_;          // N
+  TermsOfNodes of_nodes_;
+  std::vector<Mat3> sum_;             // N: of the rows in rows_
+  std::vector<std::uint8_t> in_sum_;  // N
   std::vector<std::uint32_t> rows_;
 };
 

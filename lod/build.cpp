@@ -15,6 +15,7 @@
 #include "lod/grouping/grouping.hpp"
 #include "lod/merging/guard.hpp"
 #include "lod/merging/merge.hpp"
+#include "lod/merging/merge_corners.hpp"
 #include "lod/merging/merge_dilatation.hpp"
 #include "lod/quality/certify.hpp"
 
@@ -150,11 +151,12 @@ Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uin
   const std::uint32_t wanted = wanted_nodes(chain, options, level);
   Step step = next_step(finer, options, level, wanted);
   require_coarser(chain.levels.back(), step.groups, options, level, wanted);
-  Level coarse{merge(finer.model, step.groups, std::move(step.links)),
+  Level coarse{merge_springs(finer.model, step.groups, std::move(step.links)),
                compose(finer.of_base, step.groups),
                (options.made_by.empty() ? summary_of(options) : options.made_by) +
                    choice_of(options.calibrate).remark};
-  // From level to level, the shares of the terms would spread further each time.
+  coarse.model.corners = merge_corners(finer.model.corners, step.groups, coarse.model.rest);
+  // From the base: from level to level, the shares of the terms would spread further each time.
   coarse.model.dilatation =
       merge_dilatation(chain.levels.front().model, coarse.of_base, coarse.model);
   return coarse;

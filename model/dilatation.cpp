@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "base/error.hpp"

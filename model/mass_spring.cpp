@@ -10,7 +10,6 @@
 #include "base/disjoint_sets.hpp"
 #include "base/error.hpp"
 #include "base/script_number.hpp"
-#include "model/material.hpp"
 #include "model/ranges.hpp"
 
 namespace springlod::inline model {

@@ -98,4 +98,14 @@ DilatationTerms node_terms(const MassSpringModel& model,
   return terms;
 }
 
+DilatationTerms material_terms(const MassSpringModel& model, const std::vector<double>& factors) {
+  std::vector<NodeDilatation> of_nodes;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
+    const Material& material = model.materials[model.material[i]];
+    const double factor = factors.empty() ? 1 : factors[model.material[i]];
+    of_nodes.push_back({factor * dilatation_modulus(material) * model.volume[i], material.damping});
+  }
+  return node_terms(model, of_nodes);
+}
+
 }  // namespace springlod::inline model

@@ -7,6 +7,7 @@
 
 #include "elastic/stable_step.hpp"
 #include "model/spring_rows.hpp"
+#include "model/terms_of_nodes.hpp"
 
 namespace springlod::lod {
 namespace {
@@ -41,33 +42,6 @@ double bound_of(const SchattenNorm& norm, double mass) {
   return 2 * norm.value() / mass;
 }
 
-/// The parts of A_i that dilatation terms make up, by node.
-class BoundingTerms {
- public:
-  explicit BoundingTerms(const MassSpringModel& model) : parts_(model.node_count()) {
-    const DilatationTerms& terms = model.dilatation;
-    for (std::uint32_t t = 0; t < terms.count(); ++t) {
-      if (!(terms.modulus[t] > 0)) continue;
-      const auto nodes = terms.nodes(t);
-      for (std::size_t e = 0; e < nodes.size(); ++e)
-        parts_[nodes[e]].push_back(
-            {t, terms.modulus[t] * elastic::bounding_share(terms.gradients(t), e)});
-    }
-  }
-  /// Calls visit(term, part) for each term of the node.
-  template <class Visit>
-  void for_each(std::uint32_t node, const Visit& visit) const {
-    for (const Part& part : parts_[node]) visit(part.term, part.stiffness);
-  }
-
- private:
-  struct Part {
-    std::uint32_t term;
-    Mat3 stiffness;
-  };
-  std::vector<std::vector<Part>> parts_;  // N
-};
-
 std::vector<double> node_bounds(const MassSpringModel& model) {
   const std::vector<Mat3> held = elastic::bounding_node_stiffness(model);
   std::vector<double> bounds;
@@ -83,8 +57,9 @@ FrequencyConstraints frequency_constraints(const MassSpringModel& model, double 
   const bool free_masses = masses == NodeMasses::free;
   const SpringRows springs(model);
   const std::vector<Mat3> held = elastic::bounding_node_stiffness(model);
-  const BoundingTerms terms(model);
-  const auto moduli = static_cast<int>(model.spring_count() + model.dilatation.count());
+  const DilatationTerms& terms = model.dilatation;
+  const TermsOfNodes terms_of_nodes(model);
+  const auto moduli = static_cast<int>(model.spring_count() + terms.count());
   std::vector<double> values;
   std::vector<Eigen::Triplet<double>> jacobian;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
@@ -98,10 +73,13 @@ FrequencyConstraints frequency_constraints(const MassSpringModel& model, double 
       const Vec3 u = spring_direction(model, s);
       jacobian.emplace_back(row, static_cast<int>(s), model.stiffness[s] * u.dot(gradient * u));
     });
-    terms.for_each(i, [&](std::uint32_t t, const Mat3& share) {
+    for (const auto& [t, entry] : terms_of_nodes.of(i)) {
+      if (!(terms.modulus[t] > 0)) continue;
+      const Mat3 share =
+          elastic::bounding_share(elastic::sum_of_norms(terms.gradients(t)), terms.gradient[entry]);
       jacobian.emplace_back(row, static_cast<int>(model.spring_count() + t),
-                            gradient.cwiseProduct(share).sum());
-    });
+                            gradient.cwiseProduct(terms.modulus[t] * share).sum());
+    }
     if (free_masses) jacobian.emplace_back(row, moduli + static_cast<int>(i), -1.0);
   }
   FrequencyConstraints constraints;

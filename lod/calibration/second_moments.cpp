@@ -77,7 +77,7 @@ void restore_second_moments(const MassSpringModel& base, const Groups& of_base,
     level.rest_length[s] = length;
   }
   settle_corners(level.corners, level.rest);
-  // The directions of the springs have changed.
+  // Their gradients depend on the positions.
   level.dilatation = merge_dilatation(base, of_base, level);
 }
 

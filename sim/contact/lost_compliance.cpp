@@ -10,6 +10,7 @@
 #include "elastic/solver/dense_kernels.hpp"
 #include "elastic/stable_step.hpp"
 #include "model/spring_rows.hpp"
+#include "model/terms_of_nodes.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -33,11 +34,8 @@ class HeldRegion {
       : model_(&model),
         ties_(&ties),
         springs_(model),
-        terms_of_(model.node_count()),
-        place_(model.node_count(), kOutside) {
-    for (std::uint32_t t = 0; t < model.dilatation.count(); ++t)
-      for (const std::uint32_t node : model.dilatation.nodes(t)) terms_of_[node].push_back(t);
-  }
+        terms_(model),
+        place_(model.node_count(), kOutside) {}
 
   void take(const std::vector<std::uint32_t>& nodes);
   /// Of one of the points, whose nodes must be in the region [m/N].
@@ -46,27 +44,27 @@ class HeldRegion {
  private:
   static constexpr Eigen::Index kOutside = -1;
 
-  /// Adds the rows of the node in a dilatation term.
-  void add_term(std::uint32_t term, std::uint32_t node);
+  /// Adds the rows of the node in its dilatation terms.
+  void add_terms(std::uint32_t node);
 
   const MassSpringModel* model_;
   const std::vector<double>* ties_;
   SpringRows springs_;
-  std::vector<std::vector<std::uint32_t>> terms_of_;  // N
+  TermsOfNodes terms_;
   std::vector<std::uint32_t> nodes_;
   std::vector<Eigen::Index> place_;  // of each node in the region, or kOutside
   Eigen::MatrixXd factor_;           // of the stiffness [(N/m)^1/2], lower triangle
 };
 
-void HeldRegion::add_term(std::uint32_t term, std::uint32_t node) {
+void HeldRegion::add_terms(std::uint32_t node) {
   const DilatationTerms& terms = model_->dilatation;
-  const auto nodes = terms.nodes(term);
-  const auto gradients = terms.gradients(term);
-  const auto own = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
-  const Vec3 pressure = terms.modulus[term] * gradients[static_cast<std::size_t>(own)];
-  for (std::size_t e = 0; e < nodes.size(); ++e)
-    if (place_[nodes[e]] != kOutside)
-      factor_.block<3, 3>(place_[node], place_[nodes[e]]) += pressure * gradients[e].transpose();
+  for (const auto& [term, own] : terms_.of(node)) {
+    const Vec3 pressure = terms.modulus[term] * terms.gradient[own];
+    for (std::uint32_t e = terms.start[term]; e < terms.start[term + 1]; ++e)
+      if (place_[terms.node[e]] != kOutside)
+        factor_.block<3, 3>(place_[node], place_[terms.node[e]]) +=
+            pressure * terms.gradient[e].transpose();
+  }
 }
 
 void HeldRegion::take(const std::vector<std::uint32_t>& nodes) {
@@ -88,7 +86,7 @@ void HeldRegion::take(const std::vector<std::uint32_t>& nodes) {
       own += block;
       if (place_[other] != kOutside) factor_.block<3, 3>(row, place_[other]) -= block;
     });
-    for (const std::uint32_t term : terms_of_[node]) add_term(term, node);
+    add_terms(node);
   }
   [[maybe_unused]] const bool positive = elastic::factorise_lower(factor_);
   assert(positive);  // by the ties

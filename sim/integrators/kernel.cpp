@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/integrators/dilatation.hpp"
+
 namespace springlod::sim {
 namespace {
 
@@ -13,9 +15,9 @@ constexpr double kShortest = 1e-9;
 }  // namespace
 
 template <bool with_damping>
-void add_spring_forces(const MassSpringModel& model, const std::vector<Vec3>& x,
-                       const std::vector<Vec3>& v, std::vector<Vec3>& force,
-                       std::vector<Vec3>& damping_force) {
+void add_internal_forces(const MassSpringModel& model, const std::vector<Vec3>& x,
+                         const std::vector<Vec3>& v, std::vector<Vec3>& force,
+                         std::vector<Vec3>& damping_force) {
   const std::uint32_t spring_count = model.spring_count();
   for (std::uint32_t s = 0; s < spring_count;) {
     // Springs are sorted by a. The forces on one a are summed in registers before they are stored;
@@ -44,14 +46,15 @@ void add_spring_forces(const MassSpringModel& model, const std::vector<Vec3>& x,
     force[a] = force_a;
     if constexpr (with_damping) damping_force[a] = damping_a;
   }
+  add_dilatation_forces<with_damping>(model.dilatation, x, v, force, damping_force);
 }
 
-template void add_spring_forces<true>(const MassSpringModel&, const std::vector<Vec3>&,
-                                      const std::vector<Vec3>&, std::vector<Vec3>&,
-                                      std::vector<Vec3>&);
-template void add_spring_forces<false>(const MassSpringModel&, const std::vector<Vec3>&,
-                                       const std::vector<Vec3>&, std::vector<Vec3>&,
-                                       std::vector<Vec3>&);
+template void add_internal_forces<true>(const MassSpringModel&, const std::vector<Vec3>&,
+                                        const std::vector<Vec3>&, std::vector<Vec3>&,
+                                        std::vector<Vec3>&);
+template void add_internal_forces<false>(const MassSpringModel&, const std::vector<Vec3>&,
+                                         const std::vector<Vec3>&, std::vector<Vec3>&,
+                                         std::vector<Vec3>&);
 
 double elastic_energy(const MassSpringModel& model, const std::vector<Vec3>& x) {
   double energy = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "sim/correction/corner_law.hpp"
-#include "sim/integrators/dilatation.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -38,11 +37,9 @@ void Leapfrog::find_forces(bool with_damping) {
   std::fill(force_.begin(), force_.end(), Vec3::Zero());
   if (with_damping) {
     std::fill(damping_force_.begin(), damping_force_.end(), Vec3::Zero());
-    add_spring_forces<true>(*model_, x_, w, force_, damping_force_);
-    add_dilatation_forces<true>(model_->dilatation, x_, w, force_, damping_force_);
+    add_internal_forces<true>(*model_, x_, w, force_, damping_force_);
   } else {
-    add_spring_forces<false>(*model_, x_, w, force_, damping_force_);
-    add_dilatation_forces<false>(model_->dilatation, x_, w, force_, damping_force_);
+    add_internal_forces<false>(*model_, x_, w, force_, damping_force_);
   }
 }
 

@@ -6,7 +6,6 @@
 #include <complex>
 #include <limits>
 
-#include "sim/integrators/dilatation.hpp"
 #include "sim/integrators/kernel.hpp"
 
 namespace springlod::sim {
@@ -61,12 +60,10 @@ double RungeKutta::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3
   double power = 0;
   if (with_ledger_) {
     std::fill(damping_force_.begin(), damping_force_.end(), Vec3::Zero());
-    add_spring_forces<true>(*model_, x, v, a, damping_force_);
-    add_dilatation_forces<true>(model_->dilatation, x, v, a, damping_force_);
+    add_internal_forces<true>(*model_, x, v, a, damping_force_);
     for (std::size_t i = 0; i < x.size(); ++i) power -= damping_force_[i].dot(v[i]);
   } else {
-    add_spring_forces<false>(*model_, x, v, a, damping_force_);
-    add_dilatation_forces<false>(model_->dilatation, x, v, a, damping_force_);
+    add_internal_forces<false>(*model_, x, v, a, damping_force_);
   }
   for (std::size_t i = 0; i < x.size(); ++i) a[i] = a[i] / model_->mass[i] + gravity_;
   spring_updates_ += model_->spring_count();

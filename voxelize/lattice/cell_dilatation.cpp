@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
-
-#include "model/node_dilatation.hpp"
 
 namespace springlod::voxelize {
 namespace {
@@ -46,15 +43,6 @@ DilatationTerms cell_terms(const MaterialGrid& grid, const CornerNodes& nodes) {
     terms.add(dilatation_modulus(material) * volume, material.damping, node, gradient);
   }
   return terms;
-}
-
-DilatationTerms center_terms(const MassSpringModel& model) {
-  std::vector<NodeDilatation> of_nodes;
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    const Material& material = model.materials[model.material[i]];
-    of_nodes.push_back({dilatation_modulus(material) * model.volume[i], material.damping});
-  }
-  return node_terms(model, of_nodes);
 }
 
 }  // namespace springlod::voxelize

@@ -11,7 +11,4 @@ namespace springlod::voxelize {
 /// deformation gradient of the cell (docs/method.md, eq. 8c).
 DilatationTerms cell_terms(const MaterialGrid& grid, const CornerNodes& nodes);
 
-/// The dilatation terms of a `centers` lattice: one for each node, with its material and volume.
-DilatationTerms center_terms(const MassSpringModel& model);
-
 }  // namespace springlod::voxelize

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "model/node_dilatation.hpp"
 #include "voxelize/cell_material.hpp"
 #include "voxelize/enough_memory.hpp"
 #include "voxelize/index_lookup.hpp"
@@ -255,7 +256,7 @@ MassSpringModel centers_model(const MaterialGrid& grid, bool volumes) {
               : series(here, grid.materials[grid.material[other]], grid.cell);
       add_spring(model, n, other, spring.k, spring.c);
     }
-  model.dilatation = center_terms(model);
+  model.dilatation = material_terms(model);
   if (volumes)
     for (std::uint32_t n = 0; n < model.node_count(); ++n)
       add_center_corners(grid, lookup, n, model);

@@ -181,20 +181,14 @@ struct Rescaling {
   Measured measured;
 };
 
-/// The dilatation terms of a network of unit springs for one material, E = 1 Pa.
-DilatationTerms unit_terms(const MassSpringModel& unit, const Material& material, double factor) {
-  std::vector<NodeDilatation> of_nodes;
-  for (const double volume : unit.volume)
-    of_nodes.push_back({factor * dilatation_modulus(material) * volume, 0});
-  return node_terms(unit, of_nodes);
-}
-
 Measured measure_with(const MaterialGrid& grid, const MassSpringModel& unit,
                       const std::vector<Vec3>& surface, const Material& material,
                       const Rescaling& factors) {
   MassSpringModel model = unit;
   for (double& k : model.stiffness) k *= factors.springs * spring_young(material);
-  model.dilatation = unit_terms(unit, material, factors.terms);
+  model.materials = {material};
+  model.material.assign(model.rest.size(), 0);
+  model.dilatation = material_terms(model, {factors.terms});
   return measure(grid, model, surface);
 }
 
@@ -278,14 +272,9 @@ void apply_materials(const std::vector<Rescaling>& factors, MassSpringModel& mod
     model.stiffness[s] *= factor * pair.young;
     model.damping[s] = pair.damping * model.stiffness[s];
   }
-  std::vector<NodeDilatation> of_nodes;
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    const Material& material = model.materials[model.material[i]];
-    of_nodes.push_back(
-        {factors[model.material[i]].terms * dilatation_modulus(material) * model.volume[i],
-         material.damping});
-  }
-  model.dilatation = node_terms(model, of_nodes);
+  std::vector<double> of_terms;
+  for (const Rescaling& each : factors) of_terms.push_back(each.terms);
+  model.dilatation = material_terms(model, of_terms);
 }
 
 void count_ends(RandomModel& random) {
@@ -328,7 +317,6 @@ RandomModel build_random(const MaterialGrid& grid, const RandomOptions& options)
   random.young = main.measured.young;
   random.poisson = main.measured.poisson;
   random.rescaled = main.springs;
-  random.rescaled_terms = main.terms;
   apply_materials(factors, model);
   if (options.volumes) model.corners = choose_corners(model);
   return random;

@@ -54,16 +54,15 @@ constexpr auto option_rows(const RandomOptions*) {
 }
 
 /// A random model and the measured moduli of its network, taken with one material for all springs,
-/// the one with most of the volume: in a box of cells the means of the stretch tests along its
+/// the one that most nodes have: in a box of cells the means of the stretch tests along its
 /// three edges, in any other shape those of surface_stretch. Young's moduli are fractions of the
 /// target.
 struct RandomModel {
   MassSpringModel model;
-  double eq2_young = 0;       ///< before rescaling, with k by eq. 2
-  double young = 0;           ///< after rescaling: 1 up to the solver's residual, without terms
-  double poisson = 0;         ///< after rescaling
-  double rescaled = 1;        ///< factor of all stiffnesses and damping coefficients
-  double rescaled_terms = 1;  ///< factor of the moduli of all dilatation terms
+  double eq2_young = 0;  ///< before rescaling, with k by eq. 2
+  double young = 0;      ///< after rescaling: 1 up to the solver's residual, without terms
+  double poisson = 0;    ///< after rescaling
+  double rescaled = 1;   ///< factor of all stiffnesses and damping coefficients
   double mean_ends = 0;
   std::uint32_t least_ends = 0;
   std::uint32_t components = 0;  ///< number of connected components

@@ -37,11 +37,17 @@ std::vector<std::uint32_t> order_by_layers(const std::vector<Vec3>& rest) {
   return order;
 }
 
+/// The place of each node.
+std::vector<std::uint32_t> places_of(const std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t p = 0; p < order.size(); ++p) place[order[p]] = p;
+  return place;
+}
+
 /// Sorted by the eight places in which they begin, then by reach.
 std::vector<PlacedSpring> place_springs(const MassSpringModel& model,
                                         const std::vector<std::uint32_t>& order) {
-  std::vector<std::uint32_t> place(order.size());
-  for (std::uint32_t p = 0; p < order.size(); ++p) place[order[p]] = p;
+  const std::vector<std::uint32_t> place = places_of(order);
   std::vector<PlacedSpring> springs(model.spring_count());
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
     const auto [first, second] = std::minmax(place[model.a[s]], place[model.b[s]]);
@@ -115,8 +121,7 @@ std::vector<PlacedTerm> place_terms(const MassSpringModel& model,
                                     const std::vector<std::uint32_t>& order,
                                     std::vector<TermShape<Real>>& shapes) {
   const DilatationTerms& terms = model.dilatation;
-  std::vector<std::uint32_t> place(order.size());
-  for (std::uint32_t p = 0; p < order.size(); ++p) place[order[p]] = p;
+  const std::vector<std::uint32_t> place = places_of(order);
   Palette palette(shapes);
   std::vector<PlacedTerm> placed;
   for (std::uint32_t t = 0; t < terms.count(); ++t) {
@@ -186,12 +191,25 @@ std::uint32_t whole_rows(std::uint32_t places) {
   return (places + kRowLanes - 1) / kRowLanes * kRowLanes;
 }
 
+/// Places that the rows of eight places reach ahead.
+template <class Real>
+std::uint32_t farthest_ahead(const RowLayout<Real>& layout, std::uint32_t eight) {
+  std::uint32_t farthest = 0;
+  for (std::uint32_t r = layout.first_row[eight]; r < layout.first_row[eight + 1]; ++r)
+    farthest = std::max(farthest, layout.rows[r].ahead);
+  const RowTerms<Real>& terms = layout.dilatation;
+  if (terms.first_row.empty()) return farthest;
+  for (std::uint32_t r = terms.first_row[eight]; r < terms.first_row[eight + 1]; ++r)
+    farthest = std::max(farthest, terms.rows[r].ahead.back());
+  return farthest;
+}
+
 template <class Real>
 void cut_blocks(RowLayout<Real>& layout) {
   const auto n = static_cast<std::uint32_t>(layout.node.size());
   std::uint32_t farthest = 0;
-  for (const SpringRow& row : layout.rows) farthest = std::max(farthest, row.ahead);
-  for (const TermRow& row : layout.dilatation.rows) farthest = std::max(farthest, row.ahead.back());
+  for (std::uint32_t eight = 0; eight + 1 < layout.first_row.size(); ++eight)
+    farthest = std::max(farthest, farthest_ahead(layout, eight));
   // An even number of blocks of equal size, so that two threads get equal work.
   const std::uint32_t count = n / std::max(kBlockNodes, kBlocksReach * farthest);
   layout.block_places = whole_rows((n - 1) / std::max(1U, count - count % 2) + 1);
@@ -200,7 +218,7 @@ void cut_blocks(RowLayout<Real>& layout) {
     RowBlock block{first, std::min(layout.block_places, n - first), 0};
     std::uint32_t end = first + block.places();
     for (std::uint32_t p = first; p < first + block.own; p += kRowLanes)
-      end = std::max(end, p + kRowLanes + layout.farthest_ahead(p / kRowLanes));
+      end = std::max(end, p + kRowLanes + farthest_ahead(layout, p / kRowLanes));
     block.reach = whole_rows(end - (first + block.places()));
     for (std::uint32_t i = 0; i < block.own; ++i)
       layout.place[layout.node[first + i]] = {static_cast<std::uint32_t>(layout.blocks.size()), i};
@@ -210,17 +228,6 @@ void cut_blocks(RowLayout<Real>& layout) {
 }
 
 }  // namespace
-
-template <class Real>
-std::uint32_t RowLayout<Real>::farthest_ahead(std::uint32_t eight) const {
-  std::uint32_t farthest = 0;
-  for (std::uint32_t r = first_row[eight]; r < first_row[eight + 1]; ++r)
-    farthest = std::max(farthest, rows[r].ahead);
-  if (dilatation.first_row.empty()) return farthest;
-  for (std::uint32_t r = dilatation.first_row[eight]; r < dilatation.first_row[eight + 1]; ++r)
-    farthest = std::max(farthest, dilatation.rows[r].ahead.back());
-  return farthest;
-}
 
 bool has_terms_of_cells(const MassSpringModel& model) {
   const DilatationTerms& terms = model.dilatation;

@@ -133,9 +133,6 @@ struct RowLayout {
 
   std::uint32_t block_places = 0;  ///< places of every block but the last
 
-  /// Places that the rows of eight places reach ahead.
-  std::uint32_t farthest_ahead(std::uint32_t eight) const;
-
   /// The first block whose springs may end at places of this block.
   std::uint32_t first_contributor(std::uint32_t block) const {
     const std::uint32_t back = (reach + block_places - 1) / block_places;

@@ -158,7 +158,7 @@ TEST_CASE("A spring that shrinks to a point stays finite") {
   const std::vector<Vec3> v{Vec3(1, 0, 0), Vec3(-1, 0, 0)};
   std::vector<Vec3> force(2, Vec3::Zero());
   std::vector<Vec3> damping(2, Vec3::Zero());
-  add_spring_forces<true>(model, x, v, force, damping);
+  add_internal_forces<true>(model, x, v, force, damping);
   CHECK(force[0] == Vec3::Zero());
   CHECK(force[1] == Vec3::Zero());
 }
@@ -172,7 +172,7 @@ TEST_CASE("Forces are the gradient of the elastic energy") {
   const std::vector<Vec3> still(x.size(), Vec3::Zero());
   std::vector<Vec3> force(x.size(), Vec3::Zero());
   std::vector<Vec3> unused(x.size(), Vec3::Zero());
-  add_spring_forces<false>(model, x, still, force, unused);
+  add_internal_forces<false>(model, x, still, force, unused);
   const double h = 1e-6;
   for (std::uint32_t i = 0; i < model.node_count(); i += 5)
     for (int axis = 0; axis < 3; ++axis) {
