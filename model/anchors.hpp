@@ -18,10 +18,12 @@ std::vector<std::uint8_t> anchor_flags(const MassSpringModel& model,
 /// The option row of nodes that are held.
 template <class S>
 constexpr NodesOption<S> anchored_option(std::vector<std::uint32_t> S::*member) {
-  return nodes_option("anchored", member,
-                      "nodes that are held in place: their numbers, or a function of a Node that "
-                      "returns true for them",
-                      "none");
+  NodesOption<S> row = nodes_option("anchored", member,
+                                    "nodes that are held in place: their numbers, a function of a "
+                                    "Node that returns true for them, or the anchors of a run",
+                                    "none");
+  row.held = true;
+  return row;
 }
 
 }  // namespace springlod::inline model

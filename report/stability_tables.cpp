@@ -8,7 +8,8 @@ std::string stability_columns_help() {
          "Euler for implicit ones) [s], step_over_limit, stable (1: the run was completed with "
          "less than twice its initial energy), verdict, diverged_at [s], node (that diverged or "
          "moves in a mechanism; from 1), energy_drift (of the scheme, over the energy at the "
-         "start), error (rms distance from the reference run over its rms displacement), cost "
+         "start and that from moving anchors), error (rms distance from the reference run over its "
+         "rms displacement), cost "
          "(spring updates per simulated second), unconverged_steps; values that do not apply are "
          "empty strings";
 }

@@ -12,7 +12,8 @@ local parser = command.parser("compare", "Run every level of an asset under one 
   .. "With options of levels, such as --grouping standard, the levels are made anew from the base "
   .. "of the asset; those that are not given are as convert has them.")
 parser:argument("asset", "a .glb asset, written by convert or s.save")
-parser:option("--scenario", "Lua file that returns a table for s.scenario")
+parser:option("--scenario", "Lua file that returns a table for s.scenario; it may also have "
+  .. "anchored: what holds nodes of the base, as for s.compare")
   :argname("<file.lua>"):count(1)
 parser:option("--out", "folder to write to"):argname("<folder>"):count(1)
 parser:option("--starts", "number of starts; every level uses the same ones")
@@ -72,10 +73,13 @@ end
 
 local function compare()
   local chain = levels_of(s.load(args.asset))
-  local scene = s.scenario(command.load_table(args.scenario))
+  local scene = command.load_table(args.scenario)
+  local anchored = scene.anchored
+  scene.anchored = nil
   local runs = s.compare(chain, scene, {
     starts = args.starts, jitter = args.jitter, seed = s.seed, threads = s.threads,
     variant = args.variant, frame_rate = args.frame_rate * args.slow, contact = args.contact,
+    anchored = anchored,
   })
   local rows, columns = runs:table()
   s.csv(args.out .. "/table.csv", rows, {columns = columns})

@@ -31,6 +31,8 @@ parser:option("--periods", "length of each run in periods of the slowest mode (d
   :convert(command.number("--periods", 0))
 parser:option("--duration", "length of each run, such as 0.1s")
   :convert(command.quantity("--duration", "time"))
+parser:option("--anchored", "Lua file that returns the anchors of s.stability, nodes of the base "
+  .. "that are held (default: the body is free)"):convert(command.lua_file("--anchored"))
 parser:flag("--damping", "keep the damping of the springs (default: undamped)")
 parser:flag("--fixed-levels", "apply the ratio to the base only and keep the levels as they are; "
   .. "shows the error of a level at ratios it was not built for")
@@ -50,6 +52,7 @@ local function stability()
     sweep_steps = args.sweep_steps or quick.sweep_steps, damping = args.damping or false,
     absolute_steps = args.absolute_steps, periods = args.periods or quick.periods,
     duration = args.duration, remake_levels = not args.fixed_levels,
+    anchored = args.anchored,
     seed = s.seed, threads = s.threads,
   })
   for _, name in ipairs{"table", "bodies", "timings"} do

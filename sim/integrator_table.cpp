@@ -26,7 +26,8 @@ std::unique_ptr<Stepper> make_fast(const MassSpringModel& model, const Scenario&
                                                     .precision = options.precision,
                                                     .threads = options.threads,
                                                     .layout = plan.layout,
-                                                    .skin = options.skin});
+                                                    .skin = options.skin,
+                                                    .anchors = options.anchors});
 }
 
 template <class Scheme>
@@ -38,7 +39,8 @@ std::unique_ptr<Stepper> make(const MassSpringModel& model, const Scenario& scen
                                                  .solver = options.solver,
                                                  .ledger = options.ledger,
                                                  .volumes = options.volumes,
-                                                 .skin = options.skin});
+                                                 .skin = options.skin,
+                                                 .anchors = options.anchors});
 }
 
 /// See Leapfrog.

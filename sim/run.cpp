@@ -107,6 +107,7 @@ RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
   validate(model);
   validate(scenario);
   validate(options);
+  validate(options.anchors, model);
   require_known_forces(model, options.integrator);
   RunPlan plan{.limit = std::make_shared<const StepLimit>(step_limit(model, options.integrator))};
   if (choice_of(options.integrator).traits.fast)

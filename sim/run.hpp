@@ -10,6 +10,7 @@
 #include "sim/contact/contact_skin.hpp"
 #include "sim/correction/inversion.hpp"
 #include "sim/fast/layout.hpp"
+#include "sim/held/anchor.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/ledger.hpp"
 #include "sim/integrators/step_bound.hpp"
@@ -48,6 +49,8 @@ struct RunOptions {
   /// The surface at which the body touches obstacles; none: its own nodes, which in a coarse level
   /// lie deep inside the base's surface. See contact_skin.
   std::shared_ptr<const ContactSkin> skin = nullptr;
+  /// The nodes that are held. Not a row of the options: scripts give it with the model's nodes.
+  std::vector<Anchor> anchors = {};
   /// Ends the run this long after the first contact [s]; none: at the end of the scenario. Not an
   /// option of scripts.
   std::optional<double> stop_after_contact = std::nullopt;
@@ -97,6 +100,13 @@ struct Frame {
   std::vector<Vec3> x;  ///< [m]
 };
 
+/// What an anchor does to the body between two frames.
+struct AnchorLoad {
+  Vec3 force = Vec3::Zero();   ///< on the body, mean since the frame before [N]
+  Vec3 torque = Vec3::Zero();  ///< about the pivot of the anchor, mean [N m]
+  double work = 0;             ///< since the start [J]
+};
+
 /// One run of one model: deterministic for any number of threads.
 struct Trajectory {
   double step = 0;            ///< at rest [s]
@@ -112,12 +122,14 @@ struct Trajectory {
   std::uint64_t spring_updates = 0;
   /// Steps in which the solver of backward Euler did not reach its tolerance.
   std::uint64_t unconverged_steps = 0;
-  double simulated = 0;                 ///< [s]; below the duration if a stop rule ended the run
-  double wall_seconds = 0;              ///< measured; never part of a result that must repeat
-  double planning_seconds = 0;          ///< of these, the time before the first step (plan_runs)
-  double processor_seconds = 0;         ///< of the calling thread from the first step on; measured
-  std::vector<Frame> frames;            ///< at the frame times, first and last included
-  std::vector<LedgerEntry> ledger;      ///< one per frame; empty if not requested
+  double simulated = 0;             ///< [s]; below the duration if a stop rule ended the run
+  double wall_seconds = 0;          ///< measured; never part of a result that must repeat
+  double planning_seconds = 0;      ///< of these, the time before the first step (plan_runs)
+  double processor_seconds = 0;     ///< of the calling thread from the first step on; measured
+  std::vector<Frame> frames;        ///< at the frame times, first and last included
+  std::vector<LedgerEntry> ledger;  ///< one per frame; empty if not requested
+  /// By frame, then by anchor; those of the first frame are 0. Empty without anchors.
+  std::vector<std::vector<AnchorLoad>> anchor_loads;
   std::optional<double> first_contact;  ///< [s]
   std::optional<double> asleep_since;   ///< [s]; from then on it was not advanced
   /// For a model without corners: the first inverted spring. From then on, the deformation near it

@@ -9,6 +9,7 @@
 #include <lua.hpp>
 
 #include "report/tables.hpp"
+#include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/chart_table.hpp"
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/run_options.hpp"
@@ -79,6 +80,7 @@ int compare_binding(Call& call) {
   TableReader reader = call.options(3);
   read_options(call, reader, options);
   options.contact = read_contact(reader);
+  options.run.anchors = read_anchors(call, reader, value->chain->chain.levels.front().model);
   reader.finish();
   value->comparison = sim::compare(value->chain->chain, *scenario, options);
   std::vector<sim::RunSummary> all;
@@ -103,6 +105,7 @@ int ensemble_binding(Call& call) {
   options.first_start = first - 1;
   read_options(call, reader, options);
   options.run.skin = skin_of(*model, read_contact(reader));
+  options.run.anchors = read_anchors(call, reader, *model->model);
   reader.finish();
   const std::vector<sim::EnsembleRun> runs = sim::run_ensemble(*model->model, *scenario, options);
   lua_State* L = call.lua();
@@ -191,6 +194,7 @@ void describe_comparison(Api& api) {
 std::vector<Parameter> compare_parameters() {
   std::vector<Parameter> parameters = session_parameters<sim::CompareOptions>();
   parameters.push_back(contact_parameter());
+  parameters.push_back(anchors_parameter());
   return parameters;
 }
 
@@ -204,6 +208,7 @@ std::vector<Parameter> ensemble_parameters() {
        .fallback = fmt::format("{}", usual.first_start + 1),
        .help = "number of the first start, to add other starts to an earlier ensemble"});
   parameters.push_back(contact_parameter());
+  parameters.push_back(anchors_parameter());
   return parameters;
 }
 

@@ -10,6 +10,7 @@
 #include "elastic/modes.hpp"
 #include "elastic/moduli.hpp"
 #include "elastic/zero_modes.hpp"
+#include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/node_choice.hpp"
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/values.hpp"
@@ -44,7 +45,7 @@ int stretch_binding(Call& call) {
 int zero_modes_binding(Call& call) {
   const MassSpringModel& model = *call.value<ModelValue>(1)->model;
   TableReader reader = call.options(2);
-  const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
+  const std::vector<std::uint32_t> anchored = read_anchored(call, reader, model);
   reader.finish();
   const std::vector<elastic::ComponentModes> parts = elastic::zero_modes(model, anchored);
   lua_State* L = call.lua();
@@ -70,7 +71,7 @@ int modes_binding(Call& call) {
   options.progress = call.progress();
   TableReader reader = call.options(2);
   read_options(call, reader, options);
-  const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
+  const std::vector<std::uint32_t> anchored = read_anchored(call, reader, model);
   reader.finish();
   const elastic::Modes found = elastic::lowest_modes(
       elastic::elastic_body(model, {.anchored = anchored, .progress = call.progress()}), options);
@@ -101,7 +102,7 @@ void push_solution(lua_State* L, const elastic::StaticSolution& solution) {
 int static_loads_binding(Call& call) {
   const MassSpringModel& model = *call.value<ModelValue>(1)->model;
   TableReader reader = call.options(2);
-  const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
+  const std::vector<std::uint32_t> anchored = read_anchored(call, reader, model);
   reader.finish();
   const std::vector<elastic::StaticLoad> loads = elastic::smooth_loads(model);
   const std::vector<elastic::StaticSolution> solutions = elastic::solve_static(
@@ -121,7 +122,7 @@ int deflect_binding(Call& call) {
   const MassSpringModel& model = *call.value<ModelValue>(1)->model;
   TableReader reader = call.options(2);
   if (!reader.has("force")) reader.refuse("force", "given: which forces pull at the nodes");
-  const std::vector<std::uint32_t> anchored = read_anchored(reader, model);
+  const std::vector<std::uint32_t> anchored = read_anchored(call, reader, model);
   const elastic::StaticLoad load{"of deflect", read_forces(reader, model)};
   reader.finish();
   push_solution(

@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "base/script_number.hpp"
+#include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/run_options.hpp"
 #include "scripting/bind/tables/scenario_table.hpp"
@@ -57,6 +58,8 @@ int run_binding(Call& call) {
   reader.read("quiet", quiet);
   const MassSpringModel& model = *value->model->model;
   const std::optional<State> start = read_start(call, reader, model);
+  options.anchors = read_anchors(call, reader, model);
+  for (const sim::Anchor& anchor : options.anchors) value->anchor_names.push_back(anchor.name);
   reader.finish();
   value->trajectory = start ? sim::run(model, *value->scenario, *start, options)
                             : sim::run(model, *value->scenario, options);
@@ -95,6 +98,7 @@ void push_ledger(lua_State* L, const TrajectoryValue& value) {
     set_field(L, "lost_corners", entry.lost_corners);
     set_field(L, "lost_scheme", entry.lost_scheme);
     set_field(L, "lost_switch", entry.lost_switch);
+    set_field(L, "anchor_work", entry.anchor_work);
     set_field(L, "total", entry.total());
     end_list_entry(L, ++number);
   }
@@ -193,8 +197,13 @@ void describe_trajectory(Api& api) {
       "ledger", "list of tables",
       "energies of each frame [J]: time, kinetic, elastic, gravity, contact, "
       "lost_damping, lost_friction, lost_contact, lost_corners, lost_scheme, lost_switch, "
-      "total",
+      "anchor_work (done on the body by what holds it), total",
       push_ledger);
+  type.table_field(
+      "anchor_loads", "list of tables",
+      "what each anchor does to the body, frame by frame, in their order: name, force [N] and "
+      "torque about its pivot [N m] (means since the frame before), work since the start [J]",
+      push_anchor_loads);
   type.table_field("final", "State", "last state: time [s], x and v, lists of {x, y, z} by node",
                    push_final);
   type.method(
@@ -220,6 +229,7 @@ std::vector<Parameter> single_run_parameters() {
   std::vector<Parameter> parameters = parameters_of<sim::RunOptions>();
   parameters.push_back(contact_parameter());
   parameters.push_back(start_parameter());
+  parameters.push_back(anchors_parameter());
   parameters.push_back(
       {.name = "threads",
        .type = "integer",
@@ -241,6 +251,7 @@ std::vector<Parameter> single_run_parameters() {
 void describe_sim(Api& api) {
   describe_scenario(api);
   describe_start(api);
+  describe_anchors(api);
   describe_trajectory(api);
   describe_stability(api);
   api.add(FunctionEntry{
@@ -253,9 +264,12 @@ void describe_sim(Api& api) {
       .returns = "Trajectory",
       .errors = "A diverged run: error.kind is \"unstable\"; error.node and error.time are its "
                 "node and time. A node that passes through a box: \"tunnelled\"; error.obstacle "
-                "names the box. A start with another number of nodes.",
+                "names the box. A start with another number of nodes. Anchors without nodes, two "
+                "that hold one node, a path whose times do not increase.",
       .example = "local trajectory = s.run(chain[1], scene, {frame_rate = 30})\n"
-                 "local more = s.run(chain[1], scene, {start = trajectory.final})",
+                 "local more = s.run(chain[1], scene, {start = trajectory.final})\n"
+                 "local hung = s.run(base, scene, {anchored = function(node) return node.z > 0.1 "
+                 "end})",
       .call = run_binding});
   describe_compare(api);
   describe_deviation(api);

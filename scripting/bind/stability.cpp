@@ -6,6 +6,7 @@
 #include <lua.hpp>
 
 #include "report/tables.hpp"
+#include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/chart_table.hpp"
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/values.hpp"
@@ -24,6 +25,8 @@ int stability_binding(Call& call) {
   options.threads = call.session().settings().threads;
   TableReader reader = call.options(2);
   read_options(call, reader, options);
+  if (!chain->chain.levels.empty())
+    options.anchors = read_anchors(call, reader, chain->chain.levels.front().model);
   reader.finish();
   options.progress = call.progress();
   return call.give(std::shared_ptr<const sim::StabilityMap>(
@@ -82,6 +85,12 @@ void describe_map(Api& api) {
   api.add(type.build());
 }
 
+std::vector<Parameter> stability_parameters() {
+  std::vector<Parameter> parameters = session_parameters<sim::StabilityOptions>();
+  parameters.push_back(anchors_parameter());
+  return parameters;
+}
+
 }  // namespace
 
 void describe_stability(Api& api) {
@@ -92,7 +101,7 @@ void describe_stability(Api& api) {
       .summary = "Maps step and stiffness ratio for every level and integrator: verdict, time of "
                  "divergence, error against a fine run, and cost.",
       .arguments = {{.name = "chain", .type = "LodChain", .help = "levels to probe"}},
-      .options = session_parameters<sim::StabilityOptions>(),
+      .options = stability_parameters(),
       .returns = "StabilityMap",
       .errors =
           "A level that does not exist, a number that is not above 0, a base without springs. "

@@ -32,24 +32,29 @@ std::vector<double> damping_times(const MassSpringModel& model) {
 
 }  // namespace
 
-ContactPoints::ContactPoints(const MassSpringModel& model) : node_mass_(model.mass) {
+ContactPoints::ContactPoints(const MassSpringModel& model, const HeldNodes* held)
+    : node_mass_(model.mass) {
   const std::vector<double> contact = node_surface(model).contact;
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     if (!(model.contact_area[i] > 0)) continue;
     shares_.push_back({.node = i, .weight = 1});
-    end_point(model, i, {.area = model.contact_area[i], .contact = contact[i]});
+    if (leave_out(held)) continue;
+    end_point(model, i, {.area = model.contact_area[i], .contact = contact[i]}, held);
   }
 }
 
-ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& skin)
+ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& skin,
+                             const HeldNodes* held)
     : node_mass_(model.mass), skin_(true) {
   validate(skin, node_count());
   const Binding& of_nodes = skin.of_nodes;
   for (std::uint32_t p = 0; p < of_nodes.point_count(); ++p) {
     for (std::uint32_t e = of_nodes.start[p]; e < of_nodes.start[p + 1]; ++e)
       shares_.push_back({.node = of_nodes.node[e], .weight = of_nodes.weight[e]});
+    if (leave_out(held)) continue;
     end_point(model, skin.base_node[p],
-              {.area = skin.area[p], .contact = skin.contact[p], .compliance = skin.compliance[p]});
+              {.area = skin.area[p], .contact = skin.contact[p], .compliance = skin.compliance[p]},
+              held);
   }
   const std::vector<double> damping = damping_times(model);
   gradient_.assign(shares_.size(), Vec3::Zero());
@@ -61,20 +66,34 @@ ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& sk
   }
 }
 
+bool ContactPoints::leave_out(const HeldNodes* held) {
+  if (held == nullptr) return false;
+  for (std::size_t e = start_.back(); e < shares_.size(); ++e)
+    if (!held->holds(shares_[e].node)) return false;
+  shares_.resize(start_.back());
+  return true;
+}
+
 void ContactPoints::end_point(const MassSpringModel& model, std::uint32_t number,
-                              const Surface& surface) {
+                              const Surface& surface, const HeldNodes* held) {
+  const auto is_held = [&](const Share& share) {
+    return held != nullptr && held->holds(share.node);
+  };
   const std::uint32_t first = start_.back();
   start_.push_back(static_cast<std::uint32_t>(shares_.size()));
   double mobility = 0;
   double reach = 0;
   for (std::size_t e = first; e < shares_.size(); ++e) {
-    mobility += shares_[e].weight * shares_[e].weight / model.mass[shares_[e].node];
+    if (!is_held(shares_[e]))
+      mobility += shares_[e].weight * shares_[e].weight / model.mass[shares_[e].node];
     reach += std::abs(shares_[e].weight);
   }
   const bool is_node = shares_.size() == first + 1 && shares_[first].weight == 1;  // to the bit
   const double mass = is_node ? model.mass[shares_[first].node] : 1 / mobility;
   for (std::size_t e = first; e < shares_.size(); ++e)
-    shares_[e].kick = is_node ? 1 : shares_[e].weight * mass / model.mass[shares_[e].node];
+    shares_[e].kick = is_held(shares_[e]) ? 0
+                      : is_node           ? 1
+                                          : shares_[e].weight * mass / model.mass[shares_[e].node];
   area_.push_back(surface.area);
   automatic_stiffness_.push_back(surface.contact);
   compliance_.push_back(surface.compliance);

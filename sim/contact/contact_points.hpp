@@ -7,6 +7,7 @@
 
 #include "model/mass_spring.hpp"
 #include "sim/contact/contact_skin.hpp"
+#include "sim/held/held_nodes.hpp"
 #include "sim/scenario.hpp"
 
 namespace springlod::sim {
@@ -29,10 +30,14 @@ class ContactPoints {
     Vec3 sideways = Vec3::Zero();  ///< along the face by a unit normal force [m/N]
   };
 
+  // Contacts do not move the nodes of `held`; null: none. Points all of whose nodes are held are
+  // left out: nothing that they touch would move the body.
+
   /// The nodes with a contact area, in ascending order.
-  explicit ContactPoints(const MassSpringModel& model);
+  explicit ContactPoints(const MassSpringModel& model, const HeldNodes* held = nullptr);
   /// Throws InputError for a skin that does not fit the model.
-  ContactPoints(const MassSpringModel& model, const ContactSkin& skin);
+  ContactPoints(const MassSpringModel& model, const ContactSkin& skin,
+                const HeldNodes* held = nullptr);
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(area_.size()); }
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(node_mass_.size()); }
@@ -71,7 +76,8 @@ class ContactPoints {
         stiffness(point, obstacle, compliance) * compliance;  // fraction of the depth [1]
     return (1 - given) * obstacle.damping + given * compliance_damping_[point];
   }
-  /// Effective mass for an impulse at the point, 1 / sum (w_i^2 / m_i) [kg].
+  /// Effective mass for an impulse at the point, 1 / sum (w_i^2 / m_i) over nodes that are not held
+  /// [kg].
   double mass(std::size_t point) const { return mass_[point]; }
   /// sum |w_i| [1]: the displacement of the point / the largest displacement of its nodes is at
   /// most this.
@@ -107,7 +113,11 @@ class ContactPoints {
     Mat3 compliance = Mat3::Zero();  // at rest [m/N]
   };
   void set_gradients(const MassSpringModel& model, std::uint32_t point);
-  void end_point(const MassSpringModel& model, std::uint32_t number, const Surface& surface);
+  void end_point(const MassSpringModel& model, std::uint32_t number, const Surface& surface,
+                 const HeldNodes* held);
+
+  /// Leaves out the point of the shares from the last one's on, if all its nodes are held.
+  bool leave_out(const HeldNodes* held);
 
   std::vector<double> node_mass_;
   bool skin_ = false;

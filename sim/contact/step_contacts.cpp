@@ -224,6 +224,7 @@ Padded StepContacts::update_friction(Touch& touch, const Padded& at) const {
 void StepContacts::finish(StepNodes& nodes) {
   const std::span<Padded> slides = nodes.slides();
   for (const Touch& touch : touches_) {
+    if (nodes.held_count() > 0) absorb(touch, nodes);
     if (touch.friction == 0) continue;
     const Padded slide = step_ * touch.slip_change;
     for (const Share& share : shares(touch)) slides[share.slot] += share.kick * slide;
@@ -248,6 +249,12 @@ void StepContacts::finish(StepNodes& nodes) {
   new_shares_ = new_shares_ || kept != contacts_.size();
   contacts_.resize(kept);
   touches_.resize(kept);
+}
+
+void StepContacts::absorb(const Touch& touch, StepNodes& nodes) const {
+  const Padded impulse = step_ * touch.normal_force * touch.normal + touch.mass * touch.slip_change;
+  for (const Share& share : shares(touch))
+    if (nodes.is_held(share.slot)) nodes.absorb(share.slot, (share.weight * impulse).head<3>());
 }
 
 void StepContacts::book(const Touch& touch, const Contact& contact) {

@@ -98,6 +98,8 @@ class StepContacts {
   /// `at`: position of the point. Returns its change [m].
   Padded update_friction(Touch& touch, const Padded& at) const;
   Padded position(const Touch& touch, const StepNodes& nodes) const;
+  /// Counts what the held nodes of a point take up of its impulse.
+  void absorb(const Touch& touch, StepNodes& nodes) const;
   void book(const Touch& touch, const Contact& contact);
   /// Books the work of friction on what it moved the nodes itself.
   void book_slides(const StepNodes& nodes);

@@ -27,11 +27,12 @@ class VectorPaths final : public StepPaths {
 }  // namespace
 
 PlainCorrection::PlainCorrection(const MassSpringModel& model, const ContactPoints& points,
-                                 ContactFinder& finder, std::size_t obstacle_count, bool volumes)
+                                 ContactFinder& finder, std::size_t obstacle_count, bool volumes,
+                                 const HeldNodes* held)
     : model_(&model),
       points_(&points),
       obstacle_count_(obstacle_count),
-      solver_(model, points, finder, volumes),
+      solver_(model, points, finder, volumes, held),
       watch_(model.corner_count()),
       due_(model.corner_count(), kDueAtOnce) {}
 

@@ -11,12 +11,12 @@ namespace springlod::sim {
 /// step.
 class PlainCorrection {
  public:
-  /// Everything must outlive this. `volumes`: whether corners resist.
+  /// Everything must outlive this. `volumes`: whether corners resist. `held`: null: none.
   PlainCorrection(const MassSpringModel& model, const ContactPoints& points, ContactFinder& finder,
-                  std::size_t obstacle_count, bool volumes);
+                  std::size_t obstacle_count, bool volumes, const HeldNodes* held = nullptr);
 
   /// Corrects a step of length `step` [s] from the positions x to `x_next`, with the velocities
-  /// `v_next` at its end.
+  /// `v_next` at its end. The held nodes are where they are at its end, in `x_next` too.
   void correct(double step, const std::vector<Vec3>& x, std::vector<Vec3>& x_next,
                std::vector<Vec3>& v_next);
 

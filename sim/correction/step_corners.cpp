@@ -19,7 +19,7 @@ constexpr double kLargestMove = 0.25;
 
 }  // namespace
 
-StepCorners::StepCorners(const MassSpringModel& model, bool resist)
+StepCorners::StepCorners(const MassSpringModel& model, bool resist, const HeldNodes* held)
     : model_(&model), resist_(resist) {
   double total = 0;  // volume [m3]
   for (const Corner& corner : model.corners) {
@@ -31,7 +31,8 @@ StepCorners::StepCorners(const MassSpringModel& model, bool resist)
   }
   for (Kept& kept : kept_)
     kept.weight = std::min(1.0, static_cast<double>(kept_.size()) / (kept.inverse_volume * total));
-  for (const double mass : model.mass) inverse_mass_.push_back(1 / mass);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    inverse_mass_.push_back(held != nullptr && held->holds(i) ? 0 : 1 / model.mass[i]);
 }
 
 void StepCorners::begin(double step) {
@@ -89,7 +90,7 @@ void StepCorners::check(std::uint32_t number, bool resisted, StepNodes& nodes) {
   }
   // Other corners or contacts pressed it after the look of the last step.
   if (!resisted) loss_ -= penalty_energy(kept.stiffness, press.before);
-  if (inertia > 0) {  // else all four nodes are in one place, and no force moves them apart
+  if (inertia > 0) {  // else all four nodes are in one place or held, and no force moves them apart
     const double damping =
         std::sqrt(2 * kDampingRatio * kDampingRatio / (kept.stiffness * inertia));
     press.law = NormalLaw({.stiffness = kept.stiffness, .damping = damping, .mobility = inertia});
@@ -143,8 +144,13 @@ void StepCorners::count(StepNodes& nodes) {
   }
 }
 
-void StepCorners::finish(const StepNodes& nodes) {
-  for (const Press& press : presses_) book(press, nodes);
+void StepCorners::finish(StepNodes& nodes) {
+  for (const Press& press : presses_) {
+    book(press, nodes);
+    for (std::size_t i = 0; i < 4; ++i)
+      if (nodes.is_held(press.slot[i]))
+        nodes.absorb(press.slot[i], step_ * press.force * press.gradient[i]);
+  }
 }
 
 // What the corner takes out of the motion is force * (linear depth at the end - at the start); the

@@ -16,8 +16,9 @@ namespace springlod::sim {
 /// middle of the step without it, from the values of J at both ends. See StepCorrection.
 class StepCorners {
  public:
-  /// `resist`: false: the corners are watched, and exert no force. The model must outlive this.
-  StepCorners(const MassSpringModel& model, bool resist);
+  /// `resist`: false: the corners are watched, and exert no force. `held`: nodes that corners do
+  /// not move; null: none. The model must outlive this.
+  StepCorners(const MassSpringModel& model, bool resist, const HeldNodes* held = nullptr);
 
   /// Whether corners exert forces.
   bool resist() const { return resist_; }
@@ -37,7 +38,7 @@ class StepCorners {
   /// Ends the sweeps: counts the displacements by the corners at their nodes.
   void count(StepNodes& nodes);
   /// Ends the step: the nodes are at their final positions.
-  void finish(const StepNodes& nodes);
+  void finish(StepNodes& nodes);
 
   /// Energy lost to the corners of the step [J], without the part that the forces of the scheme
   /// take: see LedgerEntry.
@@ -89,7 +90,7 @@ class StepCorners {
   const MassSpringModel* model_;
   bool resist_;
   std::vector<Kept> kept_;                     // by corner
-  std::vector<double> inverse_mass_;           // by node [1/kg]
+  std::vector<double> inverse_mass_;           // by node, 0 if held [1/kg]
   std::vector<std::uint32_t> pressed_before_;  // corners with a force in the last step
   double step_ = 0;                            // [s]
   std::vector<Press> presses_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -33,17 +34,20 @@ class StepCorrection {
     double corners = 0;   ///< [J]
   };
 
-  /// Model, points and finder must outlive this. `volumes`: whether corners resist.
+  /// Model, points, finder and held nodes must outlive this. `volumes`: whether corners resist.
+  /// `held`: null: none.
   StepCorrection(const MassSpringModel& model, const ContactPoints& points, ContactFinder& finder,
-                 bool volumes)
-      : nodes_(model.node_count()), contacts_(points, finder), corners_(model, volumes) {}
+                 bool volumes, const HeldNodes* held = nullptr)
+      : nodes_(model.node_count(), held),
+        contacts_(points, finder),
+        corners_(model, volumes, held) {}
 
   /// The contacts at the start of a run.
   void set(std::vector<Contact> contacts) { contacts_.set(std::move(contacts)); }
   /// The contacts at the end of the last step.
   const std::vector<Contact>& now() const { return contacts_.now(); }
 
-  /// The paths must outlive the step. `step` [s].
+  /// The paths must outlive the step. The held nodes are where they are at its end. `step` [s].
   void begin(double step, const StepPaths& paths);
   // See StepContacts.
   const Contact* next_contact() const { return contacts_.next(); }
@@ -70,6 +74,10 @@ class StepCorrection {
 
   /// How the nodes change at the end of the step.
   const std::vector<NodeChange>& changes() const { return changes_; }
+  /// The same of the nodes that are not held.
+  std::span<const NodeChange> free_changes() const {
+    return std::span(changes_).subspan(nodes_.held_count());
+  }
   /// Energy lost in the step, without the part that the forces of the scheme take.
   const Losses& losses() const { return losses_; }
   /// See StepCorners.

@@ -5,6 +5,15 @@
 
 namespace springlod::sim {
 
+StepNodes::StepNodes(std::uint32_t node_count, const HeldNodes* held)
+    : held_(held), slot_(node_count, kNone) {
+  if (held == nullptr) return;
+  held_count_ = held->count();
+  kept_ = held_count_;
+  node_ = held->nodes();
+  for (std::uint32_t slot = 0; slot < held_count_; ++slot) slot_[node_[slot]] = slot;
+}
+
 void StepNodes::begin(const StepPaths& paths) {
   of_step_ = &paths;
   shared_ = kept_shared_;
@@ -14,6 +23,8 @@ void StepNodes::begin(const StepPaths& paths) {
   paths.read(node_, paths_);
   at_.clear();
   for (const PaddedPath& path : paths_) at_.push_back(path.to);
+  for (std::uint32_t slot = 0; slot < held_count_; ++slot) at_[slot] = padded(held_->at()[slot]);
+  absorbed_.assign(held_count_, Vec3::Zero());
   seen_ = at_;
   slide_.assign(kept_, Padded::Zero());
   corners_.assign(kept_, Vec3::Zero());
@@ -25,7 +36,7 @@ void StepNodes::keep() {
 }
 
 void StepNodes::keep_none() {
-  kept_ = 0;
+  kept_ = held_count_;
   kept_shared_ = false;
 }
 
@@ -53,7 +64,8 @@ double StepNodes::take_travel() {
 void StepNodes::finish(double step, std::vector<NodeChange>& changes) const {
   for (std::size_t i = 0; i < node_.size(); ++i) {
     const Padded displacement = at_[i] - paths_[i].to;
-    const Padded kick = (2 * displacement - slide_[i]) / step;
+    const Padded& slide = is_held(static_cast<std::uint32_t>(i)) ? displacement : slide_[i];
+    const Padded kick = (2 * displacement - slide) / step;
     changes.push_back({.node = node_[i],
                        .displacement = displacement.head<3>(),
                        .kick = kick.head<3>(),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/correction/padded.hpp"
+#include "sim/held/held_nodes.hpp"
 
 namespace springlod::sim {
 
@@ -34,7 +35,7 @@ class StepPaths {
 
 /// How a correction changes a node at the end of a step. Friction kicks a node at the start of the
 /// step and so moves it by step * kick. The force of a contact or a corner is constant over the
-/// step and moves it by step * kick / 2.
+/// step and moves it by step * kick / 2. A held node gets the velocity of its path over the step.
 struct NodeChange {
   std::uint32_t node = 0;
   Vec3 displacement = Vec3::Zero();  ///< [m]
@@ -51,12 +52,15 @@ struct NodeChange {
 
 /// The nodes that the contacts and corners of a step move, gathered so that the sweeps of the
 /// solver touch little memory. Those of the contacts, which are mostly the same in the next step,
-/// can keep their slots.
+/// can keep their slots. Held nodes always have the first slots and are where they are held;
+/// nothing may move them.
 class StepNodes {
  public:
-  explicit StepNodes(std::uint32_t node_count) : slot_(node_count, kNone) {}
+  /// `held` must outlive this; null: no node is held.
+  explicit StepNodes(std::uint32_t node_count, const HeldNodes* held = nullptr);
 
-  /// Begins a step with the nodes that were kept. The paths must outlive the step.
+  /// Begins a step with the nodes that were kept; held ones are where they have been moved to. The
+  /// paths must outlive the step.
   void begin(const StepPaths& paths);
   /// The nodes so far stay in the next steps, with their slots.
   void keep();
@@ -66,7 +70,7 @@ class StepNodes {
   std::uint32_t slot(std::uint32_t node) {
     const std::uint32_t slot = slot_[node];
     if (slot == kNone) return add(node);
-    shared_ = true;
+    shared_ = shared_ || !is_held(slot);
     return slot;
   }
   /// Whether a slot was asked for more than once: then its forces depend on each other.
@@ -74,6 +78,12 @@ class StepNodes {
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(node_.size()); }
   std::uint32_t node(std::uint32_t slot) const { return node_[slot]; }
+  bool is_held(std::uint32_t slot) const { return slot < held_count_; }
+  std::uint32_t held_count() const { return held_count_; }
+  /// Counts an impulse on a held node, which its anchor takes up [N s].
+  void absorb(std::uint32_t slot, const Vec3& impulse) { absorbed_[slot] += impulse; }
+  /// What the anchors have taken up in this step, by held node [N s].
+  const std::vector<Vec3>& absorbed() const { return absorbed_; }
   /// The nodes by slot.
   const std::vector<std::uint32_t>& nodes() const { return node_; }
   bool has(std::uint32_t node) const { return slot_[node] != kNone; }
@@ -102,7 +112,8 @@ class StepNodes {
   std::span<const Padded> slides() const { return slide_; }
   std::span<Padded> slides() { return slide_; }
 
-  /// Appends the change of each node in a step of length `step` [s].
+  /// Appends the change of each node in a step of length `step` [s]. That of a held node gives it
+  /// the velocity of its displacement over the step.
   void finish(double step, std::vector<NodeChange>& changes) const;
 
  private:
@@ -110,6 +121,9 @@ class StepNodes {
 
   std::uint32_t add(std::uint32_t node);
 
+  const HeldNodes* held_;
+  std::uint32_t held_count_ = 0;
+  std::vector<Vec3> absorbed_;  // by held node [N s]
   const StepPaths* of_step_ = nullptr;
   bool shared_ = false;
   std::uint32_t kept_ = 0;           // slots that stay in the next step

@@ -7,13 +7,15 @@ namespace springlod::sim {
 
 FastCorrection::FastCorrection(const Shared& shared)
     : shared_(shared),
-      needed_(!shared.points.obstacles->empty() || !shared.model->corners.empty()),
+      needed_(!shared.points.obstacles->empty() || !shared.model->corners.empty() ||
+              !shared.held->empty()),
       paths_(*shared.body, shared.model->node_count()),
       near_(shared.points, paths_),
       watch_(shared.model->corner_count()),
       found_(shared.body->block_count()),
       dues_(shared.body->block_count()),
-      solver_(*shared.model, *shared.points.points, *shared.points.finder, shared.volumes) {}
+      solver_(*shared.model, *shared.points.points, *shared.points.finder, shared.volumes,
+              shared.held) {}
 
 void FastCorrection::correct(const FastStep& step) {
   paths_.begin(step);
@@ -152,8 +154,8 @@ StepCorrection::Losses FastCorrection::half_work(double step) {
   forces_.resize(solver_.changes().size());
   shared_.body->get_elastic_forces(solver_.nodes().nodes(), forces_);
   StepCorrection::Losses work;
-  auto elastic = forces_.begin();  // in the order of StepNodes, as the changes
-  for (const NodeChange& change : solver_.changes()) {
+  auto elastic = forces_.begin() + solver_.nodes().held_count();  // by node, as the changes
+  for (const NodeChange& change : solver_.free_changes()) {
     const Vec3 half = 0.5 * (*elastic++ + shared_.model->mass[change.node] * shared_.gravity);
     work.contact += half.dot(change.by_contacts(step));
     work.friction += half.dot(change.by_friction(step));

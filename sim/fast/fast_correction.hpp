@@ -30,6 +30,7 @@ class FastCorrection {
     const MassSpringModel* model;
     NearPoints::Shared points;
     FastBody* body;
+    const HeldNodes* held;
     Vec3 gravity;      ///< [m/s2]
     bool with_ledger;  ///< record the losses
     bool volumes;      ///< whether corners resist
@@ -60,6 +61,10 @@ class FastCorrection {
   const std::vector<Contact>& contacts() const { return solver_.now(); }
   /// How the last correction changed the nodes.
   const std::vector<NodeChange>& changes() const { return solver_.changes(); }
+  /// Whose nodes have these changes, in the same order.
+  const StepNodes& nodes() const { return solver_.nodes(); }
+  /// Forces without damping on these nodes at the start of the drift, with a ledger [N].
+  const std::vector<Vec3>& forces() const { return forces_; }
   /// Losses so far.
   const StepCorrection::Losses& losses() const { return losses_; }
   /// Number of the first step with a contact.

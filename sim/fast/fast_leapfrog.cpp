@@ -39,7 +39,7 @@ std::uint32_t team_size(std::uint32_t threads, std::uint32_t blocks, std::uint32
 
 FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenario,
                            const State& start, double step, const FastOptions& options)
-    : Stepper(model, scenario, start, step, options.skin.get()),
+    : Stepper(model, scenario, start, step, options.skin.get(), options.anchors),
       layout_(options.layout ? options.layout : make_fast_model(model, options.precision)),
       body_(layout_->new_body(options.ledger)),
       team_(team_size(options.threads, body_->block_count(), model.node_count())),
@@ -53,9 +53,11 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
                               .finder = &finder_,
                               .walls = &walls_},
                    .body = body_.get(),
+                   .held = &held_,
                    .gravity = gravity_,
                    .with_ledger = with_ledger_,
                    .volumes = volumes_}),
+      anchors_(model, gravity_, held_),
       watch_(*body_, model.node_count(), shortest_spring(model)),
       losses_(body_->block_count()),
       sums_(body_->block_count()),
@@ -67,6 +69,7 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
 }
 
 void FastLeapfrog::prepare() {
+  anchors_.start(v_minus_);
   share_out([&](Share& share, const MovingFrame& frame) { return observe(share, frame); });
   finish_observation();
 }
@@ -123,9 +126,16 @@ void FastLeapfrog::finish_observation() {
   if (n_ != start_n_) {
     for (const NodeChange& change : correction_.changes())
       v_step_[change.node] -= change.by_pressure(step_) / step_;
-    return;
+  } else {
+    for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
   }
-  for (std::size_t i = 0; i < x_.size(); ++i) v_minus_[i] = 2 * v_minus_[i] - v_plus_[i];
+  observe_held();
+}
+
+void FastLeapfrog::observe_held() {
+  if (held_.empty()) return;
+  held_.move_to(time_of(n_ + 1));
+  anchors_.observe(step_, x_, v_minus_, v_plus_);
 }
 
 // Summed block by block, so that the result does not depend on the threads.
@@ -154,6 +164,7 @@ MovingFrame FastLeapfrog::take_new_frame(const Share& share) {
 
 bool FastLeapfrog::change_step(double step) {
   const double before = kinetic() + contact_energy(contacts_);
+  anchors_.end_step(anchor_forces_);
   v_minus_ = state().v;
   start_time_ = time();
   start_n_ = n_;
@@ -196,6 +207,7 @@ void FastLeapfrog::correct(const FastStep& step, const Share& share) {
   const bool one = share.member.number == 0;
   if (one) {
     reached_ = step.number;
+    held_.move_to(time_of(step.number));
     if (correction_.needed()) correction_.correct(step);
     watch_.plan(step, correction_);
     if (!watch_.looks()) end_look(step);
@@ -213,6 +225,7 @@ void FastLeapfrog::end_look(const FastStep& step) {
   watch_.solve_corners(correction_);
   if (watch_.looks()) return;
   if (correction_.needed()) correction_.finish(step);
+  if (!held_.empty()) anchors_.book(step.length, correction_, anchor_forces_);
   watch_.finish(step, *body_, correction_);
 }
 
@@ -319,6 +332,8 @@ LedgerEntry FastLeapfrog::ledger_entry() const {
   entry.lost_friction = correction_.losses().friction;
   entry.lost_corners = correction_.losses().corners;
   entry.lost_switch = lost_to_new_steps_;
+  entry.lost_damping += anchors_.lost_damping();
+  entry.anchor_work = anchor_work();
   entry.time = time();
   entry.kinetic = kinetic();
   entry.elastic = elastic_energy(*model_, x_) + (volumes_ ? corner_energy(*model_, x_) : 0);

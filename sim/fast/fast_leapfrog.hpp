@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/fast/fast_anchors.hpp"
 #include "sim/fast/fast_correction.hpp"
 #include "sim/fast/fast_model.hpp"
 #include "sim/fast/fast_watch.hpp"
@@ -23,6 +24,7 @@ struct FastOptions {
   std::shared_ptr<const FastModel> layout = nullptr;
   /// Contact skin; null: the nodes are the contact points.
   std::shared_ptr<const ContactSkin> skin = nullptr;
+  std::vector<Anchor> anchors = {};
 };
 
 /// The scheme of Leapfrog with symplectic Euler's damping, on a body in a fast layout: the same
@@ -43,6 +45,7 @@ class FastLeapfrog final : public Stepper {
   void watch(const Watch& limits) override;
   bool stopped() const override { return watch_.stopped(); }
   double take_corner_change() override { return correction_.take_largest_corner_change(); }
+  double anchor_work() const override { return anchor_forces_.work() + anchors_.half_work(); }
 
   std::uint64_t spring_updates() const override { return n_ * model_->spring_count(); }
   /// x_n + (t - t_n) v+
@@ -101,6 +104,8 @@ class FastLeapfrog final : public Stepper {
   /// The drift of a pass that begins with `frame`.
   FastStep drift_step(const Pass& pass, const MovingFrame& frame) const;
   void finish_observation();
+  /// Gives the held nodes the velocities of their anchors before and after the kick at step n_.
+  void observe_held();
   double kinetic() const;
   void gather_corrections();
   void throw_if_tunnelled() const;
@@ -114,6 +119,7 @@ class FastLeapfrog final : public Stepper {
   std::uint64_t reached_ = 0;  // step at the end of the last drift
   bool volumes_;
   FastCorrection correction_;
+  FastAnchors anchors_;
   FastWatch watch_;
   std::vector<Losses> losses_;     // by block
   std::vector<MovingFrame> sums_;  // over the nodes of each block

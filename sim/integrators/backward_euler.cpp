@@ -137,6 +137,7 @@ void BackwardEuler::linearise(const std::vector<Vec3>& x) {
     gradient_.segment<3>(row_of(b)) += k * stretch * unit;
     add_to_diagonal(a, block);
     add_to_diagonal(b, block);
+    if (held_.holds(a) || held_.holds(b)) continue;
     for (int d = 0; d < 3; ++d) {
       double* column =
           matrix_.valuePtr() + matrix_.outerIndexPtr()[row_of(a) + d] + (3 - d) + 3 * place;
@@ -144,6 +145,11 @@ void BackwardEuler::linearise(const std::vector<Vec3>& x) {
     }
   }
   for (const Contact& c : trial_contacts_) add_contact(c);
+  fix_held();
+}
+
+void BackwardEuler::fix_held() {
+  for (const std::uint32_t node : held_.nodes()) gradient_.segment<3>(row_of(node)).setZero();
 }
 
 void BackwardEuler::add_contact(const Contact& contact) {
@@ -182,12 +188,15 @@ bool BackwardEuler::descend() {
 void BackwardEuler::solve() {
   springs_.begin_step(x_);
   double scale = 0;  // of the acting forces [N]
-  for (std::size_t i = 0; i < x_.size(); ++i) {
+  for (std::uint32_t i = 0; i < x_.size(); ++i) {
     free_[i] = x_[i] + step_ * (v_[i] + step_ * gravity_);
     x_next_[i] = x_[i] + step_ * v_[i];
+    if (held_.holds(i)) continue;
     const double inertia = model_->mass[i] * (v_[i].norm() / step_ + gravity_.norm());
     scale += inertia * inertia;
   }
+  hold_nodes();
+  held_.put(free_);
   gradient_.resize(3 * static_cast<Eigen::Index>(x_.size()));
   energy_ = energy(x_next_);
   if (gave_up_) ++unconverged_steps_;

@@ -47,6 +47,8 @@ class BackwardEuler final : public WholeStep {
   /// replaced by a bound on the diagonal. This keeps the sparsity pattern, but Newton's method
   /// needs some more iterations.
   void add_contact(const Contact& contact);
+  /// Leaves the held nodes where they are in a Newton iteration.
+  void fix_held();
   void make_pattern();
   void add_to_diagonal(std::uint32_t node, const Mat3& block);
   /// Gradient descent from x_next_; false if it no longer decreases the function.

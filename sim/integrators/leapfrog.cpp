@@ -9,7 +9,7 @@ namespace springlod::sim {
 
 Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const State& start,
                    double step, const StepperOptions& options)
-    : StepByStep(model, scenario, start, step, options.skin.get()),
+    : StepByStep(model, scenario, start, step, options.skin.get(), options.anchors),
       integrator_(options.integrator),
       with_ledger_(options.ledger),
       books_scheme_(options.ledger && options.integrator == Integrator::velocity_verlet),
@@ -19,7 +19,8 @@ Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const
       v_damping_(start.v),
       force_(start.x.size()),
       damping_force_(start.x.size(), Vec3::Zero()),
-      correction_(model, points_, finder_, obstacle_count_, options.volumes),
+      anchor_force_(held_.count(), Vec3::Zero()),
+      correction_(model, points_, finder_, obstacle_count_, options.volumes, &held_),
       v_step_(start.v),
       x_next_(start.x),
       v_next_(start.v),
@@ -56,6 +57,7 @@ void Leapfrog::prepare() {
     x_next_[i] = x_[i] + step_ * v_plus_[i];
     v_next_[i] = v_plus_[i];
   }
+  hold_nodes();
   if (with_ledger_) book_end();
   correction_.correct(step_, x_, x_next_, v_next_);
   v_step_ = v_plus_;
@@ -63,7 +65,34 @@ void Leapfrog::prepare() {
     v_step_[change.node] += change.displacement / step_;
 }
 
+void Leapfrog::hold_nodes() {
+  held_.move_to(time_of(n_ + 1));
+  anchor_half_work_ = 0;
+  for (std::uint32_t h = 0; h < held_.count(); ++h) {
+    const std::uint32_t i = held_.node(h);
+    const Vec3 velocity = (held_.at()[h] - x_[i]) / step_;
+    const Vec3 free = (v_plus_[i] - v_minus_[i]) / step_;
+    if (n_ == 0) v_minus_[i] = velocity;
+    anchor_force_[h] = model_->mass[i] * ((velocity - v_minus_[i]) / step_ - free);
+    if (n_ > 0) anchor_half_work_ += 0.5 * step_ * anchor_force_[h].dot(v_minus_[i]);
+    v_plus_[i] = velocity;
+    x_next_[i] = held_.at()[h];
+    v_next_[i] = velocity;
+  }
+}
+
+void Leapfrog::book_anchors() {
+  const std::vector<Vec3>& absorbed = correction_.solver().nodes().absorbed();
+  for (std::uint32_t h = 0; h < held_.count(); ++h) {
+    const std::uint32_t i = held_.node(h);
+    const Vec3 moved = n_ > 0 ? Vec3(v_minus_[i] + v_plus_[i]) : v_plus_[i];
+    anchor_forces_.add(h, step_ * anchor_force_[h] - absorbed[h],
+                       0.5 * step_ * anchor_force_[h].dot(moved) - absorbed[h].dot(v_plus_[i]));
+  }
+}
+
 void Leapfrog::commit() {
+  book_anchors();
   if (with_ledger_) {
     book_damping(v_plus_);
     if (books_scheme_) losses_.lost_scheme -= half_spring_work();
@@ -144,6 +173,7 @@ LedgerEntry Leapfrog::ledger_entry() const {
   entry.lost_corners -= corners - booked_corners_;
   entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);
+  entry.anchor_work = anchor_work();
   return entry;
 }
 

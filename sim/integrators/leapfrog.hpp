@@ -44,7 +44,12 @@ class Leapfrog final : public StepByStep {
   /// Takes x_n to x_{n+1}.
   void commit() override;
   const std::vector<Vec3>& step_velocities() const override { return v_step_; }
+  double anchor_work() const override { return anchor_forces_.work() + anchor_half_work_; }
   void find_forces(bool with_damping);
+  /// Gives the held nodes the step of their anchors, and finds the forces of these.
+  void hold_nodes();
+  /// Adds what the anchors do in the step, half of which they do with the forces of its start.
+  void book_anchors();
   /// Half of the damping losses of a step, with the velocity v- or v+.
   void book_damping(const std::vector<Vec3>& v);
   double half_spring_work() const;
@@ -62,6 +67,8 @@ class Leapfrog final : public StepByStep {
   std::vector<Vec3> v_minus_, v_plus_;
   std::vector<Vec3> v_damping_;  // w_n; unused by symplectic Euler
   std::vector<Vec3> force_, damping_force_;
+  std::vector<Vec3> anchor_force_;  // at x_n, by held node [N]
+  double anchor_half_work_ = 0;     // of these over the second half of the last step [J]
   PlainCorrection correction_;
   std::vector<Vec3> v_step_;
   std::vector<Vec3> x_next_, v_next_;  // at the end of the step that prepare() computed

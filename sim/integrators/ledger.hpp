@@ -5,8 +5,8 @@
 namespace springlod::sim {
 
 /// Energies of a body and its losses until one time [J]: section 10 of docs/method.md. kinetic +
-/// elastic + gravity + contact + the losses = the initial sum. Gravity counts from the initial
-/// height.
+/// elastic + gravity + contact + the losses - the work of anchors = the initial sum. Gravity counts
+/// from the initial height.
 ///
 /// What is exact. With velocities v- and v+ half a step before and after x_n, the product
 /// K_n = sum m v- . v+ / 2 obeys K_{n+1} - K_n = (F_n + F_{n+1}) . (x_{n+1} - x_n) / 2: the
@@ -29,6 +29,10 @@ namespace springlod::sim {
 /// error, proportional to dt, the forces of the scheme do work on it that the trapezoid rule does
 /// not contain. It is recorded under lost_contact. The same holds for corners, under lost_corners.
 ///
+/// An anchor's force on a held node is what it takes, beyond the forces of the step, to give the
+/// node the velocity of its path. Its work follows the same trapezoid rule; what contacts and
+/// corners do to a held node in a step is taken up by the anchor over that step.
+///
 /// K_n is not a sum of squares: it lies below the kinetic energy of the mean velocity by
 /// m |dt F/m|^2 / 8.
 struct LedgerEntry {
@@ -43,11 +47,12 @@ struct LedgerEntry {
   double lost_corners = 0;   ///< to corner damping and the discretization error of corners
   double lost_scheme = 0;    ///< to the error of the scheme; < 0: it gained energy
   double lost_switch = 0;    ///< to a change of the level, or of the step (K_n depends on it)
+  double anchor_work = 0;    ///< done on the body by what holds it, so far
   /// The energy that can still become motion.
   double mechanical() const { return kinetic + elastic + gravity + contact; }
   double total() const {
     return mechanical() + lost_damping + lost_friction + lost_contact + lost_corners + lost_scheme +
-           lost_switch;
+           lost_switch - anchor_work;
   }
 };
 

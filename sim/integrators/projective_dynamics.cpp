@@ -26,7 +26,8 @@ void ProjectiveDynamics::make_matrix() {
     const double k = springs_.stiffness(s);
     entries.emplace_back(model_->a[s], model_->a[s], k);
     entries.emplace_back(model_->b[s], model_->b[s], k);
-    entries.emplace_back(model_->b[s], model_->a[s], -k);
+    if (!held_.holds(model_->a[s]) && !held_.holds(model_->b[s]))
+      entries.emplace_back(model_->b[s], model_->a[s], -k);
   }
   matrix_.resize(size, size);
   matrix_.setFromTriplets(entries.begin(), entries.end());
@@ -65,6 +66,7 @@ void ProjectiveDynamics::global_step() {
     right_.row(model_->a[s]) -= wanted.transpose();
     right_.row(model_->b[s]) += wanted.transpose();
   }
+  pull_from_held();
   // A node in contact is held in place but may leave the obstacle.
   for (const Contact& c : trial_contacts_)
     for (const ContactPoints::Share& share : points_.shares(c.point))
@@ -73,7 +75,19 @@ void ProjectiveDynamics::global_step() {
               .transpose();
   const Columns x = factor_.solve(right_);
   for (std::uint32_t i = 0; i < model_->node_count(); ++i) x_next_[i] = x.row(i);
+  held_.put(x_next_);
   spring_updates_ += model_->spring_count();
+}
+
+// The matrix leaves out what couples a node to a held one, whose position is known.
+void ProjectiveDynamics::pull_from_held() {
+  if (held_.empty()) return;
+  for (std::uint32_t s = 0; s < model_->spring_count(); ++s) {
+    const std::uint32_t a = model_->a[s];
+    const std::uint32_t b = model_->b[s];
+    if (held_.holds(a)) right_.row(b) += springs_.stiffness(s) * x_next_[a].transpose();
+    if (held_.holds(b)) right_.row(a) += springs_.stiffness(s) * x_next_[b].transpose();
+  }
 }
 
 void ProjectiveDynamics::solve() {
@@ -82,6 +96,7 @@ void ProjectiveDynamics::solve() {
     free_[i] = x_[i] + step_ * (v_[i] + step_ * gravity_);
     x_next_[i] = free_[i];
   }
+  hold_nodes();
   for (std::uint32_t iteration = 0; iteration < iterations_; ++iteration) {
     take_contacts();
     global_step();

@@ -31,6 +31,7 @@ class ProjectiveDynamics final : public WholeStep {
   /// Stiffness of a contact at one of the nodes from which its point is interpolated [N/m].
   double held_by(const Contact& contact, const ContactPoints::Share& share) const;
   void global_step();
+  void pull_from_held();
 
   ImplicitSprings springs_;
   std::uint32_t iterations_;

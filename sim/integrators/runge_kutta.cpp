@@ -52,7 +52,9 @@ RungeKutta::RungeKutta(const MassSpringModel& model, const Scenario& scenario, c
       x_stage_(start.x.size()),
       v_stage_(start.x.size()),
       acceleration_(start.x.size()),
-      damping_force_(start.x.size()) {}
+      damping_force_(start.x.size()),
+      held_force_(held_.count()),
+      held_velocity_(held_.count()) {}
 
 double RungeKutta::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                               std::vector<Vec3>& a) {
@@ -64,6 +66,10 @@ double RungeKutta::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3
     for (std::size_t i = 0; i < x.size(); ++i) power -= damping_force_[i].dot(v[i]);
   } else {
     add_internal_forces<false>(*model_, x, v, a, damping_force_);
+  }
+  for (std::uint32_t h = 0; h < held_.count(); ++h) {
+    held_force_[h] = a[held_.node(h)];
+    held_velocity_[h] = v[held_.node(h)];
   }
   for (std::size_t i = 0; i < x.size(); ++i) a[i] = a[i] / model_->mass[i] + gravity_;
   spring_updates_ += model_->spring_count();
@@ -80,6 +86,7 @@ void RungeKutta::solve() {
   v_stage_ = v_;
   x_next_ = x_;
   v_next_ = v_;
+  std::fill(anchor_steps_.begin(), anchor_steps_.end(), AnchorStep{});
   for (const Stage& stage : kStages) {
     lost_damping_ += step_ * stage.weight * accelerate(x_stage_, v_stage_, acceleration_);
     for (std::size_t i = 0; i < x_.size(); ++i) {
@@ -88,6 +95,33 @@ void RungeKutta::solve() {
       x_stage_[i] = x_[i] + step_ * stage.at * v_stage_[i];
       v_stage_[i] = v_[i] + step_ * stage.at * acceleration_[i];
     }
+    hold_stage(stage.weight, stage.at);
+  }
+  finish_held();
+}
+
+// The forces of the anchors follow from the motion of their nodes and the forces on these: less
+// the latter over the step, by its quadrature, here.
+void RungeKutta::hold_stage(double weight, double next) {
+  for (std::uint32_t h = 0; h < held_.count(); ++h) {
+    const Vec3 impulse = step_ * weight * held_force_[h];
+    anchor_steps_[h].impulse -= impulse;
+    anchor_steps_[h].work -= impulse.dot(held_velocity_[h]);
+  }
+  held_.move_to(time() + next * step_);
+  held_.put(x_stage_);
+  held_.put_velocities(v_stage_);
+}
+
+void RungeKutta::finish_held() {
+  hold_nodes();
+  held_.put_velocities(v_next_);
+  for (std::uint32_t h = 0; h < held_.count(); ++h) {
+    const std::uint32_t i = held_.node(h);
+    const double mass = model_->mass[i];
+    anchor_steps_[h].impulse += mass * (v_next_[i] - v_[i] - step_ * gravity_);
+    anchor_steps_[h].work += mass * (0.5 * (v_next_[i].squaredNorm() - v_[i].squaredNorm()) -
+                                     gravity_.dot(x_next_[i] - x_[i]));
   }
 }
 

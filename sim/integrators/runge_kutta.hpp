@@ -19,7 +19,13 @@ class RungeKutta final : public WholeStep {
   /// Writes the acceleration at (x, v) to `a`; returns the power dissipated by damping [W].
   double accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Vec3>& a);
 
+  /// Books a stage for the held nodes, and puts them where they are at the next, `next` steps
+  /// later.
+  void hold_stage(double weight, double next);
+  void finish_held();
+
   std::vector<Vec3> x_stage_, v_stage_, acceleration_, damping_force_;
+  std::vector<Vec3> held_force_, held_velocity_;  // in the present stage, by held node [N], [m/s]
 };
 
 /// Largest stable step of the scheme for springs of one damping time beta [s] and frequencies up to

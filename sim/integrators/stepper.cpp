@@ -5,13 +5,15 @@
 namespace springlod::sim {
 
 Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start,
-                 double step, const ContactSkin* skin)
+                 double step, const ContactSkin* skin, const std::vector<Anchor>& anchors)
     : model_(&model),
       gravity_(scenario.gravity),
       step_(step),
       x_(start.x),
       obstacle_count_(scenario.obstacles.size()),
-      points_(skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model)),
+      held_(model, anchors, start.x),
+      anchor_forces_(held_),
+      points_(skin != nullptr ? ContactPoints(model, *skin, &held_) : ContactPoints(model, &held_)),
       finder_(points_, scenario.obstacles, start.x),
       walls_(points_, scenario.obstacles, start.x),
       total_mass_(std::accumulate(model.mass.begin(), model.mass.end(), 0.0)),

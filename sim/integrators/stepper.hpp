@@ -12,6 +12,7 @@
 #include "sim/contact/tunnel_watch.hpp"
 #include "sim/correction/inversion.hpp"
 #include "sim/correction/inversion_log.hpp"
+#include "sim/held/anchor_forces.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/ledger.hpp"
 #include "sim/scenario.hpp"
@@ -72,6 +73,10 @@ class Stepper {
   virtual State state() const = 0;
   Vec3 center_of_mass() const;
   Vec3 center_velocity() const;  ///< of the displacement of a step
+  /// Work of the anchors on the body so far [J].
+  virtual double anchor_work() const { return anchor_forces_.work(); }
+  /// What each anchor has done until t_n.
+  const std::vector<AnchorSum>& anchor_sums() const { return anchor_forces_.sums(); }
   /// Energies at t_n and losses so far; what is exact depends on the scheme.
   virtual LedgerEntry ledger_entry() const = 0;
   /// Sum of m v . v / 2 [J] for the displacement of a step, and the node with the largest term.
@@ -80,7 +85,7 @@ class Stepper {
  protected:
   /// `skin`: where the body touches obstacles; null: at its nodes.
   Stepper(const MassSpringModel& model, const Scenario& scenario, const State& start, double step,
-          const ContactSkin* skin);
+          const ContactSkin* skin, const std::vector<Anchor>& anchors);
 
   double time_of(std::uint64_t n) const {
     return start_time_ + static_cast<double>(n - start_n_) * step_;
@@ -99,6 +104,8 @@ class Stepper {
   double start_time_ = 0;  // [s]
   std::vector<Vec3> x_;
   std::size_t obstacle_count_;
+  HeldNodes held_;
+  AnchorForces anchor_forces_;
   ContactPoints points_;
   ContactFinder finder_;
   std::vector<Contact> contacts_;
@@ -138,6 +145,7 @@ struct StepperOptions {
   bool volumes = true;  ///< whether corners resist inversion; only the explicit schemes have it
   /// Where the body touches obstacles; none: at its nodes.
   std::shared_ptr<const ContactSkin> skin = nullptr;
+  std::vector<Anchor> anchors = {};
 };
 
 }  // namespace springlod::sim

@@ -10,14 +10,15 @@ namespace springlod::sim {
 
 WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, const State& start,
                      double step, const StepperOptions& options)
-    : StepByStep(model, scenario, start, step, options.skin.get()),
+    : StepByStep(model, scenario, start, step, options.skin.get(), options.anchors),
       with_ledger_(options.ledger),
       v_(start.v),
       x_next_(start.x),
       v_next_(start.v),
+      anchor_steps_(held_.count()),
       implicit_(is_implicit(options.integrator)),
       volumes_(options.volumes && !implicit_),
-      correction_(model, points_, finder_, obstacle_count_, options.volumes),
+      correction_(model, points_, finder_, obstacle_count_, options.volumes, &held_),
       booked_corners_(volumes_ ? corner_energy(model, start.x) : 0) {
   finder_.find(x_, v_, x_, contacts_);
   correction_.solver().set(contacts_);
@@ -28,7 +29,10 @@ void WholeStep::prepare() {
   const double damping = lost_damping_ - next_losses_.lost_damping;
   next_losses_.lost_damping = lost_damping_;
   if (implicit_) return find_contacts();
-  if (with_ledger_) next_losses_.lost_scheme += lost_energy() - damping;
+  if (with_ledger_) {
+    next_losses_.lost_scheme += lost_energy() - damping;
+    for (const AnchorStep& anchor : anchor_steps_) next_losses_.lost_scheme += anchor.work;
+  }
   correct();
 }
 
@@ -45,6 +49,11 @@ void WholeStep::correct() {
   const std::vector<Vec3> free_v = v_next_;
   correction_.correct(step_, x_, x_next_, v_next_);
   const StepCorrection& solver = correction_.solver();
+  for (std::uint32_t h = 0; h < held_.count(); ++h) {
+    const Vec3& absorbed = solver.nodes().absorbed()[h];
+    anchor_steps_[h].impulse -= absorbed;
+    anchor_steps_[h].work -= absorbed.dot(x_next_[held_.node(h)] - x_[held_.node(h)]) / step_;
+  }
   next_contacts_ = solver.now();
   next_losses_.lost_contact += solver.losses().contact;
   next_losses_.lost_friction += solver.losses().friction;
@@ -79,13 +88,54 @@ void WholeStep::find_contacts() {
   finder_.find(x_next_, v_next_, x_, next_contacts_);
   keep_stick_springs(contacts_, next_contacts_);
   add_friction();
+  absorb_contacts();
   for (const Contact& c : next_contacts_)
     next_losses_.lost_contact -=
         step_ * c.damping_force * c.normal.dot(points_.interpolate(c.point, v_next_));
 }
 
+void WholeStep::hold_nodes() {
+  held_.move_to(time_of(n_ + 1));
+  held_.put(x_next_);
+}
+
+void WholeStep::find_anchor_forces(const ImplicitSprings& springs) {
+  if (held_.empty()) return;
+  std::vector<Vec3> force(x_.size(), Vec3::Zero());  // of the springs on held nodes [N]
+  for (std::uint32_t s = 0; s < model_->spring_count(); ++s) {
+    const std::uint32_t a = model_->a[s];
+    const std::uint32_t b = model_->b[s];
+    if (!held_.holds(a) && !held_.holds(b)) continue;
+    const auto [unit, length] = spring_axis(*model_, s, x_next_);
+    const Vec3 pull = springs.stiffness(s) * (length - springs.rest_length(s)) * unit;
+    force[a] += pull;
+    force[b] -= pull;
+  }
+  for (std::uint32_t h = 0; h < held_.count(); ++h) {
+    const std::uint32_t i = held_.node(h);
+    const Vec3 impulse =
+        model_->mass[i] * (v_next_[i] - v_[i] - step_ * gravity_) - step_ * force[i];
+    anchor_steps_[h] = {impulse, impulse.dot(v_next_[i])};
+  }
+}
+
+void WholeStep::absorb_contacts() {
+  if (held_.empty()) return;
+  std::vector<Vec3> absorbed(x_.size(), Vec3::Zero());  // [N s]
+  for (const Contact& c : next_contacts_)
+    points_.add_force(c.point,
+                      step_ * c.normal_force * c.normal + points_.mass(c.point) * c.slip_change,
+                      absorbed);
+  for (std::uint32_t h = 0; h < held_.count(); ++h) {
+    const Vec3& impulse = absorbed[held_.node(h)];
+    anchor_steps_[h].impulse -= impulse;
+    anchor_steps_[h].work -= impulse.dot(v_next_[held_.node(h)]);
+  }
+}
+
 void WholeStep::finish_implicit(const ImplicitSprings& springs) {
   for (std::size_t i = 0; i < x_.size(); ++i) v_next_[i] = (x_next_[i] - x_[i]) / step_;
+  find_anchor_forces(springs);
   if (with_ledger_) lost_damping_ += springs.damping_loss(x_next_);
 }
 
@@ -101,6 +151,8 @@ void WholeStep::add_friction() {
 }
 
 void WholeStep::commit() {
+  for (std::uint32_t h = 0; h < held_.count(); ++h)
+    anchor_forces_.add(h, anchor_steps_[h].impulse, anchor_steps_[h].work);
   if (with_ledger_ && volumes_)
     booked_corners_ = corner_energy(*model_, correction_.solver().resisting(), x_next_);
   std::swap(x_, x_next_);
@@ -131,6 +183,7 @@ LedgerEntry WholeStep::ledger_entry() const {
   entry.lost_corners -= corners - booked_corners_;
   entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);
+  entry.anchor_work = anchor_work();
   return entry;
 }
 

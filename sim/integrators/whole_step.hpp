@@ -37,12 +37,20 @@ class WholeStep : public StepByStep {
   /// Every implicit scheme calls this at the end of solve(). It sets v_next_ to the mean velocity
   /// over the step and records the damping losses.
   void finish_implicit(const ImplicitSprings& springs);
+  /// Moves the held nodes to the end of the step, in x_next_ too.
+  void hold_nodes();
 
   bool with_ledger_;
   std::vector<Vec3> v_;                // at x_
   std::vector<Vec3> x_next_, v_next_;  // of the step that prepare() computed
   std::uint64_t spring_updates_ = 0;
   double lost_damping_ = 0;  // [J]
+  /// What the anchors do in the step to x_{n+1}, by held node.
+  struct AnchorStep {
+    Vec3 impulse = Vec3::Zero();  // [N s]
+    double work = 0;              // [J]
+  };
+  std::vector<AnchorStep> anchor_steps_;
 
  private:
   void commit() final;
@@ -59,6 +67,11 @@ class WholeStep : public StepByStep {
 
   bool implicit_;
   bool volumes_;
+  /// Finds what the anchors do in a step of an implicit scheme.
+  void find_anchor_forces(const ImplicitSprings& springs);
+  /// The impulses of contacts on held nodes, which their anchors take up.
+  void absorb_contacts();
+
   PlainCorrection correction_;  // of an explicit scheme
   std::vector<Contact> next_contacts_;
   // Energy at x_n of the corners that resist, as far as the losses contain it; the next step books

@@ -10,7 +10,8 @@ Xpbd::Xpbd(const MassSpringModel& model, const Scenario& scenario, const State& 
       springs_(model, step),
       sweeps_(iterations_of(options.integrator, options.solver)),
       multiplier_(model.spring_count()) {
-  for (const double mass : model.mass) inverse_mass_.push_back(1 / mass);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    inverse_mass_.push_back(held_.holds(i) ? 0 : 1 / model.mass[i]);
 }
 
 void Xpbd::sweep_springs() {
@@ -57,6 +58,7 @@ void Xpbd::solve() {
     v_next_[i] = v_[i] + step_ * gravity_;
     x_next_[i] = x_[i] + step_ * v_next_[i];
   }
+  hold_nodes();
   finder_.find(x_next_, v_next_, x_, candidates_);
   found_at_.clear();
   for (const Contact& c : candidates_) found_at_.push_back(points_.interpolate(c.point, x_next_));

@@ -24,7 +24,7 @@ class Xpbd final : public WholeStep {
 
   ImplicitSprings springs_;
   std::uint32_t sweeps_;
-  std::vector<double> inverse_mass_;        // [1/kg]
+  std::vector<double> inverse_mass_;        // 0 for held nodes [1/kg]
   std::vector<double> multiplier_;          // of springs [N s2]
   std::vector<Contact> candidates_;         // found at the end of the step without forces ...
   std::vector<Vec3> found_at_;              // ... and the positions of their nodes there [m]

@@ -43,18 +43,18 @@ void EnergyCheck::check(const Stepper& body, double gravity_work) {
   std::uint32_t node = 0;
   const double kinetic = body.kinetic_of_step(&node);
   if (!std::isfinite(kinetic)) throw_not_finite(body);
+  most_anchor_work_ = std::max(most_anchor_work_, body.anchor_work());
   most_gravity_work_ = std::max(most_gravity_work_, gravity_work);
   if (kinetic > bound())
     throw UnstableError(
         fmt::format("the run became unstable: at t = {:.6g} s the kinetic energy is {:.3g} J, of "
                     "at most {:.3g} J that were there, most of it in node {}; {}",
-                    body.time(), kinetic, available_ + most_gravity_work_, script_number(node),
-                    advice()),
+                    body.time(), kinetic, given(), script_number(node), advice()),
         node, body.time());
 }
 
 double EnergyCheck::bound() const {
-  return kEnergyMargin * (available_ + most_gravity_work_) + rounding_;
+  return kEnergyMargin * given() + rounding_;
 }
 
 double EnergyCheck::safe_speed() const {

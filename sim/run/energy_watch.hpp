@@ -28,6 +28,8 @@ class EnergyCheck {
   [[noreturn]] void throw_not_finite(const Stepper& body) const;
   std::string advice() const;
 
+  /// Energy that was there or that gravity and anchors have given at most [J].
+  double given() const { return available_ + most_gravity_work_ + most_anchor_work_; }
   double bound() const;
 
   double step_;
@@ -36,6 +38,7 @@ class EnergyCheck {
   double rounding_;
   double available_ = 0;
   double most_gravity_work_ = 0;
+  double most_anchor_work_ = 0;
 };
 
 }  // namespace springlod::sim

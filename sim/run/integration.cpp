@@ -24,6 +24,20 @@ constexpr std::uint64_t kCheckEvery = 64;
 // steps, and for schemes that do not look at the body themselves.
 constexpr std::uint64_t kCheckOftenEvery = 16;
 
+/// The state with the velocities of the anchors at their nodes.
+State held_start(const MassSpringModel& model, State start, const std::vector<Anchor>& anchors) {
+  HeldNodes(model, anchors, start.x).put_velocities(start.v);
+  return start;
+}
+
+/// When the last of the anchors comes to rest [s].
+double end_of_paths(const std::vector<Anchor>& anchors) {
+  double end = 0;
+  for (const Anchor& anchor : anchors)
+    if (!anchor.path.empty()) end = std::max(end, anchor.path.back().time);
+  return end;
+}
+
 /// A run in progress.
 class Integration {
  public:
@@ -35,13 +49,14 @@ class Integration {
         fast_(choice_of(options.integrator).traits.fast),
         trajectory_(&trajectory),
         body_(choice_of(options.integrator)
-                  .make(model, scenario, start, trajectory.step, options, plan)),
+                  .make(model, scenario, held_start(model, start, options.anchors), trajectory.step,
+                        options, plan)),
         recorder_(options.frame_rate, options.ledger, trajectory),
         weight_(scenario.gravity * std::accumulate(model.mass.begin(), model.mass.end(), 0.0)),
         first_center_(body_->center_of_mass()),
         springs_(model, start),
         stop_(scenario.stop),
-        sleep_(model, scenario, options.sleep),
+        sleep_(model, scenario, options.sleep, end_of_paths(options.anchors)),
         stop_after_contact_(options.stop_after_contact),
         task_(options.progress, "simulate", steps_left()) {
     body_->prepare();

@@ -42,8 +42,29 @@ void Recorder::record_end(const Stepper& body, double time) {
   keep(time, body, body.time());
 }
 
+void Recorder::keep_anchors(const Stepper& body) {
+  const std::vector<AnchorSum>& now = body.anchor_sums();
+  auto& frames = trajectory_->anchor_loads;
+  if (now.empty() || frames.size() == trajectory_->frames.size()) return;  // the last was replaced
+  const double interval = body.time() - sums_time_;
+  if (frames.empty()) {
+    frames.emplace_back(now.size());
+    sums_.resize(now.size());
+  } else {
+    frames.push_back(frames.back());
+  }
+  if (!(interval > 0)) return;  // within one step
+  for (std::size_t a = 0; a < now.size(); ++a)
+    frames.back()[a] = {.force = (now[a].impulse - sums_[a].impulse) / interval,
+                        .torque = (now[a].twist - sums_[a].twist) / interval,
+                        .work = now[a].work};
+  sums_ = now;
+  sums_time_ = body.time();
+}
+
 void Recorder::keep(double time, const Stepper& body, double position_time) {
   trajectory_->frames.push_back({time, body.positions_at(position_time)});
+  keep_anchors(body);
   if (!ledger_) return;
   trajectory_->ledger.push_back(body.ledger_entry());
   if (position_time != time) trajectory_->ledger.back().time = time;

@@ -27,10 +27,15 @@ class Recorder {
   double next_time() const;
   void keep(double time, const Stepper& body, double position_time);
 
+  /// The loads of the anchors since the last frame.
+  void keep_anchors(const Stepper& body);
+
   double rate_;
   bool ledger_;
   Trajectory* trajectory_;
   std::uint64_t count_ = 0;
+  std::vector<AnchorSum> sums_;  // at the last frame
+  double sums_time_ = 0;         // [s]
 };
 
 }  // namespace springlod::sim

@@ -22,11 +22,14 @@ class StopCriterion {
 class RestCriterion {
  public:
   /// `part`: RunOptions::sleep, a fraction of the speed after a fall through its size; 0: never.
-  RestCriterion(const MassSpringModel& model, const Scenario& scenario, double part);
+  /// `awake_until`: it does not sleep before that time [s].
+  RestCriterion(const MassSpringModel& model, const Scenario& scenario, double part,
+                double awake_until);
   bool check(const Stepper& body);
 
  private:
   double most_energy_;     // kinetic [J]
+  double awake_until_;     // [s]
   double last_awake_ = 0;  // [s]
 };
 

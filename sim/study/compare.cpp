@@ -99,6 +99,7 @@ class Comparing {
     for (std::uint32_t level = 0; level < chain.levels.size(); ++level) {
       bindings_.push_back(lod::base_from_level(chain, level));
       RunOptions& run = run_options_.emplace_back(options.run);
+      run.anchors = mapped(options.run.anchors, chain.levels[level].of_base);
       if (options.contact.value_or(chain.contact) == ContactAt::surface && level > 0)
         run.skin = std::make_shared<ContactSkin>(contact_skin(chain, level));
       plans_.push_back(plan_runs(chain.levels[level].model, scenario, run));

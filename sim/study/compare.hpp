@@ -18,8 +18,10 @@ struct CompareOptions {
   double jitter = 0.02;  ///< relative, uniform, on speed and start height; the first start has none
   std::uint64_t seed = 1;
   std::uint32_t threads =
-      0;                ///< runs are spread over threads; 0: all cores. Never changes the result
-  RunOptions run = {};  ///< options for all levels; each level has its own skin
+      0;  ///< runs are spread over threads; 0: all cores. Never changes the result
+  /// Options for all levels; each level has its own skin, and holds the groups of the anchored
+  /// nodes of the base.
+  RunOptions run = {};
   std::optional<ContactAt> contact = {};  ///< empty: that of the chain
   /// Errors are averaged from t = 0 to this long after the base's first contact [s].
   double error_window = 0.25;

@@ -1,6 +1,8 @@
 #include "sim/study/probe.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "sim/run/motion.hpp"
@@ -17,6 +19,16 @@ constexpr double kTurn = 0.05;
 // Mean square of the coordinate along the body in [-1, 1]; subtracted so that bending does not move
 // the centre of mass.
 constexpr double kMeanSquare = 1. / 3;
+
+/// From 0 at the anchored nodes to 1 at the distance `reach` from them, without a kink [1].
+double part_of_speed(const MassSpringModel& model, const std::vector<std::uint32_t>& anchored,
+                     std::uint32_t node, double reach) {
+  double nearest = reach * reach;
+  for (const std::uint32_t other : anchored)
+    nearest = std::min(nearest, (model.rest[node] - model.rest[other]).squaredNorm());
+  const double part = std::sqrt(nearest) / reach;
+  return part * part * (3 - 2 * part);
+}
 
 }  // namespace
 
@@ -38,12 +50,18 @@ ProbeMotion probe_motion(const MassSpringModel& base, double omega, double durat
   return motion;
 }
 
-State probe_state(const MassSpringModel& model, const ProbeMotion& motion) {
+State probe_state(const MassSpringModel& model, const ProbeMotion& motion,
+                  const std::vector<std::uint32_t>& anchored) {
   State state = rest_state(model);
   for (std::uint32_t i = 0; i < model.node_count(); ++i) {
     const double place = motion.along.dot(model.rest[i] - motion.center) / motion.half_length;
     state.v[i] =
         motion.speed * (place * motion.along + (place * place - kMeanSquare) * motion.across);
+  }
+  if (!anchored.empty()) {
+    for (std::uint32_t i = 0; i < model.node_count(); ++i)
+      state.v[i] *= part_of_speed(model, anchored, i, motion.half_length);
+    return state;
   }
   const Vec3 drift = center_of_mass(model, state.v);
   for (Vec3& v : state.v) v -= drift;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "model/mass_spring.hpp"
 
 namespace springlod::sim {
@@ -21,7 +24,9 @@ struct ProbeMotion {
 /// For a base whose slowest mode has the angular frequency `omega` [rad/s], over `duration` [s].
 ProbeMotion probe_motion(const MassSpringModel& base, double omega, double duration);
 
-/// The initial state of a model of any level. Its centre of mass stays at rest.
-State probe_state(const MassSpringModel& model, const ProbeMotion& motion);
+/// The initial state of a model of any level. Its centre of mass stays at rest. With anchored nodes
+/// it neither rotates nor drifts, and the speed rises smoothly with the distance from these.
+State probe_state(const MassSpringModel& model, const ProbeMotion& motion,
+                  const std::vector<std::uint32_t>& anchored = {});
 
 }  // namespace springlod::sim

@@ -24,10 +24,12 @@ constexpr double kReferencePart = 0.25;
 // Distance from a run with twice the step, divided by the error, for a scheme of second order [1].
 constexpr double kOrderGain = 3;
 
-std::vector<double> lowest_frequencies(const MassSpringModel& model, std::uint64_t seed) {
+std::vector<double> lowest_frequencies(const Level& level, const StabilityOptions& options) {
+  const elastic::ElasticBody body = elastic::elastic_body(
+      level.model, {.anchored = nodes_of(mapped(options.anchors, level.of_base))});
   std::vector<double> frequencies;
   for (const elastic::Mode& mode :
-       elastic::lowest_modes(model, {.count = kModes, .seed = seed}).modes)
+       elastic::lowest_modes(body, {.count = kModes, .seed = options.seed}).modes)
     frequencies.push_back(mode.angular_frequency);
   return frequencies;
 }
@@ -56,15 +58,17 @@ std::vector<Frame> fine_run(const MassSpringModel& model, const Specimen& specim
                            .step = step,
                            .frame_rate = kSamples / specimen.scene.duration,
                            .ledger = false,
+                           .anchors = specimen.anchors,
                            .progress = progress};
   return run(model, specimen.scene, specimen.start, options).frames;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> loose_nodes(const MassSpringModel& model) {
+std::vector<std::uint32_t> loose_nodes(const Level& level, const std::vector<Anchor>& anchors) {
   std::vector<std::uint32_t> loose;
-  for (const elastic::ComponentModes& part : elastic::zero_modes(model))
+  for (const elastic::ComponentModes& part :
+       elastic::zero_modes(level.model, nodes_of(mapped(anchors, level.of_base))))
     loose.insert(loose.end(), part.mechanism_nodes.begin(), part.mechanism_nodes.end());
   return loose;
 }
@@ -80,7 +84,7 @@ RescaledChain rescaled_chain(const LodChain& chain, double ratio, const Stabilit
     for (Level& level : at_ratio.chain.levels)
       std::fill(level.model.damping.begin(), level.model.damping.end(), 0.0);
   const MassSpringModel& base = at_ratio.chain.levels.front().model;
-  at_ratio.frequencies = lowest_frequencies(base, options.seed);
+  at_ratio.frequencies = lowest_frequencies(at_ratio.chain.levels.front(), options);
   if (at_ratio.frequencies.empty())
     throw InputError(
         "stability: the base has no mode that springs resist; it needs nodes joined by springs");
@@ -103,7 +107,8 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
   const MassSpringModel& model = at_ratio->chain.levels[body.level].model;
   Specimen specimen;
   specimen.at_ratio = at_ratio;
-  specimen.start = probe_state(model, at_ratio->motion);
+  specimen.anchors = mapped(options.anchors, at_ratio->chain.levels[body.level].of_base);
+  specimen.start = probe_state(model, at_ratio->motion, nodes_of(specimen.anchors));
   specimen.scene.name = "probe";
   specimen.scene.gravity = Vec3::Zero();
   specimen.scene.duration = at_ratio->motion.duration;
@@ -117,8 +122,8 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
   body.limited_by = limit.limited_by();
   if (!body.mechanism_nodes.empty()) return specimen;
   if (body.level > 0)
-    body.frequency_error =
-        mean_error(lowest_frequencies(model, options.seed), at_ratio->frequencies);
+    body.frequency_error = mean_error(
+        lowest_frequencies(at_ratio->chain.levels[body.level], options), at_ratio->frequencies);
 
   const double step = std::min(kReferencePart * predicted_step(model, Integrator::velocity_verlet),
                                specimen.scene.duration / kSamples);

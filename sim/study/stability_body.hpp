@@ -26,6 +26,7 @@ struct Specimen {
   std::shared_ptr<const RescaledChain> at_ratio;  ///< whose level it is
   State start;
   Scenario scene;  ///< neither gravity nor obstacles
+  std::vector<Anchor> anchors;
   std::vector<Frame> reference;
   double reference_displacement = 0;  ///< RMS displacement of its nodes from the start [m]
   /// Error of frames against the reference: see StabilityPoint::error.
@@ -42,7 +43,7 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
                        StabilityBody& body);
 
 /// Nodes that move in mechanisms, worst first, over all connected components; empty for a model
-/// without mechanisms.
-std::vector<std::uint32_t> loose_nodes(const MassSpringModel& model);
+/// without mechanisms. `anchors`: of the base.
+std::vector<std::uint32_t> loose_nodes(const Level& level, const std::vector<Anchor>& anchors);
 
 }  // namespace springlod::sim

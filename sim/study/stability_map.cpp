@@ -39,6 +39,7 @@ void validate(const LodChain& chain, const StabilityOptions& options) {
   require_positive(options.sweep_steps, "sweep_steps");
   require_positive(options.absolute_steps, "absolute_steps");
   require_positive({options.periods}, "periods");
+  sim::validate(options.anchors, chain.levels.front().model);
   if (options.duration) require_positive({*options.duration}, "duration");
 }
 
@@ -86,8 +87,10 @@ Verdict judge(const StabilityBody& body, const StabilityPoint& point, const Traj
 double worst_drift(const std::vector<LedgerEntry>& ledger) {
   double worst = 0;
   const double first = ledger.front().total();
+  double available = first;  // with what moving anchors have added
   for (const LedgerEntry& entry : ledger) {
-    const double drift = (entry.total() - entry.lost_scheme - first) / first;
+    available = std::max(available, first + entry.anchor_work);
+    const double drift = (entry.total() - entry.lost_scheme - first) / available;
     if (std::abs(drift) > std::abs(worst)) worst = drift;
   }
   return worst;
@@ -125,7 +128,7 @@ class Mapping {
 
   void make_specimens() {
     for (const std::uint32_t level : levels_) {
-      const std::vector<std::uint32_t> loose = loose_nodes(chain_.levels[level].model);
+      const std::vector<std::uint32_t> loose = loose_nodes(chain_.levels[level], options_.anchors);
       for (const double ratio : ratios_) {
         StabilityBody& body = map_.bodies.emplace_back();
         body.level = level;
@@ -196,6 +199,7 @@ class Mapping {
                                  .solver = {.iterations = point.iterations},
                                  .step = point.step,
                                  .frame_rate = kSamples / body.duration,
+                                 .anchors = specimen.anchors,
                                  .progress = &progress};
     Scenario scene = specimen.scene;
     const double least_steps = is_implicit(point.integrator) ? 1 : kLeastSteps;

@@ -7,6 +7,7 @@
 
 #include "base/progress.hpp"
 #include "model/chain.hpp"
+#include "sim/held/anchor.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/step_bound.hpp"
 
@@ -76,6 +77,7 @@ struct StabilityOptions {
   /// Duration of each run, in periods of the body's slowest mode [1].
   double periods = 1;
   std::optional<double> duration = {};  ///< the same in seconds
+  std::vector<Anchor> anchors = {};     ///< of the base
   std::uint32_t threads = 0;            ///< 0: all cores. Never changes the result
   std::uint64_t seed = 1;               ///< of the search for frequencies
   Progress* progress = nullptr;
@@ -161,7 +163,7 @@ struct StabilityPoint {
   std::optional<std::uint32_t> node;
   // Of finished runs:
   double energy_drift = 0;  ///< largest signed change of the ledger's total without
-                            ///< lost_scheme / first total [1]
+                            ///< lost_scheme / first total and work of anchors [1]
   /// RMS distance of the nodes from those of the reference over the RMS of its displacement from
   /// the start, both weighted by mass, over kSamples common times [1].
   double error = 0;

@@ -4,7 +4,6 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
-#include "model/anchors.hpp"
 #include "scripting/bind/tables/model_table.hpp"
 
 namespace springlod::scripting {
@@ -71,21 +70,6 @@ std::vector<std::uint32_t> read_nodes(TableReader& reader, const char* name,
   const int given = reader.raw(name);
   if (given == 0) return {};
   return nodes_at(reader.lua(), given, model, fmt::format("{}: {}", reader.owner(), name));
-}
-
-std::vector<std::uint32_t> read_anchored(TableReader& reader, const MassSpringModel& model) {
-  return read_nodes(reader, "anchored", model);
-}
-
-Parameter anchored_parameter() {
-  struct AnyOptions {
-    std::vector<std::uint32_t> anchored;
-  };
-  constexpr auto row = anchored_option(&AnyOptions::anchored);
-  return {.name = row.name,
-          .type = "list of integers or function",
-          .fallback = row.fallback,
-          .help = row.help};
 }
 
 std::vector<Vec3> read_forces(TableReader& reader, const MassSpringModel& model) {

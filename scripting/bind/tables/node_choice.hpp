@@ -16,10 +16,6 @@ std::vector<std::uint32_t> nodes_at(lua_State* L, int index, const MassSpringMod
 /// The option `name`; empty if it is not given.
 std::vector<std::uint32_t> read_nodes(TableReader& reader, const char* name,
                                       const MassSpringModel& model);
-/// The option `anchored`; empty if it is not given.
-std::vector<std::uint32_t> read_anchored(TableReader& reader, const MassSpringModel& model);
-Parameter anchored_parameter();
-
 /// The option `force`: a table from node number to {x, y, z} [N] or a function of a Node that
 /// returns the force, or nil for zero. Returns N forces; all are zero if the option is not given.
 std::vector<Vec3> read_forces(TableReader& reader, const MassSpringModel& model);

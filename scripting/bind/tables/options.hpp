@@ -12,6 +12,7 @@
 #include "base/choice.hpp"
 #include "base/option.hpp"
 #include "model/mass_spring.hpp"
+#include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/node_choice.hpp"
 #include "scripting/engine/api.hpp"
 #include "scripting/engine/call.hpp"
@@ -92,7 +93,7 @@ Parameter parameter_of(const Option<S, Member>& row, const Member& usual) {
 template <class S>
 Parameter parameter_of(const NodesOption<S>& row, const std::vector<std::uint32_t>& /*usual*/) {
   return {.name = row.name,
-          .type = "list of integers or function",
+          .type = row.held ? kAnchoredType : "list of integers or function",
           .fallback = row.fallback,
           .help = row.help};
 }
@@ -132,9 +133,9 @@ void read_row(const Call& /*call*/, TableReader& reader, const Option<S, Member>
 }
 
 template <class S>
-void read_row(const Call& /*call*/, TableReader& reader, const NodesOption<S>& row,
+void read_row(const Call& call, TableReader& reader, const NodesOption<S>& row,
               std::vector<std::uint32_t>& into, const MassSpringModel* base) {
-  into = read_nodes(reader, row.name, *base);
+  into = row.held ? read_anchored(call, reader, *base) : read_nodes(reader, row.name, *base);
   if (*row.fallback == '\0' && into.empty())
     reader.refuse(row.name, "given: a list of node numbers or a function of a node");
 }

@@ -82,6 +82,7 @@ struct TrajectoryValue {
   sim::Trajectory trajectory;
   std::shared_ptr<const ModelValue> model;
   std::shared_ptr<const sim::Scenario> scenario;
+  std::vector<std::string> anchor_names;  ///< in the order of Trajectory::anchor_loads
 };
 template <>
 inline constexpr const char* kValueName<TrajectoryValue> = "Trajectory";
