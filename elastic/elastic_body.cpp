@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "elastic/assembly.hpp"
 #include "elastic/solver/dense_kernels.hpp"
 #include "elastic/solver/random_block.hpp"
 #include "elastic/solver/sparse_cholesky.hpp"
@@ -47,19 +48,6 @@ Eigen::MatrixXd rigid_motions(const MassSpringModel& component, const Eigen::Vec
     }
   }
   return motions;
-}
-
-/// The 3n x 3n block of a 3N x 3N matrix that belongs to `nodes` (n, ascending).
-Eigen::SparseMatrix<double> block_of(const Eigen::SparseMatrix<double>& matrix,
-                                     const std::vector<std::uint32_t>& nodes) {
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto size = 3 * static_cast<Eigen::Index>(nodes.size());
-  Eigen::SparseMatrix<double> select(matrix.rows(), size);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (int d = 0; d < 3; ++d)
-      entries.emplace_back(static_cast<int>(3 * nodes[i]) + d, static_cast<int>(3 * i) + d, 1.0);
-  select.setFromTriplets(entries.begin(), entries.end());
-  return select.transpose() * matrix * select;
 }
 
 void factorise(ElasticComponent& component, const MassSpringModel& model,
@@ -119,7 +107,8 @@ ElasticComponent make_component(const ModelComponent& whole, const std::vector<s
                     "store; zero_modes lists the nodes of mechanisms",
                     script_number(component.nodes.front()), found.zero_modes));
   component.stiffness = stiffness_matrix(model);
-  if (free.size() < model.node_count()) component.stiffness = block_of(component.stiffness, free);
+  if (free.size() < model.node_count())
+    component.stiffness = block_of_nodes(component.stiffness, free);
   for (Eigen::Index c = 0; c < component.unknowns(); ++c)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(component.stiffness, c); entry; ++entry)
       entry.valueRef() /= component.root_mass[entry.row()] * component.root_mass[c];

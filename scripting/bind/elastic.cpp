@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "elastic/large_deflection.hpp"
 #include "elastic/loads.hpp"
 #include "elastic/modes.hpp"
 #include "elastic/moduli.hpp"
+#include "elastic/stiffness.hpp"
 #include "elastic/zero_modes.hpp"
 #include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/node_choice.hpp"
@@ -16,6 +18,7 @@
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
+#include "sim/held/held_nodes.hpp"
 
 namespace springlod::scripting {
 
@@ -118,18 +121,80 @@ int static_loads_binding(Call& call) {
   return 1;
 }
 
+/// What each anchor does to the body, from the forces on its nodes.
+void set_anchor_loads(lua_State* L, const std::vector<sim::Anchor>& anchors,
+                      const sim::HeldNodes& held, const std::vector<Vec3>& reaction) {
+  std::vector<sim::AnchorLoad> loads(anchors.size());
+  for (std::uint32_t h = 0; h < held.count(); ++h) {
+    sim::AnchorLoad& load = loads[held.anchor(h)];
+    const Vec3& force = reaction[held.node(h)];
+    load.force += force;
+    load.torque += (held.at()[h] - held.pivot(held.anchor(h))).cross(force);
+  }
+  begin_list(L, anchors.size());
+  for (std::size_t a = 0; a < anchors.size(); ++a) {
+    begin_table(L);
+    set_field(L, "name", anchors[a].name);
+    set_field(L, "force", loads[a].force);
+    set_field(L, "torque", loads[a].torque);
+    end_list_entry(L, a + 1);
+  }
+  end_field(L, "anchor_loads");
+}
+
+void push_large(Call& call, const MassSpringModel& model, const std::vector<Vec3>& force,
+                const std::vector<sim::Anchor>& anchors) {
+  sim::HeldNodes held(model, anchors, model.rest);
+  const double end = sim::end_of_paths(anchors);
+  const elastic::LargeLoad load{
+      .force = force, .anchored = held.nodes(), .hold = [&](double part, std::vector<Vec3>& x) {
+        held.move_to(part * end);
+        held.put(x);
+      }};
+  const elastic::LargeSolution found =
+      elastic::deflect_far(model, load, {.progress = call.progress()});
+  double work = 0;
+  for (std::size_t i = 0; i < force.size(); ++i) work += force[i].dot(found.displacement[i]);
+  lua_State* L = call.lua();
+  begin_table(L);
+  set_field(L, "compliance", work);
+  set_field(L, "energy", found.energy);
+  set_field(L, "residual", found.residual);
+  set_field(L, "load_steps", found.load_steps);
+  set_field(L, "iterations", found.iterations);
+  set_field(L, "displacement", found.displacement);
+  held.move_to(end);
+  set_anchor_loads(L, anchors, held, found.reaction);
+}
+
+void push_small(Call& call, const MassSpringModel& model, const std::vector<Vec3>& force,
+                const std::vector<sim::Anchor>& anchors) {
+  const sim::HeldNodes held(model, anchors, model.rest);
+  const elastic::ElasticBody body =
+      elastic::elastic_body(model, {.anchored = held.nodes(), .progress = call.progress()});
+  const elastic::StaticSolution solution =
+      elastic::solve_static(body, {{"of deflect", force}}).front();
+  push_solution(call.lua(), solution);
+  set_field(call.lua(), "energy", solution.compliance / 2);
+  std::vector<Vec3> reaction;
+  elastic::apply_stiffness(model, solution.displacement, reaction);
+  for (std::size_t i = 0; i < reaction.size(); ++i) reaction[i] -= force[i];
+  set_anchor_loads(call.lua(), anchors, held, reaction);
+}
+
 int deflect_binding(Call& call) {
   const MassSpringModel& model = *call.value<ModelValue>(1)->model;
   TableReader reader = call.options(2);
-  if (!reader.has("force")) reader.refuse("force", "given: which forces pull at the nodes");
-  const std::vector<std::uint32_t> anchored = read_anchored(call, reader, model);
-  const elastic::StaticLoad load{"of deflect", read_forces(reader, model)};
+  const std::vector<sim::Anchor> anchors = read_anchors(call, reader, model);
+  bool large = false;
+  reader.read("large", large);
+  const bool moves = sim::end_of_paths(anchors) > 0;
+  if (moves && !large) reader.refuse("large", "true for anchors that follow a path");
+  if (!reader.has("force") && !moves)
+    reader.refuse("force", "given: which forces pull at the nodes");
+  const std::vector<Vec3> force = read_forces(reader, model);
   reader.finish();
-  push_solution(
-      call.lua(),
-      elastic::solve_static(
-          elastic::elastic_body(model, {.anchored = anchored, .progress = call.progress()}), {load})
-          .front());
+  large ? push_large(call, model, force, anchors) : push_small(call, model, force, anchors);
   return 1;
 }
 
@@ -214,20 +279,37 @@ void describe_statics(Api& api, const Parameter& model) {
   api.add(FunctionEntry{
       .name = "deflect",
       .group = kGroup,
-      .summary = "Static displacements under forces on the nodes, of the free or anchored model.",
+      .summary = "Static displacements under forces on the nodes, of the free or anchored model; "
+                 "small ones, or of any size.",
       .arguments = {model},
       .options = {{.name = "force",
                    .type = "table or function",
+                   .fallback = "none, if anchors move",
                    .help = "force on each node [N]: a table from node number to {x, y, z}, or a "
                            "function of a Node that returns {x, y, z} or nothing"},
+                  {.name = "large",
+                   .type = "boolean",
+                   .fallback = "false",
+                   .help = "find the equilibrium at large displacements and rotations, by load "
+                           "steps and Newton's method; anchors may then follow paths, of which "
+                           "the last pose counts, and must leave no motion free"},
                   anchored_parameter()},
-      .returns = "table: " + solution,
+      .returns = "table: " + solution +
+                 ", energy (of the body [J]), anchor_loads (for each anchor: name, force on the "
+                 "body [N] and torque about its pivot [N m]); if large also load_steps and "
+                 "iterations, and residual is that of the forces",
       .errors = "No force given; forces along motions that the anchors leave free. Without "
-                "anchors, inertia relief balances the net force and torque.",
+                "anchors, inertia relief balances the net force and torque. If large: anchors that "
+                "leave a motion free; a load under which the body collapses.",
       .example = "local bent = s.deflect(base, {\n"
                  "  anchored = function(node) return node.x < 0.001 end,\n"
                  "  force = {[base.node_count] = {0, 0, -1}}})\n"
-                 "print(bent.displacement[base.node_count][3])",
+                 "print(bent.displacement[base.node_count][3])\n"
+                 "local turned = s.deflect(base, {large = true, anchored = {\n"
+                 "  {nodes = function(node) return node.z < 0.001 end},\n"
+                 "  {nodes = function(node) return node.z > 0.099 end,\n"
+                 "    path = {{time = 1, turn = {angle = \"30 deg\"}}}}}})\n"
+                 "print(turned.anchor_loads[2].torque[3])",
       .call = deflect_binding});
 }
 

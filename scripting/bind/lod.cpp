@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "lod/build.hpp"
+#include "lod/transfer.hpp"
 #include "scripting/bind/tables/grouping_script.hpp"
 #include "scripting/bind/tables/node_choice.hpp"
 #include "scripting/bind/tables/options.hpp"
@@ -70,6 +71,31 @@ int carried_method(Call& call) {
   return call.give(nodes);
 }
 
+/// One {x, y, z} for each node of a level.
+std::vector<Vec3> vectors_of_nodes(Call& call, int number, const MassSpringModel& model) {
+  lua_State* L = call.lua();
+  const int list = call.index(number);
+  const std::size_t count = lua_istable(L, list) ? lua_rawlen(L, list) : 0;
+  if (count != model.node_count())
+    call.refuse(number, fmt::format("a list of {} points {{x, y, z}}, one per node of the level",
+                                    model.node_count()));
+  std::vector<Vec3> vectors;
+  for (std::size_t i = 1; i <= count; ++i) {
+    lua_rawgeti(L, list, static_cast<lua_Integer>(i));
+    vectors.push_back(
+        vector_at(L, -1, Dimension::number, fmt::format("chain:to_base: values[{}]", i)));
+    lua_pop(L, 1);
+  }
+  return vectors;
+}
+
+int to_base_method(Call& call) {
+  const auto self = call.self<ChainValue>();
+  const std::uint32_t level = level_number(call, *self);
+  return call.give(interpolate(lod::base_from_level(self->chain, level),
+                               vectors_of_nodes(call, 2, self->chain.levels[level].model)));
+}
+
 std::string chain_text(const LodAsset& asset) {
   std::vector<std::string> nodes;
   std::vector<std::string> springs;
@@ -133,6 +159,20 @@ void describe_chain(Api& api) {
                    "local held = chain:carried(1, function(node) return node.x < 0.001 end)\n"
                    "print(s.modes(chain[1], {anchored = held})[1].frequency)",
                .call = carried_method});
+  type.method({.name = "to_base",
+               .summary =
+                   "Brings values at the nodes of a level to the nodes of the base, as the drawn "
+                   "surface of the level follows them.",
+               .arguments = {level,
+                             {.name = "values",
+                              .type = "list of {x, y, z}",
+                              .help = "one for each node of the level: positions, velocities or "
+                                      "displacements"}},
+               .returns = "list of {x, y, z}, one for each node of the base",
+               .errors = "A list of another length.",
+               .example = "local bent = s.deflect(chain[1], {force = {[1] = {1, 0, 0}}})\n"
+                          "print(s.inspect(chain:to_base(1, bent.displacement)[1]))",
+               .call = to_base_method});
   type.elements(
       [](const LodAsset& asset) { return static_cast<long long>(asset.chain.levels.size()) - 1; },
       [](lua_State* L, const std::shared_ptr<const ChainValue>& chain, long long number) {

@@ -10,7 +10,7 @@ local length = slenderness * height
 local young, density = 1e7, 1000
 local frequency_count = 3
 
-cantilever.height, cantilever.slenderness = height, slenderness
+cantilever.height, cantilever.slenderness, cantilever.young = height, slenderness, young
 -- The values of a cantilever: tip deflection under 1 N [m], and frequencies [Hz].
 cantilever.names = {"tip", "f1", "f2", "f3"}
 
@@ -102,26 +102,30 @@ local function bending_frequencies(model, modes, end_face)
   return pairs_of
 end
 
--- The values of a model with `cells` cells across.
-function cantilever.measure(model, cells)
-  local cell = height / cells
-  -- The first and the last layer of nodes: on the end faces for `corners`, half a cell inside for
-  -- `centers`.
-  local function clamped(node) return node.x < 0.75 * cell end
-  local function at_end(node) return node.x > length - 0.75 * cell end
-  -- The end face: each node with its fraction of the area, which equals that of the volume.
+-- What holds a model with `cells` cells across: the first layer of nodes, which is on the end face
+-- for `corners`, half a cell inside for `centers`.
+function cantilever.clamped(cells)
+  return function(node) return node.x < 0.75 * height / cells end
+end
+
+-- The last layer: each node with its fraction of the area, which equals that of the volume.
+function cantilever.end_face(model, cells)
   local end_face, sum = {}, 0
   for _, node in ipairs(model:nodes()) do
-    if at_end(node) then
+    if node.x > length - 0.75 * height / cells then
       end_face[node.number] = node.volume
       sum = sum + node.volume
     end
   end
-  local force = {}
-  for number, volume in pairs(end_face) do
-    end_face[number] = volume / sum
-    force[number] = {0, 0, volume / sum} -- 1 N in total, evenly distributed
-  end
+  for number, volume in pairs(end_face) do end_face[number] = volume / sum end
+  return end_face
+end
+
+-- The values of a model with `cells` cells across.
+function cantilever.measure(model, cells)
+  local clamped, end_face = cantilever.clamped(cells), cantilever.end_face(model, cells)
+  local force = {} -- 1 N in total, evenly distributed
+  for number, share in pairs(end_face) do force[number] = {0, 0, share} end
   local bent = s.deflect(model, {anchored = clamped, force = force})
   local deflection = 0
   for number, share in pairs(end_face) do

@@ -27,24 +27,35 @@ local function chosen(problem)
   return false
 end
 
--- The base (level 0) and its fitted levels, by level.
-local function models_of(problem, size)
+-- The base and, if there are any, its fitted levels, as a chain.
+local function chain_of(problem, size)
   local base = problem.body(size)
-  if not problem.fitted then return {[0] = base} end
-  local chain = s.simplify(base, {
+  if not problem.fitted then return s.simplify(base, {levels = 0}) end
+  return s.simplify(base, {
     keep = keep, grouping = "compact", calibrate = "modes", seed = s.seed,
-    calibration = args.quick and {iterations = quick_iterations} or {},
+    calibration = {iterations = args.quick and quick_iterations or nil,
+                   anchored = problem.anchored and problem.anchored(size)},
   })
-  return {[0] = base, chain[1], chain[2]}
+end
+
+-- What a problem can ask of a level: see problems.lua.
+local function context_of(chain, number)
+  local map = chain:group_map(number)
+  return {
+    base = chain[0],
+    carried = function(nodes) return chain:carried(number, nodes) end,
+    group_of = function(node) return map[node] end,
+    to_base = function(values) return chain:to_base(number, values) end,
+  }
 end
 
 -- List of {level, nodes, values}.
 local function measured(problem, size)
-  local rows, models = {}, models_of(problem, size)
-  for level = 0, #models do
-    local model = models[level]
+  local rows, chain = {}, chain_of(problem, size)
+  for level = 0, chain.coarsest do
+    local model = chain[level]
     rows[level + 1] = {level = level, nodes = model.node_count,
-                       values = problem.measure(model, size)}
+                       values = problem.measure(model, size, context_of(chain, level))}
   end
   return rows
 end

@@ -1,8 +1,17 @@
 #include "sim/held/held_nodes.hpp"
 
+#include <algorithm>
+
 #include "model/anchors.hpp"
 
 namespace springlod::sim {
+
+double end_of_paths(const std::vector<Anchor>& anchors) {
+  double end = 0;
+  for (const Anchor& anchor : anchors)
+    if (!anchor.path.empty()) end = std::max(end, anchor.path.back().time);
+  return end;
+}
 
 HeldNodes::HeldNodes(const MassSpringModel& model, const std::vector<Anchor>& anchors,
                      const std::vector<Vec3>& start) {

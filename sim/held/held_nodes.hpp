@@ -9,6 +9,9 @@
 
 namespace springlod::sim {
 
+/// When the last of the anchors comes to rest; 0 if none moves [s].
+double end_of_paths(const std::vector<Anchor>& anchors);
+
 /// The nodes that the anchors of a run hold, and where they are at each time. A held node has the
 /// position and the velocity that its anchor prescribes; forces on it act on the anchor. Each node
 /// is named by its index among the held ones.

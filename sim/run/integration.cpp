@@ -30,14 +30,6 @@ State held_start(const MassSpringModel& model, State start, const std::vector<An
   return start;
 }
 
-/// When the last of the anchors comes to rest [s].
-double end_of_paths(const std::vector<Anchor>& anchors) {
-  double end = 0;
-  for (const Anchor& anchor : anchors)
-    if (!anchor.path.empty()) end = std::max(end, anchor.path.back().time);
-  return end;
-}
-
 /// A run in progress.
 class Integration {
  public:

@@ -84,6 +84,47 @@ TEST_CASE("A script holds a body in runs, ensembles, comparisons and stability m
   )"));
 }
 
+TEST_CASE("A script finds equilibria far from rest, of a level too") {
+  const TemporaryFolder scratch;
+  require_success(run_script(scratch, R"(
+    local function pull(newtons)
+      return function(node) if high(node) then return {0, 0, newtons} end end
+    end
+    local small = s.deflect(base, {anchored = low, force = pull(1e-6)})
+    local large = s.deflect(base, {anchored = low, force = pull(1e-6), large = true})
+    local last = base.node_count
+    local ratio = large.displacement[last][3] / small.displacement[last][3]
+    assert(math.abs(ratio - 1) < 1e-3, ratio)
+    assert(math.abs(small.anchor_loads[1].force[3] + 9e-6) < 1e-11)
+    assert(math.abs(large.anchor_loads[1].force[3] + 9e-6) < 1e-11)
+    assert(math.abs(2 * small.energy - small.compliance) < 1e-9 * small.compliance)
+
+    local jaws = {{nodes = low}, {name = "jaw", nodes = high,
+      path = {{time = 1, turn = {axis = {1, 0, 0}, angle = "90 deg"}}}}}
+    local turned = s.deflect(base, {large = true, anchored = jaws})
+    assert(turned.anchor_loads[2].name == "jaw" and turned.anchor_loads[2].torque[1] > 0)
+    assert(math.abs(turned.anchor_loads[1].torque[1] + turned.anchor_loads[2].torque[1])
+           < 1e-6 * turned.anchor_loads[2].torque[1])
+    assert(turned.energy > 0 and turned.residual <= 1e-9 and turned.load_steps >= 1)
+    assert(turned.iterations >= turned.load_steps)
+
+    -- A run with the same anchors comes to rest there.
+    local run = s.run(base, {duration = 4, gravity = {0, 0, 0}}, {anchored = jaws})
+    local torque = run.anchor_loads[#run][2].torque[1]
+    assert(math.abs(torque / turned.anchor_loads[2].torque[1] - 1) < 0.01, torque)
+
+    local chain = s.simplify(base, {levels = 1})
+    local of_level = s.deflect(chain[1], {large = true, anchored = chain:carried(1, low),
+                                          force = {[chain[1].node_count] = {0, 0, 1e-3}}})
+    local of_base = chain:to_base(1, of_level.displacement)
+    assert(#of_base == base.node_count and of_base[last][3] > 0)
+    assert(#chain:to_base(0, large.displacement) == last)
+    assert(not pcall(chain.to_base, chain, 1, {{0, 0, 0}}))
+    local moves, message = pcall(s.deflect, base, {anchored = jaws})
+    assert(not moves and message.message:find("large"), message.message)
+  )"));
+}
+
 TEST_CASE("What cannot be held is refused with a reason") {
   const TemporaryFolder scratch;
   const auto refuses = [&](const std::string& anchored, const std::string& words) {

@@ -5,11 +5,15 @@
 --                                the reference is 0, a largest value
 --   body(size)                   the base
 --   fitted                       whether its fitted levels are measured too
---   measure(model, size)         list of values, false for what the model does not show
+--   anchored(size)               what holds the base, if anything, for the fit of its levels
+--   measure(model, size, level)  list of values, false for what the model does not show; `level`
+--                                has base: the model of level 0; carried(nodes): the nodes of the
+--                                level that carry nodes of the base; group_of(node): the one that
+--                                carries that node; to_base(values): see chain:to_base
 
 local problems = {}
 local files = {"stretch", "cube", "sphere", "rayleigh", "cantilever",
-               "two_materials", "bar", "sliding", "spin"}
+               "elastica", "plates", "two_materials", "bar", "sliding", "spin"}
 for _, name in ipairs(files) do
   local found = require("studies.validate." .. name)
   -- A file may have several.
