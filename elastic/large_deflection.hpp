@@ -20,8 +20,7 @@ struct LargeLoad {
 
 struct LargeOptions {
   /// An equilibrium is found when the forces that are left are at most this fraction of those that
-  /// act: of the load, the forces of the anchors, or the largest of a spring, whichever is most
-  /// [1].
+  /// act, the load or the forces of the anchors, or are rounding [1].
   double tolerance = 1e-9;
   Progress* progress = nullptr;  ///< may be null
 };

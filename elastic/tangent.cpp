@@ -68,12 +68,12 @@ Mat3 block_of_spring(const MassSpringModel& model, std::uint32_t s, const std::v
 }  // namespace
 
 double strain_energy(const MassSpringModel& model, const std::vector<Vec3>& x) {
-  double energy = dilatation_energy(model.dilatation, x);
+  double energy = 0;
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
     const double stretch = (x[model.b[s]] - x[model.a[s]]).norm() - model.rest_length[s];
-    energy += model.stiffness[s] * stretch * stretch / 2;
+    energy += 0.5 * model.stiffness[s] * stretch * stretch;
   }
-  return energy;
+  return energy + dilatation_energy(model.dilatation, x);
 }
 
 std::vector<Vec3> holding_forces(const MassSpringModel& model, const std::vector<Vec3>& x) {

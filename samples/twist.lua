@@ -1,5 +1,5 @@
 -- Scenario for samples/dumbbell.obj in dm: one end of the dumbbell is held, the other is drawn out
--- and turned, and then held too while the rubber between them swings.
+-- and turned, and then held too while the rubber between them vibrates.
 local function near_end(sign)
   return function(node) return sign * node.x > 1 end
 end

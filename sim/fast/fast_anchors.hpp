@@ -37,9 +37,9 @@ class FastAnchors {
     Vec3 before = Vec3::Zero();  // velocity of its anchor over the last step; at a start any [m/s]
     double half_work = 0;        // see half_work() [J]
   };
-  /// Force of the anchor [N]; `free`: velocity after the kick, `held`: that of the anchor.
+  /// Force of the anchor [N]; `free`: velocity after the kick, `velocity`: that of the anchor.
   Vec3 force(std::size_t held, double step, const Vec3& free, const Vec3& velocity) const;
-  /// Time integral of the acceleration of the kick, over its length [m/s2].
+  /// Acceleration by the kick [m/s2].
   Vec3 acceleration(std::size_t held, double step, const Vec3& free) const;
 
   const MassSpringModel* model_;

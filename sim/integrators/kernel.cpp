@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "elastic/tangent.hpp"
 #include "sim/integrators/dilatation.hpp"
 
 namespace springlod::sim {
@@ -57,12 +58,7 @@ template void add_internal_forces<false>(const MassSpringModel&, const std::vect
                                          std::vector<Vec3>&);
 
 double elastic_energy(const MassSpringModel& model, const std::vector<Vec3>& x) {
-  double energy = 0;
-  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-    const double stretch = (x[model.b[s]] - x[model.a[s]]).norm() - model.rest_length[s];
-    energy += 0.5 * model.stiffness[s] * stretch * stretch;
-  }
-  return energy + dilatation_energy(model.dilatation, x);
+  return elastic::strain_energy(model, x);
 }
 
 }  // namespace springlod::sim

@@ -6,22 +6,11 @@
 #include "base/error.hpp"
 #include "model/anchors.hpp"
 #include "scripting/bind/tables/node_choice.hpp"
+#include "scripting/bind/tables/scenario_table.hpp"
 
 namespace springlod::scripting {
 
 namespace {
-
-/// A Turn as a rotation vector [rad].
-Vec3 read_turn(const Call& call, int table, const std::string& owner) {
-  TableReader reader = call.record(table, "Turn", owner);
-  Vec3 axis = Vec3::UnitZ();
-  double angle = 0;
-  reader.read("axis", axis);
-  reader.read("angle", angle);
-  reader.finish();
-  if (!(axis.norm() > 0)) reader.refuse("axis", "longer than 0");
-  return angle * axis.normalized();
-}
 
 sim::AnchorKey read_pose(const Call& call, int table, const std::string& owner) {
   TableReader reader = call.record(table, "Pose", owner);
@@ -29,7 +18,10 @@ sim::AnchorKey read_pose(const Call& call, int table, const std::string& owner) 
   if (!reader.has("time")) reader.refuse("time", "given: seconds after the start of the run");
   reader.read("time", key.time);
   reader.read("move", key.move);
-  if (const int turn = reader.raw("turn")) key.turn = read_turn(call, turn, owner + ".turn");
+  if (const int given = reader.raw("turn")) {
+    const Eigen::AngleAxisd turn = read_turn(call, given, owner + ".turn");
+    key.turn = turn.angle() * turn.axis();
+  }
   reader.finish();
   return key;
 }

@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <lua.hpp>
 
@@ -16,17 +15,6 @@ namespace {
 constexpr const char* kGroup = "Simulation";
 
 constexpr std::string_view kAutomatic = "auto";  // stiffness of an obstacle
-
-Mat3 read_turn(Call& call, int table, const std::string& owner) {
-  TableReader reader = call.record(table, "Turn", owner);
-  Vec3 axis = Vec3::UnitZ();
-  double angle = 0;
-  reader.read("axis", axis);
-  reader.read("angle", angle);
-  reader.finish();
-  if (!(axis.norm() > 0)) reader.refuse("axis", "longer than 0");
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
 
 // {nx, ny, nz, offset}
 sim::Plane read_plane(lua_State* L, int table, const std::string& owner) {
@@ -52,7 +40,8 @@ sim::SolidBox read_box(Call& call, int table, const std::string& owner) {
   if (!reader.has("size")) reader.refuse("size", "given: {x, y, z}");
   reader.read("size", size);
   box.half_size = 0.5 * size;
-  if (const int turn = reader.raw("turn")) box.rotation = read_turn(call, turn, owner + ".turn");
+  if (const int turn = reader.raw("turn"))
+    box.rotation = read_turn(call, turn, owner + ".turn").toRotationMatrix();
   reader.finish();
   return box;
 }
@@ -105,7 +94,7 @@ void read_throw(Call& call, TableReader& scenario, sim::Throw& into) {
   reader.read("velocity", into.velocity);
   reader.read("spin", into.spin);
   if (const int turn = reader.raw("turn"))
-    into.rotation = read_turn(call, turn, reader.owner() + ".turn");
+    into.rotation = read_turn(call, turn, reader.owner() + ".turn").toRotationMatrix();
   reader.finish();
 }
 
@@ -231,6 +220,17 @@ void describe_throw(Api& api) {
 }
 
 }  // namespace
+
+Eigen::AngleAxisd read_turn(const Call& call, int table, const std::string& owner) {
+  TableReader reader = call.record(table, "Turn", owner);
+  Vec3 axis = Vec3::UnitZ();
+  double angle = 0;
+  reader.read("axis", axis);
+  reader.read("angle", angle);
+  reader.finish();
+  if (!(axis.norm() > 0)) reader.refuse("axis", "longer than 0");
+  return Eigen::AngleAxisd(angle, axis.normalized());
+}
 
 sim::Scenario scenario_from_table(Call& call, TableReader& reader) {
   sim::Scenario scenario;
