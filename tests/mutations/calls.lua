@@ -116,8 +116,11 @@ local texts = {
   ["csv.path"] = "out.csv", ["hash.file"] = "box.obj",
 }
 
+local points = {}
+for i, node in ipairs(values.LodChain[1]:nodes()) do points[i] = {node.x, node.y, node.z} end
+
 local arrays = {sample = samples[1], base = samples[2], other = samples[3], sources = samples,
-                node_values = {}}
+                node_values = {}, values = points}
 
 local valid -- (parameter, owner): a valid value
 
