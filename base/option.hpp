@@ -67,13 +67,12 @@ struct NodesOption {
   std::vector<std::uint32_t> S::*member;
   const char* help;
   const char* fallback;
-  bool held;  ///< scripts may also give them as a list of Anchor
 };
 
 template <class S>
 constexpr NodesOption<S> nodes_option(const char* name, std::vector<std::uint32_t> S::*member,
                                       const char* help, const char* fallback = "") {
-  return {name, member, help, fallback, false};
+  return {name, member, help, fallback};
 }
 
 /// A nested options struct, or a list of such structs. Scripts write it as a separate table,

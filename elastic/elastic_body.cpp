@@ -87,9 +87,15 @@ void find_mechanisms(ElasticComponent& component, Eigen::Index count) {
   component.zero_modes.rightCols(count) = motions;
 }
 
-/// `free`: the nodes of `whole` that are not anchored.
-ElasticComponent make_component(const ModelComponent& whole, const std::vector<std::uint32_t>& free,
+/// The nodes of a component that are not anchored, ascending.
+struct FreeNodes {
+  std::vector<std::uint32_t> nodes;  ///< numbers within the component
+  std::vector<double> stiffness;     ///< of the springs of the support at each of them [N/m]
+};
+
+ElasticComponent make_component(const ModelComponent& whole, const FreeNodes& free_nodes,
                                 const ComponentModes& found, Progress* progress) {
+  const std::vector<std::uint32_t>& free = free_nodes.nodes;
   const MassSpringModel& model = whole.model;
   ElasticComponent component;
   std::vector<Vec3> points;
@@ -109,6 +115,8 @@ ElasticComponent make_component(const ModelComponent& whole, const std::vector<s
   component.stiffness = stiffness_matrix(model);
   if (free.size() < model.node_count())
     component.stiffness = block_of_nodes(component.stiffness, free);
+  for (Eigen::Index c = 0; c < component.unknowns(); ++c)
+    component.stiffness.coeffRef(c, c) += free_nodes.stiffness[static_cast<std::size_t>(c / 3)];
   for (Eigen::Index c = 0; c < component.unknowns(); ++c)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(component.stiffness, c); entry; ++entry)
       entry.valueRef() /= component.root_mass[entry.row()] * component.root_mass[c];
@@ -183,19 +191,27 @@ std::uint32_t ElasticBody::zero_mode_count() const {
 
 ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& options) {
   require_finite(model);
-  const std::vector<std::uint8_t> held = anchor_flags(model, options.anchored);
-  const std::vector<ComponentModes> found = zero_modes(model, options.anchored);
+  validate(options.anchored, model);
+  const std::vector<std::uint8_t> held = anchor_flags(model, options.anchored.nodes);
+  std::vector<double> pull(model.node_count(), 0.0);  // of springs of the support [N/m]
+  for (const NodeSpring& spring : options.anchored.springs) pull[spring.node] += spring.stiffness;
+  const std::vector<ComponentModes> found = zero_modes(model, options.anchored.all_nodes());
   const std::vector<ModelComponent> components =
       split_components(model, connected_components(model));
   ElasticBody body;
   body.node_count = model.node_count();
   for (std::uint32_t i = 0; i < model.node_count(); ++i)
-    if (held[i] != 0) body.anchored.push_back(i);
+    if (held[i] != 0) body.anchored.nodes.push_back(i);
+  body.anchored.springs = options.anchored.springs;
   for (std::size_t p = 0; p < components.size(); ++p) {
-    std::vector<std::uint32_t> free;
-    for (std::uint32_t i = 0; i < components[p].nodes.size(); ++i)
-      if (held[components[p].nodes[i]] == 0) free.push_back(i);
-    if (!free.empty())
+    FreeNodes free;
+    for (std::uint32_t i = 0; i < components[p].nodes.size(); ++i) {
+      const std::uint32_t node = components[p].nodes[i];
+      if (held[node] != 0) continue;
+      free.nodes.push_back(i);
+      free.stiffness.push_back(pull[node]);
+    }
+    if (!free.nodes.empty())
       body.components.push_back(make_component(components[p], free, found[p], options.progress));
   }
   return body;

@@ -8,6 +8,7 @@
 #include <Eigen/SparseCore>
 
 #include "base/progress.hpp"
+#include "model/anchors.hpp"
 #include "model/mass_spring.hpp"
 
 namespace springlod::elastic {
@@ -16,7 +17,7 @@ class SparseCholesky;
 
 /// A factorised connected component of a model: n free nodes and 3n unknowns y = M^1/2 u. In these
 /// unknowns the stiffness is D = M^-1/2 K M^-1/2 [1/s2], and modes are orthonormal. K includes the
-/// springs to anchored nodes; anchored nodes have no unknowns.
+/// springs to anchored nodes and those of the support; anchored nodes have no unknowns.
 struct ElasticComponent {
   std::vector<std::uint32_t> nodes;       ///< n, ascending
   Eigen::VectorXd root_mass;              ///< sqrt(m) of each unknown [kg^1/2], 3n
@@ -40,15 +41,14 @@ struct ElasticComponent {
 /// A model factorised once for several analyses: modes and static loads. Treat it as immutable.
 struct ElasticBody {
   std::uint32_t node_count = 0;
-  std::vector<std::uint32_t> anchored;       ///< ascending, each once; empty: the body is free
+  Support anchored;  ///< its nodes ascending, each once; empty: the body is free
   std::vector<ElasticComponent> components;  ///< by their lowest node; those with a free node
   std::uint32_t zero_mode_count() const;
 };
 
 struct ElasticOptions {
-  /// Nodes with prescribed displacement 0, in any order. `mapped_nodes` maps those of level 0 to a
-  /// level.
-  std::vector<std::uint32_t> anchored = {};
+  /// What holds the body; `mapped_support` maps that of level 0 to a level.
+  Support anchored = {};
   Progress* progress = nullptr;  ///< may be null
 };
 
@@ -60,8 +60,8 @@ struct ElasticOptions {
 ///
 /// Throws InputError: positions, masses or stiffnesses that are not finite, masses that are not
 /// above 0, more mechanisms than can be stored (hundreds, in a large component), stiffnesses so
-/// uneven that no small shift makes the matrix positive definite, anchored nodes that the model
-/// does not have. Anchors that leave motions free are no error here: such motions are zero modes,
+/// uneven that no small shift makes the matrix positive definite, a support that does not fit the
+/// model. Anchors that leave motions free are no error here: such motions are zero modes,
 /// and solve_static rejects loads on them.
 ElasticBody elastic_body(const MassSpringModel& model, const ElasticOptions& options = {});
 

@@ -44,14 +44,21 @@ constexpr double kRounding = 4e-16;
 class Equilibrium {
  public:
   Equilibrium(const MassSpringModel& model, const LargeLoad& load, const LargeOptions& options)
-      : model_(model), load_(load), options_(options), x_(model.rest) {
-    const std::vector<std::uint8_t> held = anchor_flags(model, load.anchored);
+      : model_(model),
+        load_(load),
+        options_(options),
+        x_(model.rest),
+        places_(model.rest),
+        pull_(model.node_count(), 0.0) {
+    const std::vector<std::uint8_t> held = anchor_flags(model, load.anchored.nodes);
+    for (const NodeSpring& spring : load.anchored.springs) pull_[spring.node] += spring.stiffness;
     for (std::uint32_t i = 0; i < model.node_count(); ++i)
       (held[i] != 0 ? held_ : free_).push_back(i);
     double farthest = 0;
     for (const Vec3& rest : model.rest) farthest = std::max(farthest, rest.cwiseAbs().maxCoeff());
     double square = 0;
     for (const double stiffness : model.stiffness) square += stiffness * stiffness;
+    for (const double stiffness : pull_) square += stiffness * stiffness;
     rounding_ = kRounding * farthest * std::sqrt(square);
   }
 
@@ -63,10 +70,12 @@ class Equilibrium {
     while (part < 1) {
       step = std::min(step, 1 - part);
       const std::vector<Vec3> before = x_;
+      const std::vector<Vec3> places_before = places_;
       const std::uint32_t iterations = advance(part, part + step);
       result_.iterations += iterations;
       if (iterations == kFailed) {
         x_ = before;
+        places_ = places_before;
         step /= 2;
         if (step < kLeastStep) throw_collapse(part);
         continue;
@@ -108,51 +117,71 @@ class Equilibrium {
 
   /// Moves the held nodes, and the others as the tangent says.
   bool predict(double from, double to) {
-    std::vector<Vec3> moved = x_;
-    if (load_.hold) load_.hold(to, moved);
+    const std::vector<Vec3> before = places_;
+    if (load_.hold) load_.hold(to, places_);
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(x_.size()));
+    for (const std::uint32_t i : held_) shift.segment<3>(row_of(i)) = places_[i] - x_[i];
     if (free_.empty()) {
-      x_ = moved;
+      x_ = places_;
       return true;
     }
-    Eigen::VectorXd shift = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(x_.size()));
-    for (const std::uint32_t i : held_) shift.segment<3>(row_of(i)) = moved[i] - x_[i];
-    const Eigen::SparseMatrix<double> tangent = tangent_matrix(model_, x_, Tangent::exact);
+    const Eigen::SparseMatrix<double> tangent = tangent_at(x_, Tangent::exact);
     const Eigen::VectorXd pull = tangent * shift;
     Eigen::VectorXd right(3 * static_cast<Eigen::Index>(free_.size()));
     for (std::size_t f = 0; f < free_.size(); ++f)
-      right.segment<3>(row_of(f)) =
-          (to - from) * load_.force[free_[f]] - pull.segment<3>(row_of(free_[f]));
+      right.segment<3>(row_of(f)) = (to - from) * load_.force[free_[f]] -
+                                    pull.segment<3>(row_of(free_[f])) +
+                                    pull_[free_[f]] * (places_[free_[f]] - before[free_[f]]);
     const std::optional<Eigen::VectorXd> change = solve(tangent, right);
     if (!change) return false;
-    for (const std::uint32_t i : held_) x_[i] = moved[i];
+    for (const std::uint32_t i : held_) x_[i] = places_[i];
     for (std::size_t f = 0; f < free_.size(); ++f) x_[free_[f]] += change->segment<3>(row_of(f));
     return true;
   }
 
   void find_forces(double part) {
     holding_ = holding_forces(model_, x_);
+    double reaction = 0;
     gradient_.resize(3 * static_cast<Eigen::Index>(free_.size()));
     double load = 0;
     for (std::size_t f = 0; f < free_.size(); ++f) {
       const Vec3 force = part * load_.force[free_[f]];
-      gradient_.segment<3>(row_of(f)) = holding_[free_[f]] - force;
+      const Vec3 pulled = support_force(free_[f]);
+      gradient_.segment<3>(row_of(f)) = holding_[free_[f]] - force - pulled;
       load += force.squaredNorm();
+      reaction += pulled.squaredNorm();
     }
-    double reaction = 0;
     for (const std::uint32_t i : held_) reaction += holding_[i].squaredNorm();
     left_ = gradient_.norm();
     acting_ = std::sqrt(std::max(load, reaction));
   }
 
   double energy(double part, const std::vector<Vec3>& x) const {
-    double energy = strain_energy(model_, x);
+    double energy = stored_energy(x);
     for (const std::uint32_t i : free_) energy -= part * load_.force[i].dot(x[i] - model_.rest[i]);
     return energy;
   }
 
+  double stored_energy(const std::vector<Vec3>& x) const {
+    double energy = strain_energy(model_, x);
+    for (const std::uint32_t i : free_)
+      energy += 0.5 * pull_[i] * (x[i] - places_[i]).squaredNorm();
+    return energy;
+  }
+
+  /// Of the springs of the support on a node [N].
+  Vec3 support_force(std::uint32_t node) const { return pull_[node] * (places_[node] - x_[node]); }
+
+  Eigen::SparseMatrix<double> tangent_at(const std::vector<Vec3>& x, Tangent kind) const {
+    Eigen::SparseMatrix<double> tangent = tangent_matrix(model_, x, kind);
+    for (const NodeSpring& spring : load_.anchored.springs)
+      for (int d = 0; d < 3; ++d)
+        tangent.coeffRef(row_of(spring.node) + d, row_of(spring.node) + d) += spring.stiffness;
+    return tangent;
+  }
+
   bool descend(double part) {
-    std::optional<Eigen::VectorXd> direction =
-        solve(tangent_matrix(model_, x_, Tangent::exact), -gradient_);
+    std::optional<Eigen::VectorXd> direction = solve(tangent_at(x_, Tangent::exact), -gradient_);
     double slope = direction ? gradient_.dot(*direction) : 0;
     if (!(slope < 0)) {
       direction = solve_convex();
@@ -191,8 +220,7 @@ class Equilibrium {
   }
 
   std::optional<Eigen::VectorXd> solve_convex() const {
-    Eigen::SparseMatrix<double> block =
-        block_of_nodes(tangent_matrix(model_, x_, Tangent::convex), free_);
+    Eigen::SparseMatrix<double> block = block_of_nodes(tangent_at(x_, Tangent::convex), free_);
     const double largest = block.diagonal().maxCoeff();
     double shifted = 0;
     for (double shift = kShift; shift < 1; shift *= kRaise) {
@@ -209,7 +237,8 @@ class Equilibrium {
     for (std::size_t i = 0; i < x_.size(); ++i) result_.displacement[i] = x_[i] - model_.rest[i];
     result_.reaction.assign(x_.size(), Vec3::Zero());
     for (const std::uint32_t i : held_) result_.reaction[i] = holding_[i] - load_.force[i];
-    result_.energy = strain_energy(model_, x_);
+    for (const std::uint32_t i : free_) result_.reaction[i] = support_force(i);
+    result_.energy = stored_energy(x_);
     result_.residual = acting_ > 0 ? left_ / acting_ : 0;
     return result_;
   }
@@ -224,6 +253,8 @@ class Equilibrium {
   const LargeOptions& options_;
   std::vector<std::uint32_t> held_, free_;  // ascending
   std::vector<Vec3> x_;
+  std::vector<Vec3> places_;   // N: see LargeLoad::hold [m]
+  std::vector<double> pull_;   // N: stiffness of the springs of the support [N/m]
   std::vector<Vec3> holding_;  // at the last find_forces() [N]
   Eigen::VectorXd gradient_;   // of the energy by the positions of the free nodes [N]
   double left_ = 0;            // its norm
@@ -240,7 +271,8 @@ void check(const MassSpringModel& model, const LargeLoad& load) {
     if (!load.force[i].allFinite())
       throw InputError(
           fmt::format("deflect: the force on node {} is not finite", script_number(i)));
-  for (const ComponentModes& part : zero_modes(model, load.anchored))
+  validate(load.anchored, model);
+  for (const ComponentModes& part : zero_modes(model, load.anchored.all_nodes()))
     if (part.zero_modes > 0)
       throw InputError(fmt::format(
           "deflect: the anchors leave {} motions of the component at node {} free, and at large "

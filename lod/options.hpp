@@ -204,8 +204,8 @@ struct TargetOptions {
   std::vector<TargetRegion> regions = {};
   /// Factors on the weights of all frequencies, of the mode shapes and of all static loads [1].
   double mode_weight = 1, shape_weight = 1, load_weight = 1;
-  std::uint64_t seed = 1;                    ///< of the patches
-  std::vector<std::uint32_t> anchored = {};  ///< base nodes that are held fixed
+  std::uint64_t seed = 1;  ///< of the patches
+  Support anchored = {};   ///< of the base
   // calibrate() sets these two to its own.
   std::uint32_t threads = 1;     ///< at most two are used; results do not depend on it
   Progress* progress = nullptr;  ///< may be null

@@ -40,6 +40,19 @@ std::vector<std::uint32_t> nodes_of_part(const ModelComponent& part,
   return nodes;
 }
 
+/// What holds the component, numbered within it. `held`: flags of the nodes.
+Support support_of_part(const ModelComponent& part, const std::vector<std::uint8_t>& held,
+                        const std::vector<NodeSpring>& springs) {
+  Support of_part(nodes_of_part(part, held));
+  for (const NodeSpring& spring : springs) {
+    const auto place = std::lower_bound(part.nodes.begin(), part.nodes.end(), spring.node);
+    if (place != part.nodes.end() && *place == spring.node)
+      of_part.springs.push_back(
+          {static_cast<std::uint32_t>(place - part.nodes.begin()), spring.stiffness});
+  }
+  return of_part;
+}
+
 void require_surface(const MassSpringModel& base, const TargetOptions& options) {
   for (std::size_t r = 0; r < options.regions.size(); ++r) {
     for (const std::uint32_t node : options.regions[r].nodes)
@@ -55,15 +68,15 @@ void require_surface(const MassSpringModel& base, const TargetOptions& options) 
   }
 }
 
-/// The options for a component of the base: those of the call with its own anchored nodes and
-/// regions.
-TargetOptions options_of_part(const ModelComponent& part, const std::vector<std::uint8_t>& anchored,
+/// The options for a component of the base: those of the call with its own support and regions.
+/// `held`: flags of the nodes that are held.
+TargetOptions options_of_part(const ModelComponent& part, const std::vector<std::uint8_t>& held,
                               const std::vector<std::vector<std::uint8_t>>& regions,
                               const CalibrateOptions& options) {
   TargetOptions of_part = options.targets;
   of_part.threads = options.threads;
   of_part.progress = options.progress;
-  of_part.anchored = nodes_of_part(part, anchored);
+  of_part.anchored = support_of_part(part, held, options.targets.anchored.springs);
   for (std::size_t r = 0; r < regions.size(); ++r)
     of_part.regions[r].nodes = nodes_of_part(part, regions[r]);
   return of_part;
@@ -111,7 +124,8 @@ std::vector<MeasuredPart> measure_parts(const LodChain& chain, const CalibrateOp
                                         const CalibrationStore* store) {
   const MassSpringModel& base = chain.levels.front().model;
   require_surface(base, options.targets);
-  const std::vector<std::uint8_t> anchored = anchor_flags(base, options.targets.anchored);
+  validate(options.targets.anchored, base);
+  const std::vector<std::uint8_t> held = anchor_flags(base, options.targets.anchored.nodes);
   std::vector<std::vector<std::uint8_t>> regions;
   for (const TargetRegion& region : options.targets.regions)
     regions.push_back(anchor_flags(base, region.nodes));
@@ -119,7 +133,7 @@ std::vector<MeasuredPart> measure_parts(const LodChain& chain, const CalibrateOp
   require_memory_for(parts);
   std::vector<MeasuredPart> all;
   for (ModelComponent& part : parts) {
-    const TargetOptions of_part = options_of_part(part, anchored, regions, options);
+    const TargetOptions of_part = options_of_part(part, held, regions, options);
     std::vector<LoadTarget> loads = target_loads(part.model, of_part);
     std::vector<Groups> groups = groups_of_part(part, chain);
     BaseMeasurements measured =

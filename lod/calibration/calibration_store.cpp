@@ -50,6 +50,14 @@ void pack(Packer& to, const Groups& groups) {
   to.add(groups.count);
 }
 
+void pack(Packer& to, const Support& support) {
+  to.add(support.nodes);
+  for (const NodeSpring& spring : support.springs) {
+    to.add(spring.node);
+    to.add(spring.stiffness);
+  }
+}
+
 template <class Number>
 requires std::is_arithmetic_v<Number>
 void pack(Packer& to, Number number) {
@@ -119,6 +127,8 @@ void pack_options(Packer& to, const S& all, bool with_weights) {
                          }) {
       to.add(member.size());
       for (const auto& each : member) pack_options(to, each, with_weights);
+    } else if constexpr (std::is_same_v<Member, Support>) {
+      pack(to, member);
     } else if constexpr (requires { member.has_value(); }) {
       to.add(member.has_value());
       if (member) to.add(*member);
@@ -164,7 +174,7 @@ std::string fingerprint_of(const ElasticTargets& targets, const MassSpringModel&
   }
   all.add(targets.highest_frequency);
   all.add(targets.nodes);
-  all.add(targets.anchored);
+  pack(all, targets.anchored);
   pack(all, level_part);
   pack(all, of_base);
   pack_options(all, options, true);

@@ -69,8 +69,8 @@ ElasticFit::ElasticFit(const MassSpringModel& level, const Groups& of_base,
     : targets_(targets),
       threads_(options.threads),
       free_masses_(options.masses == NodeMasses::free),
-      anchored_(mapped_nodes(of_base, targets.anchored)),
-      modal_(modal_loads(level, of_base, targets, anchored_)),
+      anchored_(mapped_support(of_base, targets.anchored)),
+      modal_(modal_loads(level, of_base, targets, anchored_.nodes)),
       stretch_(level.spring_count() + level.dilatation.count(),
                3 * static_cast<Eigen::Index>(level.node_count())) {
   for (const LoadTarget& target : targets.loads)

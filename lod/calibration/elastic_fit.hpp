@@ -81,7 +81,7 @@ class ElasticFit {
   const ElasticTargets& targets_;
   std::uint32_t threads_;
   bool free_masses_;
-  std::vector<std::uint32_t> anchored_;
+  Support anchored_;  // of the level
   std::vector<elastic::StaticLoad> loads_;
   ModalLoads modal_;
   // (S + T) x 3N: b of each spring, and of each term.

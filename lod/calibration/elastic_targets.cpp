@@ -92,8 +92,8 @@ elastic::StaticLoad summed_over_groups(const Groups& of_base, const elastic::Sta
 }
 
 std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const TargetRegion& region,
-                                         const std::vector<std::uint32_t>& anchored) {
-  const std::vector<std::uint8_t> held = anchor_flags(base, anchored);
+                                         const Support& anchored) {
+  const std::vector<std::uint8_t> held = anchor_flags(base, anchored.nodes);
   std::vector<std::uint32_t> nodes;
   for (const std::uint32_t node : region.nodes)
     if (base.border.at(node) != 0 && held[node] == 0) nodes.push_back(node);

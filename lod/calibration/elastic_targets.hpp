@@ -41,9 +41,9 @@ struct ElasticTargets {
   std::vector<std::vector<Vec3>> modal_forces;
   double shape_weight = 1;  ///< factor on the default weight of the shapes [1]
   std::vector<LoadTarget> loads;
-  double highest_frequency = 0;         ///< omega_max of the base [rad/s]
-  std::uint32_t nodes = 0;              ///< number of nodes of the base
-  std::vector<std::uint32_t> anchored;  ///< anchored nodes of the base
+  double highest_frequency = 0;  ///< omega_max of the base [rad/s]
+  std::uint32_t nodes = 0;       ///< number of nodes of the base
+  Support anchored;              ///< of the base
 };
 
 /// Number of modes to fit: 0 if options.kinds is loads.
@@ -86,7 +86,7 @@ ElasticTargets make_targets(const MassSpringModel& base, const TargetOptions& op
 
 /// Nodes of the region that loads can act on: border nodes that are not anchored.
 std::vector<std::uint32_t> movable_nodes(const MassSpringModel& base, const TargetRegion& region,
-                                         const std::vector<std::uint32_t>& anchored);
+                                         const Support& anchored);
 
 /// The load on a level's nodes: the forces on the base nodes summed over each group [N].
 elastic::StaticLoad summed_over_groups(const Groups& of_base, const elastic::StaticLoad& load);

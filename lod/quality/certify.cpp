@@ -37,8 +37,7 @@ struct Measured {
 };
 
 Measured measure(const MassSpringModel& model, const std::vector<elastic::StaticLoad>& loads,
-                 std::size_t smooth, const std::vector<std::uint32_t>& anchored,
-                 std::uint32_t modes) {
+                 std::size_t smooth, const Support& anchored, std::uint32_t modes) {
   const elastic::ElasticBody body = elastic::elastic_body(model, {.anchored = anchored});
   Measured measured;
   measured.modes = elastic::lowest_modes(body, {.count = modes}).modes;
@@ -164,7 +163,7 @@ void certify(LodChain& chain, const CertifyOptions& options) {
                summed.push_back(summed_over_groups(level.of_base, load));
              const Measured found =
                  measure(level.model, summed, loads.smooth,
-                         mapped_nodes(level.of_base, options.anchored), options.modes);
+                         mapped_support(level.of_base, options.anchored), options.modes);
              Certificate c;
              compare_motion(chain, level, of_base, found, c);
              compare_loads(loads, chain, level, of_base, found, c);

@@ -12,11 +12,11 @@ namespace springlod::lod {
 
 struct CertifyOptions {
   std::uint32_t modes = 20;
-  std::uint32_t held_out_loads = 40;         ///< number of pinches, and of pushes
-  std::uint64_t seed = 1;                    ///< of the patches they act on
-  double radius = 3;                         ///< of the patches, see elastic::LocalLoadOptions
-  std::vector<std::uint32_t> within = {};    ///< base nodes they act on; empty: the whole surface
-  std::vector<std::uint32_t> anchored = {};  ///< base nodes that are held fixed
+  std::uint32_t held_out_loads = 40;       ///< number of pinches, and of pushes
+  std::uint64_t seed = 1;                  ///< of the patches they act on
+  double radius = 3;                       ///< of the patches, see elastic::LocalLoadOptions
+  std::vector<std::uint32_t> within = {};  ///< base nodes they act on; empty: the whole surface
+  Support anchored = {};                   ///< of the base
   /// Largest accepted mean error of the ten lowest frequencies [1]; 0: no bound.
   double tolerance = 0;
   std::uint32_t threads = 1;     ///< 0: all cores

@@ -160,7 +160,7 @@ class Log {
     bodies_.resize(levels.size());
     jobs(levels.size(), [&](std::uint32_t n) {
       bodies_[n] = elastic::elastic_body(
-          levels[n].model, {.anchored = mapped_nodes(levels[n].of_base, options_.anchored)});
+          levels[n].model, {.anchored = mapped_support(levels[n].of_base, options_.anchored)});
     });
     loads_ = loads_of(levels.front().model, bodies_.front(), options_);
     MergeLog log;

@@ -61,9 +61,9 @@ struct MergeLogOptions {
   std::uint64_t seed = 1;          ///< of the patches they act on, as in CertifyOptions
   /// Every step starts from the base, even if the level was merged from the one before.
   bool from_base = false;
-  std::vector<std::uint32_t> anchored = {};  ///< base nodes that are held fixed
-  std::uint32_t threads = 1;                 ///< 0: all cores
-  Progress* progress = nullptr;              ///< may be null
+  Support anchored = {};         ///< of the base
+  std::uint32_t threads = 1;     ///< 0: all cores
+  Progress* progress = nullptr;  ///< may be null
 };
 constexpr auto option_rows(const MergeLogOptions*) {
   using Options = MergeLogOptions;

@@ -48,9 +48,10 @@ int stretch_binding(Call& call) {
 int zero_modes_binding(Call& call) {
   const MassSpringModel& model = *call.value<ModelValue>(1)->model;
   TableReader reader = call.options(2);
-  const std::vector<std::uint32_t> anchored = read_anchored(call, reader, model);
+  const Support anchored = read_anchored(call, reader, model);
   reader.finish();
-  const std::vector<elastic::ComponentModes> parts = elastic::zero_modes(model, anchored);
+  const std::vector<elastic::ComponentModes> parts =
+      elastic::zero_modes(model, anchored.all_nodes());
   lua_State* L = call.lua();
   begin_list(L, parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -74,7 +75,7 @@ int modes_binding(Call& call) {
   options.progress = call.progress();
   TableReader reader = call.options(2);
   read_options(call, reader, options);
-  const std::vector<std::uint32_t> anchored = read_anchored(call, reader, model);
+  const Support anchored = read_anchored(call, reader, model);
   reader.finish();
   const elastic::Modes found = elastic::lowest_modes(
       elastic::elastic_body(model, {.anchored = anchored, .progress = call.progress()}), options);
@@ -105,7 +106,7 @@ void push_solution(lua_State* L, const elastic::StaticSolution& solution) {
 int static_loads_binding(Call& call) {
   const MassSpringModel& model = *call.value<ModelValue>(1)->model;
   TableReader reader = call.options(2);
-  const std::vector<std::uint32_t> anchored = read_anchored(call, reader, model);
+  const Support anchored = read_anchored(call, reader, model);
   reader.finish();
   const std::vector<elastic::StaticLoad> loads = elastic::smooth_loads(model);
   const std::vector<elastic::StaticSolution> solutions = elastic::solve_static(
@@ -121,16 +122,29 @@ int static_loads_binding(Call& call) {
   return 1;
 }
 
+/// The nodes of anchors that hold them and of those that pull them by springs, at rest.
+struct AnchoredNodes {
+  AnchoredNodes(const MassSpringModel& model, const std::vector<sim::Anchor>& anchors)
+      : held(model, anchors, model.rest),
+        on_springs(model, anchors, model.rest, sim::HeldNodes::By::springs) {}
+  void move_to(double time) {
+    held.move_to(time);
+    on_springs.move_to(time);
+  }
+  sim::HeldNodes held, on_springs;
+};
+
 /// What each anchor does to the body, from the forces on its nodes.
 void set_anchor_loads(lua_State* L, const std::vector<sim::Anchor>& anchors,
-                      const sim::HeldNodes& held, const std::vector<Vec3>& reaction) {
+                      const AnchoredNodes& anchored, const std::vector<Vec3>& reaction) {
   std::vector<sim::AnchorLoad> loads(anchors.size());
-  for (std::uint32_t h = 0; h < held.count(); ++h) {
-    sim::AnchorLoad& load = loads[held.anchor(h)];
-    const Vec3& force = reaction[held.node(h)];
-    load.force += force;
-    load.torque += (held.at()[h] - held.pivot(held.anchor(h))).cross(force);
-  }
+  for (const sim::HeldNodes* nodes : {&anchored.held, &anchored.on_springs})
+    for (std::uint32_t h = 0; h < nodes->count(); ++h) {
+      sim::AnchorLoad& load = loads[nodes->anchor(h)];
+      const Vec3& force = reaction[nodes->node(h)];
+      load.force += force;
+      load.torque += (nodes->at()[h] - nodes->pivot(nodes->anchor(h))).cross(force);
+    }
   begin_list(L, anchors.size());
   for (std::size_t a = 0; a < anchors.size(); ++a) {
     begin_table(L);
@@ -144,13 +158,15 @@ void set_anchor_loads(lua_State* L, const std::vector<sim::Anchor>& anchors,
 
 void push_large(Call& call, const MassSpringModel& model, const std::vector<Vec3>& force,
                 const std::vector<sim::Anchor>& anchors) {
-  sim::HeldNodes held(model, anchors, model.rest);
+  AnchoredNodes anchored(model, anchors);
   const double end = sim::end_of_paths(anchors);
-  const elastic::LargeLoad load{
-      .force = force, .anchored = held.nodes(), .hold = [&](double part, std::vector<Vec3>& x) {
-        held.move_to(part * end);
-        held.put(x);
-      }};
+  const elastic::LargeLoad load{.force = force,
+                                .anchored = sim::support_of(anchors, model),
+                                .hold = [&](double part, std::vector<Vec3>& places) {
+                                  anchored.move_to(part * end);
+                                  anchored.held.put(places);
+                                  anchored.on_springs.put(places);
+                                }};
   const elastic::LargeSolution found =
       elastic::deflect_far(model, load, {.progress = call.progress()});
   double work = 0;
@@ -163,15 +179,14 @@ void push_large(Call& call, const MassSpringModel& model, const std::vector<Vec3
   set_field(L, "load_steps", found.load_steps);
   set_field(L, "iterations", found.iterations);
   set_field(L, "displacement", found.displacement);
-  held.move_to(end);
-  set_anchor_loads(L, anchors, held, found.reaction);
+  anchored.move_to(end);
+  set_anchor_loads(L, anchors, anchored, found.reaction);
 }
 
 void push_small(Call& call, const MassSpringModel& model, const std::vector<Vec3>& force,
                 const std::vector<sim::Anchor>& anchors) {
-  const sim::HeldNodes held(model, anchors, model.rest);
-  const elastic::ElasticBody body =
-      elastic::elastic_body(model, {.anchored = held.nodes(), .progress = call.progress()});
+  const elastic::ElasticBody body = elastic::elastic_body(
+      model, {.anchored = sim::support_of(anchors, model), .progress = call.progress()});
   const elastic::StaticSolution solution =
       elastic::solve_static(body, {{"of deflect", force}}).front();
   push_solution(call.lua(), solution);
@@ -179,7 +194,7 @@ void push_small(Call& call, const MassSpringModel& model, const std::vector<Vec3
   std::vector<Vec3> reaction;
   elastic::apply_stiffness(model, solution.displacement, reaction);
   for (std::size_t i = 0; i < reaction.size(); ++i) reaction[i] -= force[i];
-  set_anchor_loads(call.lua(), anchors, held, reaction);
+  set_anchor_loads(call.lua(), anchors, AnchoredNodes(model, anchors), reaction);
 }
 
 int deflect_binding(Call& call) {
@@ -295,7 +310,8 @@ void describe_statics(Api& api, const Parameter& model) {
                            "the last pose counts, and must leave no motion free"},
                   anchored_parameter()},
       .returns = "table: " + solution +
-                 ", energy (of the body [J]), anchor_loads (for each anchor: name, force on the "
+                 ", energy (of the body and of springs of anchors [J]), anchor_loads (for each "
+                 "anchor: name, force on the "
                  "body [N] and torque about its pivot [N m]); if large also load_steps and "
                  "iterations, and residual is that of the forces",
       .errors = "No force given; forces along motions that the anchors leave free. Without "

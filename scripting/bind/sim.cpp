@@ -92,10 +92,12 @@ void push_ledger(lua_State* L, const TrajectoryValue& value) {
     set_field(L, "elastic", entry.elastic);
     set_field(L, "gravity", entry.gravity);
     set_field(L, "contact", entry.contact);
+    set_field(L, "anchors", entry.anchors);
     set_field(L, "lost_damping", entry.lost_damping);
     set_field(L, "lost_friction", entry.lost_friction);
     set_field(L, "lost_contact", entry.lost_contact);
     set_field(L, "lost_corners", entry.lost_corners);
+    set_field(L, "lost_anchors", entry.lost_anchors);
     set_field(L, "lost_scheme", entry.lost_scheme);
     set_field(L, "lost_switch", entry.lost_switch);
     set_field(L, "anchor_work", entry.anchor_work);
@@ -195,8 +197,9 @@ void describe_trajectory(Api& api) {
              [](const TrajectoryValue& value) { return value.trajectory.inverted_at_end; });
   type.table_field(
       "ledger", "list of tables",
-      "energies of each frame [J]: time, kinetic, elastic, gravity, contact, "
-      "lost_damping, lost_friction, lost_contact, lost_corners, lost_scheme, lost_switch, "
+      "energies of each frame [J]: time, kinetic, elastic, gravity, contact, anchors (in their "
+      "springs), lost_damping, lost_friction, lost_contact, lost_corners, lost_anchors, "
+      "lost_scheme, lost_switch, "
       "anchor_work (done on the body by what holds it), total",
       push_ledger);
   type.table_field(

@@ -28,11 +28,11 @@ class VectorPaths final : public StepPaths {
 
 PlainCorrection::PlainCorrection(const MassSpringModel& model, const ContactPoints& points,
                                  ContactFinder& finder, std::size_t obstacle_count, bool volumes,
-                                 const HeldNodes* held)
+                                 const StepCorrection::Holds& holds)
     : model_(&model),
       points_(&points),
       obstacle_count_(obstacle_count),
-      solver_(model, points, finder, volumes, held),
+      solver_(model, points, finder, volumes, holds),
       watch_(model.corner_count()),
       due_(model.corner_count(), kDueAtOnce) {}
 

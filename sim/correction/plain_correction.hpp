@@ -11,9 +11,9 @@ namespace springlod::sim {
 /// step.
 class PlainCorrection {
  public:
-  /// Everything must outlive this. `volumes`: whether corners resist. `held`: null: none.
+  /// Everything must outlive this. `volumes`: whether corners resist.
   PlainCorrection(const MassSpringModel& model, const ContactPoints& points, ContactFinder& finder,
-                  std::size_t obstacle_count, bool volumes, const HeldNodes* held = nullptr);
+                  std::size_t obstacle_count, bool volumes, const StepCorrection::Holds& holds);
 
   /// Corrects a step of length `step` [s] from the positions x to `x_next`, with the velocities
   /// `v_next` at its end. The held nodes are where they are at its end, in `x_next` too.

@@ -23,12 +23,18 @@ void StepCorrection::begin(double step, const StepPaths& paths) {
   rounds_ = 0;
   contacts_.begin(step, paths, nodes_);
   corners_.begin(step);
+  springs_.begin(step, nodes_);
   changes_.clear();
   losses_ = {};
 }
 
 void StepCorrection::solve_contacts() {
   nodes_.keep();
+  for (int i = 0; i < kMostSweeps && !springs_.empty(); ++i) {
+    const double change = springs_.sweep(nodes_);
+    if (!nodes_.shared() || (i > 0 && change < kTolerance)) break;
+    contacts_.solve(nodes_);
+  }
   contacts_.solve(nodes_);
 }
 
@@ -44,6 +50,7 @@ bool StepCorrection::solve_together() {
   double change = 1;
   for (int i = 0; i < kMostSweeps && change > kTolerance; ++i) {
     change = corners_.sweep(nodes_);
+    change = std::max(change, springs_.sweep(nodes_));
     change = std::max(change, contacts_.sweep(nodes_));
     if (!nodes_.shared()) break;
   }
@@ -59,8 +66,10 @@ bool StepCorrection::solve_corners() {
 void StepCorrection::finish() {
   contacts_.finish(nodes_);
   corners_.finish(nodes_);
+  springs_.finish(nodes_);
   nodes_.finish(step_, changes_);
-  losses_ = {contacts_.losses().contact, contacts_.losses().friction, corners_.loss()};
+  losses_ = {contacts_.losses().contact, contacts_.losses().friction, corners_.loss(),
+             springs_.loss()};
 }
 
 }  // namespace springlod::sim

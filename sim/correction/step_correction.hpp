@@ -9,13 +9,15 @@
 #include "sim/correction/corner_watch.hpp"
 #include "sim/correction/step_corners.hpp"
 #include "sim/correction/step_nodes.hpp"
+#include "sim/held/step_springs.hpp"
 
 namespace springlod::sim {
 
-/// Corrects each step of an explicit scheme for contacts and corners, so that they do not bound it:
-/// section 9 of docs/method.md. The scheme takes the step without them. Then the contacts get their
-/// forces by Gauss-Seidel sweeps, and corners that are near inversion as the contacts have left
-/// them are solved together with the contacts. Calls for each step, in this order:
+/// Corrects each step of an explicit scheme for contacts, corners and springs of anchors, so that
+/// they do not bound it: section 9 of docs/method.md. The scheme takes the step without them. Then
+/// the contacts and the springs get their forces by Gauss-Seidel sweeps, and corners that are near
+/// inversion as the contacts have left them are solved together with the contacts. Calls for each
+/// step, in this order:
 ///
 ///   begin(step, paths);
 ///   for each obstacle:
@@ -32,22 +34,32 @@ class StepCorrection {
     double contact = 0;   ///< [J]
     double friction = 0;  ///< [J]
     double corners = 0;   ///< [J]
+    double anchors = 0;   ///< to their springs [J]
   };
 
-  /// Model, points, finder and held nodes must outlive this. `volumes`: whether corners resist.
-  /// `held`: null: none.
+  /// What holds a body.
+  struct Holds {
+    const HeldNodes* held = nullptr;         ///< null: none
+    const AnchorSprings* springs = nullptr;  ///< null: none
+  };
+
+  /// Model, points, finder and what holds the body must outlive this. `volumes`: whether corners
+  /// resist.
   StepCorrection(const MassSpringModel& model, const ContactPoints& points, ContactFinder& finder,
-                 bool volumes, const HeldNodes* held = nullptr)
-      : nodes_(model.node_count(), held),
+                 bool volumes, const Holds& holds)
+      : nodes_(model.node_count(), holds.held,
+               holds.springs != nullptr ? holds.springs->nodes() : std::vector<std::uint32_t>()),
         contacts_(points, finder),
-        corners_(model, volumes, held) {}
+        corners_(model, volumes, holds.held),
+        springs_(holds.springs) {}
 
   /// The contacts at the start of a run.
   void set(std::vector<Contact> contacts) { contacts_.set(std::move(contacts)); }
   /// The contacts at the end of the last step.
   const std::vector<Contact>& now() const { return contacts_.now(); }
 
-  /// The paths must outlive the step. The held nodes are where they are at its end. `step` [s].
+  /// The paths must outlive the step. The held nodes and the places of the springs are where they
+  /// are at its end. `step` [s].
   void begin(double step, const StepPaths& paths);
   // See StepContacts.
   const Contact* next_contact() const { return contacts_.next(); }
@@ -55,6 +67,7 @@ class StepCorrection {
   void check_contact(std::uint32_t obstacle, std::uint32_t point, const StepPath& path) {
     contacts_.check(obstacle, point, path, nodes_);
   }
+  /// Solves the contacts and the springs of anchors.
   void solve_contacts();
   /// Solves the corners that resisted at the end of the last step together with the contacts, if
   /// corners resist at all.
@@ -67,8 +80,8 @@ class StepCorrection {
   void check_corner(std::uint32_t corner, bool resisted) {
     corners_.check(corner, resisted, nodes_);
   }
-  /// Solves the corners and the contacts together. Returns whether to look for further corners,
-  /// which the new ones may have pressed.
+  /// Solves the corners, the springs and the contacts together. Returns whether to look for further
+  /// corners, which the new ones may have pressed.
   bool solve_corners();
   void finish();
 
@@ -78,6 +91,7 @@ class StepCorrection {
   std::span<const NodeChange> free_changes() const {
     return std::span(changes_).subspan(nodes_.held_count());
   }
+  const StepSprings& springs() const { return springs_; }
   /// Energy lost in the step, without the part that the forces of the scheme take.
   const Losses& losses() const { return losses_; }
   /// See StepCorners.
@@ -87,8 +101,8 @@ class StepCorrection {
   double largest_corner_change() const { return corners_.largest_change(); }
 
  private:
-  /// Solves the corners that were checked and the contacts together. Returns whether any corner is
-  /// new since the last call.
+  /// Solves the corners that were checked, the springs and the contacts together. Returns whether
+  /// any corner is new since the last call.
   bool solve_together();
 
   double step_ = 0;  // [s]
@@ -96,6 +110,7 @@ class StepCorrection {
   StepNodes nodes_;
   StepContacts contacts_;
   StepCorners corners_;
+  StepSprings springs_;
   std::vector<NodeChange> changes_;
   Losses losses_;
 };

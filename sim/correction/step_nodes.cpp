@@ -5,13 +5,14 @@
 
 namespace springlod::sim {
 
-StepNodes::StepNodes(std::uint32_t node_count, const HeldNodes* held)
-    : held_(held), slot_(node_count, kNone) {
-  if (held == nullptr) return;
-  held_count_ = held->count();
-  kept_ = held_count_;
-  node_ = held->nodes();
-  for (std::uint32_t slot = 0; slot < held_count_; ++slot) slot_[node_[slot]] = slot;
+StepNodes::StepNodes(std::uint32_t node_count, const HeldNodes* held,
+                     const std::vector<std::uint32_t>& on_springs)
+    : held_(held), by_spring_(on_springs.size(), Vec3::Zero()), slot_(node_count, kNone) {
+  if (held != nullptr) node_ = held->nodes();
+  held_count_ = count();
+  node_.insert(node_.end(), on_springs.begin(), on_springs.end());
+  for (std::uint32_t slot = 0; slot < count(); ++slot) slot_[node_[slot]] = slot;
+  keep_none();
 }
 
 void StepNodes::begin(const StepPaths& paths) {
@@ -36,7 +37,7 @@ void StepNodes::keep() {
 }
 
 void StepNodes::keep_none() {
-  kept_ = held_count_;
+  kept_ = held_count_ + static_cast<std::uint32_t>(by_spring_.size());
   kept_shared_ = false;
 }
 
@@ -62,6 +63,7 @@ double StepNodes::take_travel() {
 }
 
 void StepNodes::finish(double step, std::vector<NodeChange>& changes) const {
+  const std::size_t first = changes.size() + held_count_;
   for (std::size_t i = 0; i < node_.size(); ++i) {
     const Padded displacement = at_[i] - paths_[i].to;
     const Padded& slide = is_held(static_cast<std::uint32_t>(i)) ? displacement : slide_[i];
@@ -71,6 +73,7 @@ void StepNodes::finish(double step, std::vector<NodeChange>& changes) const {
                        .kick = kick.head<3>(),
                        .by_corners = corners_[i]});
   }
+  for (std::size_t s = 0; s < by_spring_.size(); ++s) changes[first + s].by_spring = by_spring_[s];
 }
 
 }  // namespace springlod::sim

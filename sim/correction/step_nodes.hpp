@@ -34,30 +34,33 @@ class StepPaths {
 };
 
 /// How a correction changes a node at the end of a step. Friction kicks a node at the start of the
-/// step and so moves it by step * kick. The force of a contact or a corner is constant over the
-/// step and moves it by step * kick / 2. A held node gets the velocity of its path over the step.
+/// step and so moves it by step * kick. The force of a contact, a corner or the spring of an anchor
+/// is constant over the step and moves it by step * kick / 2. A held node gets the velocity of its
+/// path over the step.
 struct NodeChange {
   std::uint32_t node = 0;
   Vec3 displacement = Vec3::Zero();  ///< [m]
   Vec3 kick = Vec3::Zero();          ///< change of the velocity [m/s]
   Vec3 by_corners = Vec3::Zero();    ///< displacement by corners [m]
+  Vec3 by_spring = Vec3::Zero();     ///< displacement by the spring of an anchor [m]
 
   /// Displacement by friction in a step of length `step` [m].
   Vec3 by_friction(double step) const { return 2 * displacement - step * kick; }
-  /// Displacement by normal forces of contacts and by corners [m].
+  /// Displacement by normal forces of contacts, by corners and by springs [m].
   Vec3 by_pressure(double step) const { return step * kick - displacement; }
   /// Displacement by normal forces of contacts [m].
-  Vec3 by_contacts(double step) const { return by_pressure(step) - by_corners; }
+  Vec3 by_contacts(double step) const { return by_pressure(step) - by_corners - by_spring; }
 };
 
 /// The nodes that the contacts and corners of a step move, gathered so that the sweeps of the
 /// solver touch little memory. Those of the contacts, which are mostly the same in the next step,
 /// can keep their slots. Held nodes always have the first slots and are where they are held;
-/// nothing may move them.
+/// nothing may move them. The nodes on springs of anchors always have the next ones.
 class StepNodes {
  public:
-  /// `held` must outlive this; null: no node is held.
-  explicit StepNodes(std::uint32_t node_count, const HeldNodes* held = nullptr);
+  /// `held` must outlive this; null: no node is held. `on_springs`: nodes on springs of anchors.
+  explicit StepNodes(std::uint32_t node_count, const HeldNodes* held = nullptr,
+                     const std::vector<std::uint32_t>& on_springs = {});
 
   /// Begins a step with the nodes that were kept; held ones are where they have been moved to. The
   /// paths must outlive the step.
@@ -80,6 +83,10 @@ class StepNodes {
   std::uint32_t node(std::uint32_t slot) const { return node_[slot]; }
   bool is_held(std::uint32_t slot) const { return slot < held_count_; }
   std::uint32_t held_count() const { return held_count_; }
+  /// Slot of a node by its number among those on springs.
+  std::uint32_t slot_on_spring(std::uint32_t number) const { return held_count_ + number; }
+  /// The part of its displacement that its spring has made [m].
+  void set_by_spring(std::uint32_t number, const Vec3& part) { by_spring_[number] = part; }
   /// Counts an impulse on a held node, which its anchor takes up [N s].
   void absorb(std::uint32_t slot, const Vec3& impulse) { absorbed_[slot] += impulse; }
   /// What the anchors have taken up in this step, by held node [N s].
@@ -123,7 +130,8 @@ class StepNodes {
 
   const HeldNodes* held_;
   std::uint32_t held_count_ = 0;
-  std::vector<Vec3> absorbed_;  // by held node [N s]
+  std::vector<Vec3> by_spring_;  // by node on a spring [m]
+  std::vector<Vec3> absorbed_;   // by held node [N s]
   const StepPaths* of_step_ = nullptr;
   bool shared_ = false;
   std::uint32_t kept_ = 0;           // slots that stay in the next step

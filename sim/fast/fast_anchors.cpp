@@ -45,7 +45,8 @@ void FastAnchors::book(double step, const FastCorrection& correction, AnchorForc
     const Vec3 pull = force(h, step, free, velocity);
     const Vec3& absorbed = nodes.absorbed()[h];
     const Vec3 moved = at_start_ ? velocity : Vec3(node.before + velocity);
-    forces.add(h, step * pull - absorbed, 0.5 * step * pull.dot(moved) - absorbed.dot(velocity));
+    forces.add(*held_, h, step * pull - absorbed,
+               0.5 * step * pull.dot(moved) - absorbed.dot(velocity));
     if (!elastic.empty()) {
       const Vec3 damping =
           model_->mass[held_->node(h)] * (acceleration(h, step, free) - gravity_) - elastic[h];
@@ -58,7 +59,7 @@ void FastAnchors::book(double step, const FastCorrection& correction, AnchorForc
 
 void FastAnchors::end_step(AnchorForces& forces) {
   for (std::size_t h = 0; h < nodes_.size(); ++h) {
-    forces.add(h, Vec3::Zero(), nodes_[h].half_work);
+    forces.add(*held_, h, Vec3::Zero(), nodes_[h].half_work);
     nodes_[h].half_work = 0;
   }
 }

@@ -8,14 +8,14 @@ namespace springlod::sim {
 FastCorrection::FastCorrection(const Shared& shared)
     : shared_(shared),
       needed_(!shared.points.obstacles->empty() || !shared.model->corners.empty() ||
-              !shared.held->empty()),
+              !shared.holds.held->empty() || !shared.holds.springs->empty()),
       paths_(*shared.body, shared.model->node_count()),
       near_(shared.points, paths_),
       watch_(shared.model->corner_count()),
       found_(shared.body->block_count()),
       dues_(shared.body->block_count()),
       solver_(*shared.model, *shared.points.points, *shared.points.finder, shared.volumes,
-              shared.held) {}
+              shared.holds) {}
 
 void FastCorrection::correct(const FastStep& step) {
   paths_.begin(step);
@@ -134,10 +134,12 @@ void FastCorrection::apply(const FastStep& step) {
   losses_.contact += solver_.losses().contact;
   losses_.friction += solver_.losses().friction;
   losses_.corners += solver_.losses().corners;
+  losses_.anchors += solver_.losses().anchors;
   const StepCorrection::Losses work = half_work(step.length);
   losses_.contact += work.contact;
   losses_.friction += work.friction;
   losses_.corners += work.corners;
+  losses_.anchors += work.anchors;
   booked_step_ = step.length;
 }
 
@@ -146,6 +148,7 @@ void FastCorrection::book_end() {
   const StepCorrection::Losses work = half_work(booked_step_);
   losses_.contact -= work.contact;
   losses_.corners -= work.corners;
+  losses_.anchors -= work.anchors;
   booked_step_ = 0;
 }
 
@@ -160,6 +163,7 @@ StepCorrection::Losses FastCorrection::half_work(double step) {
     work.contact += half.dot(change.by_contacts(step));
     work.friction += half.dot(change.by_friction(step));
     work.corners += half.dot(change.by_corners);
+    work.anchors += half.dot(change.by_spring);
   }
   return work;
 }

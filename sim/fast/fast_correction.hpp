@@ -30,7 +30,7 @@ class FastCorrection {
     const MassSpringModel* model;
     NearPoints::Shared points;
     FastBody* body;
-    const HeldNodes* held;
+    StepCorrection::Holds holds;
     Vec3 gravity;      ///< [m/s2]
     bool with_ledger;  ///< record the losses
     bool volumes;      ///< whether corners resist
@@ -65,6 +65,8 @@ class FastCorrection {
   const StepNodes& nodes() const { return solver_.nodes(); }
   /// Forces without damping on these nodes at the start of the drift, with a ledger [N].
   const std::vector<Vec3>& forces() const { return forces_; }
+  /// The springs of anchors in the last step.
+  const StepSprings& springs() const { return solver_.springs(); }
   /// Losses so far.
   const StepCorrection::Losses& losses() const { return losses_; }
   /// Number of the first step with a contact.

@@ -53,7 +53,7 @@ FastLeapfrog::FastLeapfrog(const MassSpringModel& model, const Scenario& scenari
                               .finder = &finder_,
                               .walls = &walls_},
                    .body = body_.get(),
-                   .held = &held_,
+                   .holds = {.held = &held_, .springs = &anchor_springs_},
                    .gravity = gravity_,
                    .with_ledger = with_ledger_,
                    .volumes = volumes_}),
@@ -134,7 +134,7 @@ void FastLeapfrog::finish_observation() {
 
 void FastLeapfrog::observe_held() {
   if (held_.empty()) return;
-  held_.move_to(time_of(n_ + 1));
+  move_anchors(n_ + 1);
   anchors_.observe(step_, x_, v_minus_, v_plus_);
 }
 
@@ -207,7 +207,7 @@ void FastLeapfrog::correct(const FastStep& step, const Share& share) {
   const bool one = share.member.number == 0;
   if (one) {
     reached_ = step.number;
-    held_.move_to(time_of(step.number));
+    move_anchors(step.number);
     if (correction_.needed()) correction_.correct(step);
     watch_.plan(step, correction_);
     if (!watch_.looks()) end_look(step);
@@ -226,6 +226,7 @@ void FastLeapfrog::end_look(const FastStep& step) {
   if (watch_.looks()) return;
   if (correction_.needed()) correction_.finish(step);
   if (!held_.empty()) anchors_.book(step.length, correction_, anchor_forces_);
+  correction_.springs().book(anchor_forces_);
   watch_.finish(step, *body_, correction_);
 }
 
@@ -331,12 +332,14 @@ LedgerEntry FastLeapfrog::ledger_entry() const {
   entry.lost_contact = correction_.losses().contact;
   entry.lost_friction = correction_.losses().friction;
   entry.lost_corners = correction_.losses().corners;
+  entry.lost_anchors = correction_.losses().anchors;
   entry.lost_switch = lost_to_new_steps_;
   entry.lost_damping += anchors_.lost_damping();
   entry.anchor_work = anchor_work();
   entry.time = time();
   entry.kinetic = kinetic();
   entry.elastic = elastic_energy(*model_, x_) + (volumes_ ? corner_energy(*model_, x_) : 0);
+  entry.anchors = correction_.springs().energy();
   entry.gravity = gravity_energy();
   entry.contact = contact_energy(contacts_);
   return entry;

@@ -28,6 +28,18 @@ void validate_path(const Anchor& anchor) {
     throw InputError(fmt::format("anchor \"{}\": its pivot must be finite", anchor.name));
 }
 
+void validate_spring(const Anchor& anchor) {
+  if (!anchor.spring) return;
+  if (!(anchor.spring->stiffness > 0 && std::isfinite(anchor.spring->stiffness)))
+    throw InputError(
+        fmt::format("anchor \"{}\": its stiffness of {} N/m must be finite and above 0",
+                    anchor.name, anchor.spring->stiffness));
+  if (!(anchor.spring->damping >= 0 && std::isfinite(anchor.spring->damping)))
+    throw InputError(
+        fmt::format("anchor \"{}\": its damping time of {} s must be finite and not below 0",
+                    anchor.name, anchor.spring->damping));
+}
+
 }  // namespace
 
 void validate(const std::vector<Anchor>& anchors, const MassSpringModel& model) {
@@ -44,6 +56,7 @@ void validate(const std::vector<Anchor>& anchors, const MassSpringModel& model) 
       of_node[i] = &anchor;
     }
     validate_path(anchor);
+    validate_spring(anchor);
   }
 }
 
@@ -51,6 +64,33 @@ std::vector<Anchor> mapped(const std::vector<Anchor>& anchors, const Groups& of_
   std::vector<Anchor> of_level = anchors;
   for (Anchor& anchor : of_level) anchor.nodes = mapped_nodes(of_base, anchor.nodes);
   return of_level;
+}
+
+std::vector<double> shared_stiffness(const Anchor& anchor, const MassSpringModel& model) {
+  const std::vector<std::uint8_t> flags = anchor_flags(model, anchor.nodes);
+  double mass = 0;
+  for (std::uint32_t i = 0; i < flags.size(); ++i)
+    if (flags[i] != 0) mass += model.mass[i];
+  std::vector<double> stiffness;
+  for (std::uint32_t i = 0; i < flags.size(); ++i)
+    if (flags[i] != 0) stiffness.push_back(anchor.spring->stiffness * model.mass[i] / mass);
+  return stiffness;
+}
+
+Support support_of(const std::vector<Anchor>& anchors, const MassSpringModel& model) {
+  Support support;
+  for (const Anchor& anchor : anchors) {
+    if (!anchor.spring) {
+      support.nodes.insert(support.nodes.end(), anchor.nodes.begin(), anchor.nodes.end());
+      continue;
+    }
+    const std::vector<std::uint8_t> flags = anchor_flags(model, anchor.nodes);
+    const std::vector<double> stiffness = shared_stiffness(anchor, model);
+    std::size_t next = 0;
+    for (std::uint32_t i = 0; i < flags.size(); ++i)
+      if (flags[i] != 0) support.springs.push_back({i, stiffness[next++]});
+  }
+  return support;
 }
 
 std::vector<std::uint32_t> nodes_of(const std::vector<Anchor>& anchors) {

@@ -16,15 +16,15 @@ struct AnchorSum {
 /// Sums of the forces that anchors need to hold their nodes, by anchor.
 class AnchorForces {
  public:
-  explicit AnchorForces(const HeldNodes& held) : held_(&held), sums_(held.anchor_count()) {}
+  explicit AnchorForces(std::size_t anchors) : sums_(anchors) {}
 
-  /// Adds an impulse of the anchor on a held node, which has been moved to the end of the step, and
-  /// its work [J].
-  void add(std::size_t held, const Vec3& impulse, double work) {
-    const std::size_t anchor = held_->anchor(held);
+  /// Adds an impulse of its anchor on one of the held nodes, which have been moved to the end of
+  /// the step, and its work [J].
+  void add(const HeldNodes& held, std::size_t node, const Vec3& impulse, double work) {
+    const std::size_t anchor = held.anchor(node);
     AnchorSum& sum = sums_[anchor];
     sum.impulse += impulse;
-    sum.twist += (held_->at()[held] - held_->pivot(anchor)).cross(impulse);
+    sum.twist += (held.at()[node] - held.pivot(anchor)).cross(impulse);
     sum.work += work;
   }
 
@@ -36,7 +36,6 @@ class AnchorForces {
   }
 
  private:
-  const HeldNodes* held_;
   std::vector<AnchorSum> sums_;
 };
 

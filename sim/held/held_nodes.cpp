@@ -14,9 +14,9 @@ double end_of_paths(const std::vector<Anchor>& anchors) {
 }
 
 HeldNodes::HeldNodes(const MassSpringModel& model, const std::vector<Anchor>& anchors,
-                     const std::vector<Vec3>& start) {
+                     const std::vector<Vec3>& start, By by) {
   validate(anchors, model);
-  if (!anchors.empty()) is_held_ = anchor_flags(model, nodes_of(anchors));
+  if (!anchors.empty()) is_held_.assign(model.node_count(), 0);
   for (const Anchor& anchor : anchors) {
     const auto number = static_cast<std::uint32_t>(path_.size());
     const std::vector<std::uint8_t> flags = anchor_flags(model, anchor.nodes);
@@ -24,11 +24,13 @@ HeldNodes::HeldNodes(const MassSpringModel& model, const std::vector<Anchor>& an
     double mass = 0;
     for (std::uint32_t i = 0; i < flags.size(); ++i) {
       if (flags[i] == 0) continue;
+      center += model.mass[i] * start[i];
+      mass += model.mass[i];
+      if (anchor.spring.has_value() != (by == By::springs)) continue;
       node_.push_back(i);
       anchor_.push_back(number);
       first_.push_back(start[i]);
-      center += model.mass[i] * start[i];
-      mass += model.mass[i];
+      is_held_[i] = 1;
     }
     path_.emplace_back(anchor.path);
     first_pivot_.push_back(anchor.pivot.value_or(Vec3(center / mass)));

@@ -17,13 +17,16 @@ double end_of_paths(const std::vector<Anchor>& anchors);
 /// is named by its index among the held ones.
 class HeldNodes {
  public:
+  /// Which anchors count: those that hold their nodes, or those that pull them by springs, whose
+  /// nodes would be held here.
+  enum class By { hand, springs };
+
   /// `start`: positions of all nodes at the start. Throws InputError: see validate.
   HeldNodes(const MassSpringModel& model, const std::vector<Anchor>& anchors,
-            const std::vector<Vec3>& start);
+            const std::vector<Vec3>& start, By by = By::hand);
 
   bool empty() const { return node_.empty(); }
   std::uint32_t count() const { return static_cast<std::uint32_t>(node_.size()); }
-  std::size_t anchor_count() const { return path_.size(); }
   /// Node of each of them, anchor by anchor.
   const std::vector<std::uint32_t>& nodes() const { return node_; }
   std::uint32_t node(std::size_t held) const { return node_[held]; }

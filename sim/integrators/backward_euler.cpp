@@ -103,7 +103,7 @@ void BackwardEuler::add_to_diagonal(std::uint32_t node, const Mat3& block) {
 }
 
 double BackwardEuler::energy(const std::vector<Vec3>& x) {
-  double energy = springs_.energy(x);
+  double energy = springs_.energy(x) + implicit_anchors_.energy(x);
   for (std::size_t i = 0; i < x.size(); ++i) {
     energy += model_->mass[i] * (x[i] - free_[i]).squaredNorm() / (2 * step_ * step_);
     trial_velocity_[i] = (x[i] - x_[i]) / step_;
@@ -143,6 +143,12 @@ void BackwardEuler::linearise(const std::vector<Vec3>& x) {
           matrix_.valuePtr() + matrix_.outerIndexPtr()[row_of(a) + d] + (3 - d) + 3 * place;
       for (int row = 0; row < 3; ++row) column[row] -= block(row, d);
     }
+  }
+  for (std::uint32_t s = 0; s < implicit_anchors_.count(); ++s) {
+    const std::uint32_t i = implicit_anchors_.node(s);
+    const double k = implicit_anchors_.stiffness(s);
+    gradient_.segment<3>(row_of(i)) += k * (x[i] - implicit_anchors_.place(s));
+    add_to_diagonal(i, k * Mat3::Identity());
   }
   for (const Contact& c : trial_contacts_) add_contact(c);
   fix_held();

@@ -20,7 +20,8 @@ Leapfrog::Leapfrog(const MassSpringModel& model, const Scenario& scenario, const
       force_(start.x.size()),
       damping_force_(start.x.size(), Vec3::Zero()),
       anchor_force_(held_.count(), Vec3::Zero()),
-      correction_(model, points_, finder_, obstacle_count_, options.volumes, &held_),
+      correction_(model, points_, finder_, obstacle_count_, options.volumes,
+                  {.held = &held_, .springs = &anchor_springs_}),
       v_step_(start.v),
       x_next_(start.x),
       v_next_(start.v),
@@ -66,7 +67,7 @@ void Leapfrog::prepare() {
 }
 
 void Leapfrog::hold_nodes() {
-  held_.move_to(time_of(n_ + 1));
+  move_anchors(n_ + 1);
   anchor_half_work_ = 0;
   for (std::uint32_t h = 0; h < held_.count(); ++h) {
     const std::uint32_t i = held_.node(h);
@@ -86,9 +87,11 @@ void Leapfrog::book_anchors() {
   for (std::uint32_t h = 0; h < held_.count(); ++h) {
     const std::uint32_t i = held_.node(h);
     const Vec3 moved = n_ > 0 ? Vec3(v_minus_[i] + v_plus_[i]) : v_plus_[i];
-    anchor_forces_.add(h, step_ * anchor_force_[h] - absorbed[h],
+    anchor_forces_.add(held_, h, step_ * anchor_force_[h] - absorbed[h],
                        0.5 * step_ * anchor_force_[h].dot(moved) - absorbed[h].dot(v_plus_[i]));
   }
+  correction_.solver().springs().book(anchor_forces_);
+  anchor_energy_ = correction_.solver().springs().energy();
 }
 
 void Leapfrog::commit() {
@@ -135,6 +138,7 @@ void Leapfrog::book_end() {
   for (const NodeChange& change : correction_.solver().changes()) {
     losses_.lost_contact -= half_work(change.node, change.by_contacts(step_));
     losses_.lost_corners -= half_work(change.node, change.by_corners);
+    losses_.lost_anchors -= half_work(change.node, change.by_spring);
   }
 }
 
@@ -143,9 +147,11 @@ void Leapfrog::book_correction() {
   losses_.lost_contact += solver.losses().contact;
   losses_.lost_friction += solver.losses().friction;
   losses_.lost_corners += solver.losses().corners;
+  losses_.lost_anchors += solver.losses().anchors;
   for (const NodeChange& change : solver.changes()) {
     losses_.lost_contact += half_work(change.node, change.by_contacts(step_));
     losses_.lost_corners += half_work(change.node, change.by_corners);
+    losses_.lost_anchors += half_work(change.node, change.by_spring);
     losses_.lost_friction += half_work(change.node, change.by_friction(step_));
   }
 }
@@ -172,6 +178,7 @@ LedgerEntry Leapfrog::ledger_entry() const {
   entry.elastic = elastic_energy(*model_, x_) + corners;
   entry.lost_corners -= corners - booked_corners_;
   entry.gravity = gravity_energy();
+  entry.anchors = anchor_energy_;
   entry.contact = contact_energy(contacts_);
   entry.anchor_work = anchor_work();
   return entry;

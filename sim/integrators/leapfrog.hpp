@@ -76,6 +76,7 @@ class Leapfrog final : public StepByStep {
   // Energy at x_n of the corners that resist, as far as the losses contain it; the next step books
   // that of corners which others have pressed since they were checked [J].
   double booked_corners_;
+  double anchor_energy_ = 0;  // of the springs of anchors at x_n [J]
   LedgerEntry losses_;
 };
 

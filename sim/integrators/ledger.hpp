@@ -5,8 +5,8 @@
 namespace springlod::sim {
 
 /// Energies of a body and its losses until one time [J]: section 10 of docs/method.md. kinetic +
-/// elastic + gravity + contact + the losses - the work of anchors = the initial sum. Gravity counts
-/// from the initial height.
+/// elastic + gravity + contact + anchors + the losses - the work of anchors = the initial sum.
+/// Gravity counts from the initial height.
 ///
 /// What is exact. With velocities v- and v+ half a step before and after x_n, the product
 /// K_n = sum m v- . v+ / 2 obeys K_{n+1} - K_n = (F_n + F_{n+1}) . (x_{n+1} - x_n) / 2: the
@@ -27,11 +27,13 @@ namespace springlod::sim {
 /// Contacts take from the motion what they store or lose (NormalLaw), but the displacement of a
 /// node that they push differs from the velocities at both ends of the step. By this discretization
 /// error, proportional to dt, the forces of the scheme do work on it that the trapezoid rule does
-/// not contain. It is recorded under lost_contact. The same holds for corners, under lost_corners.
+/// not contain. It is recorded under lost_contact. The same holds for corners, under lost_corners,
+/// and for the springs of anchors, under lost_anchors.
 ///
 /// An anchor's force on a held node is what it takes, beyond the forces of the step, to give the
 /// node the velocity of its path. Its work follows the same trapezoid rule; what contacts and
-/// corners do to a held node in a step is taken up by the anchor over that step.
+/// corners do to a held node in a step is taken up by the anchor over that step. An anchor on
+/// springs works at the other end of these.
 ///
 /// K_n is not a sum of squares: it lies below the kinetic energy of the mean velocity by
 /// m |dt F/m|^2 / 8.
@@ -41,18 +43,20 @@ struct LedgerEntry {
   double elastic = 0;        ///< in springs and corners
   double gravity = 0;        ///< potential
   double contact = 0;        ///< stored in the penalty and stick springs
+  double anchors = 0;        ///< stored in the springs of anchors
   double lost_damping = 0;   ///< to spring damping
   double lost_friction = 0;  ///< to sliding, and to the dampers of stick springs
   double lost_contact = 0;   ///< to contact damping and the discretization error of contacts
   double lost_corners = 0;   ///< to corner damping and the discretization error of corners
-  double lost_scheme = 0;    ///< to the error of the scheme; < 0: it gained energy
-  double lost_switch = 0;    ///< to a change of the level, or of the step (K_n depends on it)
-  double anchor_work = 0;    ///< done on the body by what holds it, so far
+  double lost_anchors = 0;  ///< to dampers of anchors and the discretization error of their springs
+  double lost_scheme = 0;   ///< to the error of the scheme; < 0: it gained energy
+  double lost_switch = 0;   ///< to a change of the level, or of the step (K_n depends on it)
+  double anchor_work = 0;   ///< done on the body by what holds it, so far
   /// The energy that can still become motion.
-  double mechanical() const { return kinetic + elastic + gravity + contact; }
+  double mechanical() const { return kinetic + elastic + gravity + contact + anchors; }
   double total() const {
-    return mechanical() + lost_damping + lost_friction + lost_contact + lost_corners + lost_scheme +
-           lost_switch - anchor_work;
+    return mechanical() + lost_damping + lost_friction + lost_contact + lost_corners +
+           lost_anchors + lost_scheme + lost_switch - anchor_work;
   }
 };
 

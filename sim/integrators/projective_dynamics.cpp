@@ -29,6 +29,9 @@ void ProjectiveDynamics::make_matrix() {
     if (!held_.holds(model_->a[s]) && !held_.holds(model_->b[s]))
       entries.emplace_back(model_->b[s], model_->a[s], -k);
   }
+  for (std::uint32_t s = 0; s < implicit_anchors_.count(); ++s)
+    entries.emplace_back(implicit_anchors_.node(s), implicit_anchors_.node(s),
+                         implicit_anchors_.stiffness(s));
   matrix_.resize(size, size);
   matrix_.setFromTriplets(entries.begin(), entries.end());
 }
@@ -67,6 +70,9 @@ void ProjectiveDynamics::global_step() {
     right_.row(model_->b[s]) += wanted.transpose();
   }
   pull_from_held();
+  for (std::uint32_t s = 0; s < implicit_anchors_.count(); ++s)
+    right_.row(implicit_anchors_.node(s)) +=
+        (implicit_anchors_.stiffness(s) * implicit_anchors_.place(s)).transpose();
   // A node in contact is held in place but may leave the obstacle.
   for (const Contact& c : trial_contacts_)
     for (const ContactPoints::Share& share : points_.shares(c.point))

@@ -12,7 +12,8 @@ Stepper::Stepper(const MassSpringModel& model, const Scenario& scenario, const S
       x_(start.x),
       obstacle_count_(scenario.obstacles.size()),
       held_(model, anchors, start.x),
-      anchor_forces_(held_),
+      anchor_springs_(model, anchors, start.x),
+      anchor_forces_(anchors.size()),
       points_(skin != nullptr ? ContactPoints(model, *skin, &held_) : ContactPoints(model, &held_)),
       finder_(points_, scenario.obstacles, start.x),
       walls_(points_, scenario.obstacles, start.x),
@@ -27,6 +28,11 @@ void StepByStep::advance(std::uint64_t steps) {
     prepare();
   }
   if (!first_contact_ && !contacts_.empty()) first_contact_ = time();
+}
+
+void Stepper::move_anchors(std::uint64_t n) {
+  held_.move_to(time_of(n));
+  anchor_springs_.move_to(time_of(n));
 }
 
 void Stepper::take(const InversionLog& log) {

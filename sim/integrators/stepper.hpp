@@ -13,6 +13,7 @@
 #include "sim/correction/inversion.hpp"
 #include "sim/correction/inversion_log.hpp"
 #include "sim/held/anchor_forces.hpp"
+#include "sim/held/anchor_springs.hpp"
 #include "sim/integrators/integrator.hpp"
 #include "sim/integrators/ledger.hpp"
 #include "sim/scenario.hpp"
@@ -105,6 +106,7 @@ class Stepper {
   std::vector<Vec3> x_;
   std::size_t obstacle_count_;
   HeldNodes held_;
+  AnchorSprings anchor_springs_;
   AnchorForces anchor_forces_;
   ContactPoints points_;
   ContactFinder finder_;
@@ -113,6 +115,8 @@ class Stepper {
   std::optional<double> first_contact_;  // [s]
   Inversions inversions_;
 
+  /// Moves what the anchors hold to where it is at step n.
+  void move_anchors(std::uint64_t n);
   /// Takes the inversions recorded by this scheme so far.
   void take(const InversionLog& log);
 

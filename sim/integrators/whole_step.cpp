@@ -16,9 +16,11 @@ WholeStep::WholeStep(const MassSpringModel& model, const Scenario& scenario, con
       x_next_(start.x),
       v_next_(start.v),
       anchor_steps_(held_.count()),
+      implicit_anchors_(anchor_springs_, step),
       implicit_(is_implicit(options.integrator)),
       volumes_(options.volumes && !implicit_),
-      correction_(model, points_, finder_, obstacle_count_, options.volumes, &held_),
+      correction_(model, points_, finder_, obstacle_count_, options.volumes,
+                  {.held = &held_, .springs = &anchor_springs_}),
       booked_corners_(volumes_ ? corner_energy(model, start.x) : 0) {
   finder_.find(x_, v_, x_, contacts_);
   correction_.solver().set(contacts_);
@@ -58,24 +60,38 @@ void WholeStep::correct() {
   next_losses_.lost_contact += solver.losses().contact;
   next_losses_.lost_friction += solver.losses().friction;
   next_losses_.lost_corners += solver.losses().corners;
-  if (!with_ledger_ || solver.changes().empty()) return;
-  const bool by_corners =
-      std::any_of(solver.changes().begin(), solver.changes().end(),
-                  [](const NodeChange& change) { return !change.by_corners.isZero(0); });
-  const double by_contacts = gain_by_shift(free_x, free_v, false);
-  next_losses_.lost_contact -= by_contacts;
-  if (by_corners) next_losses_.lost_corners -= gain_by_shift(free_x, free_v, true) - by_contacts;
+  next_losses_.lost_anchors += solver.losses().anchors;
+  if (with_ledger_ && !solver.changes().empty()) book_gains(free_x, free_v);
 }
 
-// Contacts and corners work over the displacement of the step, but they change the velocities at
-// its end, and the potential energy of the other forces.
+void WholeStep::book_gains(const std::vector<Vec3>& free_x, const std::vector<Vec3>& free_v) {
+  const std::vector<NodeChange>& changes = correction_.solver().changes();
+  const bool by_corners = std::any_of(changes.begin(), changes.end(), [](const NodeChange& change) {
+    return !change.by_corners.isZero(0);
+  });
+  double booked = gain_by_shift(free_x, free_v, {});
+  next_losses_.lost_contact -= booked;
+  if (by_corners) {
+    const double gain = gain_by_shift(free_x, free_v, {.corners = true});
+    next_losses_.lost_corners -= gain - booked;
+    booked = gain;
+  }
+  if (!anchor_springs_.empty())
+    next_losses_.lost_anchors -=
+        gain_by_shift(free_x, free_v, {.corners = true, .springs = true}) - booked;
+}
+
+// Contacts, corners and springs of anchors work over the displacement of the step, but they change
+// the velocities at its end, and the potential energy of the other forces.
 double WholeStep::gain_by_shift(const std::vector<Vec3>& free_x, const std::vector<Vec3>& free_v,
-                                bool with_corners) const {
+                                const Parts& parts) const {
   std::vector<Vec3> x = x_next_;
   double gain = 0;
   for (const NodeChange& change : correction_.solver().changes()) {
     const std::uint32_t i = change.node;
-    const Vec3 left_out = with_corners ? Vec3(Vec3::Zero()) : change.by_corners;
+    Vec3 left_out = Vec3::Zero();
+    if (!parts.corners) left_out += change.by_corners;
+    if (!parts.springs) left_out += change.by_spring;
     x[i] -= left_out;
     const Vec3 kick = change.kick - 2 / step_ * left_out;
     const Vec3 ahead = free_v[i] - (free_x[i] - x_[i]) / step_;
@@ -95,8 +111,9 @@ void WholeStep::find_contacts() {
 }
 
 void WholeStep::hold_nodes() {
-  held_.move_to(time_of(n_ + 1));
+  move_anchors(n_ + 1);
   held_.put(x_next_);
+  if (implicit_) implicit_anchors_.begin_step(x_);
 }
 
 void WholeStep::find_anchor_forces(const ImplicitSprings& springs) {
@@ -136,6 +153,7 @@ void WholeStep::absorb_contacts() {
 void WholeStep::finish_implicit(const ImplicitSprings& springs) {
   for (std::size_t i = 0; i < x_.size(); ++i) v_next_[i] = (x_next_[i] - x_[i]) / step_;
   find_anchor_forces(springs);
+  next_losses_.lost_anchors += implicit_anchors_.end_step(x_next_);
   if (with_ledger_) lost_damping_ += springs.damping_loss(x_next_);
 }
 
@@ -150,9 +168,20 @@ void WholeStep::add_friction() {
   for (const Contact& c : next_contacts_) points_.kick(c.point, step_ * c.slip_change, x_next_);
 }
 
+void WholeStep::book_springs() {
+  if (implicit_) {
+    implicit_anchors_.book(anchor_forces_);
+    anchor_energy_ = implicit_anchors_.stored(x_next_);
+  } else {
+    correction_.solver().springs().book(anchor_forces_);
+    anchor_energy_ = correction_.solver().springs().energy();
+  }
+}
+
 void WholeStep::commit() {
   for (std::uint32_t h = 0; h < held_.count(); ++h)
-    anchor_forces_.add(h, anchor_steps_[h].impulse, anchor_steps_[h].work);
+    anchor_forces_.add(held_, h, anchor_steps_[h].impulse, anchor_steps_[h].work);
+  book_springs();
   if (with_ledger_ && volumes_)
     booked_corners_ = corner_energy(*model_, correction_.solver().resisting(), x_next_);
   std::swap(x_, x_next_);
@@ -182,6 +211,7 @@ LedgerEntry WholeStep::ledger_entry() const {
   entry.elastic = elastic_energy(*model_, x_) + corners;
   entry.lost_corners -= corners - booked_corners_;
   entry.gravity = gravity_energy();
+  entry.anchors = anchor_energy_;
   entry.contact = contact_energy(contacts_);
   entry.anchor_work = anchor_work();
   return entry;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/correction/plain_correction.hpp"
+#include "sim/integrators/implicit_anchors.hpp"
 #include "sim/integrators/implicit_springs.hpp"
 #include "sim/integrators/stepper.hpp"
 
@@ -37,7 +38,7 @@ class WholeStep : public StepByStep {
   /// Every implicit scheme calls this at the end of solve(). It sets v_next_ to the mean velocity
   /// over the step and records the damping losses.
   void finish_implicit(const ImplicitSprings& springs);
-  /// Moves the held nodes to the end of the step, in x_next_ too.
+  /// Moves what anchors hold to the end of the step, in x_next_ too.
   void hold_nodes();
 
   bool with_ledger_;
@@ -51,6 +52,7 @@ class WholeStep : public StepByStep {
     double work = 0;              // [J]
   };
   std::vector<AnchorStep> anchor_steps_;
+  ImplicitAnchors implicit_anchors_;  // of an implicit scheme
 
  private:
   void commit() final;
@@ -58,10 +60,17 @@ class WholeStep : public StepByStep {
   /// Energy of the body at x_n less that at the end of the step [J], without contacts and corners.
   double lost_energy() const;
   void correct();
-  /// What the correction of a step adds to the energy of the body beyond its work [J], with the
-  /// corners or by contacts alone. `free_x`, `free_v`: at its end, without it.
+  /// Books what the correction of a step adds to the energy of the body beyond its work. `free_x`,
+  /// `free_v`: at its end, without it.
+  void book_gains(const std::vector<Vec3>& free_x, const std::vector<Vec3>& free_v);
+  /// Parts of a correction beside the contacts.
+  struct Parts {
+    bool corners = false;
+    bool springs = false;
+  };
+  /// What the contacts and these parts add [J].
   double gain_by_shift(const std::vector<Vec3>& free_x, const std::vector<Vec3>& free_v,
-                       bool with_corners) const;
+                       const Parts& parts) const;
   void find_contacts();
   void add_friction();
 
@@ -71,12 +80,15 @@ class WholeStep : public StepByStep {
   void find_anchor_forces(const ImplicitSprings& springs);
   /// The impulses of contacts on held nodes, which their anchors take up.
   void absorb_contacts();
+  /// Books what the springs of anchors did in the step.
+  void book_springs();
 
   PlainCorrection correction_;  // of an explicit scheme
   std::vector<Contact> next_contacts_;
   // Energy at x_n of the corners that resist, as far as the losses contain it; the next step books
   // that of corners which others have pressed since they were checked [J].
   double booked_corners_;
+  double anchor_energy_ = 0;  // of the springs of anchors at x_n [J]
   // Losses of the step to x_{n+1}, added to the ledger when the step is taken.
   LedgerEntry losses_, next_losses_;
 };

@@ -33,6 +33,18 @@ void Xpbd::sweep_springs() {
   spring_updates_ += model_->spring_count();
 }
 
+void Xpbd::sweep_anchors() {
+  for (std::uint32_t s = 0; s < implicit_anchors_.count(); ++s) {
+    const std::uint32_t i = implicit_anchors_.node(s);
+    const double compliance = 1 / (implicit_anchors_.stiffness(s) * step_ * step_);
+    const Vec3 error = x_next_[i] - implicit_anchors_.place(s);
+    const Vec3 change =
+        (-error - compliance * anchor_multiplier_[s]) / (inverse_mass_[i] + compliance);
+    anchor_multiplier_[s] += change;
+    x_next_[i] += inverse_mass_[i] * change;
+  }
+}
+
 void Xpbd::sweep_contacts() {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Contact& c = candidates_[i];
@@ -63,8 +75,10 @@ void Xpbd::solve() {
   found_at_.clear();
   for (const Contact& c : candidates_) found_at_.push_back(points_.interpolate(c.point, x_next_));
   contact_multiplier_.assign(candidates_.size(), 0.0);
+  anchor_multiplier_.assign(implicit_anchors_.count(), Vec3::Zero());
   for (std::uint32_t sweep = 0; sweep < sweeps_; ++sweep) {
     sweep_springs();
+    sweep_anchors();
     sweep_contacts();
   }
   finish_implicit(springs_);

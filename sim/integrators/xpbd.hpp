@@ -20,12 +20,14 @@ class Xpbd final : public WholeStep {
  private:
   void solve() override;
   void sweep_springs();
+  void sweep_anchors();
   void sweep_contacts();
 
   ImplicitSprings springs_;
   std::uint32_t sweeps_;
   std::vector<double> inverse_mass_;        // 0 for held nodes [1/kg]
   std::vector<double> multiplier_;          // of springs [N s2]
+  std::vector<Vec3> anchor_multiplier_;     // of springs of anchors [N s2]
   std::vector<Contact> candidates_;         // found at the end of the step without forces ...
   std::vector<Vec3> found_at_;              // ... and the positions of their nodes there [m]
   std::vector<double> contact_multiplier_;  // [N s2] >= 0

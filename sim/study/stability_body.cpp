@@ -26,7 +26,7 @@ constexpr double kOrderGain = 3;
 
 std::vector<double> lowest_frequencies(const Level& level, const StabilityOptions& options) {
   const elastic::ElasticBody body = elastic::elastic_body(
-      level.model, {.anchored = nodes_of(mapped(options.anchors, level.of_base))});
+      level.model, {.anchored = support_of(mapped(options.anchors, level.of_base), level.model)});
   std::vector<double> frequencies;
   for (const elastic::Mode& mode :
        elastic::lowest_modes(body, {.count = kModes, .seed = options.seed}).modes)

@@ -84,6 +84,45 @@ TEST_CASE("A script holds a body in runs, ensembles, comparisons and stability m
   )"));
 }
 
+TEST_CASE("A script pulls a body by springs, in runs, levels, modes and equilibria alike") {
+  const TemporaryFolder scratch;
+  require_success(run_script(scratch, R"(
+    local hand = {name = "hand", nodes = high, stiffness = 20, damping = "20 ms",
+                  path = {{time = 0.3, move = {"1 cm", 0, 0}}}}
+    local anchors = {{name = "still", nodes = low}, hand}
+    local free = {duration = 2, gravity = {0, 0, 0}}
+    local pulled = s.run(base, free, {anchored = anchors, frame_rate = 10})
+    local still = s.deflect(base, {large = true, anchored = anchors})
+    local load, wanted = pulled.anchor_loads[#pulled][2], still.anchor_loads[2]
+    assert(wanted.force[1] > 0.05 and wanted.force[1] < 0.2, wanted.force[1])
+    assert(math.abs(load.force[1] / wanted.force[1] - 1) < 0.01, load.force[1])
+    local ledger = pulled.ledger[#pulled]
+    assert(ledger.anchors > 0 and ledger.lost_anchors > 0)
+    assert(ledger.anchors + ledger.elastic < still.energy * 1.02)
+
+    -- In a level, the springs are as stiff.
+    local chain = s.simplify(base, {levels = 1, calibrate = "modes",
+                                    calibration = {anchored = anchors}})
+    local compared = s.compare(chain, free, {anchored = anchors})
+    assert(compared:table()[2].surface_error < 2e-4, compared:table()[2].surface_error)
+
+    local first = s.modes(base, {count = 1, anchored = anchors})[1].frequency
+    assert(first > s.modes(base, {count = 1, anchored = low})[1].frequency)
+    assert(first < s.modes(base, {count = 1, anchored = {anchors[1], {nodes = high}}})[1].frequency)
+    assert(s.zero_modes(base, {anchored = {hand}})[1].zero_modes == 0)
+    hand.path = nil
+    local bent = s.deflect(base, {anchored = {hand}, force = {[1] = {0, 0, 1e-3}}})
+    assert(math.abs(bent.anchor_loads[1].force[3] + 1e-3) < 1e-9)
+
+    hand.stiffness = nil
+    local ok, failure = pcall(s.run, base, free, {anchored = {hand}})
+    assert(not ok and failure.message:find("stiffness must be given with damping", 1, true),
+           failure.message)
+    hand.stiffness = 0
+    assert(not pcall(s.run, base, free, {anchored = {hand}}))
+  )"));
+}
+
 TEST_CASE("A script finds equilibria far from rest, of a level too") {
   const TemporaryFolder scratch;
   require_success(run_script(scratch, R"(

@@ -40,7 +40,7 @@ TEST_CASE("Anchored rows of masses have the analytical frequencies") {
     return 2 * std::sqrt(k) * std::sin(std::numbers::pi * waves / 2);
   };
   SECTION("held at one end") {
-    const Modes found = lowest_modes(elastic_body(row, {.anchored = {0}}), {.count = 4});
+    const Modes found = lowest_modes(elastic_body(row, {.anchored = Nodes{0}}), {.count = 4});
     CHECK(found.zero_modes_skipped == 2 * (n - 1));  // all lateral motions
     REQUIRE(found.modes.size() == 4);
     for (std::size_t j = 0; j < 4; ++j) {
@@ -50,13 +50,14 @@ TEST_CASE("Anchored rows of masses have the analytical frequencies") {
     }
   }
   SECTION("held at both ends") {
-    const Modes found = lowest_modes(elastic_body(row, {.anchored = {n - 1, 0}}), {.count = 4});
+    const Modes found =
+        lowest_modes(elastic_body(row, {.anchored = Nodes{n - 1, 0}}), {.count = 4});
     for (std::size_t j = 0; j < 4; ++j)
       CHECK(found.modes[j].angular_frequency ==
             Approx(omega((static_cast<double>(j) + 1) / (n - 1))).epsilon(1e-7));
   }
   SECTION("held in the middle, the halves vibrate independently") {
-    const Modes found = lowest_modes(elastic_body(row, {.anchored = {n / 3}}), {.count = 2});
+    const Modes found = lowest_modes(elastic_body(row, {.anchored = Nodes{n / 3}}), {.count = 2});
     const std::uint32_t shorter = n / 3, longer = n - 1 - shorter;  // free masses
     const auto side = [&](std::uint32_t moving, double wave) {
       return omega(wave / (2.0 * moving + 1));
@@ -72,7 +73,7 @@ TEST_CASE("Modes and compliances of a held body are those of a dense solver") {
   const Nodes anchored = nodes_below(model, 0.9);
   const ElasticBody body = elastic_body(model, {.anchored = anchored});
   CHECK(body.zero_mode_count() == 0);
-  CHECK(body.anchored == anchored);
+  CHECK(body.anchored.nodes == anchored);
 
   const std::vector<std::uint8_t> held = anchor_flags(model, anchored);
   const Eigen::MatrixXd all = stiffness_matrix(model);
@@ -100,6 +101,52 @@ TEST_CASE("Modes and compliances of a held body are those of a dense solver") {
   CHECK((test::flatten(solution.displacement)(rows) - expected).norm() < 1e-9 * expected.norm());
   CHECK(solution.compliance == Approx(force.dot(expected)).epsilon(1e-9));
   for (const std::uint32_t node : anchored) CHECK(solution.displacement[node] == Vec3::Zero());
+}
+
+TEST_CASE("Springs of a support are on the diagonal of the stiffness") {
+  const MassSpringModel model = test::random_model(3, 4);
+  Support support(nodes_below(model, 0.3));
+  const auto high = model.node_count() - 1;
+  support.springs = {{high, 30}, {high - 3, 50}, {high, 20}};
+  const bool held = GENERATE(true, false);
+  if (!held) support.nodes.clear();
+  if (!held) support.springs.push_back({0, 40});
+  const ElasticBody body = elastic_body(model, {.anchored = support});
+  CHECK(body.zero_mode_count() == 0);
+
+  Eigen::MatrixXd all = stiffness_matrix(model);
+  for (const NodeSpring& spring : support.springs)
+    for (int d = 0; d < 3; ++d) all(3 * spring.node + d, 3 * spring.node + d) += spring.stiffness;
+  const std::vector<std::uint8_t> is_held = anchor_flags(model, support.nodes);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < all.rows(); ++i)
+    if (is_held[static_cast<std::size_t>(i / 3)] == 0) rows.push_back(i);
+  const Eigen::MatrixXd stiffness = all(rows, rows);
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(stiffness.rows(), stiffness.rows());
+  for (Eigen::Index i = 0; i < mass.rows(); ++i)
+    mass(i, i) = model.mass[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)] / 3)];
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(stiffness, mass);
+  const Modes found = lowest_modes(body, {.count = 10});
+  for (std::size_t j = 0; j < found.modes.size(); ++j)
+    CHECK(found.modes[j].angular_frequency ==
+          Approx(std::sqrt(dense.eigenvalues()[static_cast<Eigen::Index>(j)])).epsilon(1e-6));
+
+  StaticLoad load = no_load(model);
+  for (std::size_t i = 0; i < load.force.size(); ++i)
+    load.force[i] = Vec3(1, 0.1 * static_cast<double>(i % 7), -0.5);
+  const StaticSolution solution = solve_static(body, {load}).at(0);
+  const Eigen::VectorXd expected = stiffness.ldlt().solve(test::flatten(load.force)(rows));
+  CHECK((test::flatten(solution.displacement)(rows) - expected).norm() < 1e-9 * expected.norm());
+}
+
+TEST_CASE("Springs that leave motions free, or are none, are found") {
+  const MassSpringModel box = test::box_lattice(4, 4, 4);
+  CHECK(elastic_body(box, {.anchored = {{}, {{0, 5}}}}).zero_mode_count() == 3);
+  CHECK(elastic_body(box, {.anchored = {Nodes{0}, {{1, 5}}}}).zero_mode_count() == 1);
+  CHECK_THROWS_WITH(elastic_body(box, {.anchored = {{}, {{70, 5}}}}),
+                    Catch::Matchers::Contains("no node 71"));
+  CHECK_THROWS_WITH(elastic_body(box, {.anchored = {{}, {{3, -5}}}}),
+                    Catch::Matchers::Contains("the spring of node 4 has a stiffness of -5 N/m"));
 }
 
 TEST_CASE("A bar hanging from one end has the elongation of its material") {
@@ -177,11 +224,11 @@ TEST_CASE("Motions that anchors leave free are counted") {
 TEST_CASE("A body with all nodes anchored has no modes and no displacements") {
   const MassSpringModel box = test::box_lattice(2, 2, 2);
   const MassSpringModel two = test::side_by_side(box, box, {9, 0, 0});
-  const ElasticBody body = elastic_body(two, {.anchored = {0, 1, 2, 3, 4, 5, 6, 7}});
+  const ElasticBody body = elastic_body(two, {.anchored = Nodes{0, 1, 2, 3, 4, 5, 6, 7}});
   CHECK(body.components.size() == 1);
   CHECK(lowest_modes(body, {.count = 100}).modes.size() == 18);
   CHECK(lowest_modes(body).zero_modes_skipped == 6);
-  const ElasticBody none = elastic_body(box, {.anchored = {0, 1, 2, 3, 4, 5, 6, 7}});
+  const ElasticBody none = elastic_body(box, {.anchored = Nodes{0, 1, 2, 3, 4, 5, 6, 7}});
   CHECK(lowest_modes(none).modes.empty());
   StaticLoad load = no_load(box);
   load.force[0].x() = 1;
@@ -190,7 +237,8 @@ TEST_CASE("A body with all nodes anchored has no modes and no displacements") {
 
 TEST_CASE("A load on a motion that the anchors leave free is rejected, other loads are not") {
   const MassSpringModel box = test::box_lattice(4, 4, 4);
-  const ElasticBody hinged = elastic_body(box, {.anchored = {0, 3}});  // free to rotate about x
+  const ElasticBody hinged =
+      elastic_body(box, {.anchored = Nodes{0, 3}});  // free to rotate about x
   StaticLoad load = no_load(box);
   load.force[63] = {0, 1, 0};
   CHECK_THROWS_WITH(solve_static(hinged, {load}), Catch::Matchers::Contains("anchor more nodes"));
@@ -198,7 +246,7 @@ TEST_CASE("A load on a motion that the anchors leave free is rejected, other loa
   CHECK(solve_static(hinged, {load}).at(0).compliance > 0);
 
   const MassSpringModel row = test::chain_of_nodes(20, 10);
-  const ElasticBody held = elastic_body(row, {.anchored = {0}});
+  const ElasticBody held = elastic_body(row, {.anchored = Nodes{0}});
   StaticLoad pull = no_load(row);
   pull.force.back() = {2, 0, 0};
   CHECK(solve_static(held, {pull}).at(0).displacement.back().x() ==
@@ -208,7 +256,7 @@ TEST_CASE("A load on a motion that the anchors leave free is rejected, other loa
 
   // A free component beside a held one.
   const MassSpringModel two = test::side_by_side(box, box, {9, 0, 0});
-  const ElasticBody half = elastic_body(two, {.anchored = {0, 1, 4}});
+  const ElasticBody half = elastic_body(two, {.anchored = Nodes{0, 1, 4}});
   StaticLoad push = no_load(two);
   push.force[63] = {1, 0, 0};
   CHECK(solve_static(half, {push}).at(0).compliance > 0);
@@ -223,9 +271,21 @@ TEST_CASE("mapped_nodes maps anchors to the groups of a level") {
   CHECK_THROWS_AS(mapped_nodes(groups, {5}), InputError);
 }
 
+TEST_CASE("The springs of a support pull at the groups of their nodes") {
+  const Groups groups{{2, 0, 0, 1, 2}, 3};
+  const Support coarse = mapped_support(groups, {Nodes{3}, {{0, 5}, {1, 7}, {2, 8}}});
+  CHECK(coarse.nodes == Nodes{1});
+  REQUIRE(coarse.springs.size() == 3);
+  CHECK(coarse.springs[0].node == 2);
+  CHECK(coarse.springs[2].node == 0);
+  CHECK(coarse.springs[2].stiffness == 8);
+  CHECK_THROWS_AS(mapped_support(groups, {{}, {{5, 1}}}), InputError);
+}
+
 TEST_CASE("An anchored node that does not exist is rejected with its number") {
   const MassSpringModel box = test::box_lattice(2, 2, 2);
-  CHECK_THROWS_WITH(elastic_body(box, {.anchored = {8}}), Catch::Matchers::Contains("no node 9"));
+  CHECK_THROWS_WITH(elastic_body(box, {.anchored = Nodes{8}}),
+                    Catch::Matchers::Contains("no node 9"));
   CHECK_THROWS_AS(zero_modes(box, {8}), InputError);
 }
 

@@ -17,6 +17,7 @@
 using namespace springlod;
 using namespace springlod::elastic;
 using Catch::Contains;
+using Nodes = std::vector<std::uint32_t>;
 
 namespace {
 
@@ -203,7 +204,7 @@ TEST_CASE("Three legs snap through under more than they carry") {
     return 3 * k * (leg - length) * height / length;
   };
   std::vector<Vec3> force(4, Vec3::Zero());
-  const LargeLoad held{.force = force, .anchored = {1, 2, 3}};
+  const LargeLoad held{.force = force, .anchored = Nodes{1, 2, 3}};
   for (const double height : {0.19, 0.17, -0.25, -0.3}) {  // the last two beyond the limit point
     LargeLoad load = held;
     load.force[0] = {0, 0, -carried(height)};
@@ -216,17 +217,54 @@ TEST_CASE("Three legs snap through under more than they carry") {
   }
 }
 
+TEST_CASE("A body on springs of its support follows them to any place, and balances their forces") {
+  const MassSpringModel model = soft_block(6, 2, 2, 0.45);
+  const Nodes left = nodes_at(model, 0);
+  const Nodes right = nodes_at(model, bounds(model.rest).max().x());
+  LargeLoad load{.force = end_load(model, 20), .anchored = left};
+  for (const std::uint32_t i : right) load.anchored.springs.push_back({i, 3000});
+  const Mat3 turn = Eigen::AngleAxisd(1.2, Vec3::UnitY()).toRotationMatrix();
+  load.hold = [&](double part, std::vector<Vec3>& places) {
+    const Mat3 now = Eigen::AngleAxisd(1.2 * part, Vec3::UnitY()).toRotationMatrix();
+    for (const std::uint32_t i : right) places[i] = now * model.rest[i];
+  };
+  const LargeSolution found = deflect_far(model, load);
+  CHECK(found.residual <= 1e-9);
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& force : load.force) sum += force;
+  for (const Vec3& reaction : found.reaction) sum += reaction;
+  CHECK(sum.norm() < 1e-6);
+  double stored = 0;
+  std::vector<Vec3> x = model.rest;
+  for (std::uint32_t i = 0; i < model.node_count(); ++i) x[i] += found.displacement[i];
+  for (const std::uint32_t i : right) {
+    const Vec3 stretch = x[i] - turn * model.rest[i];
+    CHECK((found.reaction[i] + 3000 * stretch).norm() < 1e-9);
+    stored += 0.5 * 3000 * stretch.squaredNorm();
+  }
+  CHECK(stored > 0);
+  CHECK(found.energy == Approx(strain_energy(model, x) + stored).epsilon(1e-12));
+
+  // Of small forces it is the small solution.
+  LargeLoad small{.force = end_load(model, 1e-4), .anchored = load.anchored};
+  const LargeSolution bent = deflect_far(model, small);
+  const StaticSolution linear =
+      solve_static(elastic_body(model, {.anchored = load.anchored}), {{"end", small.force}}).at(0);
+  for (std::uint32_t i = 0; i < model.node_count(); ++i)
+    CHECK((bent.displacement[i] - linear.displacement[i]).norm() < 1e-11);
+}
+
 TEST_CASE("Bodies that are not held, and loads that are none, are refused") {
   const MassSpringModel model = soft_block(2, 2, 2, 0.25);
   const std::vector<Vec3> force(model.node_count(), Vec3::Zero());
-  CHECK_THROWS_WITH(deflect_far(model, {.force = force, .anchored = {}}),
+  CHECK_THROWS_WITH(deflect_far(model, {.force = force, .anchored = Nodes{}}),
                     Contains("leave 6 motions of the component at node 1 free"));
-  CHECK_THROWS_WITH(deflect_far(model, {.force = force, .anchored = {0, 1}}),
+  CHECK_THROWS_WITH(deflect_far(model, {.force = force, .anchored = Nodes{0, 1}}),
                     Contains("anchor more nodes"));
-  CHECK_THROWS_WITH(deflect_far(model, {.force = {}, .anchored = {0}}),
+  CHECK_THROWS_WITH(deflect_far(model, {.force = {}, .anchored = Nodes{0}}),
                     Contains("0 forces for 27 nodes"));
   std::vector<Vec3> bad = force;
   bad[3].x() = NAN;
-  CHECK_THROWS_WITH(deflect_far(model, {.force = bad, .anchored = {0}}),
+  CHECK_THROWS_WITH(deflect_far(model, {.force = bad, .anchored = Nodes{0}}),
                     Contains("the force on node 4 is not finite"));
 }

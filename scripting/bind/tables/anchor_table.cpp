@@ -51,6 +51,13 @@ sim::Anchor read_anchor(const Call& call, int table, const std::string& owner, l
     anchor.pivot = Vec3::Zero();
     reader.read("pivot", *anchor.pivot);
   }
+  if (reader.has("stiffness")) {
+    anchor.spring.emplace();
+    reader.read("stiffness", anchor.spring->stiffness);
+    reader.read("damping", anchor.spring->damping);
+  } else if (reader.has("damping")) {
+    reader.refuse("stiffness", "given with damping: that of the springs in N/m");
+  }
   reader.finish();
   return anchor;
 }
@@ -95,14 +102,13 @@ Parameter anchors_parameter() {
   return parameter;
 }
 
-std::vector<std::uint32_t> read_anchored(const Call& call, TableReader& reader,
-                                         const MassSpringModel& model) {
-  return sim::nodes_of(read_anchors(call, reader, model));
+Support read_anchored(const Call& call, TableReader& reader, const MassSpringModel& model) {
+  return sim::support_of(read_anchors(call, reader, model), model);
 }
 
 Parameter anchored_parameter() {
   struct AnyOptions {
-    std::vector<std::uint32_t> anchored;
+    Support anchored;
   };
   constexpr auto row = anchored_option(&AnyOptions::anchored);
   return {.name = row.name, .type = kAnchoredType, .fallback = row.fallback, .help = row.help};
@@ -149,9 +155,11 @@ void describe_anchors(Api& api) {
                  "\"90 deg\"}}"});
   api.add(RecordEntry{
       .name = "Anchor",
-      .summary = "Nodes that a run holds. They stay where they are at its start, or move as one "
-                 "rigid body along a path, whatever acts on them. Loads and modes take the nodes "
-                 "of an anchor as held in place.",
+      .summary =
+          "Nodes that a run holds. They stay where they are at its start, or move as one "
+          "rigid body along a path, whatever acts on them; or springs pull them to where they "
+          "would be then. Loads and modes take the nodes of an anchor as held in place, or "
+          "on these springs.",
       .fields = {{.name = "nodes",
                   .type = "list of integers or function",
                   .help = "their numbers, or a function of a Node that returns true for them"},
@@ -168,7 +176,20 @@ void describe_anchors(Api& api) {
                   .type = "{x, y, z}",
                   .dimension = Dimension::length,
                   .fallback = "the centre of mass of its nodes",
-                  .help = "point about which it turns, at the start"}},
+                  .help = "point about which it turns, at the start"},
+                 {.name = "stiffness",
+                  .type = "number",
+                  .range = Range{1e-9, 1e9},
+                  .fallback = "the nodes are held",
+                  .help = "pull the nodes by springs of this stiffness in all, along any direction "
+                          "[N/m]; the nodes share it by their masses"},
+                 {.name = "damping",
+                  .type = "quantity",
+                  .dimension = Dimension::time,
+                  .range = Range{0, 1e6},
+                  .fallback = "0",
+                  .help = "damping time of these springs: their dampers have it times the "
+                          "stiffness"}},
       .example = "{name = \"jaw\", nodes = function(node) return node.x > 0.09 end,\n"
                  "  path = {{time = 1, move = {0.02, 0, 0}}}}"});
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "model/anchors.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/engine/api.hpp"
 #include "scripting/engine/call.hpp"
@@ -10,13 +11,12 @@
 namespace springlod::scripting {
 
 /// The option `anchored` of runs: what holds nodes of the model; empty if it is not given. The same
-/// values are taken by loads and modes (read_anchored), which need the nodes only.
+/// values are taken by loads and modes (read_anchored).
 std::vector<sim::Anchor> read_anchors(const Call& call, TableReader& reader,
                                       const MassSpringModel& model);
 Parameter anchors_parameter();
-/// The nodes of that option, for functions that hold them in place.
-std::vector<std::uint32_t> read_anchored(const Call& call, TableReader& reader,
-                                         const MassSpringModel& model);
+/// What that option is in linear elasticity.
+Support read_anchored(const Call& call, TableReader& reader, const MassSpringModel& model);
 Parameter anchored_parameter();
 inline constexpr const char* kAnchoredType = "list of integers, function or list of Anchor";
 

@@ -11,6 +11,7 @@
 
 #include "base/choice.hpp"
 #include "base/option.hpp"
+#include "model/anchors.hpp"
 #include "model/mass_spring.hpp"
 #include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/node_choice.hpp"
@@ -93,9 +94,14 @@ Parameter parameter_of(const Option<S, Member>& row, const Member& usual) {
 template <class S>
 Parameter parameter_of(const NodesOption<S>& row, const std::vector<std::uint32_t>& /*usual*/) {
   return {.name = row.name,
-          .type = row.held ? kAnchoredType : "list of integers or function",
+          .type = "list of integers or function",
           .fallback = row.fallback,
           .help = row.help};
+}
+
+template <class S>
+Parameter parameter_of(const SupportOption<S>& row, const Support& /*usual*/) {
+  return {.name = row.name, .type = kAnchoredType, .fallback = row.fallback, .help = row.help};
 }
 
 template <class S, class Member>
@@ -118,8 +124,8 @@ std::vector<Parameter> parameters_of(const S& usual = {}) {
   return parameters;
 }
 
-/// Sets the members that the script's table gives. `base`: the model that NodesOption rows refer
-/// to. `except`: a row that the caller reads itself.
+/// Sets the members that the script's table gives. `base`: the model that rows of
+/// nodes refer to. `except`: a row that the caller reads itself.
 template <HasOptions S>
 void read_options(const Call& call, TableReader& reader, S& into,
                   const MassSpringModel* base = nullptr, std::string_view except = {});
@@ -133,11 +139,17 @@ void read_row(const Call& /*call*/, TableReader& reader, const Option<S, Member>
 }
 
 template <class S>
-void read_row(const Call& call, TableReader& reader, const NodesOption<S>& row,
+void read_row(const Call& /*call*/, TableReader& reader, const NodesOption<S>& row,
               std::vector<std::uint32_t>& into, const MassSpringModel* base) {
-  into = row.held ? read_anchored(call, reader, *base) : read_nodes(reader, row.name, *base);
+  into = read_nodes(reader, row.name, *base);
   if (*row.fallback == '\0' && into.empty())
     reader.refuse(row.name, "given: a list of node numbers or a function of a node");
+}
+
+template <class S>
+void read_row(const Call& call, TableReader& reader, const SupportOption<S>& /*row*/, Support& into,
+              const MassSpringModel* base) {
+  into = read_anchored(call, reader, *base);
 }
 
 /// Length of the list of records at `index`; throws InputError for other values.

@@ -136,11 +136,15 @@ TEST_CASE("Rescaled moduli of one material are those of the base by eq. 2 of doc
 TEST_CASE("The Jacobian of the residuals agrees with finite differences") {
   const NodeMasses masses = GENERATE(NodeMasses::group, NodeMasses::free);
   const MassSpringModel base = GENERATE(rods(), soft_block(4, 5, 9, 0.45));
-  for (const bool anchored : {false, true}) {
+  enum class Held { not_at_all, at_nodes, by_springs };
+  for (const Held held : {Held::not_at_all, Held::at_nodes, Held::by_springs}) {
     TargetOptions options{.modes = 8, .patches = 6};
-    if (anchored)
-      for (std::uint32_t i = 0; i < base.node_count(); ++i)
-        if (base.rest[i].z() < 0.1) options.anchored.push_back(i);
+    for (std::uint32_t i = 0; i < base.node_count(); ++i) {
+      if (!(base.rest[i].z() < 0.1)) continue;
+      if (held == Held::at_nodes) options.anchored.nodes.push_back(i);
+      if (held == Held::by_springs)
+        options.anchored.springs.push_back({i, 0.1 * base.stiffness.front()});
+    }
     const Level level = plain_level(base, 0.4);
     const ElasticTargets targets = measure_targets(base, level.of_base, options);
     const ElasticFit fit(level.model, level.of_base, targets, {.masses = masses});
@@ -303,7 +307,7 @@ TEST_CASE("Calibration handles several components, a single node among them, and
   validate(two);
   SimplifyOptions options{.levels = 1, .calibrate = Calibrate::modes};
   for (std::uint32_t i = first; i < first + 9; ++i)
-    options.calibration.targets.anchored.push_back(i);
+    options.calibration.targets.anchored.nodes.push_back(i);
   options.calibration.fit.iterations = 30;
   LodChain chain = simplify(two, options);
   validate(chain.levels[1].model);

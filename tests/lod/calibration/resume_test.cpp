@@ -312,6 +312,9 @@ template <class Element>
 void change(std::vector<Element>& list) {
   list.emplace_back();
 }
+void change(Support& support) {
+  support.springs.push_back({0, 1});
+}
 
 TEST_CASE("A change of any option of the targets, but a weight, is another fingerprint") {
   const MassSpringModel base = block(4, 4, 6);

@@ -47,7 +47,7 @@ struct OneStep {
       : model(without_corners(of_model)),
         points(skin != nullptr ? ContactPoints(model, *skin) : ContactPoints(model)),
         finder(points, obstacles, model.rest),
-        correction(model, points, finder, obstacles.size(), true),
+        correction(model, points, finder, obstacles.size(), true, {}),
         x(model.rest) {}
 
   /// Kinetic energy of the nodes [J].

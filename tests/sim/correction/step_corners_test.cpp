@@ -36,7 +36,7 @@ struct Loose {
       : model(of_model),
         points(model),
         finder(points, obstacles, model.rest),
-        correction(model, points, finder, obstacles.size(), true),
+        correction(model, points, finder, obstacles.size(), true, {}),
         x(model.rest),
         v(model.node_count(), Vec3::Zero()) {}
 

@@ -34,6 +34,24 @@ TEST_CASE("Anchors that make no sense are refused by name") {
   bad.path = {};
   bad.pivot = Vec3(0, INFINITY, 0);
   refuses({bad}, "its pivot must be finite");
+  bad.pivot.reset();
+  bad.spring = AnchorSpring{.stiffness = 0};
+  refuses({bad}, "anchor \"grip\": its stiffness of 0 N/m must be finite and above 0");
+  bad.spring = AnchorSpring{.stiffness = 1, .damping = -2};
+  refuses({bad}, "its damping time of -2 s must be finite and not below 0");
+}
+
+TEST_CASE("The nodes of an anchor on springs share its stiffness by mass") {
+  const MassSpringModel model =
+      test::table_model({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {1, 2, 3, 4}, {{0, 1, 1}});
+  const Anchor rope{.name = "rope", .nodes = {3, 0, 3}, .spring = AnchorSpring{.stiffness = 10}};
+  const Anchor hook{.name = "hook", .nodes = {1}};
+  CHECK(shared_stiffness(rope, model) == std::vector<double>{2, 8});
+  const Support support = support_of({rope, hook}, model);
+  CHECK(support.nodes == std::vector<std::uint32_t>{1});
+  REQUIRE(support.springs.size() == 2);
+  CHECK(support.springs[1].node == 3);
+  CHECK(support.springs[1].stiffness == 8);
 }
 
 TEST_CASE("An anchor of the base holds the groups of its nodes in a level") {
