@@ -19,17 +19,18 @@ function cantilever.shear_coefficient(poisson)
   return 10 * (1 + poisson) / (12 + 11 * poisson)
 end
 
-local area, inertia = height ^ 2, height ^ 4 / 12
-local bending = young * inertia
-local function shearing(poisson)
-  return cantilever.shear_coefficient(poisson) * young / (2 * (1 + poisson)) * area
+-- Stiffnesses of a beam with a square cross-section: of bending [N m2] and of shearing [N].
+local function stiffnesses(beam)
+  return beam.young * beam.height ^ 4 / 12, cantilever.shear_coefficient(beam.poisson)
+    * beam.young / (2 * (1 + beam.poisson)) * beam.height ^ 2
 end
 
 -- Frequency equation of a clamped-free beam with shear and rotary inertia (Huang 1961); its roots
 -- are b = omega length^2 sqrt(density area / bending).
-local function frequency_equation(b, poisson)
-  local rotary = inertia / (area * length ^ 2)
-  local shear = bending / (shearing(poisson) * length ^ 2)
+local function frequency_equation(b, beam)
+  local bending, shearing = stiffnesses(beam)
+  local rotary = beam.height ^ 2 / (12 * beam.length ^ 2)
+  local shear = bending / (shearing * beam.length ^ 2)
   local root = math.sqrt((rotary - shear) ^ 2 + 4 / b ^ 2)
   local alpha = math.sqrt((root - rotary - shear) / 2)
   local beta = math.sqrt((root + rotary + shear) / 2)
@@ -49,12 +50,15 @@ local function root_between(f, low, high)
   return (low + high) / 2
 end
 
-local function timoshenko_frequencies(poisson)
-  local unit = math.sqrt(bending / (density * area)) / length ^ 2 / (2 * math.pi)
-  local function equation(b) return frequency_equation(b, poisson) end
+-- The lowest frequencies of Timoshenko's beam [Hz]. beam: length, height [m], young [Pa], density,
+-- poisson.
+function cantilever.frequencies(beam, count)
+  local unit = math.sqrt(stiffnesses(beam) / (beam.density * beam.height ^ 2)) / beam.length ^ 2
+    / (2 * math.pi)
+  local function equation(b) return frequency_equation(b, beam) end
   local found = {}
   local step, b = 0.1, 0.1 -- roots lie at 3.5, 21, 58: far apart
-  while #found < frequency_count do
+  while #found < count do
     if equation(b) * equation(b + step) <= 0 then
       found[#found + 1] = unit * root_between(equation, b, b + step)
     end
@@ -65,8 +69,11 @@ end
 
 -- The values of Timoshenko's beam.
 function cantilever.timoshenko(poisson)
-  local deflection = length ^ 3 / (3 * bending) + length / shearing(poisson) -- per newton
-  return {deflection, table.unpack(timoshenko_frequencies(poisson))}
+  local beam = {length = length, height = height, young = young, density = density,
+                poisson = poisson}
+  local bending, shearing = stiffnesses(beam)
+  local deflection = length ^ 3 / (3 * bending) + length / shearing -- per newton
+  return {deflection, table.unpack(cantilever.frequencies(beam, frequency_count))}
 end
 
 -- A lattice of the given style with `cells` cells across the height.
