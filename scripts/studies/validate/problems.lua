@@ -13,7 +13,7 @@
 
 local problems = {}
 local files = {"stretch", "cube", "sphere", "rayleigh", "cantilever",
-               "elastica", "plates", "two_materials", "bar", "sliding", "spin"}
+               "elastica", "silicone", "plates", "two_materials", "bar", "sliding", "spin"}
 for _, name in ipairs(files) do
   local found = require("studies.validate." .. name)
   -- A file may have several.
