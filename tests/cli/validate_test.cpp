@@ -72,6 +72,15 @@ TEST_CASE("validate --quick: the base converges to known answers with order 2") 
     CHECK(error_at(table, "stretch", quantity, 4) < 1e-3);
   for (const char* quantity : {"error of E, random", "error of nu, random"})
     CHECK(error_at(table, "stretch", quantity, 4) < 0.02);
+  for (const char* problem : {"two_materials", "two_materials_45"}) {
+    CAPTURE(problem);
+    CHECK(error_at(table, problem, "error of f1 to f10", 4) < 0.06);
+    CHECK(error_at(table, problem, "error of nine loads", 4) < 0.17);
+    CHECK(error_at(table, problem, "error of nine loads", 4) <
+          error_at(table, problem, "error of nine loads", 2) / 2);
+  }
+  CHECK(std::abs(error_at(table, "silicone", "period, small [s]", 3)) < 6);
+  CHECK(std::abs(error_at(table, "silicone", "decay, released [1/s]", 3)) < 12);
   const auto wave = by_size(table, "rayleigh", "c / c_t", "0");
   CHECK(std::abs(number(wave.at(12), "error")) < 1);
   CHECK(number(wave.at(12), "order") == Approx(2).margin(0.5));
