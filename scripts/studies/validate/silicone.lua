@@ -50,7 +50,7 @@ local function equilibrium(model, held, end_face, level, pull, at_tip)
 end
 
 -- Times at which the values pass a middle, and the extremes after each, from the middle.
-local function swings(times, values, middle)
+local function crossings_of(times, values, middle)
   local crossings, extremes = {}, {}
   for i = 2, #values do
     local before, now = values[i - 1] - middle, values[i] - middle
@@ -78,7 +78,7 @@ local function released(model, level, pull, at_tip)
   })
   local times, heights = {}, {}
   for i = 1, run.frame_count do times[i], heights[i] = run[i].time, height(run[i].x) end
-  local crossings, extremes = swings(times, heights,
+  local crossings, extremes = crossings_of(times, heights,
     height(equilibrium(model, held, end_face, level, pull, 0)))
   local found = crossings[3] - crossings[1]
   return found, math.log(extremes[1] / extremes[3]) / found

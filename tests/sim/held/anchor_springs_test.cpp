@@ -115,7 +115,7 @@ TEST_CASE("The ledger of a body that springs pull closes, and its anchors' work 
   }
 }
 
-TEST_CASE("Springs of any stiffness leave the step alone; very stiff ones hold the body") {
+TEST_CASE("Springs of any stiffness leave the step alone, and very stiff ones hold the body") {
   const MassSpringModel model = soft_block(4, 2, 2, 0.25);
   Scenario scene;
   scene.duration = 0.05;
