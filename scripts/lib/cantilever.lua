@@ -76,14 +76,14 @@ function cantilever.timoshenko(poisson)
   return {deflection, table.unpack(cantilever.frequencies(beam, frequency_count))}
 end
 
--- A lattice of the given style with `cells` cells across the height.
-function cantilever.model(style, cells, poisson)
+-- A lattice with `cells` cells across the height; `options` of s.lattice.
+function cantilever.model(options, cells, poisson)
   return s.lattice(s.grid{
     cell = height / cells,
     size = {slenderness * cells, cells, cells},
     materials = {bar = {young = young, density = density, damping = 0, poisson = poisson}},
     fill = function() return "bar" end,
-  }, {style = style})
+  }, options)
 end
 
 -- Bending modes come in pairs of equal frequency, as the section is square. Torsion and extension

@@ -36,6 +36,9 @@ function conversion.add_body_options(parser)
       :convert(command.quantity("--shell", "length")),
     parser:option("--lattice", "place nodes at cell corners or cell centers (default: corners)")
       :choices(s.choices.lattice),
+    parser:option("--bending", "share of cells at free faces: plain stretches exactly, corrected "
+      .. "bends and twists as accurately as half the cell size (default: plain)")
+      :choices(s.choices.bending),
     parser:option("--repair", "treatment of holes and other faults of the mesh")
       :choices(s.choices.repair):default("auto"),
     parser:option("--bodies", "bodies that do not touch: one asset of all, the largest alone, or "
@@ -110,7 +113,7 @@ function conversion.bases(args, preset, path)
   for number, body in ipairs(bodies_of(grid, args)) do
     bases[number] = s.lattice(body, {
       style = args.lattice or preset.lattice, hinges = args.hinges,
-      volumes = preset.volumes and not args.no_volumes,
+      volumes = preset.volumes and not args.no_volumes, bending = args.bending,
     })
   end
   return bases

@@ -25,7 +25,7 @@ local poisson = 0.25 -- of springs alone
 local names, expected = cantilever.names, cantilever.timoshenko(poisson)
 
 local function measure(style, cells)
-  local model = cantilever.model(style, cells, poisson)
+  local model = cantilever.model({style = style}, cells, poisson)
   return {style = style, cells = cells, nodes = model.node_count,
           values = cantilever.measure(model, cells)}
 end

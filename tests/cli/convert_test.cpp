@@ -105,6 +105,33 @@ TEST_CASE("convert gives the levels corners unless it is told to leave them out"
   CHECK(corners({"--no-volumes"}) == std::vector<int>{0, 0, 0});
 }
 
+TEST_CASE("convert --bending corrected moves the mass of the surface inwards") {
+  const TemporaryFolder scratch;
+  spit(scratch / "bar.obj", small_dumbbell());
+  for (const char* bending : {"plain", "corrected"}) {
+    const Ran ran = springlod_run({"-q", "convert", (scratch / "bar.obj").string(), "-o",
+                                   (scratch / bending).string() + ".glb", "--cell", "1cm", "--unit",
+                                   "cm", "--fast", "--bending", bending});
+    CAPTURE(ran.err);
+    REQUIRE(ran.exit_code == 0);
+  }
+  const Ran compared = springlod_run({"-q", "-e", R"(
+    local s = require "springlod"
+    local plain, corrected = s.load("plain.glb")[0], s.load("corrected.glb")[0]
+    assert(plain.spring_count == corrected.spring_count)
+    assert(math.abs(plain.mass - corrected.mass) < 1e-9 * plain.mass)
+    local ratio = corrected:node(1).mass / plain:node(1).mass
+    assert(math.abs(ratio - (5 / 6) ^ 3) < 1e-9, ratio))"},
+                                     "", scratch.path());
+  CAPTURE(compared.err);
+  CHECK(compared.exit_code == 0);
+  const Ran refused =
+      springlod_run({"convert", (scratch / "bar.obj").string(), "-o", (scratch / "c.glb").string(),
+                     "--paper", "--bending", "corrected"});
+  CHECK(refused.exit_code == 1);
+  CHECK_THAT(refused.err, Contains("is for style = \"corners\""));
+}
+
 TEST_CASE("convert writes identical files for any number of threads") {
   const TemporaryFolder scratch;
   spit(scratch / "bar.obj", small_dumbbell());

@@ -22,9 +22,6 @@ namespace {
 
 // Cubic lattice of 6 + 12 neighbours with one constant k: E = 2.5 k / a (docs/method.md, eq. 1).
 constexpr double kYoungPerStiffness = 2.5;
-// An edge of the lattice is shared by 4 cells, a face diagonal by 2.
-constexpr double kEdgeShare = 0.25;
-constexpr double kDiagonalShare = 0.5;
 
 double cell_stiffness(const Material& material, double cell) {
   return spring_young(material) * cell / kYoungPerStiffness;
@@ -71,9 +68,31 @@ void add_spring(MassSpringModel& model, std::uint32_t a, std::uint32_t b, double
 
 // ---------------------------------------------------------------- corners
 
+// Fractions of a cell on its low and its high face along each axis, x, y, z [1]. A face diagonal
+// has that of its face, an edge the product of those of its two faces, a corner of those of its
+// three.
+using FaceShares = std::array<std::array<double, 2>, 3>;
+
+FaceShares face_shares(const CornerNodes& nodes, std::uint32_t cell, Bending bending) {
+  constexpr double kHalf = 0.5;
+  constexpr double kEndCorrection = 1. / 12;  // of Euler and Maclaurin's sum, with a difference
+  FaceShares shares;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    const auto is_free = [&](unsigned side) {
+      const unsigned corner = side << axis;
+      return nodes.around[nodes.of_cell[cell][corner]][(7 - corner) ^ (1U << axis)] == kNoIndex;
+    };
+    double moved = 0;  // from the low to the high face
+    if (bending == Bending::corrected)
+      moved = kEndCorrection * (static_cast<double>(is_free(0)) - static_cast<double>(is_free(1)));
+    shares[axis] = {kHalf - moved, kHalf + moved};
+  }
+  return shares;
+}
+
 void add_corner_node(MassSpringModel& model, const MaterialGrid& grid, const CornerNodes& nodes,
-                     std::uint32_t node) {
-  const double eighth = grid.cell * grid.cell * grid.cell / 8;
+                     std::uint32_t node, Bending bending) {
+  const double whole = grid.cell * grid.cell * grid.cell;
   const double quarter_face = grid.cell * grid.cell / 4;
   const auto& around = nodes.around[node];
   double mass = 0;
@@ -85,8 +104,11 @@ void add_corner_node(MassSpringModel& model, const MaterialGrid& grid, const Cor
       border = true;
       continue;
     }
-    mass += grid.materials[grid.material[around[o]]].density * eighth;
-    volume += eighth;
+    const FaceShares shares = face_shares(nodes, around[o], bending);
+    double part = whole;
+    for (unsigned axis = 0; axis < 3; ++axis) part *= shares[axis][(7 - o) >> axis & 1U];
+    mass += grid.materials[grid.material[around[o]]].density * part;
+    volume += part;
     for (const unsigned across : {1U, 2U, 4U})
       if (around[o ^ across] == kNoIndex) area += quarter_face;
   }
@@ -103,15 +125,18 @@ struct SpringSum {
 
 // Springs of `node` to higher nodes, summed over the cells around it, by ascending `to`.
 void gather_springs(const MaterialGrid& grid, const CornerNodes& nodes, std::uint32_t node,
-                    std::vector<SpringSum>& sums) {
+                    Bending bending, std::vector<SpringSum>& sums) {
   sums.clear();
   for (unsigned o = 0; o < 8; ++o) {
     const std::uint32_t cell = nodes.around[node][o];
     if (cell == kNoIndex) continue;
     const Material& material = grid.materials[grid.material[cell]];
     const double cell_k = cell_stiffness(material, grid.cell);
+    const FaceShares shares = face_shares(nodes, cell, bending);
+    const unsigned here = 7 - o;
+    const auto share_of = [&](unsigned axis) { return shares[axis][here >> axis & 1U]; };
     const auto add = [&](unsigned step, double share) {
-      const std::uint32_t to = nodes.of_cell[cell][(7 - o) ^ step];
+      const std::uint32_t to = nodes.of_cell[cell][here ^ step];
       if (to < node) return;
       auto at = std::find_if(sums.begin(), sums.end(),
                              [&](const SpringSum& sum) { return sum.to == to; });
@@ -119,8 +144,10 @@ void gather_springs(const MaterialGrid& grid, const CornerNodes& nodes, std::uin
       at->k += share * cell_k;
       at->c += share * material.damping * cell_k;
     };
-    for (const unsigned edge : {1U, 2U, 4U}) add(edge, kEdgeShare);
-    for (const unsigned diagonal : {3U, 5U, 6U}) add(diagonal, kDiagonalShare);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      add(1U << axis, share_of((axis + 1) % 3) * share_of((axis + 2) % 3));
+      add(7U ^ (1U << axis), share_of(axis));
+    }
   }
   std::sort(sums.begin(), sums.end(),
             [](const SpringSum& l, const SpringSum& r) { return l.to < r.to; });
@@ -140,18 +167,20 @@ void add_cell_corners(const MaterialGrid& grid, const CornerNodes& nodes, std::u
   sort_corners(model, first);
 }
 
-MassSpringModel corners_model(const MaterialGrid& grid, const CornerNodes& nodes, bool volumes) {
+MassSpringModel corners_model(const MaterialGrid& grid, const CornerNodes& nodes,
+                              const LatticeOptions& options) {
   MassSpringModel model;
   model.materials = grid.materials;
   const auto count = static_cast<std::uint32_t>(nodes.at.size());
-  for (std::uint32_t node = 0; node < count; ++node) add_corner_node(model, grid, nodes, node);
+  for (std::uint32_t node = 0; node < count; ++node)
+    add_corner_node(model, grid, nodes, node, options.bending);
   std::vector<SpringSum> sums;
   for (std::uint32_t node = 0; node < count; ++node) {
-    gather_springs(grid, nodes, node, sums);
+    gather_springs(grid, nodes, node, options.bending, sums);
     for (const SpringSum& sum : sums) add_spring(model, node, sum.to, sum.k, sum.c);
   }
   model.dilatation = cell_terms(grid, nodes);
-  if (!volumes) return model;
+  if (!options.volumes) return model;
   model.corners.reserve(8 * grid.cells.size());
   for (std::uint32_t node = 0; node < count; ++node) add_cell_corners(grid, nodes, node, model);
   return model;
@@ -290,7 +319,7 @@ LatticeModel build_corners(MaterialGrid grid, const LatticeOptions& options) {
   if (!lattice.hinges.empty() && options.hinges == HingePolicy::separate)
     nodes = separate_clusters(nodes);
   require_memory_for(nodes.at.size(), grid);
-  lattice.model = corners_model(grid, nodes, options.volumes);
+  lattice.model = corners_model(grid, nodes, options);
   return lattice;
 }
 
@@ -298,6 +327,9 @@ LatticeModel build_corners(MaterialGrid grid, const LatticeOptions& options) {
 
 LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& options) {
   require_buildable(grid);
+  if (options.style == LatticeStyle::centers && options.bending == Bending::corrected)
+    throw InputError(
+        "lattice: bending = \"corrected\" is for style = \"corners\"; leave one of both out");
   require_memory_for(grid.cells.size(), grid);
   LatticeModel lattice;
   if (options.style == LatticeStyle::corners)

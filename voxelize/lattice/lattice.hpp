@@ -31,6 +31,26 @@ constexpr ChoiceTable<Choice<LatticeStyle>> choices(LatticeStyle) {
   return {"lattice", kLatticeStyles};
 }
 
+/// How a cell shares its springs and its mass between its two opposite faces along an axis, where
+/// one of them is free and the other is not; only for `corners`.
+enum class Bending {
+  /// By halves. A stretched bar has the material's E and nu exactly; a bent one is too stiff, by
+  /// an error of second order in the cell size, since the springs at its surface count too much.
+  plain,
+  /// The free face has 1/12 less than one half, the other one 1/12 more: the end correction of
+  /// Euler and Maclaurin for the sum over the layers, which makes bending, twisting and moments of
+  /// inertia accurate to a higher order (docs/method.md, eq. 4a).
+  corrected,
+};
+
+inline constexpr Choice<Bending> kBendings[] = {
+    {Bending::plain, "plain", "stretching is exact, bending of second order in the cell size"},
+    {Bending::corrected, "corrected",
+     "bending and twisting are as accurate as with half the cell size or less"}};
+constexpr ChoiceTable<Choice<Bending>> choices(Bending) {
+  return {"bending", kBendings};
+}
+
 /// What to do where cells touch only along an edge or at a corner (a hinge).
 enum class HingePolicy {
   report,    ///< keep and report them
@@ -58,6 +78,7 @@ struct LatticeOptions {
   /// with its E; `centers`: each node with a neighbour along each axis, for each such choice of
   /// three neighbours, with the harmonic mean of E at the four nodes.
   bool volumes = true;
+  Bending bending = Bending::plain;
 };
 inline constexpr const char* kVolumesHelp =
     "give the model the corners of its cells, whose volumes keep their signs, so that soft bodies "
@@ -67,7 +88,9 @@ constexpr auto option_rows(const LatticeOptions*) {
       option("style", &LatticeOptions::style, "position of the nodes"),
       option("hinges", &LatticeOptions::hinges,
              "treatment of places where cells touch only along an edge or at a corner"),
-      option("volumes", &LatticeOptions::volumes, kVolumesHelp));
+      option("volumes", &LatticeOptions::volumes, kVolumesHelp),
+      option("bending", &LatticeOptions::bending,
+             "share of springs and mass at free faces, of the style corners"));
 }
 
 struct LatticeModel {
@@ -79,7 +102,8 @@ struct LatticeModel {
 
 /// Builds a lattice. Nodes are in the order (z, y, x). Contact areas are the areas of the exposed
 /// cell faces (`corners`: a quarter for each corner). A border node lacks one of its 18 lattice
-/// neighbours (`centers`) or one of its 8 cells (`corners`). Throws InputError for an empty grid.
+/// neighbours (`centers`) or one of its 8 cells (`corners`). Throws InputError for an empty grid,
+/// and for corrected bending of `centers`.
 LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& options = {});
 
 }  // namespace springlod::voxelize

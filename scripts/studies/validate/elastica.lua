@@ -30,7 +30,7 @@ local function deflection(model, force, held, end_face, level)
   return mean / length
 end
 
-return {
+local plain = {
   name = "elastica",
   title = "Elastica",
   text = "A bar, 20 times as long as high, is clamped at one end and bends far under a force "
@@ -40,7 +40,7 @@ return {
     .. "has no shear, which adds 0.2 % under a small force.",
   size_name = "cells across", sizes = {4, 6, 8}, quick = {4}, fitted = true,
   quantities = quantities,
-  body = function(cells) return cantilever.model("corners", cells, poisson) end,
+  body = function(cells) return cantilever.model({}, cells, poisson) end,
   anchored = cantilever.clamped,
   measure = function(model, cells, level)
     local held = level.carried(cantilever.clamped(cells))
@@ -51,3 +51,14 @@ return {
     return values
   end,
 }
+
+local corrected = {}
+for key, value in pairs(plain) do corrected[key] = value end
+corrected.name, corrected.title = "elastica_corrected", "Elastica, corrected bending"
+corrected.text = "The same with the option `bending = \"corrected\"` of `s.lattice`."
+corrected.sizes = {2, 4, 8}
+corrected.body = function(cells)
+  return cantilever.model({bending = "corrected"}, cells, poisson)
+end
+
+return {plain, corrected}

@@ -1,5 +1,5 @@
 -- The problems of the validation, in the order of the page. Each has
---   name, title, text, source    words for the page
+--   name, title, text, source    words for the page; notes: more after the table, if there are any
 --   size_name, sizes, quick      what a size counts, and sizes; the last one is judged
 --   quantities                   list of {name, reference, goal, level_goals}: goals in percent; if
 --                                the reference is 0, a largest value

@@ -131,6 +131,7 @@ local function section(page)
     lines[#lines + 1] = ("![%s: error against cell size](images/%s.png)\n"):format(problem.title,
       chart_name(problem))
   end
+  if problem.notes then lines[#lines + 1] = problem.notes end
   return table.concat(lines, "\n")
 end
 
@@ -158,7 +159,7 @@ springlod validate -o out/validation
 ```
 
 This command solves problems of mechanics whose answer is known, and writes this page. Each
-problem is solved by the base at three cell sizes, and by two levels with 45 % and 20 % of its
+problem is solved by the base at several cell sizes, and by two levels with 45 % and 20 % of its
 nodes, fitted by default, whose contact points are on the base's surface. Bodies have Poisson's
 ratio 1/4, unless the problem says otherwise, and no damping. A goal is for the finest size. The
 order is the order of convergence from the size before. "Not found" means that a small model has no

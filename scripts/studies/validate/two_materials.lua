@@ -44,30 +44,35 @@ local function summed(force, level)
   return sums
 end
 
--- Places relative to the centre of the block: of a node, and of the centroid of its shape function,
--- which is linear in each cell. The first is where s.static_loads takes a field; a node's volume
--- times the field at the second does the same work as the field over the cells.
-local function at_nodes(node)
-  return node.x - block.size[1] / 2, node.y - block.size[2] / 2, node.z - block.size[3] / 2
+-- A volume and a place relative to the centre of the block: of a node, as s.static_loads takes
+-- them; and of its shape function, which is linear in each cell: its integral and its centroid.
+-- The integral times the field there does the same work as the field over the cells.
+local function of_nodes(node)
+  return node.volume, {node.x - block.size[1] / 2, node.y - block.size[2] / 2,
+                       node.z - block.size[3] / 2}
 end
-local function at_centroids(node, cells)
-  local place = {at_nodes(node)}
+local function of_shape_functions(node, cells)
+  local _, place = of_nodes(node)
+  local volume = cells ^ -3
   for d = 1, 3 do
-    local half = block.size[d] / 2
-    if place[d] < -half + 0.5 / cells then place[d] = -half + 1 / (3 * cells) end
-    if place[d] > half - 0.5 / cells then place[d] = half - 1 / (3 * cells) end
+    local inside = block.size[d] / 2 - math.abs(place[d])
+    if inside < 0.5 / cells then
+      volume = volume / 2
+      place[d] = place[d] < 0 and place[d] + 1 / (3 * cells) or place[d] - 1 / (3 * cells)
+    end
   end
-  return table.unpack(place)
+  return volume, place
 end
 
 -- Largest error of the compliances. Each load is a field over the block, scaled so that its
 -- magnitude has the integral 1 N, in CalculiX as here.
-local function error_of_loads(model, poisson, cells, level, place)
+local function error_of_loads(model, poisson, cells, level, of_node)
   local largest, nodes = 0, level.base:nodes()
   for i, load in ipairs(smooth_loads.list) do
     local force, sum = {}, smooth_loads.sum(load.field, block.size)
     for number, node in ipairs(nodes) do
-      local f, share = load.field(place(node, cells)), node.volume / sum
+      local volume, place = of_node(node, cells)
+      local f, share = load.field(table.unpack(place)), volume / sum
       force[number] = {share * f[1], share * f[2], share * f[3]}
     end
     local found = s.deflect(model, {force = summed(force, level)}).compliance
@@ -76,7 +81,8 @@ local function error_of_loads(model, poisson, cells, level, place)
   return largest
 end
 
-local function problem(name, poisson)
+-- `options` of s.lattice.
+local function problem(name, poisson, options)
   return {
     name = name,
     title = ("Block of two materials, nu = %g"):format(poisson),
@@ -102,12 +108,12 @@ local function problem(name, poisson)
         cell = 1 / cells, materials = materials, fill = block.material_at,
         size = {math.floor(block.size[1] * cells), math.floor(block.size[2] * cells + 0.5),
                 math.floor(block.size[3] * cells)},
-      })
+      }, options)
     end,
     measure = function(model, cells, level)
       return {error_of_frequencies(model, poisson),
-              error_of_loads(model, poisson, cells, level, at_centroids),
-              error_of_loads(model, poisson, cells, level, at_nodes)}
+              error_of_loads(model, poisson, cells, level, of_shape_functions),
+              error_of_loads(model, poisson, cells, level, of_nodes)}
     end,
   }
 end
@@ -115,5 +121,11 @@ end
 local problems = {}
 for i, name in ipairs{"two_materials", "two_materials_45"} do
   problems[i] = problem(name, block.ratios[i])
+end
+for i, name in ipairs{"two_materials_corrected", "two_materials_45_corrected"} do
+  local better = problem(name, block.ratios[i], {bending = "corrected"})
+  better.title = better.title .. ", corrected bending"
+  better.text = "The same with the option `bending = \"corrected\"` of `s.lattice`."
+  problems[#problems + 1] = better
 end
 return problems
