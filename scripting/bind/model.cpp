@@ -323,54 +323,6 @@ void describe_model_type(Api& api) {
   api.add(type.build());
 }
 
-void describe_material(Api& api) {
-  const MaterialInput input;
-  const Material& usual = input.material;
-  api.add(RecordEntry{
-      .name = "Material",
-      .summary = "An elastic material. Springs alone have Poisson's ratio 1/4; with any other one, "
-                 "the model gets dilatation terms, which take shorter steps.",
-      .fields =
-          {{.name = "name", .type = "string", .fallback = "its key", .help = "name in reports"},
-           {.name = "young",
-            .type = "quantity",
-            .dimension = Dimension::pressure,
-            .range = Range{1e-3, 1e15},
-            .fallback = fmt::format("{}", usual.young),
-            .help = "Young's modulus"},
-           {.name = "poisson",
-            .type = "number",
-            .range = Range{-0.2, 0.495},
-            .fallback = fmt::format("{}", usual.poisson),
-            .help =
-                "Poisson's ratio: how much a stretched bar thins; rubber and flesh 0.45 to 0.5, "
-                "cork 0"},
-           {.name = "density",
-            .type = "quantity",
-            .dimension = Dimension::density,
-            .range = Range{1e-6, 1e9},
-            .fallback = fmt::format("{}", usual.density),
-            .help = "density"},
-           {.name = "damping",
-            .type = "quantity",
-            .dimension = Dimension::time,
-            .range = Range{0, 1e6},
-            .fallback = "from damping_ratio",
-            .help = "damping time c/k of its springs"},
-           {.name = "damping_ratio",
-            .type = "number",
-            .range = Range{0, 1},
-            .fallback = fmt::format("{}", *input.damping_ratio),
-            .help = "damping ratio of the body's slowest vibration, from which its damping time is "
-                    "computed when the body is built; 0 or more, below 1; instead of damping"},
-           {.name = "colour",
-            .type = "\"#rrggbb\" or {r, g, b}",
-            .fallback = "grey",
-            .help = "colour in pictures; r, g, b of 0..1"}},
-      .example = "rubber = {young = \"0.2 MPa\", density = 1000, damping = 0.004, colour = "
-                 "\"#40a060\"}"});
-}
-
 void describe_estimates(Api& api) {
   const Parameter model{.name = "model", .type = "Model", .help = "a model or a level of a chain"};
   api.add(FunctionEntry{
@@ -439,7 +391,7 @@ void describe_assets(Api& api) {
 }  // namespace
 
 void describe_model(Api& api) {
-  describe_material(api);
+  describe_materials(api);
   describe_model_tables(api);
   describe_model_type(api);
   api.add(

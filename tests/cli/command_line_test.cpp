@@ -53,14 +53,39 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
 }
 
 TEST_CASE("every command has help") {
-  for (const char* command :
-       {"convert", "info", "compare", "demo", "mergelog", "pareto", "pick", "picks", "stability"}) {
+  for (const char* command : {"convert", "info", "compare", "demo", "materials", "mergelog",
+                              "pareto", "pick", "picks", "stability"}) {
     const Ran ran = springlod_run({command, "--help"});
     CAPTURE(command);
     CHECK(ran.exit_code == 0);
     CHECK_THAT(ran.out, StartsWith("Usage: springlod " + std::string(command)));
     CHECK_THAT(ran.out, Contains("--seed"));
   }
+}
+
+TEST_CASE("materials lists the presets, which materials take unless they say otherwise") {
+  const Ran table = springlod_run({"materials"});
+  CHECK(table.exit_code == 0);
+  CHECK_THAT(table.out, Contains("natural_rubber") && Contains("1.9 MPa"));
+  CHECK_THAT(table.out, Contains("Dowling"));
+  const Ran same = springlod_run({"-q", "-e", R"(
+    local s = require "springlod"
+    local function material(given)
+      return s.grid{cell = 1, size = {1, 1, 1}, materials = {a = given},
+                    fill = function() return "a" end}.materials[1]
+    end
+    assert(#s.material_presets == 17)
+    for _, preset in ipairs(s.material_presets) do
+      local found = material{preset = preset.name}
+      assert(found.young == preset.young and found.poisson == preset.poisson)
+      assert(found.density == preset.density and #preset.source > 10)
+    end
+    local own = material{preset = "cork", density = 200}
+    assert(own.density == 200 and own.poisson == 0)
+    local ok, failure = pcall(material, {preset = "crok"})
+    assert(not ok and failure.message:find("did you mean 'cork'", 1, true), failure.message))"});
+  CAPTURE(same.err);
+  CHECK(same.exit_code == 0);
 }
 
 TEST_CASE("code comes from -e, a script, or a pipe") {

@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "model/material_preset.hpp"
 
 namespace springlod::scripting {
 
@@ -14,6 +15,11 @@ MaterialInput read_material(Call& call, int index, const std::string& owner,
   material.name = name;
   TableReader reader = call.record(index, "Material", owner);
   reader.read("name", material.name);
+  if (reader.has("preset")) {
+    MaterialPreset preset{};
+    reader.read("preset", preset);
+    apply(preset, material);
+  }
   reader.read("young", material.young);
   reader.read("density", material.density);
   reader.read("damping", material.damping);

@@ -56,7 +56,6 @@ local corrected = {}
 for key, value in pairs(plain) do corrected[key] = value end
 corrected.name, corrected.title = "elastica_corrected", "Elastica, corrected bending"
 corrected.text = "The same with the option `bending = \"corrected\"` of `s.lattice`."
-corrected.sizes = {2, 4, 8}
 corrected.body = function(cells)
   return cantilever.model({bending = "corrected"}, cells, poisson)
 end
