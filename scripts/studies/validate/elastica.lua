@@ -11,7 +11,7 @@ local poisson = 0.25
 
 local quantities = {}
 for _, row in ipairs(known) do
-  quantities[#quantities + 1] = {name = ("P L^2 / E I = %d: deflection"):format(row[1]),
+  quantities[#quantities + 1] = {name = ("PL^2/EI = %d"):format(row[1]),
                                  reference = row[2], goal = 1, level_goals = {2, 2}}
 end
 
