@@ -64,12 +64,18 @@ local function of_shape_functions(node, cells)
   return volume, place
 end
 
+local sums = {} -- of the magnitudes of the loads' fields over the block, by load
+local function sum_of(load)
+  sums[load] = sums[load] or smooth_loads.sum(load.field, block.size)
+  return sums[load]
+end
+
 -- Largest error of the compliances. Each load is a field over the block, scaled so that its
 -- magnitude has the integral 1 N, in CalculiX as here.
 local function error_of_loads(model, poisson, cells, level, of_node)
   local largest, nodes = 0, level.base:nodes()
   for i, load in ipairs(smooth_loads.list) do
-    local force, sum = {}, smooth_loads.sum(load.field, block.size)
+    local force, sum = {}, sum_of(load)
     for number, node in ipairs(nodes) do
       local volume, place = of_node(node, cells)
       local f, share = load.field(table.unpack(place)), volume / sum
