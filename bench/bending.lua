@@ -1,5 +1,5 @@
 -- What corrected bending of a lattice is worth in motion: a bar, five times as long as high, is
--- clamped at one end and let go; it swings down, or until its tip hits a floor with friction.
+-- clamped at one end and let go: it falls freely, or until its tip hits a floor with friction.
 -- Compares the path of its tip with that of a finer bar:
 --   springlod run bench/bending.lua [-- FINEST]
 

@@ -115,8 +115,11 @@ ElasticComponent make_component(const ModelComponent& whole, const FreeNodes& fr
   component.stiffness = stiffness_matrix(model);
   if (free.size() < model.node_count())
     component.stiffness = block_of_nodes(component.stiffness, free);
-  for (Eigen::Index c = 0; c < component.unknowns(); ++c)
-    component.stiffness.coeffRef(c, c) += free_nodes.stiffness[static_cast<std::size_t>(c / 3)];
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (free_nodes.stiffness[i] == 0) continue;  // most nodes, and a search in the matrix for each
+    for (Eigen::Index c = 3 * static_cast<Eigen::Index>(i), end = c + 3; c < end; ++c)
+      component.stiffness.coeffRef(c, c) += free_nodes.stiffness[i];
+  }
   for (Eigen::Index c = 0; c < component.unknowns(); ++c)
     for (Eigen::SparseMatrix<double>::InnerIterator entry(component.stiffness, c); entry; ++entry)
       entry.valueRef() /= component.root_mass[entry.row()] * component.root_mass[c];

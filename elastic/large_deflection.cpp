@@ -119,12 +119,12 @@ class Equilibrium {
   bool predict(double from, double to) {
     const std::vector<Vec3> before = places_;
     if (load_.hold) load_.hold(to, places_);
-    Eigen::VectorXd shift = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(x_.size()));
-    for (const std::uint32_t i : held_) shift.segment<3>(row_of(i)) = places_[i] - x_[i];
     if (free_.empty()) {
       x_ = places_;
       return true;
     }
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(x_.size()));
+    for (const std::uint32_t i : held_) shift.segment<3>(row_of(i)) = places_[i] - x_[i];
     const Eigen::SparseMatrix<double> tangent = tangent_at(x_, Tangent::exact);
     const Eigen::VectorXd pull = tangent * shift;
     Eigen::VectorXd right(3 * static_cast<Eigen::Index>(free_.size()));

@@ -115,17 +115,22 @@ function cantilever.clamped(cells)
   return function(node) return node.x < 0.75 * height / cells end
 end
 
--- The last layer: each node with its fraction of the area, which equals that of the volume.
-function cantilever.end_face(model, cells)
+-- The nodes beyond x, a layer: each with its fraction of the area, which equals that of the volume.
+function cantilever.layer_beyond(x, model)
   local end_face, sum = {}, 0
   for _, node in ipairs(model:nodes()) do
-    if node.x > length - 0.75 * height / cells then
+    if node.x > x then
       end_face[node.number] = node.volume
       sum = sum + node.volume
     end
   end
   for number, volume in pairs(end_face) do end_face[number] = volume / sum end
   return end_face
+end
+
+-- The last layer of a model with `cells` cells across.
+function cantilever.end_face(model, cells)
+  return cantilever.layer_beyond(length - 0.75 * height / cells, model)
 end
 
 -- The values of a model with `cells` cells across.

@@ -1,4 +1,5 @@
 local cantilever = require "lib.cantilever"
+local corrected = require "studies.validate.corrected"
 
 -- What the tables of both lattices at nu = 1/4 tell a user. The limits are those of sizes 4, 8, 16.
 local choosing = [[
@@ -55,11 +56,9 @@ for _, quantity in ipairs(other.quantities) do quantity.goal = nil end
 
 local all = {problem("cantilever_0", 0), quarter, other, problem("cantilever_45", 0.45)}
 for _, poisson in ipairs{0, 0.25, 0.45} do
-  local better = problem(("cantilever_%d_corrected"):format(100 * poisson), poisson,
-    {bending = "corrected"})
-  better.title = better.title .. ", corrected bending"
-  better.text = "The same with the option `bending = \"corrected\"` of `s.lattice`."
-  better.sizes = {2, 4, 8}
-  all[#all + 1] = better
+  local name = ("cantilever_%d_corrected"):format(100 * poisson)
+  local twin = corrected(problem(name, poisson, {bending = "corrected"}), name)
+  twin.sizes = {2, 4, 8}
+  all[#all + 1] = twin
 end
 return all

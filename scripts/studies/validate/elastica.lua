@@ -1,5 +1,6 @@
 local s = require "springlod"
 local cantilever = require "lib.cantilever"
+local corrected = require "studies.validate.corrected"
 
 -- Deflection and shortening of the tip over the length, by P L^2 / E I (Mattiasson 1981).
 local known = {{1, 0.30172, 0.05643}, {2, 0.49346, 0.16064}, {5, 0.71379, 0.38763},
@@ -52,12 +53,7 @@ local plain = {
   end,
 }
 
-local corrected = {}
-for key, value in pairs(plain) do corrected[key] = value end
-corrected.name, corrected.title = "elastica_corrected", "Elastica, corrected bending"
-corrected.text = "The same with the option `bending = \"corrected\"` of `s.lattice`."
-corrected.body = function(cells)
-  return cantilever.model({bending = "corrected"}, cells, poisson)
-end
+local twin = corrected(plain, "elastica_corrected")
+twin.body = function(cells) return cantilever.model({bending = "corrected"}, cells, poisson) end
 
-return {plain, corrected}
+return {plain, twin}

@@ -20,19 +20,6 @@ local frames = 100 -- in a period
 
 local function clamped(node) return node.x < 1e-3 * beam.length end
 
--- The nodes of the base at the tip, each with its fraction of the face.
-local function end_face_of(base)
-  local end_face, sum = {}, 0
-  for _, node in ipairs(base:nodes()) do
-    if node.x > (1 - 1e-3) * beam.length then
-      end_face[node.number] = node.volume
-      sum = sum + node.volume
-    end
-  end
-  for number, volume in pairs(end_face) do end_face[number] = volume / sum end
-  return end_face
-end
-
 -- Positions of the nodes at rest, with a force down at the tip.
 local function equilibrium(model, held, end_face, level, pull, at_tip)
   local force, x = {}, {}
@@ -66,7 +53,8 @@ end
 
 -- First period [s] and decay [1/s] of the tip once the force on it is gone.
 local function released(model, level, pull, at_tip)
-  local held, end_face = level.carried(clamped), end_face_of(level.base)
+  local held = level.carried(clamped)
+  local end_face = cantilever.layer_beyond((1 - 1e-3) * beam.length, level.base)
   local function height(x)
     local of_base, mean = level.to_base(x), 0
     for number, share in pairs(end_face) do mean = mean + share * of_base[number][3] end

@@ -1,4 +1,5 @@
 local s = require "springlod"
+local corrected = require "studies.validate.corrected"
 local smooth_loads = require "studies.validate.smooth_loads"
 local block = require "studies.validate.two_material_block"
 
@@ -129,9 +130,6 @@ for i, name in ipairs{"two_materials", "two_materials_45"} do
   problems[i] = problem(name, block.ratios[i])
 end
 for i, name in ipairs{"two_materials_corrected", "two_materials_45_corrected"} do
-  local better = problem(name, block.ratios[i], {bending = "corrected"})
-  better.title = better.title .. ", corrected bending"
-  better.text = "The same with the option `bending = \"corrected\"` of `s.lattice`."
-  problems[#problems + 1] = better
+  problems[#problems + 1] = corrected(problem(name, block.ratios[i], {bending = "corrected"}), name)
 end
 return problems
