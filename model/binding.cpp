@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "model/mass_spring.hpp"
 #include "model/spring_rows.hpp"
 
 namespace springlod::inline model {

@@ -3,10 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/mass_spring.hpp"
 #include "model/vec.hpp"
 
 namespace springlod::inline model {
+
+struct MassSpringModel;
 
 /// A linear map from node positions (or velocities) to P points, as compressed rows: a point is the
 /// sum of weight * node over the entries of its row. The weights of a point add up to 1 and

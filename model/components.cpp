@@ -19,6 +19,25 @@ void split_terms(const DilatationTerms& terms, const Components& components,
   }
 }
 
+void split_surface(const ContactSurface& surface, const Components& components,
+                   const std::vector<std::uint32_t>& place, std::vector<ModelComponent>& all) {
+  const Binding& from = surface.of_nodes;
+  for (std::uint32_t p = 0; p < surface.count(); ++p) {
+    const std::uint32_t number = components.of_node[from.node[from.start[p]]];
+    ContactSurface& to = all[number].model.surface;
+    if (to.of_nodes.start.empty()) to.of_nodes.start.push_back(0);
+    for (std::uint32_t e = from.start[p]; e < from.start[p + 1]; ++e) {
+      assert(components.of_node[from.node[e]] == number);
+      to.of_nodes.node.push_back(place[from.node[e]]);
+      to.of_nodes.weight.push_back(from.weight[e]);
+    }
+    to.of_nodes.start.push_back(static_cast<std::uint32_t>(to.of_nodes.node.size()));
+    to.normal.push_back(surface.normal[p]);
+    to.area.push_back(surface.area[p]);
+    to.stiffness.push_back(surface.stiffness[p]);
+  }
+}
+
 }  // namespace
 
 std::vector<ModelComponent> split_components(const MassSpringModel& model,
@@ -52,6 +71,7 @@ std::vector<ModelComponent> split_components(const MassSpringModel& model,
     for (std::uint32_t& node : kept.node) node = place[node];
   }
   split_terms(model.dilatation, components, place, all);
+  split_surface(model.surface, components, place, all);
   for (ModelComponent& component : all) component.model.materials = model.materials;
   return all;
 }

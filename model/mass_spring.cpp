@@ -76,6 +76,7 @@ void validate(const MassSpringModel& model) {
   for (std::uint32_t s = 0; s < model.spring_count(); ++s) validate_spring(model, s);
   validate_corners(model);
   validate_dilatation(model);
+  if (!model.surface.empty()) validate(model.surface, model.node_count());
 }
 
 State rest_state(const MassSpringModel& model) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/contact_surface.hpp"
 #include "model/corners.hpp"
 #include "model/dilatation.hpp"
 #include "model/material.hpp"
@@ -36,6 +37,9 @@ struct MassSpringModel {
 
   /// What gives materials a Poisson's ratio other than 1/4; empty if all have 1/4.
   DilatationTerms dilatation;
+
+  /// Where the body touches obstacles, if not at its nodes; empty: at those with a contact area.
+  ContactSurface surface;
 
   std::vector<Material> materials;  ///< at least one
 

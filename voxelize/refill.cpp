@@ -117,6 +117,7 @@ Level refilled_level(const MaterialGrid& grid, std::uint32_t nodes, const Refill
 
 MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes, LatticeStyle style,
                                  bool volumes) {
+  if (!grid.fraction.empty()) return lattice_of_about(whole_cells(grid), nodes, style, volumes);
   validate(grid);
   if (grid.cells.empty() || nodes == 0)
     throw InputError("refill: the grid must have filled cells, and a level at least one node");
@@ -145,6 +146,7 @@ MassSpringModel lattice_of_about(const MaterialGrid& grid, std::uint32_t nodes, 
 }
 
 std::vector<Level> refill_levels(const MaterialGrid& grid, const RefillOptions& options) {
+  if (!grid.fraction.empty()) return refill_levels(whole_cells(grid), options);
   if (options.nodes.empty())
     throw InputError(
         "refill: nodes is missing; give the number for each level, as in nodes = {161, 78}");

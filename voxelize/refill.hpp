@@ -46,7 +46,8 @@ constexpr auto option_rows(const RefillOptions*) {
 /// New models of the volume of `grid`, one of about each wanted number of nodes: the levels of a
 /// chain without the maps from its base, which lod's refill adds.
 ///
-/// For a lattice the grid is sampled at the centres of larger cells, laid around the centre of its
+/// Of a grid of cut cells, those of which at least half is inside count, as whole ones. For a
+/// lattice the grid is sampled at the centres of larger cells, laid around the centre of its
 /// bounding box, and hinges are filled (HingePolicy::fill). The model is then scaled and translated
 /// so that its volume, mass and centre of mass are those of the grid; E by eq. 2 of the paper is
 /// kept. Throws InputError if a level of no nodes is wanted, and where build_lattice and

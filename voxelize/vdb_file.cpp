@@ -17,16 +17,19 @@
 #include "base/message.hpp"
 #include "voxelize/cells/distance_field.hpp"
 #include "voxelize/index_lookup.hpp"
+#include "voxelize/vdb_surface.hpp"
 
 namespace springlod::voxelize {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Version of the metadata below; it grows when their meaning changes. Only files with a Poisson's
-// ratio other than that of springs have version 2; programs that do not know it must not read them.
-constexpr std::int32_t kFileVersion = 2;
-constexpr std::int32_t kWithoutPoisson = 1;
+// Version of the metadata below; it grows when their meaning changes. A file has the first version
+// that knows all that is in it, so that programs that do not know that do not read it.
+constexpr std::int32_t kFileVersion = 3;
+constexpr std::int32_t kWithCutCells = 3;
+constexpr std::int32_t kWithPoisson = 2;
+constexpr std::int32_t kFirstVersion = 1;
 constexpr const char* kVersion = "springlod_version";
 constexpr const char* kCell = "springlod_cell";
 constexpr const char* kOrigin = "springlod_origin";
@@ -69,12 +72,17 @@ typename Grid::Ptr cell_grid(const MaterialGrid& grid, const char* name,
   return out;
 }
 
-openvdb::MetaMap metadata_of(const MaterialGrid& grid) {
-  openvdb::MetaMap meta;
+std::int32_t version_of(const MaterialGrid& grid) {
+  if (!grid.fraction.empty()) return kWithCutCells;
   const bool has_poisson =
       std::any_of(grid.materials.begin(), grid.materials.end(),
                   [](const Material& m) { return m.poisson != kSpringPoisson; });
-  meta.insertMeta(kVersion, openvdb::Int32Metadata(has_poisson ? kFileVersion : kWithoutPoisson));
+  return has_poisson ? kWithPoisson : kFirstVersion;
+}
+
+openvdb::MetaMap metadata_of(const MaterialGrid& grid) {
+  openvdb::MetaMap meta;
+  meta.insertMeta(kVersion, openvdb::Int32Metadata(version_of(grid)));
   meta.insertMeta(kCell, openvdb::DoubleMetadata(grid.cell));
   meta.insertMeta(kOrigin,
                   openvdb::Vec3DMetadata({grid.origin.x(), grid.origin.y(), grid.origin.z()}));
@@ -110,6 +118,12 @@ openvdb::GridCPtrVec grids_of(const MaterialGrid& grid) {
   add("young", [&](auto n) { return grid.materials[grid.material[n]].young; });
   add("density", [&](auto n) { return grid.materials[grid.material[n]].density; });
   if (!grid.depth.empty()) add("depth", [&](auto n) { return grid.depth[n]; });
+  if (!grid.fraction.empty()) add("fraction", [&](auto n) { return grid.fraction[n]; });
+  if (!grid.surface.empty()) {
+    const auto surface = vdb_of_surface(grid, *transform_of(grid));
+    surface->setName("surface");
+    grids.push_back(surface);
+  }
   return grids;
 }
 
@@ -160,7 +174,10 @@ class Reader {
     grid.origin = {origin.x(), origin.y(), origin.z()};
     read_materials(grid);
     read_cells(grid);
-    if (file_.hasGrid("depth")) read_depth(grid);
+    if (file_.hasGrid("depth")) grid.depth = read_numbers("depth", grid.cells);
+    if (file_.hasGrid("fraction")) grid.fraction = read_numbers("fraction", grid.cells);
+    if (file_.hasGrid("surface"))
+      grid.surface = surface_of_vdb(*file_.readGrid("surface"), grid);
     if (value<bool>(kHasDistance))
       grid.distance = std::make_shared<DistanceField>(read_grid<openvdb::FloatGrid>("distance"));
     validate(grid);
@@ -233,11 +250,13 @@ class Reader {
     }
   }
 
-  void read_depth(MaterialGrid& grid) {
-    const auto depth = read_grid<openvdb::FloatGrid>("depth");
-    const auto accessor = depth->getConstAccessor();
-    for (const CellIndex& c : grid.cells)
-      grid.depth.push_back(accessor.getValue({c[0], c[1], c[2]}));
+  std::vector<float> read_numbers(const char* name, const std::vector<CellIndex>& cells) {
+    const auto numbers = read_grid<openvdb::FloatGrid>(name);
+    const auto accessor = numbers->getConstAccessor();
+    std::vector<float> of_cells;
+    of_cells.reserve(cells.size());
+    for (const CellIndex& c : cells) of_cells.push_back(accessor.getValue({c[0], c[1], c[2]}));
+    return of_cells;
   }
 
   const fs::path& path_;

@@ -17,12 +17,14 @@ static_assert(std::endian::native == std::endian::little,
               "arrays are copied from memory, and glTF is little-endian");
 
 inline constexpr const char* kExtension = "SPRINGLOD_lod_chain";
-inline constexpr int kVersion = 3;
+inline constexpr int kVersion = 4;
 /// The first version whose levels have corners.
 inline constexpr int kVersionWithCorners = 2;
 /// The first version whose materials have a Poisson's ratio and whose levels have dilatation terms.
 /// Assets without are written as the version before, which older programs read.
 inline constexpr int kVersionWithDilatation = 3;
+/// The first version whose base may have a contact surface; others are written as before.
+inline constexpr int kVersionWithSurface = 4;
 
 /// xxh3-64 over the double-precision arrays in the order of writing, each preceded by its length in
 /// bytes, and over the extension's JSON (keys sorted, no white space, without the checksum itself).

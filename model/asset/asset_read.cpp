@@ -88,6 +88,20 @@ DilatationTerms read_dilatation(const FieldReader& from, ArrayReader& arrays) {
   return terms;
 }
 
+ContactSurface read_contact_surface(const FieldReader& from, ArrayReader& arrays) {
+  ContactSurface surface;
+  const std::uint32_t count = from.optional_count("contactPoints");
+  if (count == 0) return surface;
+  surface.of_nodes.start = arrays.take<std::uint32_t>(from, "contactStart", count + 1ULL);
+  const std::uint32_t entries = surface.of_nodes.start.back();
+  surface.of_nodes.node = arrays.take<std::uint32_t>(from, "contactNode", entries);
+  surface.of_nodes.weight = arrays.take<double>(from, "contactWeight", entries);
+  surface.normal = arrays.take<Vec3>(from, "contactNormal", count);
+  surface.area = arrays.take<double>(from, "contactPointArea", count);
+  surface.stiffness = arrays.take<double>(from, "contactStiffness", count);
+  return surface;
+}
+
 void read_ends(const FieldReader& from, ArrayReader& arrays, MassSpringModel& model,
                std::uint32_t spring_count) {
   const auto ends = arrays.take<std::array<std::uint32_t, 2>>(from, "ends", spring_count);
@@ -111,6 +125,7 @@ class ExactReader {
     if (from.has("contact")) asset.chain.contact = read_contact(from.text("contact"));
     has_corners_ = from.count("version") >= asset_format::kVersionWithCorners;
     has_dilatation_ = from.count("version") >= asset_format::kVersionWithDilatation;
+    has_surface_ = from.count("version") >= asset_format::kVersionWithSurface;
     from.each("levels", [&](const json& level, const std::string&) {
       const std::size_t number = asset.chain.levels.size();
       asset.chain.levels.push_back(
@@ -148,6 +163,7 @@ class ExactReader {
     level.of_base.count = nodes;
     if (has_corners_) model.corners = read_corners(from, arrays_);
     if (has_dilatation_) model.dilatation = read_dilatation(from, arrays_);
+    if (has_surface_) model.surface = read_contact_surface(from, arrays_);
     if (from.has("certificate"))
       level.certificate = read_certificate(object["certificate"],
                                            fmt::format("the certificate of level {}", number));
@@ -185,6 +201,7 @@ class ExactReader {
   ArrayReader arrays_;
   bool has_corners_ = false;
   bool has_dilatation_ = false;
+  bool has_surface_ = false;
 };
 
 const json* find_extension(const json& gltf) {

@@ -47,6 +47,9 @@ class ExactWriter {
 
  private:
   static int version_of(const LodChain& chain) {
+    if (std::any_of(chain.levels.begin(), chain.levels.end(),
+                    [](const Level& level) { return !level.model.surface.empty(); }))
+      return asset_format::kVersionWithSurface;
     const auto with_dilatation = [](const Level& level) {
       return !level.model.dilatation.empty() ||
              std::any_of(level.model.materials.begin(), level.model.materials.end(),
@@ -113,6 +116,17 @@ class ExactWriter {
     put(object, "termGradient", terms.gradient);
   }
 
+  void put_surface(json& object, const ContactSurface& surface) {
+    if (surface.empty()) return;
+    object["contactPoints"] = surface.count();
+    put(object, "contactStart", surface.of_nodes.start);
+    put(object, "contactNode", surface.of_nodes.node);
+    put(object, "contactWeight", surface.of_nodes.weight);
+    put(object, "contactNormal", surface.normal);
+    put(object, "contactPointArea", surface.area);
+    put(object, "contactStiffness", surface.stiffness);
+  }
+
   json describe(const Level& level) {
     const MassSpringModel& model = level.model;
     json object{{"nodes", model.node_count()},
@@ -139,6 +153,7 @@ class ExactWriter {
     put(object, "nodeOfBase", level.of_base.of);
     put_corners(object, model.corners);
     put_dilatation(object, model.dilatation);
+    put_surface(object, model.surface);
     if (level.certificate) object["certificate"] = certificate_json(*level.certificate);
     return object;
   }
@@ -163,13 +178,15 @@ class ExactWriter {
 };
 
 /// Estimated size of the buffer: 112 B per node, 32 B per spring, 20 B per corner, and 20 B per
-/// dilatation term and 28 B per node of it, rounded up.
+/// dilatation term and 28 B per node of it, 44 B per contact point and 12 B per node of it, rounded
+/// up.
 std::size_t expected_bytes(const LodAsset& asset) {
   std::size_t bytes = std::size_t{64} * 1024;
   for (const Level& level : asset.chain.levels)
     bytes += 128 * level.model.rest.size() + 32 * level.model.a.size() +
              20 * level.model.corners.size() + 4 * level.of_base.of.size() +
-             20 * level.model.dilatation.modulus.size() + 28 * level.model.dilatation.node.size();
+             20 * level.model.dilatation.modulus.size() + 28 * level.model.dilatation.node.size() +
+             44 * level.model.surface.area.size() + 12 * level.model.surface.of_nodes.node.size();
   return bytes + 64 * asset.surface.positions.size() + 12 * asset.surface.triangles.size() +
          12 * asset.surface_of_base.node.size();
 }

@@ -165,10 +165,12 @@ void describe_grid_type(Api& api) {
              [](const GridValue& value) { return value.grid.cells.size(); });
   type.field("body_count", "integer", "number of bodies that do not touch, not even at a corner",
              [](const GridValue& value) { return voxelize::count_bodies(value.grid); });
-  type.field("volume", "number", "volume of the filled cells [m3]", [](const GridValue& value) {
-    return static_cast<double>(value.grid.cells.size()) * value.grid.cell * value.grid.cell *
-           value.grid.cell;
-  });
+  type.field("volume", "number", "volume of the filled cells, cut ones by their fractions [m3]",
+             [](const GridValue& value) { return volume(value.grid); });
+  type.field("surface_point_count", "integer",
+             "points of its surface, where a lattice on cut cells touches obstacles; 0 without cut "
+             "cells",
+             [](const GridValue& value) { return value.grid.surface.size(); });
   type.field("min", "{x, y, z}", "lowest corner of the filled cells [m]",
              [](const GridValue& value) { return Vec3(grid_box(value.grid).min()); });
   type.field("max", "{x, y, z}", "highest corner of the filled cells [m]",
@@ -176,8 +178,9 @@ void describe_grid_type(Api& api) {
   type.table_field(
       "materials", "list of Material", "materials by number",
       [](lua_State* L, const GridValue& value) { push_materials(L, value.grid.materials); });
-  type.table_field("cells", "list of {x, y, z, depth=, material=}",
-                   "centre [m], depth under the surface [m] and material's name of every cell",
+  type.table_field("cells", "list of {x, y, z, depth=, material=, fraction=}",
+                   "centre [m], depth under the surface [m] and material's name of every cell, and "
+                   "the fraction of a cut cell that is inside",
                    [](lua_State* L, const GridValue& value) {
                      const voxelize::MaterialGrid grid = with_depth(value);
                      begin_list(L, grid.cells.size());
@@ -186,6 +189,8 @@ void describe_grid_type(Api& api) {
                        if (i < grid.depth.size())
                          set_field(L, "depth", static_cast<double>(grid.depth[i]));
                        set_field(L, "material", grid.materials[grid.material[i]].name);
+                       if (!grid.fraction.empty())
+                         set_field(L, "fraction", static_cast<double>(grid.fraction[i]));
                        end_list_entry(L, i + 1);
                      }
                    });

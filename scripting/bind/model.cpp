@@ -276,6 +276,10 @@ void describe_model_type(Api& api) {
              [](const ModelValue& value) { return value.model->end_count(); });
   type.field("corner_count", "integer", "number of corners; 0 for a model built without volumes",
              [](const ModelValue& value) { return value.model->corner_count(); });
+  type.field("contact_point_count", "integer",
+             "points of the true surface of a lattice of cut cells, at which it touches obstacles; "
+             "0: it does at its nodes",
+             [](const ModelValue& value) { return value.model->surface.count(); });
   type.field("border_count", "integer", "number of border nodes",
              [](const ModelValue& value) { return border_count(*value.model); });
   type.field("part_count", "integer", "number of connected components",

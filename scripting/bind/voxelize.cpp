@@ -106,6 +106,7 @@ int voxelize_binding(Call& call) {
     options.paint = paint_function(call.lua(), function);
   }
   reader.read("repair", options.repair);
+  reader.read("cut_cells", options.cut_cells);
   reader.read("for_lattice", options.for_lattice);
   reader.finish();
   options.threads = call.session().settings().threads;
@@ -129,6 +130,7 @@ int voxelize_binding(Call& call) {
   value->voxelized = true;
   value->provenance = mesh->provenance;
   value->provenance.set("cell", fmt::format("{} m", value->grid.cell));
+  if (options.cut_cells) value->provenance.set("cut cells", "true");
   if (!result.report.repairs.empty())
     value->provenance.set("repair", fmt::format("{}", fmt::join(result.report.repairs, "; ")));
   return call.give(std::shared_ptr<const GridValue>(value));
@@ -312,6 +314,12 @@ void describe_voxelize_function(Api& api) {
             .fallback = "\"auto\"",
             .help = "what to do with holes and other faults of the mesh",
             .choices = words_of<voxelize::Repair>()},
+           {.name = "cut_cells",
+            .type = "boolean",
+            .fallback = "false",
+            .help = "count each cell that the surface cuts by the fraction of it that is inside, "
+                    "and touch obstacles at points of the surface: for round and slanting "
+                    "surfaces; of the lattice corners alone"},
            {.name = "for_lattice",
             .type = "boolean",
             .fallback = "false",

@@ -39,6 +39,8 @@ function conversion.add_body_options(parser)
     parser:option("--bending", "share of cells at free faces: plain stretches exactly, corrected "
       .. "bends and twists as accurately as half the cell size (default: plain)")
       :choices(s.choices.bending),
+    parser:flag("--cut-cells", "count cells that the surface cuts by the fraction of them inside, "
+      .. "and touch obstacles at points of the surface: for round and slanting surfaces"),
     parser:option("--repair", "treatment of holes and other faults of the mesh")
       :choices(s.choices.repair):default("auto"),
     parser:option("--bodies", "bodies that do not touch: one asset of all, the largest alone, or "
@@ -107,7 +109,7 @@ function conversion.bases(args, preset, path)
   local grid = s.voxelize(mesh, {
     cell = args.cell, materials = materials, core = core,
     priority = args.priority and words_of(args.priority), repair = args.repair,
-    for_lattice = true,
+    cut_cells = args.cut_cells, for_lattice = true,
   })
   local bases = {}
   for number, body in ipairs(bodies_of(grid, args)) do

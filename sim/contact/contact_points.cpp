@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/script_number.hpp"
-#include "sim/contact/node_surface.hpp"
+#include "sim/contact/body_surface.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -33,29 +33,25 @@ std::vector<double> damping_times(const MassSpringModel& model) {
 }  // namespace
 
 ContactPoints::ContactPoints(const MassSpringModel& model, const HeldNodes* held)
-    : node_mass_(model.mass) {
-  const std::vector<double> contact = node_surface(model).contact;
-  for (std::uint32_t i = 0; i < model.node_count(); ++i) {
-    if (!(model.contact_area[i] > 0)) continue;
-    shares_.push_back({.node = i, .weight = 1});
-    if (leave_out(held)) continue;
-    end_point(model, i, {.area = model.contact_area[i], .contact = contact[i]}, held);
-  }
+    : node_mass_(model.mass), names_(model.surface.empty() ? Names::nodes : Names::surface) {
+  const BodySurface surface = body_surface(model);
+  for (std::uint32_t p = 0; p < surface.count(); ++p)
+    if (add_shares(surface.of_nodes, p, held))
+      end_point(model, surface.node[p], {.area = surface.area[p], .contact = surface.contact[p]},
+                held);
 }
 
 ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& skin,
                              const HeldNodes* held)
-    : node_mass_(model.mass), skin_(true) {
+    : node_mass_(model.mass), names_(Names::skin) {
   validate(skin, node_count());
   const Binding& of_nodes = skin.of_nodes;
-  for (std::uint32_t p = 0; p < of_nodes.point_count(); ++p) {
-    for (std::uint32_t e = of_nodes.start[p]; e < of_nodes.start[p + 1]; ++e)
-      shares_.push_back({.node = of_nodes.node[e], .weight = of_nodes.weight[e]});
-    if (leave_out(held)) continue;
-    end_point(model, skin.base_node[p],
-              {.area = skin.area[p], .contact = skin.contact[p], .compliance = skin.compliance[p]},
-              held);
-  }
+  for (std::uint32_t p = 0; p < of_nodes.point_count(); ++p)
+    if (add_shares(of_nodes, p, held))
+      end_point(
+          model, skin.base_node[p],
+          {.area = skin.area[p], .contact = skin.contact[p], .compliance = skin.compliance[p]},
+          held);
   const std::vector<double> damping = damping_times(model);
   gradient_.assign(shares_.size(), Vec3::Zero());
   for (std::uint32_t p = 0; p < count(); ++p) {
@@ -66,12 +62,15 @@ ContactPoints::ContactPoints(const MassSpringModel& model, const ContactSkin& sk
   }
 }
 
-bool ContactPoints::leave_out(const HeldNodes* held) {
-  if (held == nullptr) return false;
-  for (std::size_t e = start_.back(); e < shares_.size(); ++e)
-    if (!held->holds(shares_[e].node)) return false;
-  shares_.resize(start_.back());
-  return true;
+bool ContactPoints::add_shares(const Binding& of_nodes, std::uint32_t point,
+                               const HeldNodes* held) {
+  bool moves = held == nullptr;
+  for (std::uint32_t e = of_nodes.start[point]; e < of_nodes.start[point + 1]; ++e) {
+    shares_.push_back({.node = of_nodes.node[e], .weight = of_nodes.weight[e]});
+    moves = moves || !held->holds(of_nodes.node[e]);
+  }
+  if (!moves) shares_.resize(start_.back());
+  return moves;
 }
 
 void ContactPoints::end_point(const MassSpringModel& model, std::uint32_t number,
@@ -140,8 +139,8 @@ ContactPoints::Yielding ContactPoints::yielding(std::size_t point, const Vec3& n
 }
 
 std::string ContactPoints::name(std::size_t point) const {
-  return fmt::format("{} {}{}", skin_ ? "the surface at node" : "node",
-                     script_number(number(point)), skin_ ? " of the base" : "");
+  return fmt::format("{} {}{}", names_ == Names::nodes ? "node" : "the surface at node",
+                     script_number(number(point)), names_ == Names::skin ? " of the base" : "");
 }
 
 }  // namespace springlod::sim

@@ -12,7 +12,7 @@
 
 namespace springlod::sim {
 
-/// The contact points of a body: its nodes with an area, or the points of a skin. A point p is at
+/// The contact points of a body (BodySurface), or the points of a skin. A point p is at
 /// sum w_i x_i. A force f at p acts as w_i f on the nodes. These forces do the same work and have
 /// the same resultant force and torque as f, since the w_i add up to 1 and reproduce p.
 class ContactPoints {
@@ -33,7 +33,7 @@ class ContactPoints {
   // Contacts do not move the nodes of `held`; null: none. Points all of whose nodes are held are
   // left out: nothing that they touch would move the body.
 
-  /// The nodes with a contact area, in ascending order.
+  /// Those of body_surface, in its order.
   explicit ContactPoints(const MassSpringModel& model, const HeldNodes* held = nullptr);
   /// Throws InputError for a skin that does not fit the model.
   ContactPoints(const MassSpringModel& model, const ContactSkin& skin,
@@ -64,7 +64,7 @@ class ContactPoints {
   /// Damping time of the compliance: mean of the springs of the nodes of the point [s].
   double compliance_damping(std::size_t point) const { return compliance_damping_[point]; }
   /// Stiffness of its contact with an obstacle, in series with a compliance [m/N]: k_n in eq. 64 of
-  /// docs/method.md [N/m]. If the obstacle has no stiffness, NodeSurface::contact takes its place.
+  /// docs/method.md [N/m]. If the obstacle has no stiffness, BodySurface::contact takes its place.
   double stiffness(std::size_t point, const Obstacle& obstacle, double compliance) const {
     const double bare =
         obstacle.stiffness ? *obstacle.stiffness * area_[point] : automatic_stiffness_[point];
@@ -87,7 +87,7 @@ class ContactPoints {
   }
   /// Number of the node that the point is, in the model or in the base; counted from 0.
   std::uint32_t number(std::size_t point) const { return number_[point]; }
-  /// For messages, counted from 1: "node 7", "the surface at node 7 of the base".
+  /// For messages, counted from 1: "node 7", "the surface at node 7", "the surface at node 7 of the base".
   std::string name(std::size_t point) const;
 
   /// Position or velocity of a point, from those of the nodes.
@@ -109,18 +109,18 @@ class ContactPoints {
   /// The properties of a point that is complete but for them.
   struct Surface {
     double area = 0;                 // [m2]
-    double contact = 0;              // see NodeSurface [N/m]
+    double contact = 0;              // see BodySurface [N/m]
     Mat3 compliance = Mat3::Zero();  // at rest [m/N]
   };
   void set_gradients(const MassSpringModel& model, std::uint32_t point);
   void end_point(const MassSpringModel& model, std::uint32_t number, const Surface& surface,
                  const HeldNodes* held);
 
-  /// Leaves out the point of the shares from the last one's on, if all its nodes are held.
-  bool leave_out(const HeldNodes* held);
+  /// Adds the shares of a point. Returns false, and adds none, if all its nodes are held.
+  bool add_shares(const Binding& of_nodes, std::uint32_t point, const HeldNodes* held);
 
   std::vector<double> node_mass_;
-  bool skin_ = false;
+  enum class Names { nodes, surface, skin } names_ = Names::nodes;  // what the points are called
   std::vector<std::uint32_t> start_{0};
   std::vector<Share> shares_;
   /// By share: the sum of x_i gradient_i^T is the deformation gradient at the point. Apart from the

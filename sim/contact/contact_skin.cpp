@@ -1,5 +1,6 @@
 #include "sim/contact/contact_skin.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,7 +12,7 @@
 #include "base/script_number.hpp"
 #include "lod/transfer.hpp"
 #include "sim/contact/lost_compliance.hpp"
-#include "sim/contact/node_surface.hpp"
+#include "sim/contact/body_surface.hpp"
 #include "sim/contact/skin_patches.hpp"
 
 namespace springlod::sim {
@@ -21,7 +22,7 @@ namespace {
 /// of one: first factor of eq. 65 of docs/method.md. (Two equal nodes joined by stiffness b and
 /// held by a - b: each alone is more compliant than both together by 1 / (2 (a + b)), less than
 /// half of 1 / a.)
-std::vector<double> lost_freedom(const MassSpringModel& base, const Groups& groups) {
+std::vector<double> lost_freedom_of_nodes(const MassSpringModel& base, const Groups& groups) {
   std::vector<double> mass(groups.count, 0);
   for (std::uint32_t i = 0; i < base.node_count(); ++i) mass[groups.of[i]] += base.mass[i];
   std::vector<double> lost;
@@ -30,7 +31,31 @@ std::vector<double> lost_freedom(const MassSpringModel& base, const Groups& grou
   return lost;
 }
 
-// Stiffness of a node that lost no freedom [N/m].
+/// The same of each point, by the weights of its nodes.
+std::vector<double> lost_freedom(const BodySurface& surface, const MassSpringModel& base,
+                                 const Groups& groups) {
+  const std::vector<double> of_nodes = lost_freedom_of_nodes(base, groups);
+  const Binding& binding = surface.of_nodes;
+  std::vector<double> lost;
+  for (std::uint32_t p = 0; p < surface.count(); ++p) {
+    double sum = 0;
+    for (std::uint32_t e = binding.start[p]; e < binding.start[p + 1]; ++e)
+      sum += binding.weight[e] * of_nodes[binding.node[e]];
+    lost.push_back(std::max(0.0, sum));
+  }
+  return lost;
+}
+
+/// The points of a surface as a skin: of the base itself.
+ContactSkin skin_of_base(const BodySurface& surface) {
+  return {.of_nodes = surface.of_nodes,
+          .area = surface.area,
+          .base_node = surface.node,
+          .contact = surface.contact,
+          .compliance = std::vector<Mat3>(surface.count(), Mat3::Zero())};
+}
+
+// Stiffness of a point that lost no freedom [N/m].
 constexpr double kRigid = std::numeric_limits<double>::infinity();
 
 // Smallest compliance of a point in any direction over the estimate of eq. 65 [1]. A level is more
@@ -59,49 +84,47 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
   const Level& skinned = level_at(chain, level);
   const MassSpringModel& base = chain.levels[0].model;
   const Groups& groups = skinned.of_base;
-  const NodeSurface surface = node_surface(base);
-  const std::vector<double> lost = lost_freedom(base, groups);
-  std::vector<std::uint32_t> nodes;
+  const BodySurface surface = body_surface(base);
+  if (level == 0) return skin_of_base(surface);
+  const std::vector<double> lost = lost_freedom(surface, base, groups);
   std::vector<SurfacePoint> points;
-  for (std::uint32_t i = 0; i < base.node_count(); ++i) {
-    if (!(base.contact_area[i] > 0)) continue;
-    nodes.push_back(i);
-    points.push_back({groups.of[i], base.rest[i], surface.normal[i], base.contact_area[i]});
-  }
+  for (std::uint32_t p = 0; p < surface.count(); ++p)
+    points.push_back({groups.of[surface.node[p]], surface.position[p], surface.normal[p],
+                      surface.area[p]});
   ContactSkin skin;
   std::vector<lod::GroupPoint> means;
   Binding of_base;
   of_base.start.push_back(0);
   std::vector<double> estimate;  // of the compliance [m/N]
-  for (std::vector<std::uint32_t> patch : flat_patches(points, mean_spring_length(base))) {
-    for (std::uint32_t& member : patch) member = nodes[member];
+  const Binding& rows = surface.of_nodes;
+  for (const std::vector<std::uint32_t>& patch : flat_patches(points, mean_spring_length(base))) {
     double area = 0;
     Vec3 moment = Vec3::Zero();  // sum of area times position [m3]
     double contact = 0;
     double yielding = 0;  // inverse compliance: the nodes yield in parallel [N/m]
-    for (const std::uint32_t i : patch) {
-      area += base.contact_area[i];
-      moment += base.contact_area[i] * base.rest[i];
-      contact += surface.contact[i];
-      if (lost[i] > 0)
-        yielding += surface.stiffness[i] / lost[i];
+    for (const std::uint32_t p : patch) {
+      area += surface.area[p];
+      moment += surface.area[p] * surface.position[p];
+      contact += surface.contact[p];
+      if (lost[p] > 0)
+        yielding += surface.stiffness[p] / lost[p];
       else
         yielding = kRigid;
     }
-    for (const std::uint32_t i : patch) {
-      of_base.node.push_back(i);
-      of_base.weight.push_back(base.contact_area[i] / area);
-    }
+    for (const std::uint32_t p : patch)
+      for (std::uint32_t e = rows.start[p]; e < rows.start[p + 1]; ++e) {
+        of_base.node.push_back(rows.node[e]);
+        of_base.weight.push_back(rows.weight[e] * surface.area[p] / area);
+      }
     of_base.start.push_back(static_cast<std::uint32_t>(of_base.node.size()));
-    means.push_back({moment / area, groups.of[patch.front()]});
+    means.push_back({moment / area, groups.of[surface.node[patch.front()]]});
     skin.area.push_back(area);
-    skin.base_node.push_back(patch.front());
+    skin.base_node.push_back(surface.node[patch.front()]);
     skin.contact.push_back(contact);
     estimate.push_back(yielding > 0 ? 1 / yielding : 0);
   }
   skin.of_nodes = lod::points_from_groups(means, skinned.model);
   skin.compliance.assign(means.size(), Mat3::Zero());
-  if (level == 0) return skin;
   const std::vector<std::optional<Mat3>> removed =
       lost_compliance(chain, level, {of_base, skin.of_nodes, means});
   for (std::size_t p = 0; p < means.size(); ++p) {

@@ -38,7 +38,7 @@ class HeldRegion {
         place_(model.node_count(), kOutside) {}
 
   void take(const std::vector<std::uint32_t>& nodes);
-  /// Of one of the points, whose nodes must be in the region [m/N].
+  /// Of one of the points [m/N]; its nodes outside the region do not move.
   Mat3 compliance(const Binding& points, std::uint32_t point) const;
 
  private:
@@ -95,7 +95,8 @@ void HeldRegion::take(const std::vector<std::uint32_t>& nodes) {
 Mat3 HeldRegion::compliance(const Binding& points, std::uint32_t point) const {
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(3, factor_.rows());
   for (std::uint32_t e = points.start[point]; e < points.start[point + 1]; ++e)
-    forces.middleCols<3>(place_[points.node[e]]) += points.weight[e] * Mat3::Identity();
+    if (place_[points.node[e]] != kOutside)
+      forces.middleCols<3>(place_[points.node[e]]) += points.weight[e] * Mat3::Identity();
   elastic::solve_right_transposed(factor_, forces);
   return forces * forces.transpose();
 }

@@ -14,7 +14,7 @@ namespace springlod::sim {
 /// P points of the surface of a base, each bound to nodes of the base and of a level. These must
 /// outlive this.
 struct BoundSurface {
-  const Binding& to_base;   ///< to nodes of the group alone
+  const Binding& to_base;   ///< to nodes of the group and its spring neighbours
   const Binding& to_level;  ///< to the node of the group and its spring neighbours
   const std::vector<lod::GroupPoint>& points;  ///< P
 };

@@ -22,7 +22,8 @@ constexpr double kEarthGravity = 9.81;
 // Contact of a node without springs, which has no stiffness [N/m3].
 constexpr double kLooseStiffness = 1e6;
 
-// Force per contact area and depth that bears the weight of the body at that sinking [N/m3].
+}  // namespace
+
 double bearing_stiffness(const MassSpringModel& model) {
   const double length = mean_spring_length(model);
   if (!(length > 0)) return 0;
@@ -31,8 +32,6 @@ double bearing_stiffness(const MassSpringModel& model) {
       whole.mass / whole.volume * kEarthGravity * bounds(model.rest).diagonal().norm();
   return pressure / (kSinking * length);
 }
-
-}  // namespace
 
 NodeSurface node_surface(const MassSpringModel& model) {
   std::vector<Vec3> outwards(model.node_count(), Vec3::Zero());

@@ -20,4 +20,8 @@ struct NodeSurface {
 };
 NodeSurface node_surface(const MassSpringModel& model);
 
+/// Force per contact area and depth that bears the weight of the body while it sinks in by little
+/// [N/m3]; 0 for a body without springs.
+double bearing_stiffness(const MassSpringModel& model);
+
 }  // namespace springlod::sim

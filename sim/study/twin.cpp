@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lod/transfer.hpp"
-#include "sim/contact/node_surface.hpp"
+#include "sim/contact/body_surface.hpp"
 
 namespace springlod::sim {
 namespace {
@@ -37,17 +37,17 @@ ContactSkin nodes_of_level_as_skin(const LodChain& chain, std::uint32_t level,
   const MassSpringModel& fine = level_at(chain, level).model;
   const MassSpringModel& body = level_at(chain, coarse).model;
   const std::vector<std::uint32_t> group = coarse_of_fine(chain, level, coarse);
-  const NodeSurface surface = node_surface(fine);
+  const BodySurface surface = body_surface(fine);
   ContactSkin skin;
   std::vector<lod::GroupPoint> points;
-  for (std::uint32_t i = 0; i < fine.node_count(); ++i) {
-    if (!(fine.contact_area[i] > 0)) continue;
-    points.push_back({fine.rest[i], group[i]});
-    skin.area.push_back(fine.contact_area[i]);
-    skin.base_node.push_back(i);
-    skin.contact.push_back(surface.contact[i]);
+  skin.area = surface.area;
+  skin.base_node = surface.node;
+  skin.contact = surface.contact;
+  for (std::uint32_t p = 0; p < surface.count(); ++p) {
+    const std::uint32_t i = surface.node[p];
+    points.push_back({surface.position[p], group[i]});
     const double lost = std::max(0.0, 1 - fine.mass[i] / body.mass[group[i]]);
-    skin.compliance.emplace_back((surface.stiffness[i] > 0 ? lost / surface.stiffness[i] : 0) *
+    skin.compliance.emplace_back((surface.stiffness[p] > 0 ? lost / surface.stiffness[p] : 0) *
                                  Mat3::Identity());
   }
   skin.of_nodes = lod::points_from_groups(points, body);
@@ -59,6 +59,7 @@ MassSpringModel stiffened(const MassSpringModel& model, double factor) {
   for (double& k : changed.stiffness) k *= factor;
   for (double& c : changed.damping) c *= factor;
   for (double& modulus : changed.dilatation.modulus) modulus *= factor;
+  for (double& k : changed.surface.stiffness) k *= factor;
   return changed;
 }
 

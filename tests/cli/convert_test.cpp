@@ -105,6 +105,26 @@ TEST_CASE("convert gives the levels corners unless it is told to leave them out"
   CHECK(corners({"--no-volumes"}) == std::vector<int>{0, 0, 0});
 }
 
+TEST_CASE("convert --cut-cells keeps the volume of the mesh and the points of its surface") {
+  const TemporaryFolder scratch;
+  const std::string ball = (source_folder() / "samples/ball.obj").string();
+  const Ran ran = springlod_run({"-q", "convert", ball, "-o", (scratch / "ball.glb").string(),
+                                 "--cell", "2cm", "--cut-cells", "--fast"});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  const Ran checked = springlod_run({"-q", "-e", R"(
+    local s = require "springlod"
+    local chain = s.load("ball.glb")
+    local volume = s.import(arg[1]).solids[1].volume
+    assert(math.abs(chain[0].volume / volume - 1) < 1e-3, chain[0].volume / volume)
+    assert(chain[0].contact_point_count > 100)
+    assert(chain[1].contact_point_count == 0))",
+                                     ball},
+                                    "", scratch.path());
+  CAPTURE(checked.err);
+  CHECK(checked.exit_code == 0);
+}
+
 TEST_CASE("convert --bending corrected moves the mass of the surface inwards") {
   const TemporaryFolder scratch;
   spit(scratch / "bar.obj", small_dumbbell());

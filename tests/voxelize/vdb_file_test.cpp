@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "tests/support/cut_ball.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/voxelize/grids.hpp"
 #include "tests/voxelize/shapes.hpp"
@@ -44,6 +45,24 @@ TEST_CASE("A voxelized mesh is restored from a .vdb file") {
   // A loaded grid can be saved again, including its level set.
   save_vdb(loaded, folder / "again.vdb");
   check_same(grid, load_vdb(folder / "again.vdb"));
+}
+
+TEST_CASE("Cut cells and the points of the surface are restored from a .vdb file") {
+  const TemporaryFolder folder;
+  const MaterialGrid grid = cut_ball_grid(7.3);
+  save_vdb(grid, folder / "cut.vdb");
+  const MaterialGrid loaded = load_vdb(folder / "cut.vdb");
+  check_same(grid, loaded);
+  CHECK(loaded.fraction == grid.fraction);
+  REQUIRE(loaded.surface.size() == grid.surface.size());
+  for (std::size_t p = 0; p < grid.surface.size(); ++p) {
+    const SurfacePoint& was = grid.surface[p];
+    const SurfacePoint& is = loaded.surface[p];
+    CHECK(is.cell == was.cell);
+    CHECK(is.area == was.area);
+    CHECK(is.normal == was.normal);
+    for (std::size_t d = 0; d < 3; ++d) CHECK(is.place[d] == Approx(was.place[d]).margin(1e-6));
+  }
 }
 
 TEST_CASE("A grid without level set, with negative cell indices, is restored") {

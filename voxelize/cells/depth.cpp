@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "voxelize/cells/frame.hpp"
+#include "voxelize/cells/inside.hpp"
 #include "voxelize/cells/nearest_surface.hpp"
 
 namespace springlod::voxelize {
@@ -25,6 +26,10 @@ std::vector<float> measure_depth(const MaterialGrid& grid, const TriangleMesh& m
   depth.reserve(grid.cells.size());
   for (std::size_t n = 0; n < grid.cells.size(); ++n) {
     const CellIndex& c = grid.cells[n];
+    if (!grid.fraction.empty() && grid.distance != nullptr && distance_at(*grid.distance, c) > 0) {
+      depth.push_back(0);  // of a cut cell whose centre is outside
+      continue;
+    }
     const Vec3 center(c[0], c[1], c[2]);
     depth.push_back(
         static_cast<float>(grid.cell * (nearest[n].point.cast<double>() - center).norm()));

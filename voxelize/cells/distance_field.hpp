@@ -1,6 +1,6 @@
 #pragma once
 
-// Includes OpenVDB: for inside.cpp and vdb_file.cpp only.
+// Includes OpenVDB: for inside.cpp, fractions.cpp and vdb_file.cpp only.
 #include <openvdb/Grid.h>
 
 namespace springlod::voxelize {

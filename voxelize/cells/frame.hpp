@@ -46,4 +46,7 @@ struct CellFrame {
 /// message has the smallest possible cell).
 CellFrame frame_around(const Box3& box, double cell);
 
+/// The frame with one more cell on each side.
+CellFrame padded(const CellFrame& frame);
+
 }  // namespace springlod::voxelize

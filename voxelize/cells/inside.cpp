@@ -6,6 +6,7 @@
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Composite.h>
+#include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/MeshToVolume.h>
 #include <openvdb/tools/SignedFloodFill.h>
 #include <openvdb/tools/TopologyToLevelSet.h>
@@ -198,6 +199,11 @@ std::vector<CellIndex> cells_inside(const DistanceField& field, const CellFrame&
 
 double distance_at(const DistanceField& field, const CellIndex& cell) {
   return field.grid->tree().getValue(coord(cell));
+}
+
+double distance_at(const DistanceField& field, const Vec3& place) {
+  return openvdb::tools::BoxSampler::sample(field.grid->tree(),
+                                            openvdb::Vec3d(place.x(), place.y(), place.z()));
 }
 
 }  // namespace springlod::voxelize

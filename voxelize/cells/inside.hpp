@@ -44,5 +44,7 @@ std::vector<CellIndex> cells_inside(const DistanceField& field, const CellFrame&
 /// Distance of the centre of a cell from the surface [m], negative inside, at most that of the
 /// band of three cells.
 double distance_at(const DistanceField& field, const CellIndex& cell);
+/// The same at any place, in cells (CellFrame::to_index), interpolated between the centres.
+double distance_at(const DistanceField& field, const Vec3& place);
 
 }  // namespace springlod::voxelize

@@ -31,8 +31,8 @@ std::string advice_for(double thick, double cell) {
 }  // namespace
 
 std::optional<std::string> volume_fault(const TriangleMesh& mesh, const SolidReport& solid,
-                                        double volume, std::size_t cells, double cell) {
-  const double filled = static_cast<double>(cells) * std::pow(cell, 3);
+                                        double volume, double cells, double cell) {
+  const double filled = cells * std::pow(cell, 3);
   if (cells > 0 && std::abs(filled - volume) <= kVolumeTolerance * volume) return std::nullopt;
   const std::string advice = advice_for(thickness(mesh, solid, volume), cell);
   if (cells == 0)

@@ -8,6 +8,7 @@
 #include "base/disjoint_sets.hpp"
 #include "model/point_bins.hpp"
 #include "voxelize/bodies.hpp"
+#include "voxelize/index_lookup.hpp"
 #include "voxelize/mesh/weld.hpp"
 
 namespace springlod::voxelize {
@@ -135,7 +136,11 @@ SeparateBodies separate_bodies(const MaterialGrid& grid, const TriangleMesh& mes
     body.cells.push_back(grid.cells[n]);
     body.material.push_back(grid.material[n]);
     if (!grid.depth.empty()) body.depth.push_back(grid.depth[n]);
+    if (!grid.fraction.empty()) body.fraction.push_back(grid.fraction[n]);
   }
+  const IndexLookup lookup(grid.cells);
+  for (const SurfacePoint& point : grid.surface)
+    result.bodies[bodies.of[lookup.find(point.cell)]].grid.surface.push_back(point);
   const std::vector<MaterialInput> inputs = inputs_of(grid);
   for (GridBody& body : result.bodies) finish_materials(body.grid, inputs);
   return result;

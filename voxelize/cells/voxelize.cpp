@@ -11,7 +11,9 @@
 #include "base/error.hpp"
 #include "voxelize/bodies.hpp"
 #include "voxelize/cells/claim_order.hpp"
+#include "voxelize/cells/cut_cells.hpp"
 #include "voxelize/cells/depth.hpp"
+#include "voxelize/cells/fractions.hpp"
 #include "voxelize/cells/frame.hpp"
 #include "voxelize/cells/inside.hpp"
 #include "voxelize/cells/material_choice.hpp"
@@ -19,6 +21,7 @@
 #include "voxelize/cells/resolution.hpp"
 #include "voxelize/cells/slivers.hpp"
 #include "voxelize/cells/solid_field.hpp"
+#include "voxelize/cells/surface_points.hpp"
 #include "voxelize/enough_memory.hpp"
 #include "voxelize/grid.hpp"
 #include "voxelize/mesh/repair.hpp"
@@ -129,7 +132,10 @@ class Voxelizer {
     report().cell =
         options_.cell.value_or(box.isEmpty() ? 0 : box.sizes().maxCoeff() / kDefaultCells);
     frame_ = frame_around(box, report().cell);
+    // A box of whole cells stays one; other surfaces may cut cells beyond it.
+    if (options_.cut_cells) frame_ = padded(frame_);
     owner_.assign(frame_.count(), 0);
+    if (options_.cut_cells) cut_cells_.emplace(frame_);
   }
 
   void require_memory_for_cells() const {
@@ -139,8 +145,10 @@ class Voxelizer {
     const double touched = surface_area(mesh()) / std::pow(frame_.cell, 2);
     if (!(filled > 0)) return;
     const auto all = static_cast<double>(frame_.count());
-    const double bytes = sizeof(owner_[0]) * all + kBytesPerCell * filled +
-                         kBytesPerSurfaceCell * touched +
+    // Half cells make four times the surface cells.
+    const double of_frame = sizeof(owner_[0]) + (options_.cut_cells ? kBytesPerCutCell : 0);
+    const double per_surface = (options_.cut_cells ? 5 : 1) * kBytesPerSurfaceCell;
+    const double bytes = of_frame * all + kBytesPerCell * filled + per_surface * touched +
                          (options_.for_lattice ? kLatticeBytesPerNode * filled : 0);
     require_memory_of_cells("voxelize", filled, bytes / filled, frame_.cell);
   }
@@ -149,7 +157,10 @@ class Voxelizer {
   // their cells in sequence, so the number of threads does not change the result.
   void fill_solids(const std::vector<Shells>& shells) {
     const std::vector<std::size_t> order = claim_order(mesh(), solids_, options_.priority);
-    const std::vector<Vec3> positions = positions_in_cells();
+    const std::vector<Vec3> positions = positions_in(frame_);
+    const CellFrame halves = halved(frame_);
+    const std::vector<Vec3> in_halves =
+        options_.cut_cells ? positions_in(halves) : std::vector<Vec3>();
     Task task(options_.progress, "voxelize", solids_.size());
     std::size_t next = 0;
     const auto choose = [&](tbb::flow_control& control) -> std::size_t {
@@ -159,12 +170,14 @@ class Voxelizer {
     };
     // Kept here, because a pipeline that ends with an exception leaks what its filters hand on.
     std::vector<SolidField> fields(shells.size());
+    std::vector<SolidField> fine_fields(shells.size());
     const auto make_field = [&](std::size_t s) {
-      fields[s] = field_of(solids_[s], shells[s], positions);
+      fields[s] = field_of(solids_[s], shells[s], positions, frame_);
+      if (options_.cut_cells) fine_fields[s] = field_of(solids_[s], shells[s], in_halves, halves);
       return s;
     };
     const auto claim = [&](std::size_t s) {
-      fill_solid(s, shells[s], std::move(fields[s]));
+      fill_solid(s, shells[s], std::move(fields[s]), std::move(fine_fields[s]).distance);
       task.advance();
     };
     using tbb::filter_mode;
@@ -175,27 +188,28 @@ class Voxelizer {
             tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, claim));
   }
 
-  std::vector<Vec3> positions_in_cells() const {
+  std::vector<Vec3> positions_in(const CellFrame& frame) const {
     std::vector<Vec3> positions;
     positions.reserve(mesh().positions.size());
-    for (const Vec3& p : mesh().positions) positions.push_back(frame_.to_index(p));
+    for (const Vec3& p : mesh().positions) positions.push_back(frame.to_index(p));
     return positions;
   }
 
   // OpenVDB leaks memory if its tasks are cancelled. In a context of their own, they end normally
   // after an interrupt or the failure of another part.
-  SolidField field_of(const SolidReport& solid, const Shells& shells,
-                      const std::vector<Vec3>& positions) const {
+  static SolidField field_of(const SolidReport& solid, const Shells& shells,
+                             const std::vector<Vec3>& positions, const CellFrame& frame) {
     SolidField field;
     tbb::task_group_context own(tbb::task_group_context::isolated);
     tbb::task_group(own).run_and_wait([&] {
-      field = solid.closed() ? closed_field(shells, positions, frame_)
-                             : open_field(shells, positions, frame_);
+      field = solid.closed() ? closed_field(shells, positions, frame)
+                             : open_field(shells, positions, frame);
     });
     return field;
   }
 
-  void fill_solid(std::size_t s, const Shells& shells, SolidField field) {
+  // `halves`: the level set in half cells, for cut cells; else null.
+  void fill_solid(std::size_t s, const Shells& shells, SolidField field, const Field& halves) {
     const SolidReport& solid = solids_[s];
     if (shells.turned && solid.closed())
       warn(fmt::format("part \"{}\" faced inwards; its triangles were reversed", solid.part));
@@ -204,8 +218,9 @@ class Voxelizer {
           fmt::format("part \"{}\" has {} non-manifold or inconsistently oriented edges; check the "
                       "result",
                       solid.part, solid.nonmanifold_edges));
-    const std::size_t cells =
-        claim_cells(*field.distance, frame_, static_cast<std::uint16_t>(s + 1), owner_);
+    const auto number = static_cast<std::uint16_t>(s + 1);
+    auto cells = static_cast<double>(claim_cells(*field.distance, frame_, number, owner_));
+    if (cut_cells_) cells = cut_cells_->add(number, *field.distance, *halves, owner_);
     report_crossing(solid, field, cells);
     const double once = shells.volume - field.doubled + 2 * field.reversed;
     compare_volume(s, solid.closed() ? once : solid.volume, cells);
@@ -215,8 +230,8 @@ class Voxelizer {
       unite(*distance_, *field.distance);
   }
 
-  void report_crossing(const SolidReport& solid, const SolidField& field, std::size_t cells) {
-    const double percent = 100 / (static_cast<double>(cells) * std::pow(frame_.cell, 3));
+  void report_crossing(const SolidReport& solid, const SolidField& field, double cells) {
+    const double percent = 100 / (cells * std::pow(frame_.cell, 3));
     if (field.doubled > 0)
       repaired(
           fmt::format("part \"{}\": {:.2g} % of its volume lies inside its surfaces more than "
@@ -242,7 +257,7 @@ class Voxelizer {
     warn(std::move(text));
   }
 
-  void compare_volume(std::size_t s, double volume, std::size_t cells) {
+  void compare_volume(std::size_t s, double volume, double cells) {
     report().mesh_volume += volume;
     if (auto fault = volume_fault(mesh(), solids_[s], volume, cells, frame_.cell)) {
       unresolved(std::move(*fault));
@@ -251,6 +266,9 @@ class Voxelizer {
   }
 
   void gather_cells() {
+    std::vector<float> fraction;
+    if (cut_cells_) fraction = std::move(*cut_cells_).finish(owner_);
+    cut_cells_.reset();
     const auto count =
         owner_.size() - static_cast<std::size_t>(std::count(owner_.begin(), owner_.end(), 0));
     if (count == 0)
@@ -271,8 +289,10 @@ class Voxelizer {
           if (owner_[n] == 0) continue;
           grid().cells.push_back(c);
           grid().material.push_back(static_cast<std::uint16_t>(owner_[n] - 1));
+          if (!fraction.empty()) grid().fraction.push_back(fraction[n]);
         }
     std::vector<std::uint16_t>().swap(owner_);
+    if (options_.cut_cells) grid().surface = surface_points(grid(), mesh());
   }
 
   // Call while grid().material has the numbers of the solids.
@@ -371,7 +391,7 @@ class Voxelizer {
                        key));
     const std::vector<MaterialInput> used = materials_.finish(grid().material);
     set_materials(grid(), used, bodies_);
-    report().grid_volume = static_cast<double>(grid().cells.size()) * std::pow(frame_.cell, 3);
+    report().grid_volume = volume(grid());
     return std::move(result_);
   }
 
@@ -382,6 +402,7 @@ class Voxelizer {
   std::vector<SolidReport> solids_;
   std::vector<std::uint16_t>
       owner_;                       // solid + 1 of each cell of the frame until cells are gathered
+  std::optional<CutCells> cut_cells_;
   std::set<std::size_t> reported_;  // solids whose cells have another volume
   DisjointSets::Numbers bodies_;    // that the cells form
   Field distance_;

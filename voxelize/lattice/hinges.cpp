@@ -130,18 +130,22 @@ void insert_cells(MaterialGrid& grid, const std::vector<AddedCell>& added) {
   merged.cells.clear();
   merged.material.clear();
   merged.depth.clear();
+  merged.fraction.clear();
   auto next = added.begin();
-  const auto put = [&](const CellIndex& cell, std::uint16_t material, float depth) {
+  const auto put = [&](const CellIndex& cell, std::uint16_t material, float depth,
+                       double fraction) {
     merged.cells.push_back(cell);
     merged.material.push_back(material);
     if (has_depth) merged.depth.push_back(depth);
+    if (!grid.fraction.empty()) merged.fraction.push_back(static_cast<float>(fraction));
   };
+  const auto fill = [&] { put(next->cell, next->material, 0, 1); };
   for (std::size_t n = 0; n < grid.cells.size(); ++n) {
     for (; next != added.end() && grid_order(next->cell, grid.cells[n]); ++next)
-      put(next->cell, next->material, 0);
-    put(grid.cells[n], grid.material[n], has_depth ? grid.depth[n] : 0);
+      fill();
+    put(grid.cells[n], grid.material[n], has_depth ? grid.depth[n] : 0, grid.fraction_of(n));
   }
-  for (; next != added.end(); ++next) put(next->cell, next->material, 0);
+  for (; next != added.end(); ++next) fill();
   grid = std::move(merged);
 }
 

@@ -12,20 +12,15 @@
 #include "voxelize/cell_material.hpp"
 #include "voxelize/enough_memory.hpp"
 #include "voxelize/index_lookup.hpp"
+#include "voxelize/lattice/bind_surface.hpp"
 #include "voxelize/lattice/cell_dilatation.hpp"
+#include "voxelize/lattice/cell_stiffness.hpp"
 #include "voxelize/lattice/corner_nodes.hpp"
 #include "voxelize/lattice/corner_young.hpp"
 #include "voxelize/lattice/hinges.hpp"
 
 namespace springlod::voxelize {
 namespace {
-
-// Cubic lattice of 6 + 12 neighbours with one constant k: E = 2.5 k / a (docs/method.md, eq. 1).
-constexpr double kYoungPerStiffness = 2.5;
-
-double cell_stiffness(const Material& material, double cell) {
-  return spring_young(material) * cell / kYoungPerStiffness;
-}
 
 Vec3 corner_position(const MaterialGrid& grid, const CellIndex& at) {
   return grid.origin + grid.cell * Vec3(at[0], at[1], at[2]);
@@ -73,9 +68,11 @@ void add_spring(MassSpringModel& model, std::uint32_t a, std::uint32_t b, double
 // three.
 using FaceShares = std::array<std::array<double, 2>, 3>;
 
-FaceShares face_shares(const CornerNodes& nodes, std::uint32_t cell, Bending bending) {
+FaceShares face_shares(const MaterialGrid& grid, const CornerNodes& nodes, std::uint32_t cell,
+                       Bending bending) {
   constexpr double kHalf = 0.5;
   constexpr double kEndCorrection = 1. / 12;  // of Euler and Maclaurin's sum, with a difference
+  const bool whole = grid.fraction_of(cell) == 1;  // the faces of a cut cell are not the body's
   FaceShares shares;
   for (unsigned axis = 0; axis < 3; ++axis) {
     const auto is_free = [&](unsigned side) {
@@ -83,7 +80,7 @@ FaceShares face_shares(const CornerNodes& nodes, std::uint32_t cell, Bending ben
       return nodes.around[nodes.of_cell[cell][corner]][(7 - corner) ^ (1U << axis)] == kNoIndex;
     };
     double moved = 0;  // from the low to the high face
-    if (bending == Bending::corrected)
+    if (bending == Bending::corrected && whole)
       moved = kEndCorrection * (static_cast<double>(is_free(0)) - static_cast<double>(is_free(1)));
     shares[axis] = {kHalf - moved, kHalf + moved};
   }
@@ -104,8 +101,10 @@ void add_corner_node(MassSpringModel& model, const MaterialGrid& grid, const Cor
       border = true;
       continue;
     }
-    const FaceShares shares = face_shares(nodes, around[o], bending);
-    double part = whole;
+    const FaceShares shares = face_shares(grid, nodes, around[o], bending);
+    const double fraction = grid.fraction_of(around[o]);
+    border |= fraction < 1;
+    double part = whole * fraction;
     for (unsigned axis = 0; axis < 3; ++axis) part *= shares[axis][(7 - o) >> axis & 1U];
     mass += grid.materials[grid.material[around[o]]].density * part;
     volume += part;
@@ -131,8 +130,8 @@ void gather_springs(const MaterialGrid& grid, const CornerNodes& nodes, std::uin
     const std::uint32_t cell = nodes.around[node][o];
     if (cell == kNoIndex) continue;
     const Material& material = grid.materials[grid.material[cell]];
-    const double cell_k = cell_stiffness(material, grid.cell);
-    const FaceShares shares = face_shares(nodes, cell, bending);
+    const double cell_k = grid.fraction_of(cell) * cell_stiffness(material, grid.cell);
+    const FaceShares shares = face_shares(grid, nodes, cell, bending);
     const unsigned here = 7 - o;
     const auto share_of = [&](unsigned axis) { return shares[axis][here >> axis & 1U]; };
     const auto add = [&](unsigned step, double share) {
@@ -162,7 +161,7 @@ void add_cell_corners(const MaterialGrid& grid, const CornerNodes& nodes, std::u
     const std::array<std::uint32_t, 8>& of_cell = nodes.of_cell[cell];
     const unsigned here = 7 - o;
     add_corner(model, node, o, {of_cell[here ^ 1U], of_cell[here ^ 2U], of_cell[here ^ 4U]},
-               grid.materials[grid.material[cell]].young);
+               grid.fraction_of(cell) * grid.materials[grid.material[cell]].young);
   }
   sort_corners(model, first);
 }
@@ -180,6 +179,7 @@ MassSpringModel corners_model(const MaterialGrid& grid, const CornerNodes& nodes
     for (const SpringSum& sum : sums) add_spring(model, node, sum.to, sum.k, sum.c);
   }
   model.dilatation = cell_terms(grid, nodes);
+  bind_surface(grid, nodes, model);
   if (!options.volumes) return model;
   model.corners.reserve(8 * grid.cells.size());
   for (std::uint32_t node = 0; node < count; ++node) add_cell_corners(grid, nodes, node, model);
@@ -330,6 +330,9 @@ LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& optio
   if (options.style == LatticeStyle::centers && options.bending == Bending::corrected)
     throw InputError(
         "lattice: bending = \"corrected\" is for style = \"corners\"; leave one of both out");
+  if (options.style == LatticeStyle::centers && !grid.fraction.empty())
+    throw InputError(
+        "lattice: cut cells are for style = \"corners\"; make the grid without cut_cells");
   require_memory_for(grid.cells.size(), grid);
   LatticeModel lattice;
   if (options.style == LatticeStyle::corners)

@@ -102,8 +102,14 @@ struct LatticeModel {
 
 /// Builds a lattice. Nodes are in the order (z, y, x). Contact areas are the areas of the exposed
 /// cell faces (`corners`: a quarter for each corner). A border node lacks one of its 18 lattice
-/// neighbours (`centers`) or one of its 8 cells (`corners`). Throws InputError for an empty grid,
-/// and for corrected bending of `centers`.
+/// neighbours (`centers`) or one of its 8 cells (`corners`).
+///
+/// A cut cell counts by its fraction: its springs, their dampers, its mass, its dilatation term and
+/// its corners all do, so that no part of it vibrates faster than a whole cell (docs/method.md, eq.
+/// 4b). A grid with points of its surface gives the model its contact surface; each node then has
+/// the area that the weights of the points give it.
+///
+/// Throws InputError for an empty grid, and for corrected bending and cut cells of `centers`.
 LatticeModel build_lattice(const MaterialGrid& grid, const LatticeOptions& options = {});
 
 }  // namespace springlod::voxelize

@@ -288,6 +288,7 @@ void count_ends(RandomModel& random) {
 }  // namespace
 
 RandomModel build_random(const MaterialGrid& grid, const RandomOptions& options) {
+  if (!grid.fraction.empty()) return build_random(whole_cells(grid), options);
   validate(grid);
   if (grid.cells.empty())
     throw InputError("random: the grid has no filled cells; use smaller cells");

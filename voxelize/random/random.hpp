@@ -77,7 +77,8 @@ struct RandomModel {
 /// Between two materials E is the harmonic mean, as in a `centers` lattice. The material of a node
 /// is that of most of its volume. Border nodes are the nodes on the surface.
 ///
-/// Nodes are in the order (z, y, x). The same seed gives the same bits. Throws InputError: an empty
+/// Of a grid of cut cells, those of which at least half is inside count, as whole ones. Nodes are
+/// in the order (z, y, x). The same seed gives the same bits. Throws InputError: an empty
 /// grid, fewer than 15 nodes or more than the cells have room for, fewer than 14 ends.
 RandomModel build_random(const MaterialGrid& grid, const RandomOptions& options = {});
 

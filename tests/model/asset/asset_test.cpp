@@ -12,6 +12,7 @@
 #include "tests/model/asset/glb_text.hpp"
 #include "tests/support/assets.hpp"
 #include "tests/support/dilatation.hpp"
+#include "tests/support/lattices.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -52,6 +53,12 @@ void check_same(const LodAsset& a, const LodAsset& b) {
     CHECK(same_bits(p.model.stiffness, q.model.stiffness));
     CHECK(same_bits(p.model.damping, q.model.damping));
     CHECK(p.model.corners == q.model.corners);
+    CHECK(same_bits(p.model.surface.of_nodes.start, q.model.surface.of_nodes.start));
+    CHECK(same_bits(p.model.surface.of_nodes.node, q.model.surface.of_nodes.node));
+    CHECK(same_bits(p.model.surface.of_nodes.weight, q.model.surface.of_nodes.weight));
+    CHECK(same_bits(p.model.surface.normal, q.model.surface.normal));
+    CHECK(same_bits(p.model.surface.area, q.model.surface.area));
+    CHECK(same_bits(p.model.surface.stiffness, q.model.surface.stiffness));
     CHECK(same_bits(p.model.dilatation.modulus, q.model.dilatation.modulus));
     CHECK(same_bits(p.model.dilatation.damping_time, q.model.dilatation.damping_time));
     CHECK(same_bits(p.model.dilatation.start, q.model.dilatation.start));
@@ -189,6 +196,53 @@ TEST_CASE("Dilatation terms and Poisson's ratio survive in version 3, which othe
   CHECK(version_of(asset) == "\"version\":2");
 }
 
+/// A cube of eight nodes with two contact points.
+LodAsset asset_with_surface() {
+  LodAsset asset;
+  asset.chain.levels.push_back({test::box_lattice(2, 2, 2), identity_groups(8), "base"});
+  ContactSurface& surface = asset.chain.levels[0].model.surface;
+  surface.of_nodes = {{0, 2, 4}, {0, 1, 4, 7}, {0.25, 0.75, 1.25, -0.25}};
+  surface.normal = {-Vec3::UnitZ(), Vec3::UnitZ()};
+  surface.area = {0.125, 1.0 / 3};
+  surface.stiffness = {3, 1e5};
+  return asset;
+}
+
+TEST_CASE("A contact surface survives in version 4") {
+  const TemporaryFolder folder;
+  const LodAsset asset = asset_with_surface();
+  save_asset(asset, folder / "asset.glb");
+  check_same(load_asset(folder / "asset.glb"), asset);
+  CHECK_THAT(read_file(folder / "asset.glb"), Contains("\"version\":4"));
+}
+
+TEST_CASE("A damaged contact surface is refused") {
+  const TemporaryFolder folder;
+  const auto path = folder / "asset.glb";
+  save_asset(asset_with_surface(), path);
+  const std::string bytes = read_file(path);
+  for (const auto& [from, to] :
+       {std::pair("\"contactPoints\":2", "\"contactPoints\":3"),
+        std::pair("\"contactStart\"", "\"c\""), std::pair("\"contactNormal\"", "\"c\""),
+        std::pair("\"contactNode\":", "\"contactNode\":0,\"c\":")}) {
+    INFO(from << " -> " << to);
+    overwrite(path, with_json(bytes, from, to));
+    CHECK_THROWS_AS(load_asset(path), IoError);
+    CHECK_THROWS_WITH(load_asset(path), Contains("damaged"));
+  }
+  const auto refused = [](auto change) {
+    LodAsset asset = asset_with_surface();
+    change(asset.chain.levels[0].model.surface);
+    CHECK_THROWS_AS(validate(asset), InputError);
+  };
+  refused([](ContactSurface& s) { s.area[0] = 0; });
+  refused([](ContactSurface& s) { s.stiffness[1] = -1; });
+  refused([](ContactSurface& s) { s.normal[1] *= 2; });
+  refused([](ContactSurface& s) { s.normal.pop_back(); });
+  refused([](ContactSurface& s) { s.of_nodes.node[3] = 8; });
+  refused([](ContactSurface& s) { s.of_nodes.weight[3] = 0.25; });
+}
+
 TEST_CASE("Damaged dilatation terms are refused") {
   const TemporaryFolder folder;
   const auto path = folder / "asset.glb";
@@ -238,8 +292,8 @@ TEST_CASE("A file that is not an asset is rejected with the reason") {
   const std::string bytes = read_file(path);
   overwrite(path, with_json(bytes, "\"extensions\":", "\"extras\":"));
   CHECK_THROWS_WITH(load_asset(path), Contains("no level-of-detail chain"));
-  overwrite(path, with_json(bytes, "\"version\":2", "\"version\":4"));
-  CHECK_THROWS_WITH(load_asset(path), Contains("version 4") && Contains("update"));
+  overwrite(path, with_json(bytes, "\"version\":2", "\"version\":5"));
+  CHECK_THROWS_WITH(load_asset(path), Contains("version 5") && Contains("update"));
   overwrite(path, with_json(bytes, "by hand", "by mind"));
   CHECK_THROWS_WITH(load_asset(path), Contains("damaged") && Contains("checksum"));
   CHECK_THROWS_AS(load_asset(path), IoError);
