@@ -1,8 +1,9 @@
+local twin = require "studies.validate.twin"
+
 -- A problem as its twin with corrected bending: the caller changes its body.
 return function(problem, name)
-  local twin = {}
-  for key, value in pairs(problem) do twin[key] = value end
-  twin.name, twin.title = name, problem.title .. ", corrected bending"
-  twin.text = "The same with the option `bending = \"corrected\"` of `s.lattice`."
-  return twin
+  return twin(problem, {
+    name = name, title = problem.title .. ", corrected bending",
+    text = "The same with the option `bending = \"corrected\"` of `s.lattice`.",
+  })
 end
