@@ -1,6 +1,7 @@
 -- What the bodies of the validation have in common.
 
 local s = require "springlod"
+local ball_mesh = require "studies.validate.ball_mesh"
 
 local bodies = {}
 
@@ -19,13 +20,20 @@ function bodies.box(size, cells)
   })
 end
 
--- A ball of diameter 1 m about the origin, with `cells` cells across.
+-- Balls about the origin, with `cells` cells across: of whole cells, and of cells that the surface
+-- cuts.
+bodies.radius = 0.5 -- [m]
 function bodies.ball(cells)
   return s.lattice(s.grid{
     cell = 1 / cells, size = {cells, cells, cells}, origin = {-0.5, -0.5, -0.5},
     materials = {body = bodies.material},
     fill = function(x, y, z) return x * x + y * y + z * z < 0.25 and "body" or nil end,
   })
+end
+function bodies.cut_ball(cells)
+  return s.lattice(s.voxelize(ball_mesh(), {
+    cell = 1 / cells, materials = {body = bodies.material}, cut_cells = true,
+  }))
 end
 
 -- Velocity of the centre of mass in a state [m/s], and its position [m].

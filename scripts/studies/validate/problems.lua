@@ -3,7 +3,7 @@
 --   size_name, sizes, quick      what a size counts, and sizes; the last one is judged
 --   quantities                   list of {name, reference, goal, level_goals}: goals in percent; if
 --                                the reference is 0, a largest value
---   body(size)                   the base
+--   body(size)                   the base; problems with the same function share the levels, too
 --   fitted                       whether its fitted levels are measured too
 --   anchored(size)               what holds the base, if anything, for the fit of its levels
 --   measure(model, size, level)  list of values, false for what the model does not show; `level`
@@ -13,7 +13,8 @@
 
 local problems = {}
 local files = {"stretch", "cube", "sphere", "rayleigh", "cantilever",
-               "elastica", "silicone", "plates", "two_materials", "bar", "sliding", "spin"}
+               "elastica", "silicone", "plates", "two_materials", "bar", "hertz", "bounce",
+               "sliding", "spin"}
 for _, name in ipairs(files) do
   local found = require("studies.validate." .. name)
   -- A file may have several.
