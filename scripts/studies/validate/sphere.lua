@@ -1,6 +1,7 @@
 local s = require "springlod"
 local bodies = require "studies.validate.bodies"
 local shares = require "studies.validate.shares"
+local twin = require "studies.validate.twin"
 
 -- The harmonic polynomials of degree 2 and their gradients.
 local harmonics = {
@@ -59,7 +60,16 @@ local kinds = {
   {fields = dipole, count = 3}, {fields = breathing, count = 1},
 }
 
-return {
+local function quantities(goals)
+  return {
+    {name = "0T2", reference = 2.50113, goal = goals[1]},
+    {name = "0S2", reference = 2.63987, goal = goals[2]},
+    {name = "0S1", reference = 3.42453, goal = goals[3]},
+    {name = "0S0", reference = 4.44000, goal = goals[4]},
+  }
+end
+
+local whole = {
   name = "sphere",
   title = "Vibrations of a sphere",
   text = "Free vibrations of a sphere of radius R: the lowest torsional mode (0T2), and the "
@@ -67,20 +77,23 @@ return {
     .. "five, five, three or one frequencies, which the cells split.",
   source = "Lamb 1882, for Poisson's ratio 1/4; the quantity is omega R / c_t.",
   size_name = "cells across", sizes = {8, 12, 24}, quick = {6, 8}, fitted = true,
-  quantities = {
-    {name = "0T2", reference = 2.50113, goal = 1.5},
-    {name = "0S2", reference = 2.63987, goal = 0.2},
-    {name = "0S1", reference = 3.42453, goal = 1.5},
-    {name = "0S0", reference = 4.44000, goal = 1},
-  },
+  quantities = quantities{1.5, 0.2, 1.5, 1},
   body = bodies.ball,
   measure = function(model)
     local modes, values = s.modes(model, {count = 34}), {}
     for i, kind in ipairs(kinds) do
       local frequency = shares.frequency(model, modes, kind.fields, kind.count)
-      local radius = 0.5
-      values[i] = frequency and 2 * math.pi * frequency * radius / bodies.shear_speed or false
+      values[i] = frequency and 2 * math.pi * frequency * bodies.radius / bodies.shear_speed
+        or false
     end
     return values
   end,
 }
+
+local cut = twin(whole, {
+  name = "sphere_cut", title = whole.title .. ", cut cells",
+  text = "The same for a mesh of the sphere, with the option `cut_cells` of `s.voxelize`.",
+  quantities = quantities{1, 0.2, 1.2, 0.3}, body = bodies.cut_ball,
+})
+
+return {whole, cut}
