@@ -28,7 +28,7 @@ local function chosen(problem)
 end
 
 -- The base and, if there are any, its fitted levels, as a chain.
-local function chain_of(problem, size)
+local function new_chain(problem, size)
   local base = problem.body(size)
   if not problem.fitted then return s.simplify(base, {levels = 0}) end
   return s.simplify(base, {
@@ -36,6 +36,20 @@ local function chain_of(problem, size)
     calibration = {iterations = args.quick and quick_iterations or nil,
                    anchored = problem.anchored and problem.anchored(size)},
   })
+end
+
+local kept = {} -- chains by body and size, of bodies that several problems have
+
+local function chain_of(problem, size)
+  local users = 0
+  for _, other in ipairs(problems) do
+    if other.body == problem.body and chosen(other) then users = users + 1 end
+  end
+  if users == 1 then return new_chain(problem, size) end
+  local by_size = kept[problem.body] or {}
+  kept[problem.body] = by_size
+  by_size[size] = by_size[size] or new_chain(problem, size)
+  return by_size[size]
 end
 
 -- What a problem can ask of a level: see problems.lua.
