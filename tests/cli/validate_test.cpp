@@ -60,6 +60,16 @@ TEST_CASE("validate --quick: the base converges to known answers with order 2") 
           std::abs(error_at(table, "sphere", kind, 6)));
     CHECK(std::abs(error_at(table, "sphere", kind, 8)) < 12);
   }
+  // Cells that the surface cuts are more accurate than whole ones.
+  for (const char* kind : {"0T2", "0S2", "0S1"}) {
+    CAPTURE(kind);
+    const double error = std::abs(error_at(table, "sphere_cut", kind, 8));
+    CHECK(error < std::abs(error_at(table, "sphere_cut", kind, 6)));
+    CHECK(error < std::abs(error_at(table, "sphere", kind, 8)));
+  }
+  CHECK(std::abs(error_at(table, "hertz", "weight / force at this depth", 8)) < 8);
+  CHECK(std::abs(error_at(table, "bounce", "contact time / reference", 8)) < 16);
+  CHECK(std::abs(error_at(table, "bounce", "speed after / before", 8)) < 1.5);
   for (const char* quantity : {"tip [m/N]", "f1 [Hz]", "f2 [Hz]", "f3 [Hz]"})
     for (const auto& [problem, most] : {std::pair("cantilever_0", 12), std::pair("cantilever", 6),
                                         std::pair("cantilever_45", 6)}) {
@@ -103,6 +113,22 @@ TEST_CASE("validate --quick: the base converges to known answers with order 2") 
   CHECK_THAT(slurp(out / "validation.md"),
              Contains("## Vibrations of a sphere") && Contains("images/validation-cube.png"));
   CHECK(std::filesystem::file_size(out / "images/validation-cube.png") > 0);
+}
+
+TEST_CASE(
+    "a finite ball has Hertz's force at small depths, and a larger one at 3 % of its radius") {
+  const Ran ran = springlod_run({"-e", R"(
+    local ball = require "studies.validate.finite_ball"
+    local function factor(depth) return ball.force(depth) / ball.hertz_force(depth) end
+    print(("%.3f %.3f"):format(factor(1e-8), factor(0.03)))
+    local depth, force = ball.at_angle(0.2)
+    print(math.abs(ball.force(depth) / force - 1) < 2e-4)
+    print(math.abs(ball.depth(force) / depth - 1) < 2e-4)
+    local function time(speed) return ball.contact_time(speed) / ball.hertz_contact_time(speed) end
+    print(("%.3f %.3f"):format(time(1e-9), time(0.007))))"});
+  CAPTURE(ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK(ran.out == "1.000 1.189\ntrue\ntrue\n1.000 0.937\n");
 }
 
 TEST_CASE(
