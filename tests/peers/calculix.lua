@@ -1,9 +1,11 @@
 -- References by CalculiX (Debian's package calculix-ccx) for scripts/studies/validate:
--- two_materials.lua, plates.lua and silicone.lua.
+-- two_materials.lua, plates.lua, silicone.lua and hertz.lua.
 --   springlod --unsafe run tests/peers/calculix.lua [-- FOLDER [WORDS]]
--- WORDS: any of frequencies, loads, plates, silicone.
+-- WORDS: any of frequencies, loads, plates, silicone, ball.
 local deck = require "calculix.deck"
 local free_loads = require "calculix.free_loads"
+local pressed_ball = require "calculix.pressed_ball"
+local finite_ball = require "studies.validate.finite_ball"
 local smooth_loads = require "studies.validate.smooth_loads"
 local two_materials = require "studies.validate.two_material_block"
 local pad = require "studies.validate.pad"
@@ -102,8 +104,27 @@ local function silicone()
   end
 end
 
-local tasks = {frequencies = frequencies, loads = loads, plates = plates, silicone = silicone}
+-- The depth of a pressed ball over that of the series, for three materials of nu = 1/4.
+local function ball()
+  local materials = {
+    {name = "small strain", lines = "*ELASTIC\n1, 0.25"},
+    {name = "Saint Venant-Kirchhoff", lines = "*ELASTIC\n1, 0.25", large = true},
+    {name = "neo-Hookean", lines = "*HYPERELASTIC, NEO HOOKE\n0.2, 3", large = true},
+  }
+  for _, angle in ipairs{0.1, 0.1838, 0.3} do
+    local depth, force = finite_ball.at_angle(angle)
+    for i, material in ipairs(materials) do
+      local found = pressed_ball.depth(folder, ("ball_%g_%d"):format(angle, i), angle, force,
+        material.lines, material.large)
+      print(("ball, depth %.4f, %s: %.5f times as deep, %.4f times the force at that depth"):format(
+        depth, material.name, found / depth, force / finite_ball.force(found)))
+    end
+  end
+end
+
+local tasks = {frequencies = frequencies, loads = loads, plates = plates, silicone = silicone,
+               ball = ball}
 local words = {table.unpack(arg, 2)}
-if #words == 0 then words = {"frequencies", "loads", "plates", "silicone"} end
+if #words == 0 then words = {"frequencies", "loads", "plates", "silicone", "ball"} end
 os.execute(("mkdir -p '%s'"):format(folder))
 for _, word in ipairs(words) do tasks[word]() end

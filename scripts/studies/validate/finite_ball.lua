@@ -6,7 +6,8 @@
 -- polynomials (Lur'e 1964, chapter 6), with the pressure on the plate on one side, and a uniform
 -- body force, gravity or inertia, that balances it. The strains are small, but the contact is not:
 -- the face of the ball that touches the plate becomes plane. Sternberg and Rosenthal 1952 and
--- Titovich and Norris 2012 use the same series.
+-- Titovich and Norris 2012 use the same series; tests/peers/calculix.lua compares it with finite
+-- elements.
 --
 -- Depths are of the centre of mass: the distance that it has moved towards the plate since the ball
 -- touched the plate without force.

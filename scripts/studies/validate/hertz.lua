@@ -41,9 +41,10 @@ end
 
 local notes = [[
 The series is for small strains. Here they are about 10 % at the contact, where materials of the
-same elastic constants differ: at this depth, axisymmetric finite elements at large strain (CalculiX
-2.20) need 3 % less force than the series for a neo-Hookean material, and 11 % less for a
-Saint Venant-Kirchhoff material; at small strain, they agree with the series to 0.01 %.
+same elastic constants differ. At this depth, axisymmetric finite elements at large strain
+(CalculiX 2.20, `tests/peers/calculix.lua`) need 3 % less force than the series for a neo-Hookean
+material, and 11 % less for a Saint Venant-Kirchhoff material. At small strain, they have the depth
+of the series to 0.01 %.
 
 ]]
 
