@@ -34,6 +34,7 @@ local function new_chain(problem, size)
   return s.simplify(base, {
     keep = keep, grouping = "compact", calibrate = "modes", seed = s.seed,
     calibration = {iterations = args.quick and quick_iterations or nil,
+                   modes = problem.fitted_modes,
                    anchored = problem.anchored and problem.anchored(size)},
   })
 end

@@ -5,6 +5,7 @@
 --                                the reference is 0, a largest value
 --   body(size)                   the base; problems with the same function share the levels, too
 --   fitted                       whether its fitted levels are measured too
+--   fitted_modes                 frequencies that they are fitted to, if not as many as by default
 --   anchored(size)               what holds the base, if anything, for the fit of its levels
 --   measure(model, size, level)  list of values, false for what the model does not show; `level`
 --                                has base: the model of level 0; carried(nodes): the nodes of the

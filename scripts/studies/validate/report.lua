@@ -160,10 +160,10 @@ springlod validate -o out/validation
 
 This command solves problems of mechanics whose answer is known, and writes this page. Each
 problem is solved by the base at several cell sizes, and by two levels with 45 % and 20 % of its
-nodes, fitted by default, whose contact points are on the base's surface. Bodies have Poisson's
-ratio 1/4, unless the problem says otherwise, and no damping. A goal is for the finest size. The
-order is the order of convergence from the size before. "Not found" means that a small model has no
-mode of this kind among its lowest.
+nodes, whose contact points are on the base's surface. Unless the problem says otherwise, levels are
+fitted with the default options, and bodies have Poisson's ratio 1/4. Bodies have no damping. A goal
+is for the finest size. The order is the order of convergence from the size before. "Not found"
+means that a small model has no mode of this kind among its lowest.
 
 ]]
 
