@@ -11,9 +11,9 @@ namespace springlod::inline model {
 /// The surface of a body that its nodes do not lie on, as P points at which it touches obstacles in
 /// place of its nodes (docs/method.md, eq. 64b).
 struct ContactSurface {
-  Binding of_nodes;             ///< P rows
-  std::vector<Vec3> normal;     ///< outward unit vectors at rest, P
-  std::vector<double> area;     ///< [m2] > 0, P
+  Binding of_nodes;          ///< P rows
+  std::vector<Vec3> normal;  ///< outward unit vectors at rest, P
+  std::vector<double> area;  ///< [m2] > 0, P
   /// Of the body under each point, to a depth of one cell, against pressure on the area [N/m] > 0,
   /// P.
   std::vector<double> stiffness;

@@ -74,8 +74,8 @@ void validate(const MaterialGrid& grid) {
         fmt::format("grid: {} cells, but {} fractions", grid.cells.size(), grid.fraction.size()));
   for (const float fraction : grid.fraction)
     if (!(fraction > 0 && fraction <= 1))
-      throw InputError(
-          fmt::format("grid: the fraction of a cell is {}; it must be above 0, at most 1", fraction));
+      throw InputError(fmt::format(
+          "grid: the fraction of a cell is {}; it must be above 0, at most 1", fraction));
   for (const Material& material : grid.materials) validate(material);
   for (std::size_t n = 0; n < grid.cells.size(); ++n) validate_cell(grid, n);
   validate_surface(grid);

@@ -56,8 +56,8 @@ struct MaterialGrid {
 };
 
 /// Throws InputError for a cell size or origin that makes no sense, cells that are not sorted or
-/// not unique, depths or fractions that are not one per cell, points of the surface outside its cells,
-/// and materials that are missing or wrong.
+/// not unique, depths or fractions that are not one per cell, points of the surface outside its
+/// cells, and materials that are missing or wrong.
 void validate(const MaterialGrid& grid);
 
 /// The cells of which at least half is inside, as whole ones, without points of a surface: for
@@ -145,9 +145,9 @@ struct VoxelizedMesh {
 /// meshToVolume). The grid is centred on the bounding box. A shell inside another one that faces
 /// inwards is a cavity and stays empty. In a solid of several materials each cell takes that of the
 /// nearest triangle. With `cut_cells`, all cells are filled of which at least kLeastFraction is
-/// inside; one whose centre is outside has the material of the nearest solid. Depths are measured if `core_shell` or `paint` needs them. Damping ratios
-/// become times (set_materials). Solids with holes are filled where their winding number is above
-/// 1/2 (wound_cells), after repair().
+/// inside; one whose centre is outside has the material of the nearest solid. Depths are measured
+/// if `core_shell` or `paint` needs them. Damping ratios become times (set_materials). Solids with
+/// holes are filled where their winding number is above 1/2 (wound_cells), after repair().
 ///
 /// Throws InputError: a cell too large (no cell is filled) or too small (the message has the
 /// smallest possible one), more cells than the memory holds, coordinates that are not finite, a

@@ -176,8 +176,7 @@ class Reader {
     read_cells(grid);
     if (file_.hasGrid("depth")) grid.depth = read_numbers("depth", grid.cells);
     if (file_.hasGrid("fraction")) grid.fraction = read_numbers("fraction", grid.cells);
-    if (file_.hasGrid("surface"))
-      grid.surface = surface_of_vdb(*file_.readGrid("surface"), grid);
+    if (file_.hasGrid("surface")) grid.surface = surface_of_vdb(*file_.readGrid("surface"), grid);
     if (value<bool>(kHasDistance))
       grid.distance = std::make_shared<DistanceField>(read_grid<openvdb::FloatGrid>("distance"));
     validate(grid);

@@ -46,11 +46,21 @@ class Surface {
   /// chosen nodes.
   void pull(std::uint32_t center, const Vec3& force, StaticLoad& load) const {
     std::vector<std::uint32_t> patch;
+    double area = 0;
     for (const std::uint32_t i : border_)
       if (chosen_[i] == chosen_[center] &&
-          (i == center || (model_.rest[i] - model_.rest[center]).norm() <= radius_))
+          (i == center || (model_.rest[i] - model_.rest[center]).norm() <= radius_)) {
         patch.push_back(i);
-    for (const std::uint32_t i : patch) load.force[i] += force / static_cast<double>(patch.size());
+        area += model_.contact_area[i];
+      }
+    // The border nodes of cut cells lie on both sides of the surface; the outermost ones are light
+    // and soft, and bear as little as they have of its area.
+    const bool by_area = !model_.surface.empty() && area > 0;
+    for (const std::uint32_t i : patch)
+      if (by_area)
+        load.force[i] += model_.contact_area[i] / area * force;
+      else
+        load.force[i] += force / static_cast<double>(patch.size());
   }
 
   /// The border node nearest to the line from `from` into the body, at least a patch radius away;

@@ -9,7 +9,8 @@ namespace {
 
 // Stiffness of the contact at a point of a contact surface over that of the layer of cells under
 // it [1]. The area of contact is then the body's own, not widened by the depth to which its points
-// sink in: a pressed ball follows Hertz (docs/validation.md). Twice as much changes nothing more.
+// sink in: a ball bounces as Hertz's does (docs/validation.md). Stiffer ones are noisy with few
+// cells.
 constexpr double kSoftestPoint = 4;
 // For bodies whose weight compresses them by percents.
 constexpr double kStiffestPoint = 16;

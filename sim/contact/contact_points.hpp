@@ -87,7 +87,8 @@ class ContactPoints {
   }
   /// Number of the node that the point is, in the model or in the base; counted from 0.
   std::uint32_t number(std::size_t point) const { return number_[point]; }
-  /// For messages, counted from 1: "node 7", "the surface at node 7", "the surface at node 7 of the base".
+  /// For messages, counted from 1: "node 7", "the surface at node 7", "the surface at node 7 of the
+  /// base".
   std::string name(std::size_t point) const;
 
   /// Position or velocity of a point, from those of the nodes.

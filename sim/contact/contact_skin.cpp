@@ -11,8 +11,8 @@
 #include "base/error.hpp"
 #include "base/script_number.hpp"
 #include "lod/transfer.hpp"
-#include "sim/contact/lost_compliance.hpp"
 #include "sim/contact/body_surface.hpp"
+#include "sim/contact/lost_compliance.hpp"
 #include "sim/contact/skin_patches.hpp"
 
 namespace springlod::sim {
@@ -44,6 +44,12 @@ std::vector<double> lost_freedom(const BodySurface& surface, const MassSpringMod
     lost.push_back(std::max(0.0, sum));
   }
   return lost;
+}
+
+std::vector<std::vector<std::uint32_t>> each_alone(std::uint32_t count) {
+  std::vector<std::vector<std::uint32_t>> alone;
+  for (std::uint32_t i = 0; i < count; ++i) alone.push_back({i});
+  return alone;
 }
 
 /// The points of a surface as a skin: of the base itself.
@@ -89,15 +95,19 @@ ContactSkin contact_skin(const LodChain& chain, std::uint32_t level) {
   const std::vector<double> lost = lost_freedom(surface, base, groups);
   std::vector<SurfacePoint> points;
   for (std::uint32_t p = 0; p < surface.count(); ++p)
-    points.push_back({groups.of[surface.node[p]], surface.position[p], surface.normal[p],
-                      surface.area[p]});
+    points.push_back(
+        {groups.of[surface.node[p]], surface.position[p], surface.normal[p], surface.area[p]});
   ContactSkin skin;
   std::vector<lod::GroupPoint> means;
   Binding of_base;
   of_base.start.push_back(0);
   std::vector<double> estimate;  // of the compliance [m/N]
   const Binding& rows = surface.of_nodes;
-  for (const std::vector<std::uint32_t>& patch : flat_patches(points, mean_spring_length(base))) {
+  // The mean of a patch of a true surface would lie below it, and touch late.
+  const std::vector<std::vector<std::uint32_t>> patches =
+      base.surface.empty() ? flat_patches(points, mean_spring_length(base))
+                           : each_alone(surface.count());
+  for (const std::vector<std::uint32_t>& patch : patches) {
     double area = 0;
     Vec3 moment = Vec3::Zero();  // sum of area times position [m3]
     double contact = 0;

@@ -107,7 +107,7 @@ TEST_CASE("convert gives the levels corners unless it is told to leave them out"
 
 TEST_CASE("convert --cut-cells keeps the volume of the mesh and the points of its surface") {
   const TemporaryFolder scratch;
-  const std::string ball = (source_folder() / "samples/ball.obj").string();
+  const std::string ball = (springlod::test::source_folder() / "samples/ball.obj").string();
   const Ran ran = springlod_run({"-q", "convert", ball, "-o", (scratch / "ball.glb").string(),
                                  "--cell", "2cm", "--cut-cells", "--fast"});
   CAPTURE(ran.err);

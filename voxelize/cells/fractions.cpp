@@ -57,8 +57,7 @@ double cut_cube(const Vec3& normal, double distance) {
   const auto below = [&](double at) {
     const auto cube = [](double x) { return x > 0 ? x * x * x : 0; };
     const double corners = cube(at) - cube(at - m[0]) - cube(at - m[1]) - cube(at - m[2]) +
-                           cube(at - m[0] - m[1]) + cube(at - m[1] - m[2]) +
-                           cube(at - m[2] - m[0]);
+                           cube(at - m[0] - m[1]) + cube(at - m[1] - m[2]) + cube(at - m[2] - m[0]);
     return corners / (6 * m.prod());
   };
   // Of the two sides the smaller one, for the sake of rounding.

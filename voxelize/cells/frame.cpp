@@ -63,7 +63,8 @@ CellFrame frame_around(const Box3& box, double cell) {
 }
 
 CellFrame padded(const CellFrame& frame) {
-  return {frame.cell, frame.origin - Vec3::Constant(frame.cell),
+  return {frame.cell,
+          frame.origin - Vec3::Constant(frame.cell),
           {frame.size[0] + 2, frame.size[1] + 2, frame.size[2] + 2}};
 }
 

@@ -28,9 +28,7 @@ constexpr double kLeastClearance = 0.25;
 struct Place {
   CellIndex cube{};
   int facing = 0;  // 0 .. 5: -x, +x, -y ..
-  bool operator==(const Place& other) const {
-    return cube == other.cube && facing == other.facing;
-  }
+  bool operator==(const Place& other) const { return cube == other.cube && facing == other.facing; }
 };
 
 struct PlaceHash {

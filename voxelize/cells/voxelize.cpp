@@ -401,7 +401,7 @@ class Voxelizer {
   CellFrame frame_;
   std::vector<SolidReport> solids_;
   std::vector<std::uint16_t>
-      owner_;                       // solid + 1 of each cell of the frame until cells are gathered
+      owner_;  // solid + 1 of each cell of the frame until cells are gathered
   std::optional<CutCells> cut_cells_;
   std::set<std::size_t> reported_;  // solids whose cells have another volume
   DisjointSets::Numbers bodies_;    // that the cells form

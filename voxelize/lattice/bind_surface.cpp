@@ -42,8 +42,7 @@ void bind_surface(const MaterialGrid& grid, const CornerNodes& nodes, MassSpring
       area[node] += weights[corner] * point.area;
     }
     binding.start.push_back(static_cast<std::uint32_t>(binding.node.size()));
-    surface.normal.push_back(
-        Vec3(point.normal[0], point.normal[1], point.normal[2]).normalized());
+    surface.normal.push_back(Vec3(point.normal[0], point.normal[1], point.normal[2]).normalized());
     surface.area.push_back(point.area);
     surface.stiffness.push_back(
         layer_stiffness(grid.materials[grid.material[cell]], point.area, grid.cell));

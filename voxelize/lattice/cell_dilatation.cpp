@@ -40,7 +40,8 @@ DilatationTerms cell_terms(const MaterialGrid& grid, const CornerNodes& nodes) {
       node[i] = of_cell[corner[i]];
       gradient[i] = corner_gradient(corner[i], grid.cell);
     }
-    terms.add(grid.fraction_of(cell) * dilatation_modulus(material) * volume, material.damping, node, gradient);
+    terms.add(grid.fraction_of(cell) * dilatation_modulus(material) * volume, material.damping,
+              node, gradient);
   }
   return terms;
 }

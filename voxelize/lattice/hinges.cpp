@@ -141,8 +141,7 @@ void insert_cells(MaterialGrid& grid, const std::vector<AddedCell>& added) {
   };
   const auto fill = [&] { put(next->cell, next->material, 0, 1); };
   for (std::size_t n = 0; n < grid.cells.size(); ++n) {
-    for (; next != added.end() && grid_order(next->cell, grid.cells[n]); ++next)
-      fill();
+    for (; next != added.end() && grid_order(next->cell, grid.cells[n]); ++next) fill();
     put(grid.cells[n], grid.material[n], has_depth ? grid.depth[n] : 0, grid.fraction_of(n));
   }
   for (; next != added.end(); ++next) fill();

@@ -70,8 +70,7 @@ TEST_CASE("The contact of a point is four times as stiff as the cells under it")
   }
   const ContactPoints points(model);
   CHECK(points.count() == surface.count());
-  CHECK(points.name(0) ==
-        "the surface at node " + std::to_string(surface.node[0] + 1));
+  CHECK(points.name(0) == "the surface at node " + std::to_string(surface.node[0] + 1));
 }
 
 TEST_CASE("The skins of levels have the area and the stiffness of the points of the base") {
@@ -97,8 +96,7 @@ TEST_CASE("A ball of cut cells bounces with its speed, after the time of Hertz's
   const double speed = 0.0139 * std::sqrt(young / density);  // indents by 0.05 R
   const double mass = mass_properties(model).mass;
   const double modulus = young / (1 - 0.25 * 0.25);
-  const double hertz =
-      2.87 * std::pow(mass * mass / (kRadius * modulus * modulus * speed), 1. / 5);
+  const double hertz = 2.87 * std::pow(mass * mass / (kRadius * modulus * modulus * speed), 1. / 5);
   const double finite = 0.916;  // of a ball that deforms as a whole: docs/validation.md
   const double gap = 0.002;
   Scenario scene = on_plate(gap, {0, 0, -speed}, 0, gap / speed + 1.5 * hertz);
@@ -160,7 +158,8 @@ TEST_CASE("A ball of cut cells that lies on a floor stays there, with every inte
   const MassSpringModel model = test::cut_ball(5.5);
   for (const Integrator integrator :
        {Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::runge_kutta_4,
-        Integrator::backward_euler_cg, Integrator::backward_euler_direct, Integrator::xpbd, Integrator::projective_dynamics}) {
+        Integrator::backward_euler_cg, Integrator::backward_euler_direct, Integrator::xpbd,
+        Integrator::projective_dynamics}) {
     CAPTURE(static_cast<int>(integrator));
     Scenario scene = on_plate(0, Vec3::Zero(), 0.5, 0.2);
     scene.gravity = {0, 0, -9.81};

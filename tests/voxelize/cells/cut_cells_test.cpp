@@ -33,8 +33,7 @@ double surface_area(const MaterialGrid& grid) {
 }
 
 Vec3 position(const MaterialGrid& grid, const SurfacePoint& point) {
-  return grid.center(point.cell) +
-         grid.cell * Vec3(point.place[0], point.place[1], point.place[2]);
+  return grid.center(point.cell) + grid.cell * Vec3(point.place[0], point.place[1], point.place[2]);
 }
 
 Vec3 normal(const SurfacePoint& point) {
@@ -203,7 +202,8 @@ TEST_CASE("A sheet thinner than half a cell has about its volume") {
   CHECK(volume(grid) == Approx(2.2).epsilon(0.04));
 }
 
-TEST_CASE("Cut cells whose centres are outside have no depth, and the others that of their centre") {
+TEST_CASE(
+    "Cut cells whose centres are outside have no depth, and the others that of their centre") {
   TriangleMesh mesh;
   add_sphere(mesh, "ball", {0, 0, 0}, 1, 64);
   MaterialGrid grid = voxelize(mesh, cut(0.15)).grid;

@@ -99,14 +99,13 @@ TEST_CASE("Points of the surface of a lattice lie where the grid has them, and s
   const std::vector<Vec3> at = interpolate(model.surface.of_nodes, model.rest);
   for (std::uint32_t p = 0; p < model.surface.count(); ++p) {
     const SurfacePoint& point = grid.surface[p];
-    const Vec3 place = grid.center(point.cell) +
-                       grid.cell * Vec3(point.place[0], point.place[1], point.place[2]);
+    const Vec3 place =
+        grid.center(point.cell) + grid.cell * Vec3(point.place[0], point.place[1], point.place[2]);
     CHECK((at[p] - place).norm() < 1e-12);
     CHECK(at[p].norm() == Approx(0.5).epsilon(5e-3));
     // Three springs' worth for each face of a cell: a layer that cannot spread.
     const double spring = 1e6 * grid.cell / 2.5;
-    CHECK(model.surface.stiffness[p] ==
-          Approx(3 * spring * point.area / (grid.cell * grid.cell)));
+    CHECK(model.surface.stiffness[p] == Approx(3 * spring * point.area / (grid.cell * grid.cell)));
   }
   CHECK(sum(model.contact_area) == Approx(sum(model.surface.area)).epsilon(1e-3));
 }
