@@ -13,7 +13,8 @@ parser:option("--levels", "levels to run, such as 0,2 (default: all)")
   :convert(command.numbers("--levels", 0, true)):argname("<list>")
 parser:option("--ratios", "ratios of Young's moduli, stiff to soft mesh part (default: "
   .. "1,10,100,1000,1e4,1e5)"):convert(command.numbers("--ratios", 0)):argname("<list>")
-parser:option("--integrators", "integrators to run, such as xpbd,runge_kutta_4 (default: all)")
+parser:option("--integrators", "integrators to run, such as xpbd,runge_kutta_4 (default: all "
+  .. "that know the forces of the asset; the implicit ones know springs only)")
   :convert(command.words_of("--integrators", s.choices.integrator)):argname("<list>")
 parser:option("--iterations", "iterations of xpbd and projective_dynamics, such as 1,10,100")
   :convert(command.numbers("--iterations", 1, true)):argname("<list>")

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/processor_time.hpp"
 #include "sim/fast/fast_model.hpp"
+#include "sim/integrators/dilatation.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/run/integration.hpp"
 
@@ -40,7 +41,7 @@ void validate(const RunOptions& options) {
 }
 
 void require_known_forces(const MassSpringModel& model, Integrator integrator) {
-  if (model.dilatation.empty() || !is_implicit(integrator)) return;
+  if (model.dilatation.empty() || knows_terms(integrator)) return;
   throw InputError(fmt::format(
       "run: integrator = \"{}\" knows springs only, and the model has the dilatation terms of a "
       "Poisson's ratio other than {}; use symplectic_euler, velocity_verlet or runge_kutta_4",

@@ -3,8 +3,14 @@
 #include <vector>
 
 #include "model/dilatation.hpp"
+#include "sim/integrators/integrator.hpp"
 
 namespace springlod::sim {
+
+/// Whether a scheme has the forces of dilatation terms, besides those of springs.
+inline bool knows_terms(Integrator integrator) {
+  return !is_implicit(integrator);
+}
 
 /// The plain reference kernel of dilatation terms: one term after the other, doubles. Adds to
 /// `force` [N], N entries, -T (eps + beta d eps/dt) d eps/dx of each term; d eps/dt is taken from

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "sim/integrators/dilatation.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/study/run_progress.hpp"
 #include "sim/study/stability_body.hpp"
@@ -48,6 +49,14 @@ std::vector<T> sorted_once(std::vector<T> values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
+}
+
+std::vector<Integrator> integrators_of(const LodChain& chain, const StabilityOptions& options) {
+  std::vector<Integrator> integrators = options.integrators;
+  const bool has_terms = !chain.levels.front().model.dilatation.empty();
+  if (has_terms && integrators == all_choices<Integrator>())
+    std::erase_if(integrators, [](Integrator integrator) { return !knows_terms(integrator); });
+  return integrators;
 }
 
 std::vector<std::uint32_t> levels_of(const LodChain& chain, const StabilityOptions& options) {
@@ -155,7 +164,7 @@ class Mapping {
 
   void list_points() {
     for (std::uint32_t body = 0; body < map_.bodies.size(); ++body)
-      for (const Integrator integrator : options_.integrators) {
+      for (const Integrator integrator : integrators_of(chain_, options_)) {
         const std::vector<std::uint32_t> once{0};
         for (const std::uint32_t iterations :
              choice_of(integrator).traits.swept ? options_.iterations : once) {

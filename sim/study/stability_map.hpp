@@ -59,6 +59,8 @@ struct StabilityOptions {
   /// Levels change with the ratio as if they were merged again from the rescaled base; false: they
   /// stay unchanged, which shows how far a level may be used from its design ratio.
   bool remake_levels = true;
+  /// By default all, without those that do not know the forces of the chain (knows_terms); if any
+  /// of these is named in another list, that is an error.
   std::vector<Integrator> integrators = all_choices<Integrator>();
   /// Numbers of iterations of XPBD and projective dynamics, each combined with each step; 0: the
   /// default of the scheme.
@@ -99,7 +101,7 @@ constexpr auto option_rows(const StabilityOptions*) {
       option("damping", &Options::damping,
              "whether springs keep their damping; without it, every energy loss is numerical"),
       option("integrators", &Options::integrators, "integrators to map, as for run")
-          .by_default("all"),
+          .by_default("all that know the forces of the chain"),
       option("iterations", &Options::iterations,
              "iterations per step of xpbd and projective_dynamics; each number is run")
           .within(1, 10000)

@@ -179,6 +179,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("A chain with dilatation terms is mapped by the integrators that know them") {
+  Material rubber = test::material("rubber", 1e5, 1000, 0.0005);
+  rubber.poisson = 0.45;
+  const LodChain chain =
+      chain_of(test::block(2, 2, 4, 0.1, rubber, voxelize::LatticeStyle::corners));
+  StabilityOptions options{.ratios = {1}, .steps = {0.5, 2}, .periods = 0.5};
+  const StabilityMap map = stability_map(chain, options);
+  REQUIRE(map.points.size() == 6);
+  for (const StabilityPoint& point : map.points) {
+    CHECK_FALSE(is_implicit(point.integrator));
+    CHECK(point.stable == (point.step < point.limit));
+  }
+  options.integrators = {Integrator::xpbd};
+  CHECK_THROWS_AS(stability_map(chain, options), InputError);
+}
+
 TEST_CASE("An over-merged level with a mechanism is named and not run") {
   const MassSpringModel base = test::rods();
   LodChain chain;
