@@ -65,8 +65,8 @@ std::vector<StaticSolution> solve_static(const ElasticBody& body,
 // Loads on patches of the surface (local_loads.cpp).
 
 /// Loads on surface patches: the border nodes around a random one share 1 N evenly, or by their
-/// contact areas if the body has a contact surface. The same seed
-/// gives the same patches. All functions throw InputError if no border node can be loaded.
+/// contact areas if the body has a contact surface. The same seed gives the same patches. All
+/// functions throw InputError if no border node can be loaded.
 struct LocalLoadOptions {
   std::uint32_t count = 24;
   std::uint64_t seed = 1;

@@ -13,7 +13,8 @@ namespace springlod::sim {
 /// touches obstacles where the base does, because the level's own nodes lie deeper inside. Each
 /// point is the mean of a flat patch of the points of the base's surface (BodySurface) whose main
 /// nodes are in one group (flat_patches), and has their contact area, so the total contact
-/// stiffness is the base's.
+/// stiffness is the base's. A point of a true surface (ContactSurface) is a patch by itself: the
+/// mean of several would lie below a round one.
 struct ContactSkin {
   Binding of_nodes;                      ///< P rows; see lod/transfer.hpp
   std::vector<double> area;              ///< [m2] > 0, P
