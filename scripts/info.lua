@@ -49,6 +49,10 @@ print(s.format_table(rows, {columns = {"level", "nodes", "springs", "ends", "cor
                                        "limited by", "made by"}}))
 print(("\ncontact points of the levels: %s (%s)"):format(info.contact,
   s.choices.contact[info.contact].help))
+local points = chain[0].contact_point_count
+if points > 0 then
+  print(("those of the base: %d points of the true surface (cut cells)"):format(points))
+end
 certificates.print(info.levels)
 local base = info.levels[1]
 print()

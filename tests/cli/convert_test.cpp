@@ -126,6 +126,8 @@ TEST_CASE("convert --cut-cells keeps the volume of the mesh and the points of it
                                     "", scratch.path());
   CAPTURE(checked.err);
   CHECK(checked.exit_code == 0);
+  CHECK_THAT(springlod_run({"info", (scratch / "ball.glb").string()}).out,
+             Contains(" points of the true surface (cut cells)"));
 }
 
 TEST_CASE("convert --bending corrected moves the mass of the surface inwards") {
