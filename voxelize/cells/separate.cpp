@@ -138,9 +138,11 @@ SeparateBodies separate_bodies(const MaterialGrid& grid, const TriangleMesh& mes
     if (!grid.depth.empty()) body.depth.push_back(grid.depth[n]);
     if (!grid.fraction.empty()) body.fraction.push_back(grid.fraction[n]);
   }
-  const IndexLookup lookup(grid.cells);
-  for (const SurfacePoint& point : grid.surface)
-    result.bodies[bodies.of[lookup.find(point.cell)]].grid.surface.push_back(point);
+  if (!grid.surface.empty()) {
+    const IndexLookup lookup(grid.cells);
+    for (const SurfacePoint& point : grid.surface)
+      result.bodies[bodies.of[lookup.find(point.cell)]].grid.surface.push_back(point);
+  }
   const std::vector<MaterialInput> inputs = inputs_of(grid);
   for (GridBody& body : result.bodies) finish_materials(body.grid, inputs);
   return result;

@@ -48,4 +48,16 @@ end
 function bodies.velocity(model, state) return mean(model, state.v) end
 function bodies.position(model, state) return mean(model, state.x) end
 
+-- Time from the first to the last contact of a run [s], nil without any. A frame counts as touching
+-- from a fraction of energy in the contacts on, over the whole energy.
+function bodies.contact_time(run, fraction)
+  local first, last
+  for _, entry in ipairs(run.ledger) do
+    if entry.contact > fraction * entry.total then
+      first, last = first or entry.time, entry.time
+    end
+  end
+  return first and last - first
+end
+
 return bodies

@@ -46,13 +46,8 @@ return {
       throw = {velocity = {0, 0, -speed}},
       obstacles = {{plane = {0, 0, 1, -bodies.radius - gap}, friction = 0, name = "plate"}},
     }, {frame_rate = frames / known, safety = 0.4, contact = "surface", quiet = true})
-    local first, last
-    for _, entry in ipairs(run.ledger) do
-      if entry.contact > touching * entry.total then
-        first, last = first or entry.time, entry.time
-      end
-    end
-    return {first and (last - first) / known or false,
+    local contact_time = bodies.contact_time(run, touching)
+    return {contact_time and contact_time / known or false,
             bodies.velocity(model, run.final)[3] / speed}
   end,
 }
