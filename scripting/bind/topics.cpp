@@ -17,6 +17,7 @@ std::unique_ptr<Api> make_api() {
   describe_sim(*api);
   describe_render(*api);
   describe_report(*api);
+  describe_export(*api);
   describe_statistics(*api);
   describe_errors(*api);
   return api;

@@ -31,6 +31,7 @@ void describe_pick(Api& api);       // likewise
 void describe_stability(Api& api);  // of sim too
 void describe_render(Api& api);
 void describe_report(Api& api);
+void describe_export(Api& api);
 void describe_statistics(Api& api);
 
 }  // namespace springlod::scripting

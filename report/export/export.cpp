@@ -1,0 +1,70 @@
+#include "report/export/export.hpp"
+
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "base/file.hpp"
+#include "report/export/draft.hpp"
+
+namespace springlod::report {
+
+namespace {
+
+constexpr ModelFormatChoice kFormats[] = {
+    {{ModelFormat::obj, "obj", "the surface as the level holds it, or the springs as lines"},
+     ".obj",
+     draft_obj},
+    {{ModelFormat::json, "json", "all arrays of the level, in full precision"},
+     ".json",
+     draft_json},
+};
+
+}  // namespace
+
+ChoiceTable<ModelFormatChoice> choices(ModelFormat) {
+  return {"to", kFormats};
+}
+
+ExportReport export_model(const ExportedModel& body, ModelFormat format,
+                          const std::filesystem::path& path) {
+  const ModelFormatChoice& row = choice_of(format);
+  ExportDraft draft = row.write(body);
+  std::string stem = path.string();
+  if (stem.ends_with(row.ending)) stem.resize(stem.size() - std::string(row.ending).size());
+  ExportReport report{
+      .files = {}, .settings = std::move(draft.settings), .losses = std::move(draft.losses)};
+  for (const ExportFile& file : draft.files) {
+    report.files.emplace_back(stem + file.ending);
+    write_text_file(report.files.back(), file.content);
+  }
+  return report;
+}
+
+std::string identifier(const std::string& text) {
+  std::string name;
+  for (const char c : text) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0)
+    name = "_" + name;
+  return name;
+}
+
+std::vector<Vec3> surface_points(const ExportedModel& body) {
+  if (!body.surface) return {};
+  return interpolate(body.surface_of_nodes, body.model.rest);
+}
+
+std::vector<std::string> lost_beside_springs(const MassSpringModel& model) {
+  std::vector<std::string> losses;
+  if (!model.dilatation.empty())
+    losses.push_back(fmt::format(
+        "{} dilatation terms: the body has Poisson's ratio 1/4 there, whatever its materials say",
+        model.dilatation.count()));
+  if (!model.corners.empty())
+    losses.push_back("corners of cells: nothing keeps cells from turning inside out");
+  if (!model.surface.empty())
+    losses.push_back("contact points of cut cells: the body touches at its nodes");
+  return losses;
+}
+
+}  // namespace springlod::report
