@@ -23,7 +23,7 @@ constexpr ModelFormatChoice kFormats[] = {
 }  // namespace
 
 ChoiceTable<ModelFormatChoice> choices(ModelFormat) {
-  return {"to", kFormats};
+  return {"model_format", kFormats};
 }
 
 ExportReport export_model(const ExportedModel& body, ModelFormat format,

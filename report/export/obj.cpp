@@ -1,20 +1,27 @@
 #include <cstdint>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "report/export/draft.hpp"
+#include "report/export/obj_text.hpp"
 
 namespace springlod::report {
 
 namespace {
 
-void add_points(std::string& text, const std::vector<Vec3>& points) {
+std::string with_points(const std::string& origin, const std::vector<Vec3>& points) {
+  std::string text = fmt::format("# {}; metres, z up\n", origin);
   for (const Vec3& p : points)
     fmt::format_to(std::back_inserter(text), "v {} {} {}\n", p.x(), p.y(), p.z());
+  return text;
 }
 
-// Faces of each mesh part as an object with its material.
-void add_surface(std::string& text, const TriangleMesh& surface) {
+}  // namespace
+
+std::string obj_text(const TriangleMesh& surface, const std::vector<Vec3>& points,
+                     const std::string& origin) {
+  std::string text = with_points(origin, points);
   for (const MeshPart& part : surface.parts) {
     fmt::format_to(std::back_inserter(text), "o {}\n", part.name);
     if (!part.material.empty())
@@ -25,27 +32,20 @@ void add_surface(std::string& text, const TriangleMesh& surface) {
                      corner[2] + 1);
     }
   }
+  return text;
 }
 
-}  // namespace
-
 ExportDraft draft_obj(const ExportedModel& body) {
-  std::string text = fmt::format("# {}; metres, z up\n", body.origin);
-  ExportDraft draft;
-  if (body.surface) {
-    add_points(text, surface_points(body));
-    add_surface(text, *body.surface);
-    draft.losses = {"nodes, springs, masses: OBJ holds the surface only"};
-  } else {
-    add_points(text, body.model.rest);
-    text += "o springs\n";
-    for (std::uint32_t s = 0; s < body.model.spring_count(); ++s)
-      fmt::format_to(std::back_inserter(text), "l {} {}\n", body.model.a[s] + 1,
-                     body.model.b[s] + 1);
-    draft.losses = {"masses, stiffness, damping: OBJ holds points and lines only"};
-  }
-  draft.files = {{".obj", std::move(text)}};
-  return draft;
+  if (body.surface)
+    return {.files = {{".obj", obj_text(*body.surface, surface_points(body), body.origin)}},
+            .settings = {},
+            .losses = {"nodes, springs, masses: OBJ holds the surface only"}};
+  std::string text = with_points(body.origin, body.model.rest) + "o springs\n";
+  for (std::uint32_t s = 0; s < body.model.spring_count(); ++s)
+    fmt::format_to(std::back_inserter(text), "l {} {}\n", body.model.a[s] + 1, body.model.b[s] + 1);
+  return {.files = {{".obj", std::move(text)}},
+          .settings = {},
+          .losses = {"masses, stiffness, damping: OBJ holds points and lines only"}};
 }
 
 }  // namespace springlod::report
