@@ -19,15 +19,14 @@ std::string with_points(const std::string& origin, const std::vector<Vec3>& poin
 
 }  // namespace
 
-std::string obj_text(const TriangleMesh& surface, const std::vector<Vec3>& points,
-                     const std::string& origin) {
-  std::string text = with_points(origin, points);
-  for (const MeshPart& part : surface.parts) {
-    fmt::format_to(std::back_inserter(text), "o {}\n", part.name);
+std::string obj_text(const ExportedModel& body, const std::vector<Vec3>& points) {
+  std::string text = with_points(body.origin, points) + fmt::format("o {}\n", body.name);
+  for (const MeshPart& part : body.surface->parts) {
+    fmt::format_to(std::back_inserter(text), "g {}\n", part.name);
     if (!part.material.empty())
       fmt::format_to(std::back_inserter(text), "usemtl {}\n", part.material);
     for (std::uint32_t t = 0; t < part.triangle_count; ++t) {
-      const Triangle& corner = surface.triangles[part.first_triangle + t];
+      const Triangle& corner = body.surface->triangles[part.first_triangle + t];
       fmt::format_to(std::back_inserter(text), "f {} {} {}\n", corner[0] + 1, corner[1] + 1,
                      corner[2] + 1);
     }
@@ -37,7 +36,7 @@ std::string obj_text(const TriangleMesh& surface, const std::vector<Vec3>& point
 
 ExportDraft draft_obj(const ExportedModel& body) {
   if (body.surface)
-    return {.files = {{".obj", obj_text(*body.surface, surface_points(body), body.origin)}},
+    return {.files = {{".obj", obj_text(body, surface_points(body))}},
             .settings = {},
             .losses = {"nodes, springs, masses: OBJ holds the surface only"}};
   std::string text = with_points(body.origin, body.model.rest) + "o springs\n";

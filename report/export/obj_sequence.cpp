@@ -8,8 +8,7 @@ void write_obj_sequence(const ExportedMotion& motion, const MotionOptions&, Moti
   require_surface(motion.body, "obj");
   for (std::size_t f = 0; f < motion.frames.size(); ++f)
     files.write(frame_suffix(f) + ".obj",
-                obj_text(*motion.body.surface, surface_at(motion.body, motion.frames[f].x),
-                         motion.body.origin));
+                obj_text(motion.body, surface_at(motion.body, motion.frames[f].x)));
   files.report.losses.push_back("nodes, springs, masses and the times of the frames");
 }
 

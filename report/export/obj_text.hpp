@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "model/mesh.hpp"
+#include "report/export/export.hpp"
 
 namespace springlod::report {
 
-/// The surface as OBJ with its vertices at `points` [m], an object for each mesh part. The vertices
-/// keep their order. `origin`: one line for a comment.
-std::string obj_text(const TriangleMesh& surface, const std::vector<Vec3>& points,
-                     const std::string& origin);
+/// The surface as one OBJ object with its vertices at `points` [m], a group for each mesh part. One
+/// object, because programs number the vertices of each object anew, and point caches count them
+/// all.
+std::string obj_text(const ExportedModel& body, const std::vector<Vec3>& points);
 
 }  // namespace springlod::report

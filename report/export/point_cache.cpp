@@ -9,6 +9,7 @@
 
 #include "report/export/draft.hpp"
 #include "report/export/motion_files.hpp"
+#include "report/export/obj_text.hpp"
 
 namespace springlod::report {
 
@@ -34,10 +35,9 @@ double rate_of(const std::vector<sim::Frame>& frames) {
 
 // The mesh that a cache moves: the same vertices in the same order.
 void write_mesh(const ExportedMotion& motion, MotionFiles& files) {
-  files.write(".obj", draft_obj(motion.body).files.front().content);
+  files.write(".obj", obj_text(motion.body, surface_points(motion.body)));
   files.report.settings.push_back(
-      fmt::format("Blender: import {} with forward Y, up Z, and nothing split; add the modifier "
-                  "Mesh Cache with the file",
+      fmt::format("Blender: import {} with forward Y and up Z, then add the modifier Mesh Cache",
                   files.name(".obj")));
   files.report.losses.push_back("everything but the positions of the surface's vertices");
 }
