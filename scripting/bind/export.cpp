@@ -125,9 +125,10 @@ void describe_export(Api& api) {
                    .help = "level of the chain"},
                   name_parameter(),
                   {.name = "gravity",
-                   .type = "list of 3 numbers",
+                   .type = "{x, y, z}",
+                   .dimension = Dimension::acceleration,
                    .fallback = "{0, 0, -9.81}",
-                   .help = "acceleration that the settings reckon with [m/s2]"}},
+                   .help = "acceleration that the settings reckon with"}},
       .returns = kReport,
       .errors = "A level that the chain does not have; a model that the format cannot hold; a file "
                 "cannot be written.",

@@ -113,7 +113,8 @@ local texts = {
   ["chart.path"] = "out.svg", ["video.path"] = "out.gif", ["animate.folder"] = "frames",
   ["video.folder"] = "frames", ["files.folder"] = ".", ["options_of.name"] = "simplify",
   ["quantity.text"] = "5", ["save_text.path"] = "out.txt",
-  ["csv.path"] = "out.csv", ["hash.file"] = "box.obj",
+  ["csv.path"] = "out.csv", ["hash.file"] = "box.obj", ["export.path"] = "model",
+  ["export_motion.path"] = "motion",
 }
 
 local points = {}
@@ -157,6 +158,7 @@ function valid(parameter, owner)
   if type:find("^list of integers") or type:find("^list of numbers") then return {1} end
   if type:find("^{") then return {1, 2, 3, type:find("offset") and 0 or nil} end
   if type:find("^Comparison") then return values.Comparison end
+  if type:find("^LodChain") then return values.LodChain end
   if type:find("^Mesh") then return one_of{values.Mesh, values.Model, values.Trajectory} end
   if name == "level" then return 1 end
   if type:find("^integer") then return math.random(3) end
