@@ -102,6 +102,123 @@ std::vector<std::string> row_texts(const std::vector<Cell>& row, NumberText numb
   return texts;
 }
 
+// A text table that is at most kTableWidth wide if its words allow it: titles, and then the longest
+// column of texts, continue on further lines.
+class TextTable {
+ public:
+  explicit TextTable(const Table& table) : columns_(table.columns.size()) {
+    for (const auto& row : table.rows) rows_.push_back(row_texts(row, four_digits));
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      Column& column = columns_[c];
+      column.title = table.columns[c];
+      column.right = is_number_column(table, c);
+      for (const auto& row : rows_) column.widest = std::max(column.widest, width(row[c]));
+      column.width = std::max(column.widest, width(column.title));
+    }
+    while (total_width() > kTableWidth && narrow_a_title()) {
+    }
+    if (total_width() > kTableWidth) narrow_the_texts();
+  }
+
+  std::string text() const {
+    std::vector<std::string> titles;
+    for (const Column& column : columns_) titles.push_back(column.title);
+    std::string text = lines_of(titles);
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (c > 0) text += "  ";
+      for (std::size_t i = 0; i < columns_[c].width; ++i) text += "\u2500";
+    }
+    text += "\n";
+    for (const auto& row : rows_) text += lines_of(row);
+    return text;
+  }
+
+ private:
+  static constexpr std::size_t kTableWidth = 100;
+  struct Column {
+    std::string title;
+    bool right = false;
+    std::size_t widest = 0;  // of its cells
+    std::size_t width = 0;
+  };
+
+  std::size_t total_width() const {
+    std::size_t total = columns_.empty() ? 0 : 2 * (columns_.size() - 1);
+    for (const Column& column : columns_) total += column.width;
+    return total;
+  }
+
+  // Takes one from the column whose title is most wider than its cells.
+  bool narrow_a_title() {
+    Column* most = nullptr;
+    const auto excess = [](const Column& column) {
+      std::size_t least = column.widest;
+      for (const std::string& word : wrapped(column.title, 1)) least = std::max(least, width(word));
+      return column.width - std::min(column.width, least);
+    };
+    for (Column& column : columns_)
+      if (excess(column) > (most == nullptr ? 0 : excess(*most))) most = &column;
+    if (most == nullptr) return false;
+    --most->width;
+    return true;
+  }
+
+  void narrow_the_texts() {
+    const auto widest =
+        std::max_element(columns_.begin(), columns_.end(),
+                         [](const Column& a, const Column& b) { return a.width < b.width; });
+    if (widest->right) return;
+    constexpr std::size_t kLeast = 20;
+    const std::size_t others = total_width() - widest->width;
+    widest->width = std::max(kLeast, kTableWidth > others ? kTableWidth - others : 0);
+    for (const auto& row : rows_)  // a long word stays whole
+      for (const std::string& line :
+           wrapped(row[static_cast<std::size_t>(widest - columns_.begin())], widest->width))
+        widest->width = std::max(widest->width, width(line));
+  }
+
+  // `text` in lines of at most `most` columns, or of one word.
+  static std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
+    if (width(text) <= most) return {text};
+    std::vector<std::string> lines{""};
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = std::min(text.find(' ', at), text.size());
+      const std::string word = text.substr(at, end - at);
+      if (!lines.back().empty() && width(lines.back()) + 1 + width(word) > most)
+        lines.emplace_back();
+      lines.back() += (lines.back().empty() ? "" : " ") + word;
+      at = end + 1;
+    }
+    return lines;
+  }
+
+  std::string lines_of(const std::vector<std::string>& cells) const {
+    std::vector<std::vector<std::string>> parts;
+    std::size_t count = 1;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      parts.push_back(wrapped(cells[c], columns_[c].width));
+      count = std::max(count, parts.back().size());
+    }
+    std::string text;
+    for (std::size_t n = 0; n < count; ++n) {
+      std::string line;
+      for (std::size_t c = 0; c < cells.size(); ++c) {
+        const std::string part = n < parts[c].size() ? parts[c][n] : "";
+        const std::string padding(columns_[c].width - std::min(columns_[c].width, width(part)),
+                                  ' ');
+        if (c > 0) line += "  ";
+        line += columns_[c].right ? padding + part : part + padding;
+      }
+      line.erase(line.find_last_not_of(' ') + 1);
+      text += line + "\n";
+    }
+    return text;
+  }
+
+  std::vector<Column> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
 }  // namespace
 
 std::string number_text(double value) {
@@ -120,36 +237,7 @@ void save_csv(const Table& table, const std::filesystem::path& path) {
 
 std::string format_table(const Table& table) {
   require_even(table);
-  const std::size_t count = table.columns.size();
-  std::vector<std::vector<std::string>> rows;
-  for (const auto& row : table.rows) rows.push_back(row_texts(row, four_digits));
-  std::vector<std::size_t> widths(count);
-  std::vector<bool> right(count);
-  for (std::size_t c = 0; c < count; ++c) {
-    widths[c] = width(table.columns[c]);
-    for (const auto& row : rows) widths[c] = std::max(widths[c], width(row[c]));
-    right[c] = is_number_column(table, c);
-  }
-  std::string text;
-  const auto append = [&](const std::vector<std::string>& cells) {
-    std::string line;
-    for (std::size_t c = 0; c < count; ++c) {
-      const std::string padding(widths[c] - width(cells[c]), ' ');
-      if (c > 0) line += "  ";
-      line += right[c] ? padding + cells[c] : cells[c] + padding;
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  };
-  append(table.columns);
-  std::string rule;
-  for (std::size_t c = 0; c < count; ++c) {
-    if (c > 0) rule += "  ";
-    for (std::size_t i = 0; i < widths[c]; ++i) rule += "\u2500";
-  }
-  text += rule + "\n";
-  for (const auto& row : rows) append(row);
-  return text;
+  return TextTable(table).text();
 }
 
 }  // namespace springlod::report

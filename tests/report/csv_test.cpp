@@ -64,3 +64,34 @@ TEST_CASE("a terminal table right-aligns numbers and counts characters, not byte
         "LOD-1     67       -\n"
         "x                3 %\n");
 }
+
+TEST_CASE("a terminal table of long titles and texts fits 100 columns") {
+  const std::string reason =
+      "the mesh is flat or empty; it encloses no volume, so no cell has its centre inside";
+  Table table{{"mesh", "result"}, {{"a.obj", "failed"}, {"b.obj", "converted"}}};
+  for (int i = 0; i < 5; ++i) {
+    table.columns.push_back("error of the levels [%]");
+    for (auto& row : table.rows) row.push_back(whole(i));
+  }
+  table.columns.push_back("asset or reason");
+  table.rows[0].push_back(reason);
+  table.rows[1].push_back("b.glb");
+  const std::string text = format_table(table);
+  CAPTURE(text);
+  std::size_t lines = 0;
+  std::size_t characters = 0;
+  for (const char c : text) {
+    if (c == '\n') {
+      CHECK(characters <= 100);
+      ++lines;
+      characters = 0;
+    } else {
+      characters += (static_cast<unsigned char>(c) & 0xC0U) != 0x80 ? 1 : 0;
+    }
+  }
+  CHECK(lines >= 5);
+  CHECK_THAT(text, Catch::Contains("the mesh is flat") && Catch::Contains("b.glb"));
+  // A word is never broken, such as the path of a file.
+  const std::string path(150, 'p');
+  CHECK_THAT(format_table({{"mesh", "asset"}, {{"a", path}}}), Catch::Contains(path));
+}
