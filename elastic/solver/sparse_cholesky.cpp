@@ -47,7 +47,7 @@ class SparseCholesky::Builder {
   }
 
   bool run(Progress* progress) {
-    Task task(progress, "factorising the stiffness", place_.size());
+    Task task(progress, "factorizing the stiffness", place_.size());
     for (std::uint32_t p = 0; p < supernodes_.size(); ++p) {
       start_front(p);
       add_matrix(p);

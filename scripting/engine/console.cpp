@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "base/error.hpp"
@@ -25,6 +26,8 @@ constexpr auto kRedraw = 100ms;
 // Interval between two progress lines in a log file.
 constexpr auto kLogLine = 10s;
 constexpr int kBarWidth = 24;
+// Of a terminal that does not state its size.
+constexpr std::size_t kUsualColumns = 80;
 
 std::string clock_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(std::min(seconds, 359999.0)));
@@ -56,7 +59,22 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != 0;
 }
 
+// The first `columns` characters of UTF-8 text.
+std::string cut(const std::string& text, std::size_t columns) {
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool continues = (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80;
+    if (!continues && shown++ == columns) return text.substr(0, i);
+  }
+  return text;
+}
+
 }  // namespace
+
+std::size_t terminal_columns() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
 
 std::string progress_line(std::string_view task, std::uint64_t done, std::uint64_t total,
                           double seconds, bool bar) {
@@ -75,13 +93,25 @@ std::string progress_line(std::string_view task, std::uint64_t done, std::uint64
   return line;
 }
 
+std::string fitted_progress_line(std::string_view task, std::uint64_t done, std::uint64_t total,
+                                 double seconds, std::string_view detail, std::size_t columns) {
+  const auto line = [&](bool bar) {
+    std::string text = progress_line(task, done, total, seconds, bar);
+    if (!detail.empty()) text += fmt::format("  {}", detail);
+    return text;
+  };
+  const std::string full = line(true);
+  if (cut(full, columns) == full) return full;
+  return cut(line(false), columns);
+}
+
 Console::Console(Verbosity verbosity)
     : verbosity_(verbosity),
       terminal_(isatty(STDERR_FILENO) != 0),
       colour_(terminal_ && !is_set("NO_COLOR")) {}
 
 void Console::say(std::string_view text) {
-  print(printable(text));
+  print(printable(flag_words_.in_flags(text)));
 }
 
 void Console::print(std::string_view text) {
@@ -146,12 +176,18 @@ void Console::report(Running& running, Clock::time_point now, bool last) {
   if (verbosity_ == Verbosity::quiet) return;
   running.reported = true;
   const double seconds = std::chrono::duration<double>(now - running.start).count();
-  std::string line = progress_line(running.name, running.done, running.total, seconds, terminal_);
-  if (!last && !running.detail.empty()) line += "  " + running.detail;
+  const std::string_view detail = last ? std::string_view() : running.detail;
   if (!terminal_) {
-    put(line + "\n");
+    const std::string line =
+        progress_line(running.name, running.done, running.total, seconds, false);
+    put(fmt::format("{}{}{}\n", line, detail.empty() ? "" : "  ", detail));
     return;
   }
+  // A terminal may wrap when its last column is written, so that column stays empty.
+  const std::size_t columns = terminal_columns();
+  const std::string line =
+      fitted_progress_line(running.name, running.done, running.total, seconds, detail,
+                           (columns > 1 ? columns : kUsualColumns) - 1);
   // \033[K clears the rest of an earlier, longer line; \033[2m is dim, which NO_COLOR turns off.
   put(fmt::format("\r{}{}{}\033[K", colour_ ? "\033[2m" : "", line, colour_ ? "\033[0m" : ""));
   bar_shown_ = !last;

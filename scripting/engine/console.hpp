@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/progress.hpp"
+#include "scripting/engine/flag_words.hpp"
 
 namespace springlod::scripting {
 
@@ -25,6 +26,8 @@ class Console : public Progress {
   void say(std::string_view text) override;
   /// Prints the text of a script as it is; not if quiet.
   void print(std::string_view text);
+  /// How `say` names options.
+  FlagWords& flag_words() { return flag_words_; }
   bool verbose() const { return verbosity_ == Verbosity::verbose; }
 
   void begin(std::string_view task, std::uint64_t total) override;
@@ -55,10 +58,19 @@ class Console : public Progress {
   std::atomic<std::uint64_t> pending_{0};  // counts not yet added to running_.back()
   std::atomic<Clock::rep> next_check_{0};
   bool bar_shown_ = false;
+  FlagWords flag_words_;
 };
+
+/// Columns of the terminal that shows stderr; 0 if it shows on none.
+std::size_t terminal_columns();
 
 /// One line of progress: "voxelize  [=====>    ]  52 %  1300/s  0:03 left".
 std::string progress_line(std::string_view task, std::uint64_t done, std::uint64_t total,
                           double seconds, bool bar);
+
+/// The same with a detail behind it, in at most `columns`: a longer line would wrap, and could not
+/// be redrawn in place. Drops the bar first, then the end of the detail.
+std::string fitted_progress_line(std::string_view task, std::uint64_t done, std::uint64_t total,
+                                 double seconds, std::string_view detail, std::size_t columns);
 
 }  // namespace springlod::scripting

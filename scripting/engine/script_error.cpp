@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/message.hpp"
 #include "base/script_number.hpp"
+#include "scripting/engine/session.hpp"
 
 namespace springlod::scripting {
 
@@ -94,7 +95,7 @@ std::shared_ptr<const ErrorValue> current_error(lua_State* L) {
     error->kind = "internal";
     error->message = fmt::format("internal error: {}; please report it", e.what());
   }
-  error->message = printable(error->message);
+  error->message = printable(session_of(L).console().flag_words().in_flags(error->message));
   return error;
 }
 
