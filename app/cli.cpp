@@ -60,7 +60,7 @@ std::string usage_text(const std::vector<scripting::StockCommand>& commands) {
       "       springlod [FLAGS] run SCRIPT.lua [-- ARGUMENTS...]\n"
       "       springlod [FLAGS] -e CODE\n"
       "       springlod [FLAGS]                        open a prompt; or run stdin\n\n"
-      "commands (see springlod COMMAND --help):\n",
+      "commands (springlod help COMMAND explains one; springlod help lists all topics):\n",
       scripting::version());
   std::size_t width = 3;
   for (const scripting::StockCommand& command : commands)
@@ -102,8 +102,10 @@ Leave unknown_command(const std::string& name,
     return wrong_use(fmt::format("unknown command '{0}'; did you mean: springlod run {0}?", name));
   std::vector<std::string> names{"run"};
   for (const scripting::StockCommand& command : commands) names.push_back(command.name);
-  return wrong_use(fmt::format("unknown command '{}'{}", name,
-                               scripting::name_hint(name, names, "commands are")));
+  const std::string question = scripting::did_you_mean(name, names);
+  return wrong_use(
+      fmt::format("unknown command '{}'{}", name,
+                  question.empty() ? "; commands are: " + scripting::comma_list(names) : question));
 }
 
 // Parses arguments with the flags of add_settings.
@@ -162,10 +164,25 @@ std::optional<Leave> parse_back(const std::vector<std::string>& arguments, bool 
   return std::nullopt;
 }
 
+Leave run_help() {
+  return {
+      0,
+      "usage: springlod [FLAGS] run SCRIPT.lua [-- ARGUMENTS...]\n\n"
+      "Run a Lua script. It gets the arguments after -- as `...` and in the table `arg`, and may\n"
+      "use the files that they name and those below the current folder (docs/security.md).\n\n"
+      "flags:\n"
+      "  -i             open a prompt afterwards\n"
+      "  --seed N, --threads N, -q, -v, --time-limit T, --memory-limit N, --unsafe\n"
+      "                 as for every command: springlod --help\n\n"
+      "A script begins with: local s = require \"springlod\". springlod help lists the\n"
+      "functions of s, springlod help simplify explains one of them.\n"};
+}
+
 std::optional<Leave> parse_run(const std::vector<std::string>& arguments, CommandLine& line) {
   line.action = CommandLine::Action::script;
   if (auto leave = parse_back(arguments, true, line)) return leave;
   if (line.arguments.empty()) return wrong_use("run needs a script: springlod run SCRIPT.lua");
+  if (line.arguments.front() == "--help" || line.arguments.front() == "-h") return run_help();
   line.script = line.arguments.front();
   line.arguments.erase(line.arguments.begin());
   if (line.script.starts_with("-")) return unknown_flag(line.script);

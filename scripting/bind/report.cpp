@@ -41,6 +41,17 @@ std::vector<std::shared_ptr<const ComparisonValue>> comparisons_at(Call& call, i
   return all;
 }
 
+/// A Comparison, or a list that begins with one.
+bool holds_comparisons(Call& call, int number) {
+  if (call.try_value<ComparisonValue>(number)) return true;
+  lua_State* L = call.lua();
+  if (!lua_istable(L, call.index(number))) return false;
+  lua_rawgeti(L, call.index(number), 1);
+  const bool holds = boxed_at(L, lua_gettop(L), &kValueName<ComparisonValue>) != nullptr;
+  lua_pop(L, 1);
+  return holds;
+}
+
 int animate_binding(Call& call) {
   const auto comparisons = comparisons_at(call, 2);
   report::AnimateOptions options;
@@ -84,11 +95,11 @@ int chart_binding(Call& call) {
     reader.finish();
     return give_drawn(call, report::draw_map(*map, options.title, call.writable(1)));
   }
-  const auto comparison = call.try_value<ComparisonValue>(2);
   std::vector<report::ChartSeries> series;
-  if (comparison) {
-    series.push_back(cost_error_series(*comparison, reader));
-    options = cost_error_chart(*comparison);
+  if (holds_comparisons(call, 2)) {
+    const auto comparisons = comparisons_at(call, 2);
+    series = cost_error_series(comparisons, reader);
+    options = cost_error_chart(*comparisons.front());
   } else {
     series = series_from_table(call, call.index(2));
   }
@@ -182,7 +193,9 @@ void describe_tables(Api& api) {
   api.add(FunctionEntry{
       .name = "format_table",
       .group = kGroup,
-      .summary = "Formats rows as a text table for a terminal. Numbers have four digits.",
+      .summary =
+          "Formats rows as a text table for a terminal, at most 100 columns wide if its words "
+          "allow it. Numbers have four digits.",
       .arguments = {rows},
       .options = options,
       .returns = "string",
@@ -204,9 +217,10 @@ void describe_report(Api& api) {
                  "series.",
       .arguments = {{.name = "path", .type = "string", .help = "NAME.svg or NAME.png to write"},
                     {.name = "data",
-                     .type = "Comparison, StabilityMap or list of Series",
-                     .help = "data to draw: one point per level of a comparison, or one panel per "
-                             "level and integrator of a map (which uses only the option title)"}},
+                     .type = "Comparison, list of Comparison, StabilityMap or list of Series",
+                     .help = "data to draw: one point per level of a comparison, one series per "
+                             "comparison of a list, or one panel per level and integrator of a map "
+                             "(which uses only the option title)"}},
       .options = chart_parameters(),
       .returns = "boolean, string: whether the chart was drawn (gnuplot may be missing), the "
                  "command that draws it",

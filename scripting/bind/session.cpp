@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <lua.hpp>
@@ -47,6 +50,30 @@ int markdown(Call& call) {
 int say(Call& call) {
   call.session().console().print(call.text(1));
   return 0;
+}
+
+int use_flags(Call& call) {
+  lua_State* L = call.lua();
+  const int table = call.index(1);
+  if (!lua_istable(L, table)) call.refuse(1, "a table of flags");
+  std::map<std::string, std::string> flags;
+  lua_pushnil(L);
+  while (lua_next(L, table) != 0) {
+    if (lua_type(L, -2) != LUA_TSTRING || lua_type(L, -1) != LUA_TSTRING)
+      call.refuse(1, "a table of flags by the names of options, both text");
+    flags.emplace(lua_tostring(L, -2), lua_tostring(L, -1));
+    lua_pop(L, 1);
+  }
+  // Stages of the work that begin messages as functions do.
+  std::set<std::string> functions{"calibration", "animation",        "merge",
+                                  "groups",      "compact grouping", "metis grouping"};
+  for (const FunctionEntry& entry : call.session().api().functions()) functions.insert(entry.name);
+  call.session().console().flag_words().use(std::move(flags), std::move(functions));
+  return 0;
+}
+
+int in_flags(Call& call) {
+  return call.give(call.session().console().flag_words().in_flags(call.text(1)));
 }
 
 int inspect_value(Call& call) {
@@ -209,6 +236,11 @@ void describe_constants(Api& api) {
                          .type = "string",
                          .help = "folder of the sample meshes, materials and scenes"},
                         [](lua_State* L) { push(L, sample_folder().string()); }});
+  api.add(ConstantEntry{{.name = "docs",
+                         .type = "string",
+                         .help = "folder of the documentation, Markdown files; the files may be "
+                                 "missing"},
+                        [](lua_State* L) { push(L, doc_folder().string()); }});
   api.add(ConstantEntry{
       {.name = "verbosity", .type = "integer", .help = "-1 under -q, 1 under -v, else 0"},
       [](lua_State* L) { push(L, static_cast<int>(session_of(L).settings().verbosity) - 1); }});
@@ -239,6 +271,28 @@ void describe_session(Api& api) {
       .errors = "The argument is not text.",
       .example = "s.say(\"half way\")",
       .call = say});
+  api.add(FunctionEntry{
+      .name = "use_flags",
+      .group = kGroup,
+      .summary = "Lets the messages of springlod name options by the flags of a command, as in "
+                 "--hinges fill for hinges = \"fill\".",
+      .arguments = {{.name = "flags",
+                     .type = "table",
+                     .help = "the flag of each option, by the option's name; --no-... if it sets "
+                             "the option to false"}},
+      .returns = "nothing",
+      .errors = "Not a table of texts.",
+      .example = "s.use_flags{hinges = \"--hinges\", guards = \"--no-guards\"}",
+      .call = use_flags});
+  api.add(FunctionEntry{.name = "in_flags",
+                        .group = kGroup,
+                        .summary = "Returns a text with its options named by the flags of "
+                                   "use_flags.",
+                        .arguments = {{.name = "text", .type = "string", .help = "any text"}},
+                        .returns = "string",
+                        .errors = "The argument is not text.",
+                        .example = "print(s.in_flags(\"use hinges = \\\"fill\\\"\"))",
+                        .call = in_flags});
   api.add(FunctionEntry{.name = "inspect",
                         .group = kGroup,
                         .summary = "Formats any Lua value as text, with the keys of tables sorted.",

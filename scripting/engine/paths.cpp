@@ -50,6 +50,10 @@ fs::path sample_folder() {
   return stock_script_folder().parent_path() / "samples";
 }
 
+fs::path doc_folder() {
+  return stock_script_folder().parent_path() / "docs";
+}
+
 std::vector<StockCommand> stock_commands() {
   std::vector<StockCommand> commands = commands_in(stock_script_folder(), false);
   const std::vector<StockCommand> studies = commands_in(stock_script_folder() / "studies", true);

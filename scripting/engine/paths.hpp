@@ -13,6 +13,9 @@ std::filesystem::path stock_script_folder();
 /// The folder of the sample meshes and scenes, beside that of the stock scripts.
 std::filesystem::path sample_folder();
 
+/// The folder of the documentation, beside that of the stock scripts. It may be missing.
+std::filesystem::path doc_folder();
+
 /// A stock command: scripts/NAME.lua, or scripts/studies/NAME.lua for the studies that evaluate the
 /// methods. The comment in its first line is its summary.
 struct StockCommand {

@@ -129,6 +129,7 @@ ScriptState::ScriptState(const Settings& settings, std::unique_ptr<Api> api)
     session_->files().restrict();
     session_->files().allow_project(std::filesystem::current_path());
     session_->files().allow_reading(sample_folder());
+    session_->files().allow_reading(doc_folder());
     close_sandbox(lua_);
   }
   register_types(lua_, *api_);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -43,6 +45,15 @@ constexpr double kBytesPerCell = 60;
 constexpr double kBytesPerSurfaceCell = 1200;
 // Solids have 16-bit numbers; 0 is empty.
 constexpr std::size_t kMostSolids = 65535;
+
+// "rod, rubber", at most a few of them.
+std::string listed(const std::set<std::string>& names) {
+  constexpr std::size_t kMost = 20;
+  if (names.empty()) return "none";
+  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
+  const std::vector<std::string> first(names.begin(), std::next(names.begin(), kMost));
+  return fmt::format("{} and {} more", fmt::join(first, ", "), names.size() - kMost);
+}
 
 void require_solids(const std::vector<SolidReport>& solids) {
   if (solids.empty()) throw InputError("voxelize: the mesh has no triangles");
@@ -385,10 +396,26 @@ class Voxelizer {
     }
   }
 
+  void warn_of_unused_materials() {
+    const std::vector<std::string> unused = materials_.unused();
+    if (unused.empty()) return;
+    std::set<std::string> keys;
+    for (const auto& [key, input] : options_.materials) keys.insert(key);
+    std::set<std::string> parts;
+    std::set<std::string> materials;
+    for (const MeshPart& part : mesh().parts) {
+      parts.insert(part.name);
+      if (!part.material.empty()) materials.insert(part.material);
+    }
+    warn(fmt::format(
+        "material{} \"{}\" {} not used: no part or material of the mesh has this name; materials "
+        "given: {}; parts of the mesh: {}; its materials: {}",
+        unused.size() == 1 ? "" : "s", fmt::join(unused, "\", \""),
+        unused.size() == 1 ? "is" : "are", listed(keys), listed(parts), listed(materials)));
+  }
+
   VoxelizedMesh finish() {
-    for (const std::string& key : materials_.unused())
-      warn(fmt::format("material \"{}\" is not used: no part or material of the file has this name",
-                       key));
+    warn_of_unused_materials();
     const std::vector<MaterialInput> used = materials_.finish(grid().material);
     set_materials(grid(), used, bodies_);
     report().grid_volume = volume(grid());

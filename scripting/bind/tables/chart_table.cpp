@@ -102,9 +102,9 @@ std::vector<std::string> sorted_keys(lua_State* L, int table) {
 
 }  // namespace
 
-report::ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader) {
-  ErrorKind kind = ErrorKind::surface;
-  reader.read("error", kind);
+namespace {
+
+report::ChartSeries series_of(const ComparisonValue& comparison, ErrorKind kind) {
   const report::Table table =
       report::comparison_table(comparison.comparison, comparison.chain->chain);
   const auto column = [&](const char* name) {
@@ -122,6 +122,24 @@ report::ChartSeries cost_error_series(const ComparisonValue& comparison, TableRe
                              .y = std::get<double>(row[error]),
                              .label = std::get<std::string>(row[column("label")])});
   return series;
+}
+
+}  // namespace
+
+std::vector<report::ChartSeries> cost_error_series(
+    const std::vector<std::shared_ptr<const ComparisonValue>>& comparisons, TableReader& reader) {
+  ErrorKind kind = ErrorKind::surface;
+  reader.read("error", kind);
+  std::vector<report::ChartSeries> all;
+  for (const auto& comparison : comparisons) {
+    all.push_back(series_of(*comparison, kind));
+    if (comparisons.size() == 1) break;
+    // "LOD-hb-1" names the comparison.
+    const std::string& label = comparison->comparison.levels.back().label;
+    all.back().name = label.substr(0, label.rfind('-')) + ": " + all.back().name;
+    if (all.size() > 1) all.back().points.front().label.clear();  // all bases are at 1
+  }
+  return all;
 }
 
 report::ChartOptions cost_error_chart(const ComparisonValue& comparison) {

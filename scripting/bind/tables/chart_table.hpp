@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "report/chart.hpp"
@@ -9,9 +10,11 @@
 
 namespace springlod::scripting {
 
-/// One point for each level: cost per simulated second, relative to the base, against error in
-/// percent of the base's bounding diagonal. The option `error` of `reader` selects the error.
-report::ChartSeries cost_error_series(const ComparisonValue& comparison, TableReader& reader);
+/// A series for each comparison, with one point for each level: cost per simulated second, relative
+/// to the base, against error in percent of the base's bounding diagonal. The option `error` of
+/// `reader` selects the error.
+std::vector<report::ChartSeries> cost_error_series(
+    const std::vector<std::shared_ptr<const ComparisonValue>>& comparisons, TableReader& reader);
 report::ChartOptions cost_error_chart(const ComparisonValue& comparison);
 
 /// {{name = ..., points = {{x, y}, ...}}, ...} at `index`; {series = {...}} is accepted too.
