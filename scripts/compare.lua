@@ -2,29 +2,35 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local comparison_table = require "lib.comparison_table"
 local conversion = require "lib.conversion"
 local fit_store = require "lib.fit_store"
 local simplify_options = require "lib.simplify_options"
 
+local film = {frames = 100, frame_rate = 30, least_frame_rate = 10}
+
 local parser = command.parser("compare", "Run every level of an asset under one scenario. "
   .. "Writes table.csv, starts.csv, chart.svg, chart.png, frames/frame_0000.png ..., "
   .. "comparison.mp4 and timings.csv (wall-clock times, the only output that varies between runs). "
+  .. "Several assets share one table, chart and video, which has the base of the first one. "
   .. "With options of levels, such as --grouping standard, the levels are made anew from the base "
   .. "of the asset; those that are not given are as convert has them.")
-parser:argument("asset", "a .glb asset, written by convert or s.save")
+parser:argument("asset", "a .glb asset, written by convert or s.save"):args("+")
 parser:option("--scenario", "Lua file that returns a table for s.scenario; it may also have "
   .. "anchored: what holds nodes of the base, as for s.compare")
   :argname("<file.lua>"):count(1)
-parser:option("--out", "folder to write to"):argname("<folder>"):count(1)
+command.add_out(parser, "out/compare")
 parser:option("--starts", "number of starts; every level uses the same ones")
-  :convert(command.whole("--starts", 1)):default("1")
+  :convert(command.whole("--starts", 1)):default("8")
 parser:option("--jitter", "relative variation of speed and height between starts (default: 0.02)")
   :convert(command.number("--jitter", 0, true))
-parser:option("--variant", "name used in labels: hb gives LOD-hb-1")
-parser:option("--frames", "maximum number of frames; 0 writes none")
-  :convert(command.whole("--frames", 0)):default("300")
-parser:option("--frame-rate", "frames per second of the video")
-  :convert(command.number("--frame-rate", 0)):default("30")
+parser:option("--variant", "name used in labels: hb gives LOD-hb-1 (default: none; of several "
+  .. "assets, their names)")
+parser:option("--frames", "maximum number of frames; 0 draws none")
+  :convert(command.whole("--frames", 0)):default(tostring(film.frames))
+parser:option("--frame-rate", ("frames per second of the video (default: %d; down to %d for a run "
+  .. "that is too long for --frames)"):format(film.frame_rate, film.least_frame_rate))
+  :convert(command.number("--frame-rate", 0))
 parser:option("--slow", "slow motion: 4 plays four times slower than real time")
   :convert(command.number("--slow", 0)):default("1")
 parser:option("--width", "width of one panel in pixels")
@@ -50,62 +56,91 @@ end
 local options = options_of_levels()
 local fits = options ~= nil and options.calibrate == "modes"
 
--- The levels of the asset, or others of its base.
-local function levels_of(asset)
+local assets = args.asset
+
+-- The levels of an asset, or others of its base.
+local function levels_of(number)
+  local asset = s.load(assets[number])
   if not options then return asset end
   if fits then
     conversion.announce_fit(asset[0])
     options.calibration = options.calibration or {}
-    options.calibration.store = fit_folder
+    options.calibration.store = #assets == 1 and fit_folder or fit_folder .. "/" .. number
   end
   return s.simplify(asset[0], options)
 end
 
-local function animate(runs)
-  local folder = args.out .. "/frames"
-  s.animate(folder, runs, {
+-- Names of the assets in labels; those of the same name are numbered.
+local function variants()
+  if #assets == 1 then return {args.variant} end
+  local names, uses = {}, {}
+  for i, asset in ipairs(assets) do
+    local name = (args.variant and args.variant .. "-" or "") .. command.stem(asset)
+    uses[name] = (uses[name] or 0) + 1
+    names[i] = uses[name] == 1 and name or ("%s-%d"):format(name, uses[name])
+  end
+  return names
+end
+
+-- The usual frame rate of a video, or one at which --frames show all of the run [1/s].
+local function rate_of_film(rows)
+  if args.frame_rate then return args.frame_rate end
+  local seconds = 0
+  for _, row in ipairs(rows) do seconds = math.max(seconds, row.simulated * args.slow) end
+  -- the first frame is at 0 s
+  local fitting = seconds > 0 and (args.frames - 1) / seconds or film.frame_rate
+  return math.min(film.frame_rate, math.max(film.least_frame_rate, fitting))
+end
+
+local function animate(compared, rows)
+  local folder, frame_rate = args.out .. "/frames", rate_of_film(rows)
+  s.animate(folder, compared, {
     width = args.width, height = args.height, frames = args.frames,
-    frame_rate = args.frame_rate, slow = args.slow, camera = args.camera,
+    frame_rate = frame_rate, slow = args.slow, camera = args.camera,
     springs = args.springs, surface_opacity = args.springs and 0.35 or nil,
   })
-  s.video(args.out .. "/" .. args.video, folder, {frame_rate = args.frame_rate})
+  s.video(args.out .. "/" .. args.video, folder, {frame_rate = frame_rate})
+end
+
+-- The rows of all comparisons under one another, in a CSV file. With several, bases are told apart
+-- by the names of their assets.
+local function save_rows(file, compared, names, rows_of)
+  local all, columns = {}, nil
+  for i, runs in ipairs(compared) do
+    local rows
+    rows, columns = rows_of(runs)
+    for _, row in ipairs(rows) do
+      if #compared > 1 and row.level == 0 then row.label = "base-" .. names[i] end
+      all[#all + 1] = row
+    end
+  end
+  s.csv(args.out .. "/" .. file, all, {columns = columns})
+  return all
 end
 
 local function compare()
-  local chain = levels_of(s.load(args.asset))
   local scene = command.load_table(args.scenario)
   local anchored = scene.anchored
   scene.anchored = nil
-  local runs = s.compare(chain, scene, {
-    starts = args.starts, jitter = args.jitter, seed = s.seed, threads = s.threads,
-    variant = args.variant, frame_rate = args.frame_rate * args.slow, contact = args.contact,
-    anchored = anchored,
-  })
-  local rows, columns = runs:table()
-  s.csv(args.out .. "/table.csv", rows, {columns = columns})
-  local starts, start_columns = runs:starts()
-  s.csv(args.out .. "/starts.csv", starts, {columns = start_columns})
-  local times, time_columns = runs:timings()
-  s.csv(args.out .. "/timings.csv", times, {columns = time_columns})
-  command.chart(args.out .. "/chart", runs)
-  if args.frames > 0 then animate(runs) end
-  fit_store.remove(fit_folder)
+  local compared, names = {}, variants()
+  for i = 1, #assets do
+    compared[i] = s.compare(levels_of(i), scene, {
+      starts = args.starts, jitter = args.jitter, seed = s.seed, threads = s.threads,
+      variant = names[i], frame_rate = (args.frame_rate or film.frame_rate) * args.slow,
+      contact = args.contact, anchored = anchored,
+    })
+  end
+  local rows = save_rows("table.csv", compared, names, function(runs) return runs:table() end)
+  save_rows("starts.csv", compared, names, function(runs) return runs:starts() end)
+  save_rows("timings.csv", compared, names, function(runs) return runs:timings() end)
+  command.chart(args.out .. "/chart", compared)
+  if args.frames > 0 then animate(compared, rows) end
+  for i = 1, #assets do fit_store.remove(fit_folder .. (#assets == 1 and "" or "/" .. i)) end
+  if #assets > 1 then os.remove(fit_folder) end
   return rows
 end
 
-local function short_rows(rows)
-  local short = {}
-  for i, row in ipairs(rows) do
-    short[i] = {row.label, row.nodes, row.ends, ("%.3g"):format(row.step), row.limited_by,
-                ("%.2f"):format(row.cost_ratio), ("%.2f"):format(row.surface_error_percent),
-                ("%.2f"):format(row.shape_error_percent), ("%.4f"):format(row.distance)}
-  end
-  return short
-end
-
 local ok, rows = command.try_in(args.out, compare, fits)
-if not ok then command.fail("cannot compare %s: %s", args.asset, rows) end
-print(s.format_table(short_rows(rows), {columns = {
-  "level", "nodes", "ends", "step [s]", "limited by", "cost ratio", "surface error [%]",
-  "shape error [%]", "distance [m]"}}))
+if not ok then command.fail("cannot compare %s: %s", table.concat(assets, ", "), rows) end
+comparison_table.print(rows, args.starts)
 s.say("wrote " .. args.out)

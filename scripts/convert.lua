@@ -5,16 +5,17 @@ local command = require "lib.command"
 local certificates = require "lib.certificates"
 local conversion = require "lib.conversion"
 local fit_store = require "lib.fit_store"
+local show = require "lib.show"
 local simplify_options = require "lib.simplify_options"
 
 local parser = command.parser("convert", "Convert meshes to LOD assets. Each asset is one .glb "
   .. "with the base model, its coarser levels and the mesh. By default, the levels are compact "
   .. "groups of nodes, fitted to the base, and touch obstacles at its surface. Several meshes, or "
   .. "a folder, form a batch, which continues after a failed file. An interrupted fit resumes when "
-  .. "the same command is run again.")
+  .. "the same command is run again.", conversion.flag_words)
 parser:argument("mesh", "mesh files, or a folder of mesh files"):args("+")
-parser:option("-o", "asset to write, NAME.glb; in a batch, a folder")
-  :target("output"):argname("<asset>"):count(1)
+command.one_line(parser:option("-o --out", "asset to write, NAME.glb (default: the mesh's name, in "
+  .. "this folder); in a batch, a folder (default: out)"):argname("<asset>"))
 parser:mutex(
   parser:flag("--fast", "only merge: no fit and no certificate"),
   parser:flag("--paper", "do what the paper does: nodes at cell centers, no volumes, standard "
@@ -99,13 +100,13 @@ local function level_rows(chain)
   local rows = {}
   for i, level in ipairs(chain.levels) do
     rows[i] = {i - 1, level.node_count, level.spring_count, level.end_count, level.corner_count,
-               level.border_count, ("%.4g"):format(s.stable_step(level))}
+               level.border_count, show.measured(s.stable_step(level), "time")}
   end
   return rows
 end
 
 local level_columns = {"level", "nodes", "springs", "ends", "corners", "border",
-                       "stable step [s]"}
+                       "stable step"}
 
 local function node_counts(chain)
   local counts = {}
@@ -117,13 +118,13 @@ end
 local function body_rows(bodies)
   local rows = {}
   for number, body in ipairs(bodies) do
-    rows[number] = {number, ("%.4g"):format(body.base.volume),
+    rows[number] = {number, show.quantity(body.base.volume, "volume"),
                     body.chain and node_counts(body.chain) or "failed", body.reason or body.asset}
   end
   return rows
 end
 
-local body_columns = {"body", "volume [m3]", "nodes", "asset or reason"}
+local body_columns = {"body", "volume", "nodes", "asset or reason"}
 
 -- The mesh files given, and whether they form a batch: a folder or more than one file.
 local function find_meshes()
@@ -144,6 +145,12 @@ local function find_meshes()
   return paths, batch
 end
 
+-- The asset of one mesh if -o is not given: in the current folder, and never the mesh itself.
+local function asset_beside(mesh)
+  local name = command.stem(mesh) .. ".glb"
+  return s.same_file(mesh, name) and command.stem(mesh) .. "-lod.glb" or name
+end
+
 -- A name for every asset of a batch. Meshes whose names differ only in the extension keep it in the
 -- asset's name.
 local function asset_names(paths)
@@ -157,17 +164,18 @@ local function asset_names(paths)
     if uses[name] > 1 then name = command.base_name(path):gsub("%.", "_") end
     while taken[name] do name = name .. "_" end
     taken[name] = true
-    names[i] = args.output:gsub("/*$", "") .. "/" .. name .. ".glb"
+    names[i] = args.out:gsub("/*$", "") .. "/" .. name .. ".glb"
   end
   return names
 end
 
 local paths, batch = find_meshes()
 if not batch then
-  if not args.output:lower():find("%.glb$") then
-    parser:error(("-o '%s' must end in .glb"):format(args.output))
+  args.out = args.out or asset_beside(paths[1])
+  if not args.out:lower():find("%.glb$") then
+    parser:error(("-o '%s' must end in .glb"):format(args.out))
   end
-  local ok, bodies = command.try(convert, paths[1], args.output)
+  local ok, bodies = command.try(convert, paths[1], args.out)
   if not ok then command.fail("cannot convert %s: %s", paths[1], bodies) end
   for _, body in ipairs(bodies) do
     if body.chain then
@@ -182,8 +190,9 @@ if not batch then
   return
 end
 
-if args.output:lower():find("%.glb$") then
-  parser:error(("-o '%s' must be a folder for several meshes"):format(args.output))
+args.out = args.out or "out"
+if args.out:lower():find("%.glb$") then
+  parser:error(("-o '%s' must be a folder for several meshes"):format(args.out))
 end
 local rows, failed, assets = {}, 0, asset_names(paths)
 for i, path in ipairs(paths) do

@@ -6,18 +6,23 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local comparison_table = require "lib.comparison_table"
 local paper_numbers = require "studies.paper.numbers"
 local paper_variants = require "studies.paper.variants"
 
 local parser = command.parser("demo", "Run the whole workflow on a sample: mesh, cells, model, "
   .. "levels, runs, table, chart and video.")
-parser:argument("folder", "folder to write to"):default("out/demo")
-parser:argument("starts", "starts of each level (one is not enough: bouncing is chaotic)")
-  :convert(command.whole("starts", 1)):default("8")
-parser:argument("frames", "frames of the video")
-  :convert(command.whole("frames", 1)):default("60")
+command.add_out(parser, "out/demo", "folder", true)
+parser:argument("starts", "the same as --starts"):args("?"):convert(command.whole("starts", 1))
+  :target("starts_given")
+parser:argument("frames", "the same as --frames"):args("?"):convert(command.whole("frames", 1))
+  :target("frames_given")
+parser:option("--starts", "starts of each level (one is not enough: bouncing is chaotic)")
+  :convert(command.whole("--starts", 1)):default("8")
+parser:option("--frames", "frames of the video"):convert(command.whole("--frames", 1)):default("60")
 local args = parser:parse()
-local folder, starts, frame_count = args.folder, args.starts, args.frames
+local folder = args.out
+local starts, frame_count = args.starts_given or args.starts, args.frames_given or args.frames
 local samples = s.samples
 
 -- 1. From the mesh to the model, with nodes at the cell centers as in the paper.
@@ -88,10 +93,8 @@ local function run_levels(chains)
   end
   s.csv(folder .. "/table.csv", rows, {columns = columns})
   s.csv(folder .. "/timings.csv", timings, {columns = timing_columns})
-  print(s.format_table(rows, {columns = {
-    "label", "nodes", "ends", "cost_ratio", "surface_error_percent", "shape_error_percent",
-    "distance", "distance_spread", "ledger_error",
-  }}))
+  print()
+  comparison_table.print(rows, starts)
   return {rows = rows, timings = timings, series = series, compared = compared}
 end
 

@@ -1,9 +1,11 @@
 -- Print the contents of an asset or a mesh.
 
 local s = require "springlod"
+local asset_or_mesh = require "lib.asset_or_mesh"
 local certificates = require "lib.certificates"
 local command = require "lib.command"
 local mesh_info = require "lib.mesh_info"
+local show = require "lib.show"
 
 local parser = command.parser("info", "Print the contents of an asset, level by level; or of a "
   .. "mesh: its parts, size and faults, and what convert would do with it.")
@@ -18,18 +20,11 @@ local function print_mesh(mesh)
   print(args.json and s.json(info) or mesh_info.text(info))
 end
 
--- A .glb file may be an asset or a mesh; files with the other endings of meshes are meshes.
-local ending = (args.file:match("%.%w+$") or ""):lower()
-local may_be_mesh = false
-for _, known in ipairs(s.mesh_endings) do may_be_mesh = may_be_mesh or ending == known end
-local ok, chain
-if ending == ".glb" or not may_be_mesh then ok, chain = command.try(s.load, args.file) end
-if not ok and may_be_mesh then
-  local imported, mesh = command.try(s.import, args.file, {unit = args.unit})
-  if imported then return print_mesh(mesh) end
-  chain = chain or mesh
+local chain, mesh = asset_or_mesh(args.file, args.unit)
+if mesh then
+  print_mesh(mesh)
+  return
 end
-if not ok then command.fail("cannot read %s: %s", args.file, chain) end
 local info = s.info(chain)
 if args.json then
   print(s.json(info))
@@ -40,13 +35,13 @@ print(chain)
 local rows = {}
 for i, level in ipairs(info.levels) do
   rows[i] = {level.level, level.nodes, level.springs, level.ends, level.corners, level.border_nodes,
-             ("%.4g"):format(level.mass), ("%.4g"):format(level.stable_dt),
-             ("%.4g"):format(level.undamped_dt), level.limited_by, level.made_by}
+             show.measured(level.mass, "mass"), show.measured(level.stable_dt, "time"),
+             show.measured(level.undamped_dt, "time"), level.limited_by, level.made_by}
 end
 print()
 print(s.format_table(rows, {columns = {"level", "nodes", "springs", "ends", "corners", "border",
-                                       "mass [kg]", "stable step [s]", "without damping [s]",
-                                       "limited by", "made by"}}))
+                                       "mass", "stable step", "without damping", "limited by",
+                                       "made by"}}))
 print(("\ncontact points of the levels: %s (%s)"):format(info.contact,
   s.choices.contact[info.contact].help))
 local points = chain[0].contact_point_count
@@ -56,13 +51,23 @@ end
 certificates.print(info.levels)
 local base = info.levels[1]
 print()
-print(("center of mass  %.4g %.4g %.4g m"):format(table.unpack(base.center_of_mass)))
+local size, moment = chain[0].volume ^ (1 / 3), 0
+for axis = 1, 3 do
+  moment = math.max(moment, base.inertia[axis][axis])
+end
+local function vector(values, scale, unit)
+  local texts = {}
+  for i, value in ipairs(values) do texts[i] = show.number(value, 4, scale) end
+  return table.concat(texts, " ") .. " " .. unit
+end
+print("center of mass  " .. vector(base.center_of_mass, size, "m"))
 for i, name in ipairs{"inertia", "", ""} do
-  print(("%-14s  %.4g %.4g %.4g kg m2"):format(name, table.unpack(base.inertia[i])))
+  print(("%-14s  %s"):format(name, vector(base.inertia[i], moment, "kg m2")))
 end
 for _, material in ipairs(base.materials) do
-  print(("material        %s: young %.4g Pa, poisson %.3g, density %.4g kg/m3, damping %.4g s")
-    :format(material.name, material.young, material.poisson, material.density, material.damping))
+  print(("material        %s: young %s, poisson %.3g, density %.4g kg/m3, damping %s"):format(
+    material.name, show.quantity(material.young, "pressure"), material.poisson, material.density,
+    show.quantity(material.damping, "time")))
 end
 local keys = {}
 for key in pairs(info.provenance) do keys[#keys + 1] = key end

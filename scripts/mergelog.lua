@@ -4,13 +4,14 @@ local s = require "springlod"
 local command = require "lib.command"
 local fit_store = require "lib.fit_store"
 local merge_ladder = require "lib.merge_ladder"
+local percent = require("lib.show").percent
 
 local parser = command.parser("mergelog", "Merge the base of an asset step by step and certify "
   .. "each step against the base. Reports where to stop, which merges contribute most to the "
   .. "error, and the error without them. Writes levels.csv, answers.csv, merges.csv, charts "
   .. "(errors, costs) and where.png, a picture of the merges and their errors.")
 parser:argument("asset", "a .glb asset, written by convert or s.save")
-parser:option("--out", "folder to write to"):argname("<folder>"):default("out/mergelog")
+command.add_out(parser, "out/mergelog")
 parser:option("--tolerance", "allowed mean relative error of the ten lowest frequencies "
   .. "(default: 0.05; calibrated levels: 0.005)"):convert(command.number("--tolerance", 0))
 parser:option("--steps", "number of levels below the base (default: 10; --quick: 3)")
@@ -34,10 +35,6 @@ if args.leave_out >= 1 then parser:error("--leave-out must be below 1 (1 would l
 local tolerance = args.tolerance or (args.calibrate and 0.005 or 0.05)
 
 local builds_without = args.leave_out > 0 and not args.calibrate and not args.as_made
-
-local function percent(fraction)
-  return fraction and ("%.2f %%"):format(100 * fraction) or "-"
-end
 
 local function worst_local(certificate)
   local worst

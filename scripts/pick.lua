@@ -1,4 +1,4 @@
--- Pick the coarsest level that is accurate enough for a scene, or the best within a cost.
+-- Pick the coarsest level that is accurate enough for a scene, or the best for a cost.
 
 local s = require "springlod"
 local command = require "lib.command"

@@ -2,13 +2,14 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local show = require "lib.show"
 
 local parser = command.parser("stability", "Run every level of an asset under every integrator "
   .. "over a grid of time steps and stiffness ratios, and compare each run with a reference run "
   .. "of the same model at a small time step. Writes map.csv, bodies.csv, map.svg, map.png "
   .. "and timings.csv (wall-clock times, the only output that varies between runs).")
 parser:argument("asset", "a .glb asset, written by convert or s.save")
-parser:option("--out", "folder to write to"):argname("<folder>"):default("out/stability")
+command.add_out(parser, "out/stability")
 parser:option("--levels", "levels to run, such as 0,2 (default: all)")
   :convert(command.numbers("--levels", 0, true)):argname("<list>")
 parser:option("--ratios", "ratios of Young's moduli, stiff to soft mesh part (default: "
@@ -110,9 +111,9 @@ local function cheapest_rows(rows, bodies, most)
       if fits and (not best or row.cost < best.cost) then best = row end
     end
     cells[i] = {
-      body.level, ("%g"):format(body.ratio), ("%.3g"):format(body.limit), body.limited_by,
+      body.level, ("%g"):format(body.ratio), show.measured(body.limit, "time"), body.limited_by,
       percent(body.frequency_error), best and best.integrator or "none",
-      best and ("%.3g"):format(best.step) or "", best and percent(best.error) or "",
+      best and show.measured(best.step, "time") or "", best and percent(best.error) or "",
       best and ("%.3g"):format(best.cost) or "",
     }
   end
@@ -136,7 +137,7 @@ print(s.format_table(best_rows(rows, ratios), {columns = columns}))
 print("\ncheapest run within 10 %, in spring updates per simulated second (backward_euler_direct "
   .. "is excluded, as spring updates do not count factorizations; timings.csv has all times):")
 print(s.format_table(cheapest_rows(rows, bodies, 0.1), {columns = {
-  "level", "ratio", "limit [s]", "limited by", "frequency error", "integrator", "step [s]", "error",
+  "level", "ratio", "limit", "limited by", "frequency error", "integrator", "step", "error",
   "cost"}}))
 local counts = {}
 for verdict, count in pairs(map.verdicts) do counts[#counts + 1] = count .. " " .. verdict end

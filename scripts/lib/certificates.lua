@@ -1,18 +1,12 @@
 -- Prints the certificates of levels: the grade in words, errors relative to the base, and the cost.
 
 local s = require "springlod"
+local show = require "lib.show"
 
-local certificates = {}
+local certificates, percent = {}, show.percent
 
 local columns = {"level", "f1..10", "f11..20", "MAC", "local loads", "blows", "first period",
                  "decay", "area / mass", "cost / base", "time / base"}
-
--- `fraction` is nil if the quantity was not measured.
-local function percent(fraction)
-  if not fraction then return "-" end
-  local value = 100 * fraction
-  return (value < 1 and "%.2f %%" or value < 10 and "%.1f %%" or "%.0f %%"):format(value)
-end
 
 local function number(value, pattern) return value and pattern:format(value) or "-" end
 
@@ -25,16 +19,17 @@ local function row(level)
 end
 
 local function modulus(m)
-  return ("%s E %.4g Pa (%.2f of the base), nu %.2f (%.2f)"):format(m.material, m.young,
-    m.young / m.base_young, m.poisson, m.base_poisson)
+  return ("%s E %s (%.2f of the base), nu %.2f (%.2f)"):format(m.material,
+    show.quantity(m.young, "pressure"), m.young / m.base_young, m.poisson, m.base_poisson)
 end
 
 -- What a level is worth, in words.
 local function sentence(level)
   local c = level.certificate
   return ("level %d is %s; %s"):format(level.level, c.summary, c.seconds_ratio and
-    ("a simulated second takes an estimated %.3g s in %s (base: %.3g s in %s)"):format(c.seconds,
-      c.kernel, c.base_seconds, c.base_kernel) or "it has no springs")
+    ("a simulated second takes an estimated %s in %s (base: %s in %s)"):format(
+      show.quantity(c.seconds, "time"), c.kernel, show.quantity(c.base_seconds, "time"),
+      c.base_kernel) or "it has no springs")
 end
 
 -- `levels`: those of s.info. Prints nothing if no level has a certificate.

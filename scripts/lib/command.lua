@@ -10,17 +10,115 @@ local epilog = "Also: --seed N, --threads N, -q/--quiet and -v/--verbose, as for
 
 local name_of_command -- NAME, as folders remember it
 
+-- One line: options that must be given, and the arguments.
+local function usage_of(parser, name)
+  local words = {"Usage: springlod", name, "[options]"}
+  for _, option in ipairs(parser._options) do
+    if option._mincount > 0 then words[#words + 1] = option:_get_usage() end
+  end
+  for _, argument in ipairs(parser._arguments) do words[#words + 1] = argument:_get_usage() end
+  return table.concat(words, " ")
+end
+
+-- Lets messages and the help name the options of the API by the flags of this command. `words`:
+-- flags of options that the command has under other names.
+local function speak_in_flags(parser, words)
+  local flags = {}
+  for _, option in ipairs(parser._options) do
+    local flag = option._aliases[#option._aliases]
+    local name = option._target or flag:gsub("^%-+", ""):gsub("%-", "_")
+    flags[flag:find("^%-%-no%-") and name:gsub("^no_", "") or name] = flag
+  end
+  flags.help = nil
+  for name, flag in pairs(words) do flags[name] = flag end
+  s.use_flags(flags)
+  for _, option in ipairs(parser._options) do
+    if option._description then option._description = s.in_flags(option._description) end
+  end
+end
+
+-- Where the output goes may be given in two ways.
+local function settle_out(parser, args)
+  if args.out and args.folder then
+    parser:error(("give the folder once: '%s' or --out '%s'"):format(args.folder, args.out))
+  end
+  args.out = args.out or args.folder or parser.out_default
+  args.folder = args.out
+end
+
+local caught -- receives the parser of a command in place of running it
+
 -- A parser for `springlod NAME`. A positional argument may be left out if it has a default; with
--- args("?") as well, argparse would ignore the default.
-function command.parser(name, summary)
+-- args("?") as well, argparse would ignore the default. `words`: flags of options of the API that
+-- the command has under other names, such as {style = "--lattice"}.
+function command.parser(name, summary, words)
   name_of_command = name
-  local parser = argparse("springlod " .. name, summary, epilog)
-    :usage_max_width(88):help_max_width(88)
+  local parser = argparse("springlod " .. name, summary, epilog):help_max_width(88)
   function parser:error(message)
-    io.stderr:write(self:get_usage(), "\n\nspringlod: ", message, "\n")
+    io.stderr:write("springlod: ", (message:gsub("\n", "; ")), "\n", self:get_usage(),
+      "  (springlod ", name, " --help explains it)\n")
     os.exit(2, true)
   end
+  local parse = parser.parse
+  function parser:parse(...)
+    self:usage(usage_of(self, name))
+    speak_in_flags(self, words or {})
+    if caught then caught(self) end
+    local args = parse(self, ...)
+    if self.out_default then settle_out(self, args) end
+    return args
+  end
   return parser
+end
+
+-- The option -o/--out, which every command has that writes files. `what`: "folder", or a kind of
+-- file. If `positional`, a folder may also be given as an argument, args.folder.
+function command.add_out(parser, default, what, positional)
+  what = what or "folder"
+  parser.out_default = default
+  if positional then parser:argument("folder", "the same as --out"):args("?") end
+  return command.one_line(parser:option("-o --out", ("%s to write to (default: %s)"):format(what,
+    default)):argname("<" .. what .. ">"))
+end
+
+-- Both names of an option in one line of the help, where argparse takes two.
+function command.one_line(option)
+  function option:_get_label_lines()
+    return {table.concat(self._public_aliases, ", ") .. " " .. self:_get_argument_list()[1]}
+  end
+  return option
+end
+
+-- An option that has another name now: an error that states it.
+function command.renamed(parser, old, new)
+  parser:option(old):hidden(true):action(function()
+    parser:error(("%s is now %s"):format(old, new))
+  end)
+end
+
+-- The stock commands: list of {name, summary, path, study}, studies last.
+function command.list()
+  local all, scripts = {}, s.samples:gsub("samples$", "scripts")
+  for _, folder in ipairs{scripts, scripts .. "/studies"} do
+    for _, path in ipairs(s.files(folder, {endings = {".lua"}})) do
+      local file <close> = assert(io.open(path))
+      all[#all + 1] = {name = command.stem(path), summary = file:read("l"):gsub("^[- ]+", ""),
+                       path = path, study = folder ~= scripts}
+    end
+  end
+  return all
+end
+
+-- The parser of a stock command, which does not run: for help, manual pages and completion.
+function command.parser_of(path)
+  local found
+  caught = function(parser)
+    found = parser
+    error("caught", 0)
+  end
+  local _, failure = pcall(assert(loadfile(path)))
+  caught = nil
+  return found or error(failure, 0)
 end
 
 -- Converters for argparse: each returns the value, or nil and an error message. `option` is the

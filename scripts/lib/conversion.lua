@@ -3,6 +3,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local show = require "lib.show"
 
 local conversion = {}
 
@@ -16,6 +17,9 @@ conversion.presets = {
   paper = {lattice = "centers", volumes = false,
            simplify = {grouping = "standard", calibrate = "none", contact = "nodes"}},
 }
+
+-- Options of the API that these commands call otherwise, for command.parser.
+conversion.flag_words = {style = "--lattice", core_depth = "--shell"}
 
 -- Adds the options of the mesh, its cells and the lattice.
 function conversion.add_body_options(parser)
@@ -101,6 +105,18 @@ local function bodies_of(grid, args)
   return s.bodies(grid, {bodies = args.bodies})
 end
 
+-- Bodies that people simulate are rarely larger [m].
+local largest = 5
+
+-- Points out a size that can hardly be meant, of a file that does not state its unit.
+local function note_size(mesh, base)
+  local side = 0
+  for axis = 1, 3 do side = math.max(side, mesh.max[axis] - mesh.min[axis]) end
+  if not mesh.unit_assumed or side <= largest then return end
+  s.say(("the body is %s long and weighs %s; if that is not meant, give --unit"):format(
+    show.quantity(side, "length"), show.quantity(base.mass, "mass")))
+end
+
 -- The base models of the mesh at `path`, one for each body that --bodies asks for.
 function conversion.bases(args, preset, path)
   local core = core_of(args, args.materials)
@@ -117,6 +133,7 @@ function conversion.bases(args, preset, path)
       style = args.lattice or preset.lattice, hinges = args.hinges,
       volumes = preset.volumes and not args.no_volumes, bending = args.bending,
     })
+    if number == 1 then note_size(mesh, bases[1]) end
   end
   return bases
 end
@@ -140,9 +157,9 @@ function conversion.command_line(arguments, args, path)
   local words, is_mesh, skipped = {"springlod", "convert", path}, {}, false
   for _, mesh in ipairs(args.mesh) do is_mesh[mesh] = true end
   for _, word in ipairs(arguments) do
-    local drops_next = word == "-o" or word == "--resume"
+    local drops_next = word == "-o" or word == "--out" or word == "--resume"
     if not (skipped or drops_next or is_mesh[word] or word:find("^%-o.") or
-            word:find("^%-%-resume=")) then
+            word:find("^%-%-out=") or word:find("^%-%-resume=")) then
       words[#words + 1] = word
     end
     skipped = drops_next

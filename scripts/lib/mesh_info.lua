@@ -2,6 +2,7 @@
 
 local command = require "lib.command"
 local s = require "springlod"
+local show = require "lib.show"
 
 local mesh_info = {}
 
@@ -11,7 +12,10 @@ local longest, shortest = 5, 0.005
 -- consists well enough.
 local default_cells, cells_across = 32, 3
 
-local function length(meters) return ("%.3g m"):format(meters) end
+local function length(meters) return show.quantity(meters, "length") end
+
+-- A cell size as a word of the command line: 31.2mm.
+local function cell_word(meters) return (length(meters):gsub(" ", "")) end
 
 -- The longest side of the bounding box [m].
 local function longest_side(mesh)
@@ -64,9 +68,10 @@ end
 
 -- What becomes of the mesh by default.
 local function default_line(info)
-  return ("  --cell %.3gm  %d cells, the default%s"):format(info.default_cell, info.default_cells,
-    info.bodies > 1 and ("; they form %d bodies that do not touch (see convert --bodies)"):format(
-      info.bodies) or "")
+  local split = info.bodies > 1
+    and ("; they form %d bodies that do not touch (see convert --bodies)"):format(info.bodies) or ""
+  return ("  --cell %s  %d cells, the default%s"):format(cell_word(info.default_cell),
+    info.default_cells, split)
 end
 
 -- The same as text.
@@ -85,13 +90,12 @@ function mesh_info.text(info)
   lines[#lines + 1] = s.format_table(parts, {columns = {"part", "material", "triangles"}})
   local solids, faults = {}, {}
   for i, solid in ipairs(info.solids) do
-    solids[i] = {solid.part, solid.holes == 0 and "yes" or "no", ("%.4g"):format(solid.volume),
-                 ("%.3g"):format(solid.thickness)}
+    solids[i] = {solid.part, solid.holes == 0 and "yes" or "no",
+                 show.quantity(math.abs(solid.volume), "volume"), length(solid.thickness)}
     for _, fault in ipairs(solid.faults) do faults[#faults + 1] = fault end
   end
   say("")
-  lines[#lines + 1] = s.format_table(solids, {columns = {"solid", "closed", "volume [m3]",
-                                                         "thickness [m]"}})
+  lines[#lines + 1] = s.format_table(solids, {columns = {"solid", "closed", "volume", "thickness"}})
   say("")
   if #faults > 0 then
     say("convert would repair (--repair strict refuses these):")
@@ -106,7 +110,7 @@ function mesh_info.text(info)
   say("Cells:")
   say("%s", default_line(info))
   if info.fine_cell < 0.99 * info.default_cell then
-    say("  --cell %.3gm  about %.0f cells, %d across the thinnest solid", info.fine_cell,
+    say("  --cell %s  about %.0f cells, %d across the thinnest solid", cell_word(info.fine_cell),
         info.volume / info.fine_cell ^ 3, cells_across)
   end
   return table.concat(lines, "\n")

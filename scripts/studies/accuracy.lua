@@ -28,7 +28,7 @@ local parser = command.parser("accuracy", "Measure the accuracy of levels with 4
   .. "the nodes of their base: merged by several groupings, calibrated, and refilled. Writes "
   .. "levels.csv (every level) and methods.csv (means over bodies and seeds, and the worst body), "
   .. "and prints the latter.")
-parser:argument("folder", "folder to write to"):default("out/accuracy")
+command.add_out(parser, "out/accuracy", "folder", true)
 parser:option("--seeds", "number of seeds for each body and method"):default("5")
   :convert(command.whole("--seeds", 1))
 local function some_of(option, list)

@@ -7,7 +7,7 @@ local paper_figures = require "studies.paper.figures"
 local parser = command.parser("figures", "Redraw the figures of Kot, Nagahashi and Gracki, "
   .. "\"Simplification of mass spring models\", as figure-1.png to figure-8.png, and Young's "
   .. "modulus and density of every node by their eq. 2 as figure-e-density-*.png.")
-parser:argument("folder", "folder to write to"):default("out/figures")
+command.add_out(parser, "out/figures", "folder", true)
 parser:flag("--quick", "draw smaller pictures")
 local args = parser:parse()
 

@@ -1,5 +1,4 @@
--- Measure what the fit of levels gains: elasticity, velocities after a blow, free vibration, and
--- landings on a floor.
+-- Measure what the fit of levels gains, in vibration, blows and landings.
 
 local s = require "springlod"
 local bodies = require "studies.fit.bodies"
@@ -31,7 +30,7 @@ local parser = command.parser("fit", "Measure levels with 45 % and 20 % of the n
   .. "floor with friction, with contact at the surface: rms over the first 50 ms after the first "
   .. "contact, and over the next 150 ms, in percent of the body's diagonal. Writes "
   .. "levels.csv and means.csv (means over bodies and seeds), and prints the latter.")
-parser:argument("folder", "folder to write to"):default("out/fit")
+command.add_out(parser, "out/fit", "folder", true)
 parser:option("--bodies", "any of " .. table.concat(lists.names_of(bodies), ", ")
   .. ", or samples, others or firm for a set of them"):default("others")
 parser:option("--seeds", "number of seeds for each body"):default("2")

@@ -1,4 +1,4 @@
--- Compare what levels gain in scenes, by the clock, with what their certificates promise.
+-- Compare what levels gain in scenes, by the clock, with their certificates.
 
 local s = require "springlod"
 local bodies = require "studies.gains.bodies"
@@ -21,7 +21,7 @@ local parser = command.parser("gains", "Measure how much less processor time lev
   .. "certificate. Levels have 45 % and 20 % of the nodes of the base and are made as by convert. "
   .. "Prints all gains, and writes gains.csv, means.csv (geometric means over bodies), and the "
   .. "chart clock-certificate.svg and .png.")
-parser:argument("folder", "folder to write to"):default("out/gains")
+command.add_out(parser, "out/gains", "folder", true)
 local function choice(name, all, default)
   parser:option("--" .. name, ("any of %s (default: %s)"):format(
       table.concat(lists.names_of(all), ", "), default))

@@ -14,7 +14,7 @@ local run_store = require "lib.run_store"
 local parser = command.parser("paper", "Reproduce the tables and figures of Kot, Nagahashi and "
   .. "Gracki, \"Simplification of mass spring models\", from many runs each. Writes CSV files, "
   .. "charts, tables.md and figure-N.png. After an interruption (Ctrl-C) the same command resumes.")
-parser:option("--out", "folder to write to"):argname("<folder>"):default("out/paper")
+command.add_out(parser, "out/paper")
 parser:flag("--quick", "use few runs: a test of the command, without significance")
 parser:option("--starts", "paired starts of each model (default: 48; --quick: 8)")
   :convert(command.whole("--starts", 5))

@@ -25,7 +25,7 @@ local parser = command.parser("pareto", "Simplify the base of an asset with ever
 parser:argument("asset", "a .glb asset, written by convert or s.save; only its base is used")
 parser:option("--scenario", "Lua file that returns a table for s.scenario")
   :argname("<file.lua>"):count(1)
-parser:option("--out", "folder to write to"):argname("<folder>"):count(1)
+command.add_out(parser, "out/pareto")
 local function axis(name, help)
   parser:option("--" .. name, help .. " (default: all; --quick: few)"):argname("<list>")
     :convert(command.words_of("--" .. name, all[name]))

@@ -1,4 +1,4 @@
--- Check the levels that `springlod pick` takes against the best ones by runs of all levels.
+-- Check the levels that pick takes against the best ones by runs of all levels.
 
 local s = require "springlod"
 local bodies = require "studies.picks.bodies"
@@ -12,7 +12,7 @@ local most_error = 1.5 -- of a picked level, over the tolerance
 local parser = command.parser("picks", "Pick levels by certificate in six scenes with three "
   .. "tolerances, and compare them with the coarsest levels within the tolerance by runs. Writes "
   .. "levels.csv (predicted and measured error of every level) and picks.csv.")
-parser:argument("folder", "folder to write to"):default("out/picks")
+command.add_out(parser, "out/picks", "folder", true)
 parser:option("--set", "bodies and scenes: those that the constants of the prediction were chosen "
   .. "on, or others"):choices{"tuning", "checking"}:default("checking")
 parser:option("--bodies", "names of bodies, such as fork,sphere (default: all of the set)")

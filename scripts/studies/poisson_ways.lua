@@ -11,7 +11,8 @@ local parser = command.parser("poisson_ways", "Compare three ways to give a latt
   .. "ratio, in small displacements: springlod's cell terms; these with cube diagonals, of Golec "
   .. "et al. (2020); node terms, after Kot and Nagahashi (2015). Prints Markdown tables: a "
   .. "stretched bar, zero modes, the tip of a cantilever, the stable step.")
-parser:option("--csv", "file to write all values to")
+command.add_out(parser, "out/poisson_ways.csv", "file")
+command.renamed(parser, "--csv", "--out")
 parser:flag("--quick", "two ratios, two cells across; takes seconds")
 local args = parser:parse()
 
@@ -219,6 +220,6 @@ local ok, failure = command.try(function()
   print(by_way(rows) .. "\n\n" .. by_ratio(rows) .. "\n")
   print(("The program's own models differ from cell terms by %.0e (tips) and %.0e (steps)."):format(
     differences(rows[1])))
-  if args.csv then write(args.csv, rows) end
+  write(args.out, rows)
 end)
 if not ok then command.fail("poisson_ways: %s", failure) end

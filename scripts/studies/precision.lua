@@ -8,7 +8,7 @@ local vibration = require "studies.precision.vibration"
 local parser = command.parser("precision", "Compare single and double precision: bodies vibrate in "
   .. "their ten lowest modes and drop on a floor. Writes frequencies.csv, amplitudes.csv, "
   .. "rest.csv, drops.csv, differences.csv, chart.svg and chart.png.")
-parser:argument("folder", "folder to write to"):default("out/precision")
+command.add_out(parser, "out/precision", "folder", true)
 parser:flag("--quick", "skip the body of 20,000 nodes and use fewer periods; takes seconds")
 local args = parser:parse()
 

@@ -1,4 +1,4 @@
--- Measure the convergence of cantilevers towards Timoshenko's beam as cells get smaller.
+-- Measure the convergence of cantilevers towards Timoshenko's beam with smaller cells.
 
 local s = require "springlod"
 local cantilever = require "lib.cantilever"
@@ -9,7 +9,7 @@ local parser = command.parser("refinement", "Measure the convergence of cantilev
   .. "section, length 20 heights) with decreasing cell size: tip deflection and first three "
   .. "bending frequencies compared with Timoshenko's beam. Writes table.csv, orders.csv, "
   .. "timoshenko.csv, chart.svg and chart.png.")
-parser:argument("folder", "folder to write to"):default("out/refinement")
+command.add_out(parser, "out/refinement", "folder", true)
 parser:option("--finest", "cells across the finest bar; 16 takes a minute and 3 GB of memory")
   :convert(command.whole("--finest", 3)):default("16")
 parser:flag("--quick", "the same as --finest 4; takes seconds")

@@ -12,7 +12,7 @@ local parser = command.parser("throws", "Throw random bodies at a floor and a wa
   .. "level, and count inverted corners (J <= 0) at the end and on the way, failed runs and errors "
   .. "of the energy ledger. A throw depends on --seed and its number alone. Writes throws.csv (a "
   .. "row per throw and level), summary.md, chart.svg and chart.png.")
-parser:option("-o --out", "folder to write to"):argname("<folder>"):default("out/throws")
+command.add_out(parser, "out/throws")
 parser:option("--count", "number of throws (default: 1000; --quick: 12)")
   :convert(command.whole("--count", 1))
 parser:option("--first", "number of the first throw"):argname("<number>"):default("1")

@@ -13,7 +13,7 @@ local quick_iterations = 3 -- of a fit
 local parser = command.parser("validate", "Solve problems whose answer is known, with the base at "
   .. "three sizes and with levels of 45 % and 20 % of its nodes, fitted by default. Writes "
   .. "validation.md (text, tables, verdicts), table.csv, and a chart of each problem to images.")
-parser:option("-o --out", "folder to write to"):default("out/validation")
+command.add_out(parser, "out/validation")
 parser:option("--problems", "any of " .. table.concat(lists.names_of(problems), ", "))
   :default("all"):convert(command.words_of("--problems",
     table.move(lists.names_of(problems), 1, #problems, 2, {"all"})))

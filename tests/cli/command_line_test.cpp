@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
 #include "tests/support/program.hpp"
@@ -30,6 +32,7 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
     CHECK(ran.exit_code == 2);
     CHECK(ran.out.empty());
     CHECK_THAT(ran.err, Contains(reason));
+    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 2);  // the reason, and one for usage
   };
   wrong({"conver", "x.obj"}, "did you mean 'convert'?");
   wrong({"frobnicate"}, "commands are: run, compare, convert");
@@ -39,7 +42,9 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
   wrong({"--threads"}, "--threads");
   wrong({"run"}, "run needs a script");
   wrong({"info"}, "missing argument 'file'");
-  wrong({"convert", "a.obj"}, "missing option '-o'");
+  wrong({"poisson_ways", "--csv", "a.csv"}, "--csv is now --out");
+  wrong({"figures", "a", "--out", "b"}, "give the folder once");
+  wrong({"render", "a.glb", "-o", "a.jpg"}, "must end in .png");
   wrong({"convert", "a.obj", "-o", "a.glb", "--leves", "2"}, "unknown option '--leves'");
   wrong({"convert", "a.obj", "-o", "a.glb", "--grouping", "stndard"}, "'priority_hard'");
   wrong({"convert", "a.obj", "-o", "a.glb", "--cell", "2kg"}, "--cell: \"2kg\"");
@@ -53,14 +58,51 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
 }
 
 TEST_CASE("every command has help") {
-  for (const char* command : {"convert", "info", "compare", "demo", "materials", "mergelog",
-                              "pareto", "pick", "picks", "stability"}) {
+  for (const char* command : {"convert", "info", "compare", "demo", "help", "materials", "mergelog",
+                              "pareto", "pick", "picks", "render", "stability", "refinement"}) {
     const Ran ran = springlod_run({command, "--help"});
     CAPTURE(command);
     CHECK(ran.exit_code == 0);
     CHECK_THAT(ran.out, StartsWith("Usage: springlod " + std::string(command)));
     CHECK_THAT(ran.out, Contains("--seed"));
   }
+}
+
+TEST_CASE("run --help explains run") {
+  for (const char* flag : {"--help", "-h"}) {
+    const Ran ran = springlod_run({"run", flag});
+    CHECK(ran.exit_code == 0);
+    CHECK_THAT(ran.out, StartsWith("usage: springlod [FLAGS] run SCRIPT.lua"));
+  }
+}
+
+TEST_CASE("help explains commands, functions, values, pages and sections of pages") {
+  const auto help = [](const std::vector<std::string>& words) {
+    std::vector<std::string> arguments{"help"};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    return springlod_run(arguments);
+  };
+  const Ran all = help({});
+  CHECK(all.exit_code == 0);
+  CHECK_THAT(all.out, Contains("\n  convert ") && Contains("\n  refinement ") &&
+                          Contains(" simplify ") && Contains("\n  simulate "));
+  CHECK_THAT(help({"convert"}).out, StartsWith("Usage: springlod convert") &&
+                                        Contains("--hinges") &&
+                                        Contains("See also:\n  docs/convert.md"));
+  CHECK(help({"run"}).exit_code == 0);
+  CHECK_THAT(help({"voxelize"}).out, StartsWith("s.voxelize(mesh"));
+  CHECK_THAT(help({"material"}).out, StartsWith("Material\n"));
+  CHECK_THAT(help({"scenes"}).out, StartsWith("Scenario\n"));
+  CHECK_THAT(help({"simulate"}).out, StartsWith("# Simulate a scenario"));
+  CHECK_THAT(help({"energy", "ledger"}).out, Contains("docs/simulate.md, The energy ledger"));
+  const Ran none = help({"blorb"});
+  CHECK(none.exit_code == 1);
+  CHECK_THAT(none.err, Contains("no help on 'blorb'") && Contains("lists all topics"));
+}
+
+TEST_CASE("the help of commands names options by their flags") {
+  const std::string text = springlod_run({"convert", "--help"}).out;
+  CHECK_THAT(text, !Contains("= \"") && Contains("-o, --out <asset>"));
 }
 
 TEST_CASE("materials lists the presets, which materials take unless they say otherwise") {

@@ -86,6 +86,27 @@ TEST_CASE("compare writes table, chart, frames and timings, with identical resul
   }
 }
 
+TEST_CASE("compare takes several assets into one table, chart and film") {
+  const TemporaryFolder scratch;
+  make_asset(scratch);
+  make_bar_asset(scratch / "other.glb", 1, {"--cell", "0.25", "--lattice", "centers"});
+  std::vector<std::string> arguments = compare_arguments(scratch, "both");
+  arguments.insert(arguments.begin() + 2, (scratch / "other.glb").string());
+  const Ran ran = springlod_run(arguments);
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  for (const char* label : {"base-x-bar", "LOD-x-bar-1", "base-x-other", "LOD-x-other-1"})
+    CHECK_THAT(ran.out, Contains(label));
+  CHECK_THAT(ran.out, Contains("Means over 2 starts. cost ratio: "));
+  auto files = contents(scratch / "both");
+  const std::string& table = files["table.csv"];
+  const auto rows = std::count(table.begin(), table.end(), '\n') - 1;
+  CHECK(rows >= 5);
+  // A panel for each row except the second base.
+  CHECK(springlod::render::load_png(scratch / "both/frames/frame_0000.png").width ==
+        160 * (rows - 1));
+}
+
 TEST_CASE("compare reports errors of asset and scenario in one line") {
   const TemporaryFolder scratch;
   make_asset(scratch);

@@ -132,6 +132,6 @@ TEST_CASE("a comparison and an asset name what limits the steps of their levels"
   CHECK(ran.out == "damping\ttrue\ndamping\ttrue\ndamping\ttrue\ndamping\ttrue\n");
   CHECK_THAT(ran.err, Contains("compare: damping shortens the steps of 2 of 2 levels"));
   const Ran info = springlod_run({"info", (scratch / "bar.glb").string()});
-  CHECK_THAT(info.out, Contains("without damping [s]") && Contains("limited by") &&
-                           Contains("damping") && Contains("damping 0.1 s"));
+  CHECK_THAT(info.out, Contains("without") && Contains("damping") && Contains("limited") &&
+                           Contains("damping") && Contains("damping 100 ms"));
 }

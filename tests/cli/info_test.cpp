@@ -23,7 +23,7 @@ TEST_CASE("info of a mesh tells its parts, size, faults and cells") {
   REQUIRE(text.exit_code == 0);
   CHECK_THAT(text.out, Contains("OBJ, 8 vertices, 10 triangles, 1 m x 1 m x 1 m (1 unit = 1 m, "
                                 "assumed)"));
-  CHECK_THAT(text.out, Contains("tub") && Contains("1 hole") && Contains("--cell 0.0312m"));
+  CHECK_THAT(text.out, Contains("tub") && Contains("1 hole") && Contains("--cell 31.2mm"));
   const Ran parsed = springlod_run({"info", mesh, "--json", "--unit", "mm"});
   REQUIRE(parsed.exit_code == 0);
   const json info = json::parse(parsed.out);
@@ -37,7 +37,7 @@ TEST_CASE("info of a mesh tells its parts, size, faults and cells") {
 
   spit(scratch / "huge.obj", obj_of_boxes({{"bar", 0, 50}}));
   const Ran huge = springlod_run({"info", (scratch / "huge.obj").string()});
-  CHECK_THAT(huge.out, Contains("unusual size") && Contains("--unit cm makes it 0.5 m") &&
+  CHECK_THAT(huge.out, Contains("unusual size") && Contains("--unit cm makes it 500 mm") &&
                            Contains("No faults."));
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("info prints the certificates of levels") {
   REQUIRE(text.exit_code == 0);
   CHECK_THAT(text.out, Contains("first period") && Contains("0.33 %") && Contains("10 %"));
   CHECK_THAT(text.out, Contains("level 1 is faulty: 7 zero modes instead of 6, frequencies"));
-  CHECK_THAT(text.out, Contains("rubber E 1.429e+04 Pa (0.14 of the base), nu 0.10 (0.20)"));
+  CHECK_THAT(text.out, Contains("rubber E 14.3 kPa (0.14 of the base), nu 0.10 (0.20)"));
   CHECK_THAT(text.out, Contains("level 1 is outside tolerance: f1..10"));
   CHECK_THAT(text.out, !Contains("level 2 is outside"));
 }

@@ -22,7 +22,7 @@ using springlod::test::TemporaryFolder;
 TEST_CASE("poisson_ways --quick: ways are exact in a stretch, and differ in bending and step") {
   const TemporaryFolder out;
   const std::string path = (out / "ways.csv").string();
-  const Ran ran = springlod_run({"-q", "poisson_ways", "--quick", "--csv", path});
+  const Ran ran = springlod_run({"-q", "poisson_ways", "--quick", "--out", path});
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
   CHECK_THAT(ran.out, Contains("| node terms |") && Contains("| 0.45 |"));

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "render/frames.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
@@ -67,4 +68,34 @@ TEST_CASE("panels of one picture can show different things and times, in rows") 
   const auto picture = springlod::render::load_png(scratch / "a.png");
   CHECK(picture.width == 240);
   CHECK(picture.height > 270);
+}
+
+TEST_CASE("the command render draws levels and meshes") {
+  const TemporaryFolder scratch;
+  make_bar_asset(scratch / "bar.glb", 3, {"--cell", "0.25", "--fast"});
+  const std::string asset = (scratch / "bar.glb").string();
+  const auto render = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{
+        "-q", "render", "-o", (scratch / "a.png").string(), "--width", "120", "--height", "90"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ran ran = springlod_run(arguments);
+    CAPTURE(ran.err);
+    REQUIRE(ran.exit_code == 0);
+    return springlod::render::load_png(scratch / "a.png");
+  };
+  const auto all = render({asset});
+  CHECK(all.width == 3 * 120);
+  CHECK(all.height == 90);
+  const auto coarsest = render({asset, "--level", "2"});
+  CHECK(coarsest.width == 120);
+  CHECK(coarsest.rgb != render({asset, "--level", "0"}).rgb);
+  CHECK(render({asset, "--level", "0", "--cut", "y"}).rgb !=
+        render({asset, "--level", "0", "--cut", "x"}).rgb);
+  const std::string mesh = (source_folder() / "samples/dumbbell.obj").string();
+  CHECK(render({mesh}).width == 120);
+  CHECK(render({asset, mesh, "--columns", "2"}).height == 180);
+
+  const Ran none = springlod_run({"render", asset, "--level", "7", "-o", "x.png"});
+  CHECK(none.exit_code == 1);
+  CHECK_THAT(none.err, Contains("--level 7: the asset has the levels 0 to 2"));
 }

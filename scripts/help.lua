@@ -1,0 +1,165 @@
+-- Explain a command, a function or a topic of the documentation.
+
+local s = require "springlod"
+local command = require "lib.command"
+
+local parser = command.parser("help", "Explain a topic: a command (convert), a function or value "
+  .. "of scripts (simplify, Material), a page of the documentation (simulate) or a word in the "
+  .. "headings of these pages (materials, scenes). Without a topic, list all of them.")
+parser:argument("topic", "what to explain"):args("*")
+local topic = table.concat(parser:parse().topic, " ")
+
+-- The pages of the documentation: list of {name, title, text}.
+local function pages()
+  local all = {}
+  if not s.is_folder(s.docs) then return all end
+  for _, path in ipairs(s.files(s.docs, {endings = {".md"}})) do
+    local file <close> = assert(io.open(path))
+    local text = file:read("a")
+    local name = command.stem(path)
+    if name ~= "README" then
+      all[#all + 1] = {name = name, title = text:match("^# ([^\n]+)") or name, text = text}
+    end
+  end
+  return all
+end
+
+-- The sections of a page whose headings have the word: list of {heading, lines}. Headings inside
+-- code blocks are comments of that code.
+local function sections(page, word)
+  local found, open, depth, code = {}, nil, 0, false
+  for line in (page.text .. "\n"):gmatch("([^\n]*)\n") do
+    if line:find("^```") then code = not code end
+    local marks, heading = line:match("^(##+) (.*)")
+    if marks and not code then
+      if open and #marks <= depth then open = nil end
+      if not open and (" " .. heading:lower()):find(word, 1, true) then
+        open, depth = {heading = heading, lines = {}}, #marks
+        found[#found + 1] = open
+      end
+    end
+    if open then table.insert(open.lines, line) end
+  end
+  return found
+end
+
+local function list(title, entries)
+  print("\n" .. title)
+  local width = 0
+  for _, entry in ipairs(entries) do width = math.max(width, #entry[1]) end
+  for _, entry in ipairs(entries) do
+    print(("  %-" .. width .. "s  %s"):format(entry[1], entry[2]))
+  end
+end
+
+local function list_commands(study)
+  local entries = study and {} or {{"run", "Run a Lua script."}}
+  for _, one in ipairs(command.list()) do
+    if one.study == study then entries[#entries + 1] = {one.name, one.summary} end
+  end
+  list(study and "Studies, which evaluate the methods:" or "Commands:", entries)
+end
+
+local function list_functions()
+  local names = {}
+  for name, value in pairs(s) do
+    if type(value) == "function" then names[#names + 1] = name end
+  end
+  table.sort(names)
+  print("\nFunctions of scripts (local s = require \"springlod\"; s.simplify):")
+  local line = " "
+  for _, name in ipairs(names) do
+    if #line + #name + 1 > 88 then
+      print(line)
+      line = " "
+    end
+    line = line .. " " .. name
+  end
+  print(line)
+end
+
+local function overview()
+  print("springlod help TOPIC explains one of these, or a word in the headings of the pages.")
+  list_commands(false)
+  list_commands(true)
+  list_functions()
+  local titles = {}
+  for _, page in ipairs(pages()) do titles[#titles + 1] = {page.name, page.title} end
+  if #titles > 0 then list("Pages:", titles) end
+end
+
+local function explain_command(name)
+  if name == "run" then
+    print("springlod run SCRIPT.lua [-- ARGUMENTS...]  runs a Lua script (springlod run --help).")
+    return true
+  end
+  for _, one in ipairs(command.list()) do
+    if one.name == name then
+      print(command.parser_of(one.path):get_help())
+      return true
+    end
+  end
+  return false
+end
+
+-- Words that the API calls otherwise.
+local other_words = {scene = "Scenario", scenes = "Scenario", materials = "Material"}
+
+-- A function, or a value or table, whose names begin with a capital letter.
+local function explain_name(name)
+  for _, spelling in pairs{name, (name:gsub("^%l", string.upper)), other_words[name]} do
+    if pcall(s.help, spelling) then return true end
+  end
+  return false
+end
+
+local function explain_page(page)
+  print((page.text:gsub("\n$", "")))
+  return true
+end
+
+-- Pages whose sections are many of the same kind, or are printed otherwise.
+local not_searched = {api = true, choices = true, method = true, validation = true}
+
+-- The sections whose headings have the word, that with the shortest heading first.
+local function find_sections(all, word)
+  local found, key = {}, " " .. word:lower():gsub("s$", "")
+  for _, page in ipairs(all) do
+    for _, section in ipairs(not_searched[page.name] and {} or sections(page, key)) do
+      section.place = ("docs/%s.md, %s"):format(page.name, section.heading)
+      found[#found + 1] = section
+    end
+  end
+  table.sort(found, function(a, b)
+    return #a.heading < #b.heading or #a.heading == #b.heading and a.place < b.place
+  end)
+  return found
+end
+
+local function explain(word)
+  local answered = explain_command(word) or explain_name(word)
+  local all, also = pages(), {}
+  for _, page in ipairs(all) do
+    if page.name == word and not answered then
+      answered = explain_page(page)
+    elseif page.name == word then
+      also[#also + 1] = ("docs/%s.md, %s"):format(page.name, page.title)
+    end
+  end
+  for _, section in ipairs(find_sections(all, word)) do
+    if answered then
+      also[#also + 1] = section.place
+    else
+      print(("(%s)\n%s"):format(section.place, table.concat(section.lines, "\n")))
+      answered = true
+    end
+  end
+  if #also > 0 then print("\nSee also:\n  " .. table.concat(also, "\n  ")) end
+  return answered
+end
+
+if topic == "" then
+  overview()
+elseif not explain(topic) then
+  command.fail("no help on '%s'; springlod help lists all topics", topic)
+end

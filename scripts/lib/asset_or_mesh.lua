@@ -1,0 +1,21 @@
+-- Reads a file that may be an asset or a mesh.
+
+local s = require "springlod"
+local command = require "lib.command"
+
+-- Returns the chain of an asset, or nil and a mesh. Ends the command if the file is neither. A .glb
+-- file may be an asset or a mesh; files with the other endings of meshes are meshes.
+return function(path, unit)
+  local ending = (path:match("%.%w+$") or ""):lower()
+  local may_be_mesh = false
+  for _, known in ipairs(s.mesh_endings) do may_be_mesh = may_be_mesh or ending == known end
+  local loaded, chain
+  if ending == ".glb" or not may_be_mesh then loaded, chain = command.try(s.load, path) end
+  if loaded then return chain end
+  if may_be_mesh then
+    local imported, mesh = command.try(s.import, path, {unit = unit})
+    if imported then return nil, mesh end
+    chain = chain or mesh
+  end
+  command.fail("cannot read %s: %s", path, chain)
+end

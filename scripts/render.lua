@@ -1,0 +1,100 @@
+-- Draw a picture of the levels of an asset, or of a mesh.
+
+local s = require "springlod"
+local asset_or_mesh = require "lib.asset_or_mesh"
+local command = require "lib.command"
+
+local axes = {x = 1, y = 2, z = 3}
+
+local parser = command.parser("render", "Draw a picture of the levels of an asset side by side, or "
+  .. "of a mesh. Several files share one picture and one scale.")
+parser:argument("file", "a .glb asset, written by convert or s.save, or a mesh file"):args("+")
+command.one_line(parser:option("-o --out", "picture to write (default: the file's name with .png, "
+  .. "in this folder)"):argname("<picture.png>"))
+parser:option("--level", "levels to draw, such as 0,2; 0 is the base (default: all)")
+  :convert(command.numbers("--level", 0, true)):argname("<list>")
+parser:flag("--surface", "draw the surface, transparent, over the nodes and springs of levels")
+parser:option("--cut", "keep the half of each level behind a plane through its center, across this "
+  .. "axis, so that the inside shows"):choices{"x", "y", "z"}
+parser:option("--unit", "length unit of a mesh file (default: as the file declares, else m)")
+  :choices(s.choices.unit)
+parser:option("--width", "width of a panel in pixels"):convert(command.whole("--width", 1, 16384))
+  :default("640")
+parser:option("--height", "height of a panel in pixels"):default("480")
+  :convert(command.whole("--height", 1, 16384))
+parser:option("--columns", "number of panels in a row (default: all)")
+  :convert(command.whole("--columns", 1, 1000))
+parser:option("--azimuth", "azimuth of the camera about the vertical, from x, in degrees")
+  :convert(command.number("--azimuth", -360, true, 360)):default("-70")
+parser:option("--elevation", "elevation of the camera, in degrees")
+  :convert(command.number("--elevation", -90, true, 90)):default("15")
+parser:option("--title", "title above all panels")
+local args = parser:parse()
+local out = args.out or command.stem(args.file[1]) .. ".png"
+if not out:lower():find("%.png$") then parser:error(("-o '%s' must end in .png"):format(out)) end
+
+-- The panel of a model: the plane through its center keeps what is on the far side of the camera.
+local function panel_of(model, title)
+  local panel = {
+    model, title = ("%s: %d nodes, %d springs"):format(title, model.node_count, model.spring_count),
+  }
+  if args.cut then
+    local axis, normal = axes[args.cut], {0, 0, 0}
+    local azimuth, elevation = math.rad(args.azimuth), math.rad(args.elevation)
+    local toward_eye = ({math.cos(azimuth), math.sin(azimuth), math.sin(elevation)})[axis]
+    normal[axis] = toward_eye > 0 and -1 or 1
+    panel.cut = {normal[1], normal[2], normal[3], normal[axis] * model.center[axis]}
+  end
+  return panel
+end
+
+local function levels_of(chain)
+  if not args.level then
+    local all = {}
+    for level = 0, chain.coarsest do all[level + 1] = level end
+    return all
+  end
+  for _, level in ipairs(args.level) do
+    if level > chain.coarsest then
+      command.fail("--level %d: the asset has the levels 0 to %d", level, chain.coarsest)
+    end
+  end
+  return args.level
+end
+
+local function panels()
+  local list, models = {}, false
+  for _, path in ipairs(args.file) do
+    local chain, mesh = asset_or_mesh(path, args.unit)
+    local prefix = #args.file > 1 and command.stem(path) .. ", " or ""
+    if mesh then
+      list[#list + 1] = {mesh, title = command.base_name(path)}
+    else
+      models = true
+      for _, level in ipairs(levels_of(chain)) do
+        list[#list + 1] = panel_of(chain[level],
+          prefix .. (level == 0 and "base" or "level " .. level))
+      end
+    end
+  end
+  return list, models
+end
+
+local function render()
+  local list, models = panels()
+  local style = {}
+  if models then
+    style = {nodes = true, springs = true, surface = args.surface or false,
+             surface_opacity = args.surface and 0.35 or nil}
+    for _, panel in ipairs(list) do -- a mesh has nothing but its surface
+      if not panel[1].node_count then panel.surface, panel.surface_opacity = true, 1 end
+    end
+  end
+  style.width, style.height, style.columns = args.width, args.height, args.columns
+  style.azimuth, style.elevation, style.title = args.azimuth, args.elevation, args.title
+  s.render(out, list, style)
+end
+
+local ok, failure = command.try(render)
+if not ok then command.fail("cannot draw %s: %s", table.concat(args.file, ", "), failure) end
+s.say("wrote " .. out)
