@@ -12,6 +12,8 @@ local parser = command.parser("info", "Print the contents of an asset, level by 
 parser:argument("file", "a .glb asset, written by convert or s.save, or a mesh file")
 parser:option("--unit", "length unit of a mesh file (default: as the file declares, else m)")
   :choices(s.choices.unit)
+parser:option("--up", "up axis of a mesh file (default: as the file or its format defines)")
+  :choices(s.choices.up)
 parser:flag("--json", "print JSON")
 local args = parser:parse()
 
@@ -20,7 +22,7 @@ local function print_mesh(mesh)
   print(args.json and s.json(info) or mesh_info.text(info))
 end
 
-local chain, mesh = asset_or_mesh(args.file, args.unit)
+local chain, mesh = asset_or_mesh(args.file, args)
 if mesh then
   print_mesh(mesh)
   return

@@ -18,6 +18,8 @@ parser:option("--cut", "keep the half of each level behind a plane through its c
   .. "axis, so that the inside shows"):choices{"x", "y", "z"}
 parser:option("--unit", "length unit of a mesh file (default: as the file declares, else m)")
   :choices(s.choices.unit)
+parser:option("--up", "up axis of a mesh file (default: as the file or its format defines)")
+  :choices(s.choices.up)
 parser:option("--width", "width of a panel in pixels"):convert(command.whole("--width", 1, 16384))
   :default("640")
 parser:option("--height", "height of a panel in pixels"):default("480")
@@ -62,22 +64,26 @@ local function levels_of(chain)
   return args.level
 end
 
+-- The panels; a mesh among models has nothing but its surface.
 local function panels()
-  local list, models = {}, false
+  local list, meshes = {}, {}
   for _, path in ipairs(args.file) do
-    local chain, mesh = asset_or_mesh(path, args.unit)
+    local chain, mesh = asset_or_mesh(path, args)
     local prefix = #args.file > 1 and command.stem(path) .. ", " or ""
     if mesh then
       list[#list + 1] = {mesh, title = command.base_name(path)}
+      meshes[#meshes + 1] = list[#list]
     else
-      models = true
       for _, level in ipairs(levels_of(chain)) do
         list[#list + 1] = panel_of(chain[level],
           prefix .. (level == 0 and "base" or "level " .. level))
       end
     end
   end
-  return list, models
+  if #meshes < #list then
+    for _, panel in ipairs(meshes) do panel.surface, panel.surface_opacity = true, 1 end
+  end
+  return list, #meshes < #list
 end
 
 local function render()
@@ -86,9 +92,6 @@ local function render()
   if models then
     style = {nodes = true, springs = true, surface = args.surface or false,
              surface_opacity = args.surface and 0.35 or nil}
-    for _, panel in ipairs(list) do -- a mesh has nothing but its surface
-      if not panel[1].node_count then panel.surface, panel.surface_opacity = true, 1 end
-    end
   end
   style.width, style.height, style.columns = args.width, args.height, args.columns
   style.azimuth, style.elevation, style.title = args.azimuth, args.elevation, args.title

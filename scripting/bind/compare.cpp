@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "base/units.hpp"
 #include "report/tables.hpp"
 #include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/chart_table.hpp"
@@ -48,8 +49,9 @@ void warn(Console& console, const std::vector<sim::RunSummary>& runs, bool resis
   if (inverted > 0)
     console.say(
         fmt::format("compare: in {} of {} runs the body was inside out somewhere, the first "
-                    "at t = {:.4g} s, and in {} until the end; {}",
-                    inverted, runs.size(), first, at_end, inversion_hint(resisted)));
+                    "at t = {}, and in {} until the end; {}",
+                    inverted, runs.size(), format_quantity(first, Dimension::time), at_end,
+                    inversion_hint(resisted)));
 }
 
 /// Prints a hint if damping limits the step of a level.

@@ -277,7 +277,7 @@ void describe_session(Api& api) {
       .summary = "Lets the messages of springlod name options by the flags of a command, as in "
                  "--hinges fill for hinges = \"fill\".",
       .arguments = {{.name = "flags",
-                     .type = "table",
+                     .type = "table of strings",
                      .help = "the flag of each option, by the option's name; --no-... if it sets "
                              "the option to false"}},
       .returns = "nothing",

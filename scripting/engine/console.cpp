@@ -111,7 +111,7 @@ Console::Console(Verbosity verbosity)
       colour_(terminal_ && !is_set("NO_COLOR")) {}
 
 void Console::say(std::string_view text) {
-  print(printable(flag_words_.in_flags(text)));
+  print(flag_words_.in_flags(printable(text)));
 }
 
 void Console::print(std::string_view text) {

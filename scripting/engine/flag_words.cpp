@@ -41,7 +41,9 @@ void FlagWords::use(std::map<std::string, std::string> flags, std::set<std::stri
 
 std::string FlagWords::in_flags(std::string_view message) const {
   std::string text(message);
-  if (flags_.empty()) return text;
+  // The matching of patterns needs stack for each character; messages are far shorter.
+  constexpr std::size_t kLongest = 4000;
+  if (flags_.empty() || text.size() > kLongest) return text;
   const auto flag = [&](const std::string& option) -> std::optional<std::string> {
     const auto found = flags_.find(option);
     return found == flags_.end() ? std::nullopt : std::optional(found->second);

@@ -95,7 +95,7 @@ std::shared_ptr<const ErrorValue> current_error(lua_State* L) {
     error->kind = "internal";
     error->message = fmt::format("internal error: {}; please report it", e.what());
   }
-  error->message = printable(session_of(L).console().flag_words().in_flags(error->message));
+  error->message = session_of(L).console().flag_words().in_flags(printable(error->message));
   return error;
 }
 

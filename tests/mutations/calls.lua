@@ -146,6 +146,7 @@ function valid(parameter, owner)
   end
   if records[type] then return record_of(type) end
   if type:find("^table part = Material") then return {box = record_of("Material")} end
+  if type == "table of strings" then return {levels = "--levels"} end
   if type == "boolean" then return chance(0.5) end
   if type:find("^function") and #words == 0 then
     return function() return math.random() end

@@ -52,6 +52,8 @@ TEST_CASE("What is no option stays as it is, and all messages do without flags")
        {"assumed 1 unit = 0.1 m", "the bodies keep their levels", "grading = 2 must be from 0 to 1",
         "part \"rod\": levels", "cannot read unit: none", ""})
     CHECK(words.in_flags(message) == message);
+  const std::string endless = "use levels = " + std::string(1000000, '8');
+  CHECK(words.in_flags(endless) == endless);
   const std::string option = "simplify: use guards = true";
   CHECK(FlagWords().in_flags(option) == option);
 }

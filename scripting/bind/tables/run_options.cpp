@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/units.hpp"
+
 namespace springlod::scripting {
 
 Parameter contact_parameter() {
@@ -27,10 +29,12 @@ std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model,
 
 std::string damping_hint(const sim::Trajectory& run) {
   return fmt::format(
-      "to {:.2g} % of that without damping (stable step {:.3g} s, without damping {:.3g} s); for a "
+      "to {:.2g} % of that without damping (stable step {}, without damping {}); for a "
       "longer step, give the materials a smaller damping_ratio or a shorter damping time, or take "
       "an implicit integrator",
-      100 * run.predicted_step / run.undamped_step, run.predicted_step, run.undamped_step);
+      100 * run.predicted_step / run.undamped_step,
+      format_quantity(run.predicted_step, Dimension::time),
+      format_quantity(run.undamped_step, Dimension::time));
 }
 
 std::string inversion_hint(bool resisted) {
