@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/export/draft.hpp"
+#include "report/export/tetrahedra.hpp"
 
 namespace springlod::report {
 
@@ -66,6 +67,15 @@ Json corners_of(const std::vector<Corner>& corners) {
   return {{"nodes", std::move(nodes)}, {"young", std::move(young)}};
 }
 
+Json tetrahedra_of(const Tetrahedra& tetrahedra) {
+  Json nodes = Json::array();
+  for (const auto& tetrahedron : tetrahedra.nodes)
+    for (const std::uint32_t node : tetrahedron) nodes.push_back(node);
+  return {{"nodes", std::move(nodes)},
+          {"material", tetrahedra.material},
+          {"fraction", tetrahedra.fraction}};
+}
+
 Json contact_of(const ContactSurface& contact) {
   return {{"of_nodes", binding_of(contact.of_nodes)},
           {"normal", flat(contact.normal)},
@@ -93,7 +103,13 @@ ExportDraft draft_json(const ExportedModel& body) {
   if (!model.corners.empty()) document["corners"] = corners_of(model.corners);
   if (!model.surface.empty()) document["contact_points"] = contact_of(model.surface);
   if (body.surface) document["surface"] = surface_of(body);
-  return {.files = {{".json", document.dump() + "\n"}}, .settings = {}, .losses = {}};
+  ExportDraft draft;
+  if (const Tetrahedra tetrahedra = tetrahedra_of_cells(model); tetrahedra.empty())
+    draft.losses = {no_tetrahedra(model)};
+  else
+    document["tetrahedra"] = tetrahedra_of(tetrahedra);
+  draft.files = {{".json", document.dump() + "\n"}};
+  return draft;
 }
 
 }  // namespace springlod::report
