@@ -23,6 +23,12 @@ struct ExportDraft {
 // One function for each file of this folder that is named after a format.
 ExportDraft draft_obj(const ExportedModel& body);
 ExportDraft draft_json(const ExportedModel& body);
+ExportDraft draft_msh(const ExportedModel& body);
+ExportDraft draft_newton(const ExportedModel& body);
+ExportDraft draft_npz(const ExportedModel& body);
+ExportDraft draft_sofa(const ExportedModel& body);
+ExportDraft draft_usda(const ExportedModel& body);
+ExportDraft draft_vtk(const ExportedModel& body);
 
 /// Positions of the surface's vertices at rest, as the model's nodes give them [m]; empty without a
 /// surface.
