@@ -29,6 +29,9 @@ ExportDraft draft_npz(const ExportedModel& body);
 ExportDraft draft_sofa(const ExportedModel& body);
 ExportDraft draft_usda(const ExportedModel& body);
 ExportDraft draft_vtk(const ExportedModel& body);
+ExportDraft draft_jolt(const ExportedModel& body);
+ExportDraft draft_mujoco(const ExportedModel& body);
+ExportDraft draft_bullet(const ExportedModel& body);
 
 /// Positions of the surface's vertices at rest, as the model's nodes give them [m]; empty without a
 /// surface.

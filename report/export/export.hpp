@@ -25,7 +25,7 @@ struct ExportedModel {
 };
 
 /// Files of other programs that hold a mass-spring model.
-enum class ModelFormat { newton, sofa, msh, vtk, usda, obj, npz, json };
+enum class ModelFormat { jolt, mujoco, bullet, newton, sofa, msh, vtk, usda, obj, npz, json };
 
 /// A row of the table of formats; in the order in which help lists them.
 struct ModelFormatChoice : Choice<ModelFormat> {
