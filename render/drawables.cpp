@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "render/cut.hpp"
 #include "render/node_values.hpp"
 #include "render/strain_colour.hpp"
 
@@ -73,12 +74,14 @@ std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSu
                                             const Vec3& origin) {
   const std::vector<Vec3>& positions = surface_positions(body);
   const std::vector<Eigen::Vector3f> normals = vertex_normals(surface, positions);
+  const std::vector<float> inside = kept_distances(body);
   std::vector<SurfaceVertex> vertices(surface.source.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const std::uint32_t part = surface.part[i];
     const Colour colour =
         part < body.part_colours.size() ? body.part_colours[part] : palette_colour(part);
-    vertices[i] = {relative(positions[surface.source[i]], origin), normals[i], colour};
+    vertices[i] = {relative(positions[surface.source[i]], origin), normals[i], colour,
+                   inside[surface.source[i]]};
   }
   return vertices;
 }
@@ -153,6 +156,18 @@ TriangleMesh box_mesh(const DrawnBox& box) {
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   mesh.parts = {{"box", "", 0, 12}};
   return mesh;
+}
+
+std::vector<SpringInstance> box_edges(const DrawnBox& box, const Vec3& origin, const Colour& colour,
+                                      float radius) {
+  const TriangleMesh mesh = box_mesh(box);
+  std::vector<SpringInstance> edges;
+  for (unsigned corner = 0; corner < 8; ++corner)
+    for (const unsigned axis : {1U, 2U, 4U})
+      if ((corner & axis) == 0)
+        edges.push_back({relative(mesh.positions[corner], origin),
+                         relative(mesh.positions[corner | axis], origin), colour, colour, radius});
+  return edges;
 }
 
 std::vector<Vec3> outline(const DrawnBody& body) {

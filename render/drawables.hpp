@@ -14,6 +14,7 @@ struct SurfaceVertex {
   Eigen::Vector3f position;
   Eigen::Vector3f normal;
   Colour colour;
+  float inside;  // distance from the cut at rest [m], below 0: cut away
 };
 struct SpringInstance {
   Eigen::Vector3f a, b;
@@ -33,6 +34,10 @@ std::vector<NodeInstance> node_instances(const DrawnBody& body, const Vec3& orig
 
 /// A box as a mesh, which is drawn and casts shadows like any surface.
 TriangleMesh box_mesh(const DrawnBox& box);
+
+/// The twelve edges of a box as thin rods.
+std::vector<SpringInstance> box_edges(const DrawnBox& box, const Vec3& origin, const Colour& colour,
+                                      float radius);
 
 /// Points whose convex hull contains everything drawn of a body, balls with their radius included.
 /// For framing a camera.

@@ -17,10 +17,27 @@ FrameWriter::~FrameWriter() {
 
 void FrameWriter::write(Image image, std::filesystem::path path) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return failure_ || waiting_.size() < kMostWaiting; });
+  const std::size_t number = queued_;
+  lock.unlock();
+  write(std::move(image), std::move(path), number);
+}
+
+void FrameWriter::write(Image image, std::filesystem::path path, std::size_t number) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock,
+                [&] { return failure_ || (queued_ == number && waiting_.size() < kMostWaiting); });
   rethrow();
   waiting_.push_back({std::move(image), std::move(path)});
+  ++queued_;
   lock.unlock();
+  changed_.notify_all();
+}
+
+void FrameWriter::abandon(std::exception_ptr failure) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::move(failure);
+  }
   changed_.notify_all();
 }
 
@@ -52,7 +69,7 @@ void FrameWriter::work() {
     }
     lock.lock();
     writing_ = false;
-    failure_ = failure;
+    if (!failure_) failure_ = failure;
     changed_.notify_all();
     if (failure_) return;
   }

@@ -31,6 +31,11 @@ class FrameWriter {
   /// Queues an image; blocks while the queue is full. Rethrows the error (IoError) of an earlier
   /// image; after an error no image is written.
   void write(Image image, std::filesystem::path path);
+  /// The same for image `number` of several threads that draw: waits until those before it, from
+  /// 0, are queued, so that images are written in order.
+  void write(Image image, std::filesystem::path path, std::size_t number);
+  /// No further image comes: threads that wait in write() throw this error.
+  void abandon(std::exception_ptr failure);
   /// Blocks until all images are written. Throws as write() does.
   void finish();
 
@@ -47,7 +52,8 @@ class FrameWriter {
   std::mutex mutex_;
   std::condition_variable changed_;  // signals a change of any member below
   std::deque<Frame> waiting_;
-  bool writing_ = false;  // an image taken from the queue is being written
+  std::size_t queued_ = 0;  // images so far
+  bool writing_ = false;    // an image taken from the queue is being written
   bool stopping_ = false;
   std::exception_ptr failure_;
   std::thread thread_;  // last: it uses all members above

@@ -27,6 +27,12 @@ struct Sizes {
   double line(double size) const { return std::round(size * 1.28); }
 };
 
+/// Text of narrow panels is smaller, so that a title fits.
+Sizes sizes_in(const PixelRect& panel) {
+  constexpr double kNarrow = 1.15;  // height / width
+  return Sizes(std::min(panel.height, static_cast<int>(kNarrow * panel.width)));
+}
+
 // Height of DejaVu letters above the baseline, as a fraction of the font size.
 constexpr double kAscent = 0.80;
 
@@ -64,7 +70,7 @@ double scale_share(int panel_height) {
 }
 
 void Overlay::draw_heading(Image& image, const PixelRect& panel, const PanelLabels& labels) {
-  const Sizes sizes(panel.height);
+  const Sizes sizes = sizes_in(panel);
   const double room = panel.width - 2 * (sizes.margin + sizes.pad);
   struct Line {
     std::string text;
@@ -97,7 +103,7 @@ void Overlay::draw_heading(Image& image, const PixelRect& panel, const PanelLabe
 
 int Overlay::draw_scale(Image& image, const PixelRect& panel, const ColourScale& scale,
                         int bottom) {
-  const Sizes sizes(panel.height);
+  const Sizes sizes = sizes_in(panel);
   const auto half = [&](const ColourScale::Tick& tick) {
     return text_.width(tick.text, sizes.small) / 2;
   };
@@ -131,7 +137,7 @@ int Overlay::draw_scale(Image& image, const PixelRect& panel, const ColourScale&
 }
 
 void Overlay::draw_panel(Image& image, const PixelRect& panel, const PanelLabels& labels) {
-  const Sizes sizes(panel.height);
+  const Sizes sizes = sizes_in(panel);
   draw_heading(image, panel, labels);
   // Above the footer, which may extend close to them.
   int bottom = panel.y + panel.height - whole(sizes.margin);

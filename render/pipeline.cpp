@@ -1,34 +1,41 @@
 #include "render/pipeline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <string_view>
 
 #include "base/file.hpp"
 #include "render/camera.hpp"
+#include "render/cut.hpp"
+#include "render/depth_map.hpp"
 #include "render/drawables.hpp"
 #include "render/gl.hpp"
 #include "render/light.hpp"
 #include "render/plane.hpp"
 #include "render/shaders.hpp"
-#include "render/shadow_map.hpp"
 
 namespace springlod::render {
 namespace {
 
 using Vec4f = Eigen::Vector4f;
 
+constexpr std::size_t kMostPlanes = 8;  // that occlude bodies; size of the shaders' array
+
 /// The uniform block of the shaders in std140 layout; only 16-byte members, hence no padding.
 struct FrameUniforms {
   Mat4f view_projection;
   Mat4f shadow_projection;
+  Mat4f from_clip;
   Vec4f eye;
   Vec4f key_light;
   Vec4f world_up;
   Vec4f camera_right;
   Vec4f shadow_size;
   Vec4f pixel;
+  std::array<Vec4f, kMostPlanes> planes;
+  Vec4f image;
 };
 
 GlProgram program(const char* name, const ShaderSource& source) {
@@ -37,6 +44,7 @@ GlProgram program(const char* name, const ShaderSource& source) {
   glUseProgram(made.name());
   glUniform1i(glGetUniformLocation(made.name(), "shadow_compare"), 0);
   glUniform1i(glGetUniformLocation(made.name(), "shadow_depth"), 1);
+  glUniform1i(glGetUniformLocation(made.name(), "body_depth"), 2);
   return made;
 }
 
@@ -83,12 +91,14 @@ struct Slot {
   Stream<SurfaceVertex> vertices;
   Stream<SpringInstance> springs;
   Stream<NodeInstance> nodes;
+  Vec4f cap = Vec4f::Zero();  // plane of the cut face, its normal out of the body; zero: none
+  bool cut = false;
   const CachedSurface* surface = nullptr;  // null: no surface is drawn
   float opacity = 1;
   double distance = 0;  // from its middle to the eye
 
   Slot() {
-    vertices.describe({3, 3, 3}, false);
+    vertices.describe({3, 3, 3, 1}, false);
     springs.describe({3, 3, 3, 3, 1}, true);
     nodes.describe({3, 3, 1}, true);
   }
@@ -107,7 +117,30 @@ std::string surface_key(const TriangleMesh& mesh) {
   return key;
 }
 
-constexpr Colour kBoxColour{0.80F, 0.82F, 0.85F};
+constexpr Colour kBoxColour{0.70F, 0.76F, 0.73F};
+constexpr Colour kBoxEdgeColour{0.40F, 0.46F, 0.44F};
+constexpr Colour kFloorColour{0.935F, 0.938F, 0.942F};
+constexpr Colour kRampColour{0.935F, 0.905F, 0.850F};
+constexpr Colour kWallColour{0.850F, 0.880F, 0.915F};
+
+Vec3f vector(const Colour& c) {
+  return {c.r, c.g, c.b};
+}
+Vec3f colour_of(PlanePatch::Kind kind) {
+  switch (kind) {
+    case PlanePatch::Kind::floor:
+      return vector(kFloorColour);
+    case PlanePatch::Kind::ramp:
+      return vector(kRampColour);
+    case PlanePatch::Kind::wall:
+      break;
+  }
+  return vector(kWallColour);
+}
+
+// Radius of the lines along edges of obstacles [px].
+constexpr double kEdgeRadius = 0.8;
+constexpr GLsizei kShadowSide = 768;  // [texels]; finer than the soft shadow edge requires
 
 DrawnBody box_body(const TriangleMesh& mesh) {
   DrawnBody body;
@@ -122,19 +155,32 @@ struct Pipeline::Impl {
   OffscreenContext& context;
   GlBuffer frame_block = make_buffer();
   GlVertexArray no_attributes = make_vertex_array();
-  ShadowMap shadow_map;
+  DepthMap shadow_map{kShadowSide, kShadowSide};
+  // Half the resolution suffices for ambient occlusion.
+  DepthMap body_depth{static_cast<GLsizei>((context.width() + 1) / 2),
+                      static_cast<GLsizei>((context.height() + 1) / 2)};
   GlProgram backdrop = program("backdrop", backdrop_shader());
   GlProgram surface = program("surface", surface_shader());
+  GlProgram cut_surface = program("cut surface", cut_surface_shader());
   GlProgram spring = program("spring", spring_shader());
+  GlProgram line = program("line", line_shader());
   GlProgram node = program("node", node_shader());
   GlProgram plane = program("plane", plane_shader());
+  GlProgram plane_shade = program("plane shade", plane_shade_shader());
   GlProgram surface_depth = program("surface depth", surface_depth_shader());
   GlProgram spring_depth = program("spring depth", spring_depth_shader());
   GlProgram node_depth = program("node depth", node_depth_shader());
   std::map<std::string, CachedSurface> surfaces;
   std::vector<Slot> slots;
+  Stream<Vec3f> polygon;
+  float occlusion_reach = 1;  // [m]
+  Stream<SpringInstance> edges;
+  std::vector<SpringInstance> edges_of_boxes;
 
-  explicit Impl(OffscreenContext& of) : context(of) {}
+  explicit Impl(OffscreenContext& of) : context(of) {
+    polygon.describe({3}, false);
+    edges.describe({3, 3, 3, 3, 1}, true);
+  }
 
   const CachedSurface& cached(const TriangleMesh& mesh) {
     const auto [at, fresh] = surfaces.try_emplace(surface_key(mesh));
@@ -151,9 +197,16 @@ struct Pipeline::Impl {
     const DrawStyle& style = body.style;
     slot.opacity = static_cast<float>(style.surface_opacity);
     slot.surface = nullptr;
+    slot.cut = false;
+    slot.cap.setZero();
     if (style.surface && body.surface != nullptr && style.surface_opacity > 0) {
       slot.surface = &cached(*body.surface);
       slot.vertices.set(surface_vertices(body, slot.surface->split, origin));
+      slot.cut = style.cut.has_value();
+      // Nodes and springs inside are seen past a face that is not drawn.
+      if (slot.cut && slot.surface->split.closed && opaque(slot) && !style.springs &&
+          !draws_balls(style))
+        slot.cap = cut_face(body, origin);
     }
     slot.springs.set(style.springs ? spring_instances(body, origin)
                                    : std::vector<SpringInstance>{});
@@ -162,11 +215,16 @@ struct Pipeline::Impl {
     slot.distance = box.isEmpty() ? 0 : (box.center() - camera.eye).norm();
   }
 
+  float edge_radius(const Camera& camera) const {
+    return static_cast<float>(kEdgeRadius * 2 * view_radius(camera) / context.height());
+  }
+
   /// Fills one slot per body, then one per box; returns the bounds of the shadow casters.
   Box3 fill_slots(const Panel& panel) {
     constexpr std::size_t kSurfacesKept = 32;
     if (surfaces.size() > kSurfacesKept) surfaces.clear();
     slots.resize(panel.bodies.size() + panel.boxes.size());
+    edges_of_boxes.clear();
     Box3 casters;
     for (std::size_t i = 0; i < panel.bodies.size(); ++i) {
       fill_slot(slots[i], panel.bodies[i], panel.camera);
@@ -176,6 +234,9 @@ struct Pipeline::Impl {
     for (std::size_t i = 0; i < panel.boxes.size(); ++i) {
       const TriangleMesh mesh = box_mesh(panel.boxes[i]);
       fill_slot(slots[panel.bodies.size() + i], box_body(mesh), panel.camera);
+      const auto lines =
+          box_edges(panel.boxes[i], panel.camera.target, kBoxEdgeColour, edge_radius(panel.camera));
+      edges_of_boxes.insert(edges_of_boxes.end(), lines.begin(), lines.end());
       // A box far larger than the bodies would reduce their shadows to a few texels, so only its
       // part near them casts shadows.
       constexpr double kLargeBox = 4;
@@ -183,6 +244,11 @@ struct Pipeline::Impl {
       if (casters.isEmpty() || box.diagonal().norm() <= kLargeBox * bodies_size)
         casters.extend(box);
     }
+    constexpr double kOcclusionReach = 0.10;  // of the size of the bodies
+    const double size = bodies_size > 0     ? bodies_size
+                        : casters.isEmpty() ? 1
+                                            : casters.diagonal().norm();
+    occlusion_reach = static_cast<float>(kOcclusionReach * size);
     if (!casters.isEmpty()) casters.translate(-panel.camera.target);
     return casters;
   }
@@ -210,16 +276,15 @@ struct Pipeline::Impl {
   static bool opaque(const Slot& slot) { return slot.surface != nullptr && slot.opacity >= 1; }
   static bool transparent(const Slot& slot) { return slot.surface != nullptr && slot.opacity < 1; }
 
-  void draw_shadows(FrameUniforms frame, const KeyLight& light) const {
-    frame.view_projection = light.projection;
-    frame.eye << light.direction, 0;
+  /// Depths of all bodies and boxes; of transparent ones only what is inside, if anything is.
+  void draw_depths(const FrameUniforms& frame, const DepthMap& map) const {
     set_frame(frame);
-    shadow_map.begin();
+    map.begin();
     for (const Slot& slot : slots) {
       const bool only_surface = slot.springs.count == 0 && slot.nodes.count == 0;
       glUseProgram(surface_depth.name());
       if (opaque(slot) || (transparent(slot) && only_surface)) draw_surface(slot);
-      if (opaque(slot)) continue;  // it hides the rest
+      if (opaque(slot) && !slot.cut) continue;  // it hides the rest
       glUseProgram(spring_depth.name());
       draw_quads(slot.springs);
       glUseProgram(node_depth.name());
@@ -235,48 +300,99 @@ struct Pipeline::Impl {
     glEnable(GL_DEPTH_TEST);
   }
 
-  void draw_plane(const std::vector<PlanePatch>& patches, std::size_t which, float spacing) const {
-    const PlanePatch& patch = patches[which];
-    constexpr float kGhost = 0.16F;  // opacity of a wall between the viewer and the bodies
-    glUseProgram(plane.name());
-    set(plane, "plane_center", patch.center);
-    set(plane, "plane_u", patch.u);
-    set(plane, "plane_v", patch.v);
-    set(plane, "plane_reach", patch.reach);
-    set(plane, "plane_colour",
-        patch.upright ? Vec3f(0.885F, 0.90F, 0.92F) : Vec3f(0.935F, 0.938F, 0.942F));
-    set(plane, "plane_alpha", patch.seen_from_behind ? kGhost : 1.0F);
-    set(plane, "grid_spacing", spacing);
-    glUniform2fv(uniform(plane, "grid_origin"), 1, patch.grid_origin.data());
-    constexpr std::size_t kOthers = 8;  // size of the shader's array
-    std::vector<Vec4f> others;
-    for (std::size_t i = 0; i < patches.size() && others.size() < kOthers; ++i)
-      if (i != which)
-        others.emplace_back(patches[i].normal.x(), patches[i].normal.y(), patches[i].normal.z(),
-                            patches[i].offset);
-    glUniform1i(uniform(plane, "other_count"), static_cast<GLint>(others.size()));
-    if (!others.empty())
-      glUniform4fv(uniform(plane, "others"), static_cast<GLsizei>(others.size()),
-                   others.front().data());
-    glBindVertexArray(no_attributes.name());
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  static void set_patch(const GlProgram& of, const PlanePatch& patch) {
+    glUseProgram(of.name());
+    set(of, "plane_center", patch.center);
+    set(of, "plane_u", patch.u);
+    set(of, "plane_v", patch.v);
+    set(of, "plane_reach", patch.reach);
+    glUniform2fv(uniform(of, "grid_origin"), 1, patch.grid_origin.data());
   }
 
-  void draw_planes(const std::vector<PlanePatch>& patches, float spacing, bool from_behind) const {
+  void draw_polygon(const std::vector<Vec3f>& points) {
+    if (points.empty()) return;
+    polygon.set(points);
+    glBindVertexArray(polygon.layout.name());
+    glDrawArrays(GL_TRIANGLE_FAN, 0, polygon.count);
+  }
+
+  /// The part of a polygon where bodies can cast a shadow or hide ambient light.
+  static std::vector<Vec3f> shaded_part(std::vector<Vec3f> points, const KeyLight& light) {
+    constexpr float kBeyond = 0.12F;  // of the side of the shadow map
+    const Mat4f& to = light.to_unit_cube;
+    for (int axis = 0; axis < 2; ++axis) {
+      const Vec3f row = to.block<1, 3>(axis, 0).transpose();
+      points = clipped(points, row, -kBeyond - to(axis, 3));
+      points = clipped(points, -row, to(axis, 3) - 1 - kBeyond);
+    }
+    return points;
+  }
+
+  void draw_plane(const std::vector<PlanePatch>& patches, std::size_t which, float spacing,
+                  const KeyLight& light) {
+    const PlanePatch& patch = patches[which];
+    constexpr float kGhost = 0.16F;  // opacity of a wall between the viewer and the bodies
+    set_patch(plane, patch);
+    set(plane, "plane_colour", colour_of(patch.kind));
+    set(plane, "plane_alpha", patch.seen_from_behind ? kGhost : 1.0F);
+    set(plane, "plane_slope", patch.kind == PlanePatch::Kind::ramp ? 1.0F : 0.0F);
+    set(plane, "grid_spacing", spacing);
+    const std::vector<Vec3f> points = visible_polygon(patches, which);
+    draw_polygon(points);
+    if (patch.seen_from_behind || slots.empty()) return;
+    // Shadows cost several times what the rest of a plane does, so they multiply its colour in a
+    // second pass over the part that can have any.
+    set_patch(plane_shade, patch);
+    set(plane_shade, "plane_normal", patch.normal);
+    glBlendFunc(GL_DST_COLOR, GL_ZERO);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(-1, -4);
+    draw_polygon(shaded_part(points, light));
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDepthMask(GL_TRUE);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  }
+
+  void draw_planes(const std::vector<PlanePatch>& patches, float spacing, const KeyLight& light,
+                   bool from_behind) {
     glEnable(GL_BLEND);
     glDepthMask(from_behind ? GL_FALSE : GL_TRUE);
     for (std::size_t i = 0; i < patches.size(); ++i)
-      if (patches[i].seen_from_behind == from_behind) draw_plane(patches, i, spacing);
+      if (patches[i].seen_from_behind == from_behind) draw_plane(patches, i, spacing, light);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
+  }
+
+  /// Lines along the edges of boxes, and where planes that the viewer faces meet.
+  void draw_edges(const std::vector<PlanePatch>& patches, float radius) {
+    std::vector<SpringInstance> lines = edges_of_boxes;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      if (patches[i].seen_from_behind) continue;
+      const std::vector<SpringInstance> more = plane_edges(patches, i, radius);
+      lines.insert(lines.end(), more.begin(), more.end());
+    }
+    edges.set(lines);
+    glUseProgram(line.name());
+    // In front of the surfaces that meet there.
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(-1, -16);
+    draw_quads(edges);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+  }
+
+  void use_surface(const Slot& slot) const {
+    const GlProgram& with = slot.cut ? cut_surface : surface;
+    glUseProgram(with.name());
+    set(with, "opacity", slot.opacity);
+    if (slot.cut) glUniform4fv(uniform(with, "cap"), 1, slot.cap.data());
   }
 
   void draw_opaque() const {
     for (const Slot& slot : slots) {
       if (opaque(slot)) {
-        glUseProgram(surface.name());
-        set(surface, "opacity", 1.0F);
-        if (slot.surface->split.closed) glEnable(GL_CULL_FACE);
+        use_surface(slot);
+        if (slot.surface->split.closed && !slot.cut) glEnable(GL_CULL_FACE);
         draw_surface(slot);
         glDisable(GL_CULL_FACE);
       }
@@ -300,9 +416,8 @@ struct Pipeline::Impl {
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
     glEnable(GL_CULL_FACE);
-    glUseProgram(surface.name());
     for (const Slot* slot : order) {
-      set(surface, "opacity", slot->opacity);
+      use_surface(*slot);
       for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
         glCullFace(hidden);
         draw_surface(*slot);
@@ -313,19 +428,28 @@ struct Pipeline::Impl {
     glDisable(GL_BLEND);
   }
 
-  FrameUniforms frame_uniforms(const Camera& camera, double aspect, const KeyLight& light) const {
+  FrameUniforms frame_uniforms(const Camera& camera, double aspect, const KeyLight& light,
+                               const std::vector<PlanePatch>& patches) const {
     const CameraAxes axes = camera_axes(camera);
     const auto height = static_cast<float>(context.height());
     const double distance = (camera.eye - camera.target).norm();
     FrameUniforms frame;
     frame.view_projection = view_projection(camera, aspect);
     frame.shadow_projection = light.to_unit_cube;
+    frame.from_clip = frame.view_projection.cast<double>().inverse().cast<float>();
     frame.eye << (camera.eye - camera.target).cast<float>(), 1;
     frame.key_light << light.direction, 0;
     frame.world_up << camera.up.normalized().cast<float>(), 0;
     frame.camera_right << axes.right.cast<float>(), 0;
-    frame.shadow_size << light.side, light.depth, light.side / ShadowMap::kSide, 0;
-    frame.pixel << static_cast<float>(2 * view_radius(camera) / distance) / height, 0, 0, 0;
+    frame.shadow_size << light.side, light.depth, light.side / kShadowSide, 0;
+    frame.pixel << static_cast<float>(2 * view_radius(camera) / distance) / height, occlusion_reach,
+        0, 0;
+    std::size_t count = 0;
+    for (const PlanePatch& patch : patches) {
+      if (patch.seen_from_behind || count == kMostPlanes) continue;
+      frame.planes[count++] << patch.normal, patch.offset;
+    }
+    frame.image << static_cast<float>(context.width()), height, static_cast<float>(count), 0;
     return frame;
   }
 
@@ -337,22 +461,29 @@ struct Pipeline::Impl {
     glCullFace(GL_BACK);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     const KeyLight light = key_light(panel.camera, fill_slots(panel));
-    const FrameUniforms frame = frame_uniforms(panel.camera, aspect, light);
     std::vector<PlanePatch> patches;
     for (const DrawnPlane& p : panel.planes)
       patches.push_back(plane_patch(p, panel.camera, aspect));
+    const FrameUniforms frame = frame_uniforms(panel.camera, aspect, light, patches);
     const auto spacing = static_cast<float>(grid_spacing(view_radius(panel.camera)));
 
-    draw_shadows(frame, light);
+    FrameUniforms from_light = frame;
+    from_light.view_projection = light.projection;
+    from_light.eye << light.direction, 0;
+    draw_depths(from_light, shadow_map);
+    draw_depths(frame, body_depth);
+    shadow_map.bind_compare(0);
+    shadow_map.bind_plain(1);
+    body_depth.bind_plain(2);
     context.begin();
-    set_frame(frame);
-    shadow_map.bind();
     glClear(GL_DEPTH_BUFFER_BIT);
     draw_backdrop();
-    draw_planes(patches, spacing, false);
+    // Bodies first: what they hide of the planes is not shaded.
     draw_opaque();
+    draw_planes(patches, spacing, light, false);
+    draw_edges(patches, edge_radius(panel.camera));
     draw_transparent();
-    draw_planes(patches, spacing, true);
+    draw_planes(patches, spacing, light, true);
   }
 };
 

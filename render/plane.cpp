@@ -32,10 +32,16 @@ PlanePatch plane_patch(const DrawnPlane& plane, const Camera& camera, double asp
   const double offset = plane.offset / length;
   const Vec3 world_up = camera.up.normalized();
   PlanePatch patch;
-  constexpr double kWall = 0.7;  // cosine of the angle: steeper than 45 deg
-  patch.upright = std::abs(normal.dot(world_up)) < kWall;
+  // Cosines of the angle to the vertical: planes of less than 3 deg are floors, of more than 70 deg
+  // walls.
+  constexpr double kFloor = 0.9986;
+  constexpr double kWall = 0.342;
+  const double level = std::abs(normal.dot(world_up));
+  patch.kind = level > kFloor  ? PlanePatch::Kind::floor
+               : level < kWall ? PlanePatch::Kind::wall
+                               : PlanePatch::Kind::ramp;
   Vec3 v = world_up - world_up.dot(normal) * normal;
-  if (!patch.upright) {
+  if (patch.kind == PlanePatch::Kind::floor) {
     const Vec3 y = Vec3::UnitY() - normal.y() * normal;
     const Vec3 x = Vec3::UnitX() - normal.x() * normal;
     v = y.norm() > 0.1 ? y : x;
@@ -56,6 +62,63 @@ PlanePatch plane_patch(const DrawnPlane& plane, const Camera& camera, double asp
           .cast<float>();
   patch.seen_from_behind = normal.dot(camera.eye) < offset;
   return patch;
+}
+
+std::vector<Vec3f> clipped(const std::vector<Vec3f>& polygon, const Vec3f& normal, float offset) {
+  std::vector<Vec3f> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3f& a = polygon[i];
+    const Vec3f& b = polygon[(i + 1) % polygon.size()];
+    const float height_a = normal.dot(a) - offset;
+    const float height_b = normal.dot(b) - offset;
+    if (height_a >= 0) kept.push_back(a);
+    if ((height_a >= 0) != (height_b >= 0))
+      kept.emplace_back(a + (b - a) * (height_a / (height_a - height_b)));
+  }
+  return kept;
+}
+
+std::vector<Vec3f> visible_polygon(const std::vector<PlanePatch>& patches, std::size_t which) {
+  const PlanePatch& patch = patches[which];
+  const Vec3f u = patch.reach * patch.u;
+  const Vec3f v = patch.reach * patch.v;
+  std::vector<Vec3f> polygon{patch.center - u - v, patch.center + u - v, patch.center + u + v,
+                             patch.center - u + v};
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    if (i != which) polygon = clipped(polygon, patches[i].normal, patches[i].offset);
+  return polygon;
+}
+
+std::vector<SpringInstance> plane_edges(const std::vector<PlanePatch>& patches, std::size_t which,
+                                        float radius) {
+  constexpr int kPieces = 24;  // of an edge, so that its colour follows the fading plane
+  constexpr Colour kEdge{0.60F, 0.63F, 0.67F};
+  constexpr Colour kFaded{0.93F, 0.94F, 0.95F};
+  const PlanePatch& patch = patches[which];
+  const auto colour = [&](const Vec3f& p) {
+    const float away = (p - patch.center).norm() / patch.reach;
+    const float t = std::clamp(away / 0.6F, 0.F, 1.F);
+    return Colour{kEdge.r + t * (kFaded.r - kEdge.r), kEdge.g + t * (kFaded.g - kEdge.g),
+                  kEdge.b + t * (kFaded.b - kEdge.b)};
+  };
+  const float slack = 1e-4F * patch.reach;
+  const std::vector<Vec3f> polygon = visible_polygon(patches, which);
+  std::vector<SpringInstance> edges;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec3f& a = polygon[k];
+    const Vec3f b = polygon[(k + 1) % polygon.size()];
+    const bool shared = std::any_of(patches.begin(), patches.end(), [&](const PlanePatch& other) {
+      return &other != &patch && std::abs(other.normal.dot(a) - other.offset) < slack &&
+             std::abs(other.normal.dot(b) - other.offset) < slack;
+    });
+    for (int piece = 0; shared && piece < kPieces; ++piece) {
+      const Vec3f from = a + (b - a) * (static_cast<float>(piece) / kPieces);
+      const Vec3f to = a + (b - a) * (static_cast<float>(piece + 1) / kPieces);
+      if (std::min((from - patch.center).norm(), (to - patch.center).norm()) < 0.6F * patch.reach)
+        edges.push_back({from, to, colour(from), colour(to), radius});
+    }
+  }
+  return edges;
 }
 
 }  // namespace springlod::render

@@ -127,8 +127,8 @@ struct DrawStyle {
   double node_radius = 0;         ///< [m]; 0: a fraction of the mean spring length
   double surface_opacity = 1;     ///< below 1 shows the springs inside
   bool bold_inner_nodes = false;  ///< nodes off the border in bold red (the paper's figure 4)
-  /// Hides nodes whose rest position has normal . x < offset, with their springs, to show the
-  /// inside. The surface is not cut.
+  /// Hides what has normal . x < offset at rest: nodes, springs and the surface, whose cut face is
+  /// hatched if it is closed and opaque and no nodes or springs are drawn.
   std::optional<DrawnPlane> cut;
 };
 /// True if nodes are drawn.

@@ -1,8 +1,11 @@
 #include "report/animate.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <exception>
+#include <functional>
 #include <numbers>
 #include <string_view>
 #include <system_error>
@@ -11,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "base/temporary_file.hpp"
 #include "base/units.hpp"
 #include "render/frame_writer.hpp"
@@ -237,14 +241,21 @@ std::vector<render::Camera> following_cameras(const DrawnRun& drawn,
   std::vector<Vec3> path;
   for (const double t : times)
     path.push_back(center_of_mass(base, positions_at(runs.base_frames, t)));
-  constexpr double kSmooth = 0.2;  // to both sides [s of the video]
-  path = smoothed(path, static_cast<std::uint32_t>(kSmooth * options.frame_rate));
+  constexpr double kSmooth = 0.12;  // to both sides [s of the video]
+  const std::vector<Vec3> centers = path;
+  // Three box filters are close to a Gaussian one: no kink where the body bounces.
+  for (int pass = 0; pass < 3; ++pass)
+    path = smoothed(path, static_cast<std::uint32_t>(kSmooth * options.frame_rate));
   // A ball that contains the body in every orientation, with space for labels and surroundings.
   const Vec3 center = center_of_mass(base, base.rest);
   double radius = 0;
   for (const Vec3& p : base.rest) radius = std::max(radius, (p - center).norm());
-  constexpr double kRoom = 1.9;
-  const Vec3 half = Vec3::Constant(kRoom * (radius + surface_margin(asset)) / std::sqrt(3.));
+  double behind = 0;  // largest distance of the body from the middle of the view
+  for (std::size_t k = 0; k < path.size(); ++k)
+    behind = std::max(behind, (path[k] - centers[k]).norm());
+  constexpr double kRoom = 1.5;
+  const Vec3 half = Vec3::Constant(
+      std::max(kRoom * (radius + surface_margin(asset)), radius + behind) / std::sqrt(3.));
   std::vector<render::Camera> cameras;
   for (const Vec3& p : path)
     cameras.push_back(
@@ -342,24 +353,37 @@ Animation animate(const std::vector<ComparedChain>& chains, const fs::path& fold
   const std::vector<DrawnRun> drawn = drawn_runs(chains, options.levels);
   require_sane(options);
   const std::vector<double> times = picture_times(drawn, options);
-  render::Renderer renderer({.panel_width = options.width,
-                             .panel_height = options.height,
-                             .panel_count = static_cast<std::uint32_t>(drawn.size())});
-  std::vector<std::vector<render::Camera>> cameras = cameras_of(drawn, times, options);
-  std::vector<PanelPlayer> players;
-  for (std::size_t i = 0; i < drawn.size(); ++i)
-    players.emplace_back(drawn[i], std::move(cameras[i]), options.style);
+  const std::vector<std::vector<render::Camera>> cameras = cameras_of(drawn, times, options);
 
   Task task(options.progress, "drawing frames", times.size());
   render::FrameWriter writer;
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    std::vector<render::Panel> panels;
-    for (PanelPlayer& player : players) panels.push_back(player.at(k, times[k]));
-    writer.write(
-        renderer.draw(std::move(panels), {.footer = fmt::format("t = {:.3f} s", times[k])}),
-        render::frame_path(folder, static_cast<std::uint32_t>(k)));
-    task.advance();
-  }
+  std::atomic<std::size_t> next{0};
+  const auto draw = [&](std::uint64_t, const std::function<bool()>& stopped) {
+    try {
+      render::Renderer renderer({.panel_width = options.width,
+                                 .panel_height = options.height,
+                                 .panel_count = static_cast<std::uint32_t>(drawn.size())});
+      std::vector<PanelPlayer> players;
+      for (std::size_t i = 0; i < drawn.size(); ++i)
+        players.emplace_back(drawn[i], cameras[i], options.style);
+      for (std::size_t k = next++; k < times.size() && !stopped(); k = next++) {
+        std::vector<render::Panel> panels;
+        for (PanelPlayer& player : players) panels.push_back(player.at(k, times[k]));
+        writer.write(
+            renderer.draw(std::move(panels), {.footer = fmt::format("t = {:.3f} s", times[k])}),
+            render::frame_path(folder, static_cast<std::uint32_t>(k)), k);
+        task.advance();
+      }
+    } catch (...) {
+      writer.abandon(std::current_exception());
+      throw;
+    }
+  };
+  // Two contexts keep two cores busy: one draws while the other waits for its pixels. More would
+  // only share the rasterizer's threads. A short animation is not worth a second context.
+  constexpr std::size_t kFramesOfContext = 8;
+  const std::uint32_t painters = times.size() < 2 * kFramesOfContext ? 1 : 2;
+  run_jobs(painters, painters, draw);
   writer.finish();
   remove_stale_temporaries(folder);
   remove_stale_frames(folder, times.size());

@@ -1,5 +1,7 @@
 // Still pictures.
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -136,17 +138,36 @@ Vec3 middle(const std::vector<Vec3>& points) {
   return box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
 }
 
-/// The camera of each panel. All have one scale: a camera that sees every subject, wherever it is
-/// (fixed) or moved to one place and the camera with it (follow).
+/// Whether the bodies differ so much in size that one scale would leave most of some panels empty.
+bool differ_in_size(const std::vector<std::vector<Vec3>>& subjects) {
+  constexpr double kAlike = 1.5;  // levels of one chain, and a body before and after it deforms
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (const std::vector<Vec3>& points : subjects) {
+    const Box3 box = bounds(points);
+    const double size = box.isEmpty() ? 0 : box.diagonal().norm();
+    least = std::min(least, size);
+    most = std::max(most, size);
+  }
+  return most > kAlike * least;
+}
+
+/// The camera of each panel. A fixed camera sees every subject, wherever it is. Otherwise each
+/// camera follows its subject; subjects of similar size have one scale, others each fill their
+/// panel.
 std::vector<render::Camera> cameras_of(const std::vector<std::unique_ptr<Picture>>& panels,
                                        const PictureOptions& options) {
+  const bool follow = options.camera == report::CameraMode::follow;
+  std::vector<std::vector<Vec3>> subjects;  // relative to their centers
   std::vector<Vec3> centers;
   std::vector<Vec3> all;
+  std::vector<std::vector<Vec3>> sizes;
   for (const auto& panel : panels) {
-    const std::vector<Vec3> points = panel->points();
-    centers.push_back(options.camera == report::CameraMode::follow ? middle(points)
-                                                                   : Vec3(Vec3::Zero()));
-    for (const Vec3& point : points) all.emplace_back(point - centers.back());
+    std::vector<Vec3>& points = subjects.emplace_back(panel->points());
+    centers.push_back(follow ? middle(points) : Vec3(Vec3::Zero()));
+    for (Vec3& point : points) point -= centers.back();
+    all.insert(all.end(), points.begin(), points.end());
+    sizes.push_back(panel->body_at_rest());
   }
   const int height = static_cast<int>(options.height);
   double headings = 0;
@@ -158,17 +179,20 @@ std::vector<render::Camera> cameras_of(const std::vector<std::unique_ptr<Picture
   // Labels must not fill a very small panel.
   constexpr double kMostForLabels = 0.5;
   const double shrink = std::min(1., kMostForLabels / std::max(headings + scales, 1e-9));
-  const render::Camera common = render::frame_points(
-      all, {.azimuth = options.azimuth,
-            .elevation = options.elevation,
-            .aspect = static_cast<double>(options.width) / static_cast<double>(options.height),
-            .headroom = shrink * headings,
-            .footroom = shrink * scales});
+  const render::Framing framing{
+      .azimuth = options.azimuth,
+      .elevation = options.elevation,
+      .aspect = static_cast<double>(options.width) / static_cast<double>(options.height),
+      .headroom = shrink * headings,
+      .footroom = shrink * scales};
+  const bool own = follow && differ_in_size(sizes);
+  const render::Camera common = render::frame_points(all, framing);
   std::vector<render::Camera> cameras;
-  for (const Vec3& center : centers) {
-    render::Camera& camera = cameras.emplace_back(common);
-    camera.eye += center;
-    camera.target += center;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    render::Camera& camera =
+        cameras.emplace_back(own ? render::frame_points(subjects[i], framing) : common);
+    camera.eye += centers[i];
+    camera.target += centers[i];
   }
   return cameras;
 }
@@ -248,7 +272,8 @@ std::vector<Parameter> render_parameters() {
       {.name = "camera",
        .type = "one of",
        .fallback = "\"follow\"",
-       .help = "whether the camera follows the body; all panels have one scale",
+       .help = "whether the camera follows the body. All panels have one scale, but if it follows "
+               "bodies that differ in size by more than a factor 1.5, each fills its panel",
        .choices = words_of<report::CameraMode>()},
       {.name = "azimuth",
        .type = "number",

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "model/creases.hpp"
+#include "render/cut.hpp"
 #include "render/plane.hpp"
 #include "render/strain_colour.hpp"
 #include "tests/render/bodies.hpp"
@@ -112,11 +113,65 @@ TEST_CASE("a plane patch lies in its plane, around the foot of the camera's targ
   camera.target = Vec3(10, 20, 5);
   camera.eye = Vec3(10, 10, 7);
   const PlanePatch wall = plane_patch({Vec3(-2, 0, 0), -24}, camera, 1);  // x = 12, from its left
-  CHECK(wall.upright);
+  CHECK(wall.kind == PlanePatch::Kind::wall);
   CHECK_FALSE(wall.seen_from_behind);
   CHECK(wall.center.x() == Approx(2));
   CHECK(wall.center.dot(wall.normal) == Approx(wall.offset));
   CHECK(wall.v.z() == Approx(1));
   CHECK(plane_patch({Vec3(1, 0, 0), 12}, camera, 1).seen_from_behind);
-  CHECK_FALSE(plane_patch({Vec3(0, 0, 1), 0}, camera, 1).upright);
+  CHECK(plane_patch({Vec3(0, 0, 1), 0}, camera, 1).kind == PlanePatch::Kind::floor);
+  const PlanePatch ramp = plane_patch({Vec3(-0.5, 0, 1), 0}, camera, 1);
+  CHECK(ramp.kind == PlanePatch::Kind::ramp);
+  CHECK(ramp.v.x() > 0.4F);  // uphill
+  CHECK(ramp.v.z() > 0.4F);
+}
+
+TEST_CASE("the visible polygon of a plane ends at the other planes, with an edge along each") {
+  Camera camera;
+  camera.target = Vec3(0, 0, 1);
+  camera.eye = Vec3(-1, -6, 3);
+  const std::vector<PlanePatch> patches{plane_patch({Vec3::UnitZ(), 0}, camera, 1),
+                                        plane_patch({-Vec3::UnitX(), -0.5}, camera, 1)};
+  const std::vector<Vec3f> floor = visible_polygon(patches, 0);
+  CHECK(floor.size() == 4);
+  float right = -1e9F;
+  for (const Vec3f& p : floor) {
+    right = std::max(right, p.x());
+    CHECK(p.z() == Approx(-1));
+  }
+  CHECK(right == Approx(0.5));
+  const auto edges = plane_edges(patches, 0, 0.01F);
+  CHECK(edges.size() > 4);
+  for (const SpringInstance& edge : edges) CHECK(edge.a.x() == Approx(0.5));
+  CHECK(plane_edges({patches[0]}, 0, 0.01F).empty());
+  CHECK(clipped(floor, Vec3f::UnitZ(), 0).empty());
+}
+
+TEST_CASE("a cut face moves with its body") {
+  const TriangleMesh mesh = dumbbell_mesh(16);
+  const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  const Vec3 shift(4, 5, 6);
+  std::vector<Vec3> x;
+  for (const Vec3& p : mesh.positions) x.emplace_back(turn * p + shift);
+  DrawnBody body;
+  body.surface = &mesh;
+  body.surface_positions = &x;
+  body.style.cut = DrawnPlane{Vec3(0, 2, 0), 0.06};  // y >= 0.03 is kept
+  const Eigen::Vector4f face = cut_face(body, shift);
+  const Vec3 wanted = turn * -Vec3::UnitY();
+  CHECK((face.head<3>() - wanted.cast<float>()).norm() < 1e-5F);
+  CHECK(face.w() == Approx(-0.03).margin(1e-6));
+  const std::vector<float> kept = kept_distances(body);
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    CHECK(kept[i] == Approx(mesh.positions[i].y() - 0.03).margin(1e-6));
+}
+
+TEST_CASE("the edges of a box are its twelve sides") {
+  DrawnBox box;
+  box.half_size = Vec3(1, 2, 3);
+  double length = 0;
+  const auto edges = box_edges(box, Vec3::Zero(), Colour{}, 0.1F);
+  for (const SpringInstance& edge : edges) length += static_cast<double>((edge.b - edge.a).norm());
+  CHECK(edges.size() == 12);
+  CHECK(length == Approx(4 * (2 + 4 + 6)));
 }

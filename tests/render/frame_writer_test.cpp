@@ -59,6 +59,28 @@ TEST_CASE("an error on the writing thread reaches the caller, and nothing is wri
   CHECK(written == std::vector<std::string>{"0", "1"});
 }
 
+TEST_CASE("images of several threads are written in the order of their numbers") {
+  std::vector<std::string> written;
+  FrameWriter writer(
+      [&](const Image&, const std::filesystem::path& path) { written.push_back(path.string()); });
+  const auto draw = [&](std::size_t first) {
+    for (std::size_t k = first; k < 20; k += 2) writer.write(grey(0), std::to_string(k), k);
+  };
+  std::thread odd(draw, 1);
+  draw(0);
+  odd.join();
+  writer.finish();
+  REQUIRE(written.size() == 20);
+  for (std::size_t k = 0; k < 20; ++k) CHECK(written[k] == std::to_string(k));
+}
+
+TEST_CASE("a thread that waits for images that never come gets the error") {
+  FrameWriter writer([](const Image&, const std::filesystem::path&) {});
+  std::future<void> second = std::async(std::launch::async, [&] { writer.write(grey(0), "1", 1); });
+  writer.abandon(std::make_exception_ptr(IoError("no image 0")));
+  CHECK_THROWS_WITH(second.get(), Contains("no image 0"));
+}
+
 TEST_CASE("the queue is bounded") {
   std::promise<void> gate;
   const std::shared_future<void> open = gate.get_future().share();

@@ -125,12 +125,44 @@ TEST_CASE("the floor is darker in a body's shadow than beside it") {
   for (std::size_t p = 0; p < with.rgb.size(); p += 3) {
     const int r = with.rgb[p];
     const int b = with.rgb[p + 2];
-    const bool grey = std::abs(r - b) < 20 && r > 100;
+    const bool grey = std::abs(r - b) < 20 && r > 70;
     if (grey && without.rgb[p] - r > 40) ++darker;
   }
   CHECK(darker > 300);
   // The light comes from the left: the floor there is unchanged.
   CHECK(pixel(with, 5, kHeight - 5) == pixel(without, 5, kHeight - 5));
+}
+
+TEST_CASE("a cut body shows a hatched face in the colours of its parts instead of its surface") {
+  const TriangleMesh mesh = dumbbell_mesh(32);
+  DrawnBody body;
+  body.surface = &mesh;
+  body.part_colours = {{0.25F, 0.45F, 0.68F}, {0.90F, 0.55F, 0.15F}, {0.25F, 0.45F, 0.68F}};
+  Panel panel;
+  panel.camera = frame_box(bounds(mesh.positions), -90, 10, kAspect);
+  panel.bodies = {body};
+  const Image whole = draw_one(panel);
+  panel.bodies[0].style.cut = DrawnPlane{Vec3::UnitY(), 0};
+  const Image cut = draw_one(panel);
+  CHECK(difference(whole, cut).share_beyond > 0.03);
+  const auto [r, g, b] = pixel(cut, kWidth / 2, kHeight / 2);
+  CHECK(r > b + 40);                                          // the joint
+  panel.bodies[0].style.cut = DrawnPlane{Vec3::UnitY(), -9};  // cuts nothing away
+  CHECK(difference(draw_one(panel), whole).share_beyond < 0.005);
+  panel.bodies[0].style.cut = DrawnPlane{Vec3::UnitY(), 9};  // cuts all away
+  const Image none = draw_one(panel);
+  panel.bodies.clear();
+  CHECK(difference(draw_one(panel), none).share_beyond == 0);
+}
+
+TEST_CASE("a ramp has another colour than a floor") {
+  const BallScene scene;
+  Panel panel = studio(scene.box);
+  const auto [floor_r, floor_g, floor_b] = pixel(draw_one(panel), 30, kHeight - 30);
+  panel.planes = {{Vec3(-0.2, 0, 1), 0}};
+  const auto [ramp_r, ramp_g, ramp_b] = pixel(draw_one(panel), 30, kHeight - 30);
+  CHECK(floor_b >= floor_r);
+  CHECK(ramp_r > ramp_b + 10);
 }
 
 TEST_CASE("equal panels give equal images side by side") {

@@ -72,8 +72,10 @@ std::vector<Parameter> style_parameters(const render::DrawStyle& usual) {
       {.name = "cut",
        .type = "{nx, ny, nz, offset}",
        .fallback = "none",
-       .help = "hides the nodes with n . x < offset at rest, and their springs, to show the "
-               "inside; {0, 1, 0, 0} keeps y >= 0. The surface is not cut"});
+       .help =
+           "cuts the body open: hides what has n . x < offset at rest, of the surface, the nodes "
+           "and the springs; {0, 1, 0, 0} keeps y >= 0. The cut face of a closed surface is "
+           "hatched, unless nodes or springs are drawn"});
   return parameters;
 }
 

@@ -1,5 +1,6 @@
 #include "scripting/bind/tables/picture.hpp"
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 #include <variant>
@@ -53,6 +54,19 @@ void require_one_value_a_node(const PanelOptions& options, const ModelValue* mod
     throw InputError(
         "render: node_values and node_colour both set the colours of the nodes; give "
         "one of them");
+}
+
+// Parts of one material have one colour, although its values are not known yet.
+std::vector<Colour> material_colours(const TriangleMesh& mesh) {
+  std::vector<std::string> names;
+  std::vector<Colour> colours;
+  for (const MeshPart& part : mesh.parts) {
+    const std::string& name = part.material.empty() ? part.name : part.material;
+    const auto at = std::find(names.begin(), names.end(), name);
+    colours.push_back(palette_colour(static_cast<std::size_t>(at - names.begin())));
+    if (at == names.end()) names.push_back(name);
+  }
+  return colours;
 }
 
 }  // namespace
@@ -132,6 +146,12 @@ std::vector<Vec3> Picture::points() const {
   return render::outline(panel(render::Camera{}).bodies.front());
 }
 
+std::vector<Vec3> Picture::body_at_rest() const {
+  if (mesh_) return mesh_->mesh.positions;
+  if (model_->surface) return model_->surface->positions;
+  return model_->model->rest;
+}
+
 std::vector<std::string> Picture::heading() const {
   std::vector<std::string> lines;
   std::istringstream title(options_.title);
@@ -158,6 +178,7 @@ render::Panel Picture::panel(const render::Camera& camera) const {
   body.style = options_.style;
   if (mesh_) {
     body.surface = &mesh_->mesh;
+    body.part_colours = material_colours(mesh_->mesh);
     body.style.surface = true;  // a mesh has only its surface
     body.style.nodes = false;
     body.style.springs = false;

@@ -35,6 +35,8 @@ class Picture {
   double scales_share(int panel_height) const;
   /// Points that the camera must show [m].
   std::vector<Vec3> points() const;
+  /// The points of the whole body at rest [m]; a level has those of its base's surface, if any.
+  std::vector<Vec3> body_at_rest() const;
   /// Valid for the lifetime of this object.
   render::Panel panel(const render::Camera& camera) const;
 

@@ -1,4 +1,4 @@
-#include "render/shadow_map.hpp"
+#include "render/depth_map.hpp"
 
 namespace springlod::render {
 namespace {
@@ -15,13 +15,15 @@ void set_sampler(const GlSampler& sampler, GLint filter, GLint compare_mode) {
 
 }  // namespace
 
-ShadowMap::ShadowMap()
-    : depth_(make_texture()),
+DepthMap::DepthMap(GLsizei width, GLsizei height)
+    : width_(width),
+      height_(height),
+      depth_(make_texture()),
       target_(make_framebuffer()),
       compare_(make_sampler()),
       plain_(make_sampler()) {
   glBindTexture(GL_TEXTURE_2D, depth_.name());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kSide, kSide, 0, GL_DEPTH_COMPONENT,
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT,
                GL_FLOAT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   set_sampler(compare_, GL_LINEAR, GL_COMPARE_REF_TO_TEXTURE);
@@ -32,18 +34,23 @@ ShadowMap::ShadowMap()
   glReadBuffer(GL_NONE);
 }
 
-void ShadowMap::begin() const {
+void DepthMap::begin() const {
   glBindFramebuffer(GL_FRAMEBUFFER, target_.name());
-  glViewport(0, 0, kSide, kSide);
+  glViewport(0, 0, width_, height_);
   glClear(GL_DEPTH_BUFFER_BIT);
 }
 
-void ShadowMap::bind() const {
-  for (const auto& [unit, sampler] : {std::pair{0U, &compare_}, {1U, &plain_}}) {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, depth_.name());
-    glBindSampler(unit, sampler->name());
-  }
+void DepthMap::bind_plain(GLuint unit) const {
+  bind(unit, plain_);
+}
+void DepthMap::bind_compare(GLuint unit) const {
+  bind(unit, compare_);
+}
+
+void DepthMap::bind(GLuint unit, const GlSampler& sampler) const {
+  glActiveTexture(GL_TEXTURE0 + unit);
+  glBindTexture(GL_TEXTURE_2D, depth_.name());
+  glBindSampler(unit, sampler.name());
 }
 
 }  // namespace springlod::render
