@@ -71,7 +71,14 @@ int run(const std::vector<std::string>& arguments) {
   else if (!outcome.done)
     fmt::print(stderr, "springlod: {}\n{}{}", outcome.message, outcome.traceback,
                outcome.traceback.empty() ? "" : "\n");
-  if (line.action == CommandLine::Action::prompt || line.prompt_after) scripting::run_prompt(state);
+  const bool asked = line.action == CommandLine::Action::prompt || line.prompt_after;
+  if (asked && stop != scripting::StopCause::termination) {
+    const scripting::StopCause end = scripting::run_prompt(state);
+    if (end != scripting::StopCause::none) {
+      fmt::print(stderr, "springlod: {}\n", scripting::stop_text(end));
+      return scripting::stop_exit_code(end);
+    }
+  }
   if (outcome.interrupted) return scripting::stop_exit_code(stop);
   return outcome.done ? 0 : kFailed;
 }

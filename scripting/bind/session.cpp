@@ -20,6 +20,7 @@
 #include "scripting/engine/help.hpp"
 #include "scripting/engine/inspect.hpp"
 #include "scripting/engine/paths.hpp"
+#include "scripting/engine/screen.hpp"
 #include "scripting/engine/suggest.hpp"
 
 namespace springlod::scripting {
@@ -37,9 +38,11 @@ constexpr std::size_t kJsonValues = 2'000'000;
 
 int help(Call& call) {
   const Api& api = call.session().api();
-  const std::string text = call.has(1) ? help_at(call.lua(), call.index(1), api) : overview(api);
-  std::fputs((text + "\n").c_str(), stdout);
-  std::fflush(stdout);
+  // Narrower than this, the names in the left column leave no room for a text.
+  constexpr std::size_t kNarrowest = 40;
+  const std::size_t columns = screen_size().columns;
+  const std::size_t width = columns == 0 ? kHelpWidth : std::clamp(columns, kNarrowest, kHelpWidth);
+  show_text(call.has(1) ? help_at(call.lua(), call.index(1), api, width) : overview(api, width));
   return 0;
 }
 

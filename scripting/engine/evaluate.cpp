@@ -35,21 +35,35 @@ int print_results(lua_State* L) {
   return 0;
 }
 
+// Loads the chunk, as an expression if it is one. On failure, the error message is on the stack.
+int load(lua_State* L, const std::string& input) {
+  const std::string expression = "return " + input;
+  const int status = luaL_loadbufferx(L, expression.data(), expression.size(), kChunkName, "t");
+  if (status == LUA_OK) return status;
+  lua_pop(L, 1);
+  return luaL_loadbufferx(L, input.data(), input.size(), kChunkName, "t");
+}
+
+// Ctrl-C is done with when the chunk has stopped; other requests end the prompt too.
+void clear_ctrl_c() {
+  if (stop_cause() == StopCause::interrupt) clear_interrupt();
+}
+
 }  // namespace
+
+bool needs_more_lines(ScriptState& state, const std::string& input) {
+  lua_State* L = state.lua();
+  const bool incomplete = is_incomplete(L, load(L, input));
+  lua_pop(L, 1);
+  return incomplete;
+}
 
 Reply evaluate(ScriptState& state, const std::string& input) {
   lua_State* L = state.lua();
   const int bottom = lua_gettop(L);
-  clear_interrupt();
-  const std::string expression = "return " + input;
-  int status = luaL_loadbufferx(L, expression.data(), expression.size(), kChunkName, "t");
-  if (status != LUA_OK) {
-    lua_settop(L, bottom);
-    status = luaL_loadbufferx(L, input.data(), input.size(), kChunkName, "t");
-  }
+  clear_ctrl_c();
   Reply reply;
-  if (status != LUA_OK) {
-    reply.incomplete = is_incomplete(L, status);
+  if (load(L, input) != LUA_OK) {
     reply.error = lua_tostring(L, -1);
     lua_settop(L, bottom);
     return reply;
@@ -64,7 +78,7 @@ Reply evaluate(ScriptState& state, const std::string& input) {
   if (!outcome.done)
     reply.error =
         outcome.interrupted ? stop_text(stop_cause()) : outcome.message + "\n" + outcome.traceback;
-  clear_interrupt();
+  clear_ctrl_c();
   return reply;
 }
 

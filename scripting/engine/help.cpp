@@ -1,6 +1,7 @@
 #include "scripting/engine/help.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <lua.hpp>
@@ -13,8 +14,6 @@ namespace springlod::scripting {
 
 namespace {
 
-constexpr std::size_t kLineWidth = 88;
-
 /// "\"none\", \"weak\""
 std::string quoted(const Words& words) {
   std::vector<std::string> all;
@@ -22,15 +21,17 @@ std::string quoted(const Words& words) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
-// Wraps `text` to indented lines of at most kLineWidth.
-std::string wrapped(const std::string& text, std::size_t indent) {
+// Wraps `text` to lines of at most `width`, indented but for `first`, the start of the first line.
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width,
+                    std::string first = "") {
   std::string result;
-  std::string line(indent, ' ');
+  std::string line = std::move(first);
+  line.resize(std::max(indent, line.size()), ' ');
   std::size_t start = 0;
   while (start < text.size()) {
     std::size_t end = text.find(' ', start);
     if (end == std::string::npos) end = text.size();
-    if (line.size() > indent && line.size() + 1 + end - start > kLineWidth) {
+    if (line.size() > indent && line.size() + 1 + end - start > width) {
       result += line + "\n";
       line.assign(indent, ' ');
     }
@@ -50,16 +51,17 @@ std::string indented(const std::string& text, std::size_t indent) {
   return result + "\n";
 }
 
-std::string listing(const std::vector<Parameter>& parameters) {
-  std::size_t width = 0;
-  for (const Parameter& parameter : parameters) width = std::max(width, parameter.name.size());
+std::string listing(const std::vector<Parameter>& parameters, std::size_t width) {
+  std::size_t names = 0;
+  for (const Parameter& parameter : parameters) names = std::max(names, parameter.name.size());
   std::string text;
   for (const Parameter& parameter : parameters) {
-    text += fmt::format("  {:<{}}  {}\n", parameter.name, width, type_and_default(parameter));
-    text += wrapped(parameter.help, width + 6);
+    text += wrapped(type_and_default(parameter), names + 4, width,
+                    fmt::format("  {:<{}}  ", parameter.name, names));
+    text += wrapped(parameter.help, names + 6, width);
     for (const Words::Word& word : parameter.choices.all)
       if (!word.help.empty())
-        text += wrapped(fmt::format("\"{}\": {}", word.name, word.help), width + 8);
+        text += wrapped(fmt::format("\"{}\": {}", word.name, word.help), names + 8, width);
   }
   return text;
 }
@@ -126,16 +128,10 @@ std::string markdown(const TypeEntry& type) {
   return text;
 }
 
-/// All names that help() knows.
-std::vector<std::string> help_topics(const Api& api) {
-  std::vector<std::string> names;
-  for (const FunctionEntry& entry : api.functions()) names.push_back(entry.name);
-  for (const TypeEntry& type : api.types()) names.push_back(type.name);
-  for (const RecordEntry& record : api.records()) names.push_back(record.name);
-  for (const TypeEntry& type : api.types())
-    for (const FunctionEntry& method : type.methods) names.push_back(type.name + ":" + method.name);
-  for (const auto& [table, words] : api.choices()) names.push_back("choices." + table);
-  return names;
+/// "  simplify      Builds a chain ..."
+std::string overview_line(const std::string& name, const std::string& summary, std::size_t width) {
+  constexpr std::size_t kNameColumn = 16;
+  return wrapped(summary, kNameColumn, width, "  " + name + " ");
 }
 
 }  // namespace
@@ -171,87 +167,97 @@ std::string signature(const FunctionEntry& entry) {
                      entry.returns.substr(0, entry.returns.find(':')));
 }
 
-std::string overview(const Api& api) {
+std::string overview(const Api& api, std::size_t width) {
   std::string text = fmt::format("springlod {}: local s = require \"springlod\"\n", version());
   for (const std::string& group : groups_of(api)) {
     text += fmt::format("\n{}\n", group);
     for (const FunctionEntry& entry : api.functions())
-      if (entry.group == group) text += fmt::format("  {:<13} {}\n", entry.name, entry.summary);
+      if (entry.group == group) text += overview_line(entry.name, entry.summary, width);
   }
   text += "\nValues\n";
-  for (const TypeEntry& type : api.types())
-    text += fmt::format("  {:<13} {}\n", type.name, type.summary);
+  for (const TypeEntry& type : api.types()) text += overview_line(type.name, type.summary, width);
   text += "\nTables with known keys\n";
   for (const RecordEntry& record : api.records())
-    text += fmt::format("  {:<13} {}\n", record.name, record.summary);
+    text += overview_line(record.name, record.summary, width);
   text += "\nConstants\n";
   for (const ConstantEntry& constant : api.constants())
-    text += fmt::format("  {:<13} {}\n", constant.parameter.name, constant.parameter.help);
+    text += overview_line(constant.parameter.name, constant.parameter.help, width);
   return text + "\nhelp(s.simplify), help(\"Mesh\"), help(value) print details.";
 }
 
-std::string help_for(const FunctionEntry& entry) {
-  std::string text = signature(entry) + "\n\n" + wrapped(entry.summary, 0);
-  if (!entry.arguments.empty()) text += "\nArguments\n" + listing(entry.arguments);
-  if (!entry.options.empty()) text += "\nOptions\n" + listing(entry.options);
-  text += "\nReturns " + entry.returns + "\n";
-  if (!entry.errors.empty()) text += "\nErrors\n" + wrapped(entry.errors, 2);
+std::string help_for(const FunctionEntry& entry, std::size_t width) {
+  std::string text = signature(entry) + "\n\n" + wrapped(entry.summary, 0, width);
+  if (!entry.arguments.empty()) text += "\nArguments\n" + listing(entry.arguments, width);
+  if (!entry.options.empty()) text += "\nOptions\n" + listing(entry.options, width);
+  text += "\n" + wrapped(entry.returns, 2, width, "Returns");
+  if (!entry.errors.empty()) text += "\nErrors\n" + wrapped(entry.errors, 2, width);
   if (!entry.example.empty()) text += "\nExample\n" + indented(entry.example, 2);
   text.pop_back();
   return text;
 }
 
-std::string help_for(const TypeEntry& type) {
-  std::string text = type.name + "\n\n" + wrapped(type.summary, 0);
-  if (!type.fields.empty()) text += "\nFields\n" + listing(fields_of(type));
+std::string help_for(const TypeEntry& type, std::size_t width) {
+  std::string text = type.name + "\n\n" + wrapped(type.summary, 0, width);
+  if (!type.fields.empty()) text += "\nFields\n" + listing(fields_of(type), width);
   if (!type.methods.empty()) text += "\nMethods\n";
   for (const FunctionEntry& method : type.methods)
-    text += fmt::format("  {}\n", signature(method)) + wrapped(method.summary, 6);
+    text += fmt::format("  {}\n", signature(method)) + wrapped(method.summary, 6, width);
   text.pop_back();
   return text;
 }
 
-std::string help_for(const Words& words) {
+std::string help_for(const Words& words, std::size_t width) {
   std::string text = fmt::format("s.choices.{}\n\n", words.name);
   for (const Words::Word& word : words.all)
     text += word.help.empty() ? fmt::format("  \"{}\"\n", word.name)
-                              : wrapped(fmt::format("\"{}\": {}", word.name, word.help), 2);
+                              : wrapped(fmt::format("\"{}\": {}", word.name, word.help), 2, width);
   text.pop_back();
   return text;
 }
 
-std::string help_for(const RecordEntry& record) {
-  std::string text =
-      record.name + "\n\n" + wrapped(record.summary, 0) + "\nKeys\n" + listing(record.fields);
+std::string help_for(const RecordEntry& record, std::size_t width) {
+  std::string text = record.name + "\n\n" + wrapped(record.summary, 0, width) + "\nKeys\n" +
+                     listing(record.fields, width);
   if (!record.example.empty()) text += "\nExample\n" + indented(record.example, 2);
   text.pop_back();
   return text;
 }
 
-std::string help_for(const Api& api, const std::string& name) {
-  if (const FunctionEntry* entry = api.find_function(name)) return help_for(*entry);
-  if (const TypeEntry* type = api.find_type(name)) return help_for(*type);
+std::string help_for(const Api& api, const std::string& name, std::size_t width) {
+  if (const FunctionEntry* entry = api.find_function(name)) return help_for(*entry, width);
+  if (const TypeEntry* type = api.find_type(name)) return help_for(*type, width);
   for (const RecordEntry& record : api.records())
-    if (record.name == name) return help_for(record);
+    if (record.name == name) return help_for(record, width);
   for (const TypeEntry& type : api.types())
     for (const FunctionEntry& method : type.methods)
       if (name == type.name + ":" + method.name || name == type.name + "." + method.name)
-        return help_for(method);
+        return help_for(method, width);
   for (const auto& [table, words] : api.choices())
-    if (name == table || name == "choices." + table) return help_for(words);
+    if (name == table || name == "choices." + table) return help_for(words, width);
   throw InputError(fmt::format("no help on '{}'{} (help() lists all names)", name,
                                did_you_mean(name, help_topics(api))));
 }
 
-std::string help_at(lua_State* L, int index, const Api& api) {
-  if (lua_type(L, index) == LUA_TSTRING) return help_for(api, lua_tostring(L, index));
-  if (const FunctionEntry* entry = entry_of_function(L, index)) return help_for(*entry);
+std::string help_at(lua_State* L, int index, const Api& api, std::size_t width) {
+  if (lua_type(L, index) == LUA_TSTRING) return help_for(api, lua_tostring(L, index), width);
+  if (const FunctionEntry* entry = entry_of_function(L, index)) return help_for(*entry, width);
   for (const TypeEntry& type : api.types())
-    if (boxed_at(L, index, type.tag)) return help_for(type);
+    if (boxed_at(L, index, type.tag)) return help_for(type, width);
   throw InputError(
       fmt::format("there is no help on {}; pass a function (help(s.simplify)), a value, or a name "
                   "(help(\"Mesh\"))",
                   describe_type_at(L, index)));
+}
+
+std::vector<std::string> help_topics(const Api& api) {
+  std::vector<std::string> names;
+  for (const FunctionEntry& entry : api.functions()) names.push_back(entry.name);
+  for (const TypeEntry& type : api.types()) names.push_back(type.name);
+  for (const RecordEntry& record : api.records()) names.push_back(record.name);
+  for (const TypeEntry& type : api.types())
+    for (const FunctionEntry& method : type.methods) names.push_back(type.name + ":" + method.name);
+  for (const auto& [table, words] : api.choices()) names.push_back("choices." + table);
+  return names;
 }
 
 std::string api_markdown(const Api& api) {

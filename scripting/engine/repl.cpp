@@ -1,14 +1,14 @@
 #include "scripting/engine/repl.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <clocale>
 #include <cstdio>
 #include <cwchar>
-#include <filesystem>
 #include <iostream>
 #include <optional>
-#include <system_error>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <histedit.h>
@@ -16,6 +16,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "scripting/engine/history.hpp"
 #include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/paths.hpp"
 
@@ -23,7 +24,6 @@ namespace springlod::scripting {
 
 namespace {
 
-constexpr int kHistoryLines = 2000;
 // Timeout of a wait for a key [ms]: bounds the delay of a Ctrl-C that arrives just before the wait
 // or on another thread.
 constexpr int kInterruptWait = 100;
@@ -36,33 +36,26 @@ class LineEditor {
  public:
   explicit LineEditor(ScriptState& state) : state_(state) {
     std::setlocale(LC_CTYPE, "");
-    history_ = history_init();
     edit_ = el_init("springlod", stdin, stdout, stderr);
-    HistEvent event;
-    history(history_, &event, H_SETSIZE, kHistoryLines);
-    history(history_, &event, H_SETUNIQUE, 1);
     el_set(edit_, EL_CLIENTDATA, this);
     el_set(edit_, EL_PROMPT, &LineEditor::give_prompt);
     el_set(edit_, EL_EDITOR, "emacs");
     el_set(edit_, EL_SIGNAL, 0);
     el_set(edit_, EL_GETCFN, &LineEditor::read_key);
-    el_set(edit_, EL_HIST, history, history_);
+    el_set(edit_, EL_HIST, history, history_.handle());
     // The narrow-character form, el_set, leaks two copies of its strings.
     el_wset(edit_, EL_ADDFN, L"complete-name", L"completes a name", &LineEditor::complete);
     el_set(edit_, EL_BIND, "^I", "complete-name", nullptr);
     el_set(edit_, EL_BIND, "^R", "em-inc-search-prev", nullptr);
-    load_history();
   }
-  ~LineEditor() {
-    save_history();
-    el_end(edit_);
-    history_end(history_);
-  }
+  ~LineEditor() { el_end(edit_); }
   LineEditor(const LineEditor&) = delete;
   LineEditor& operator=(const LineEditor&) = delete;
 
-  Input read(const char* prompt, std::string& line) {
+  /// `earlier`: the lines of the chunk so far.
+  Input read(const char* prompt, const std::string& earlier, std::string& line) {
     prompt_ = prompt;
+    earlier_ = earlier;
     int count = 0;
     // By default libedit prepares the terminal after it prints the prompt; a Ctrl-D in between
     // would be lost.
@@ -75,10 +68,7 @@ class LineEditor {
     return Input::line;
   }
 
-  void remember(const std::string& input) {
-    HistEvent event;
-    history(history_, &event, H_ENTER, input.c_str());
-  }
+  void remember(const std::string& chunk) { history_.add(chunk); }
 
  private:
   static LineEditor& self(EditLine* edit) {
@@ -115,20 +105,17 @@ class LineEditor {
     const LineInfo* line = el_line(edit);
     const std::string_view before(line->buffer,
                                   static_cast<std::size_t>(line->cursor - line->buffer));
-    const std::vector<std::string> names = completions(self(edit).state_, before);
-    if (names.empty()) return CC_REFRESH_BEEP;
-    std::size_t word = before.size();
-    while (word > 0 && (std::isalnum(static_cast<unsigned char>(before[word - 1])) != 0 ||
-                        before[word - 1] == '_'))
-      --word;
-    const std::string common = common_start(names);
-    const std::string rest = common.substr(before.size() - word);
+    const Completions found =
+        completions(self(edit).state_, self(edit).earlier_ + "\n" + std::string(before));
+    if (found.names.empty()) return CC_REFRESH_BEEP;
+    std::string rest = common_start(found.names).substr(found.typed.size());
+    if (found.names.size() == 1) rest += found.ending;
     if (!rest.empty()) {
       el_insertstr(edit, rest.c_str());
       return CC_REFRESH;
     }
-    if (names.size() == 1) return CC_REFRESH;
-    fmt::print("\n{}\n", fmt::join(names, "  "));
+    if (found.names.size() == 1) return CC_REFRESH;
+    fmt::print("\n{}\n", fmt::join(found.names, "  "));
     std::fflush(stdout);
     return CC_REDISPLAY;
   }
@@ -142,26 +129,33 @@ class LineEditor {
     return common;
   }
 
-  void load_history() {
-    const std::filesystem::path path = history_file();
-    HistEvent event;
-    if (!path.empty()) history(history_, &event, H_LOAD, path.c_str());
-  }
-
-  void save_history() {
-    const std::filesystem::path path = history_file();
-    if (path.empty()) return;
-    std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);
-    HistEvent event;
-    if (!error) history(history_, &event, H_SAVE, path.c_str());
-  }
-
   ScriptState& state_;
   EditLine* edit_ = nullptr;
-  History* history_ = nullptr;
+  PromptHistory history_{history_file()};
   const char* prompt_ = "";
+  std::string earlier_;
 };
+
+// `exit`, `quit()` and the like, alone on a line; unless a script has given the name a meaning.
+bool asks_to_leave(lua_State* L, std::string_view line) {
+  const auto trim = [&line] {
+    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0)
+      line.remove_suffix(1);
+    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.front())) != 0)
+      line.remove_prefix(1);
+  };
+  trim();
+  if (line.ends_with(';')) line.remove_suffix(1);
+  trim();
+  if (line.ends_with("()")) line.remove_suffix(2);
+  trim();
+  if (line != "exit" && line != "quit") return false;
+  lua_pushglobaltable(L);
+  lua_pushlstring(L, line.data(), line.size());
+  const bool unused = lua_rawget(L, -2) == LUA_TNIL;
+  lua_pop(L, 2);
+  return unused;
+}
 
 // Reads lines until they form a complete chunk, and evaluates the chunk.
 class Prompt {
@@ -170,7 +164,7 @@ class Prompt {
     if (isatty(STDIN_FILENO) != 0) editor_.emplace(state);
   }
 
-  // Returns false at the end of the input.
+  // Returns false at the end of the input or of the session.
   bool turn() {
     std::string line;
     switch (read(chunk_.empty() ? "> " : ">> ", line)) {
@@ -180,28 +174,31 @@ class Prompt {
       case Input::interrupted:
         fmt::print("\n");
         std::fflush(stdout);
+        if (stop_cause() != StopCause::interrupt) return false;
         chunk_.clear();
         clear_interrupt();
         return true;
       case Input::line:
         break;
     }
+    if (chunk_.empty() && asks_to_leave(state_.lua(), line)) return false;
     chunk_ += chunk_.empty() ? line : "\n" + line;
     if (chunk_.find_first_not_of(" \t\n") == std::string::npos) {
       chunk_.clear();
       return true;
     }
-    const Reply reply = evaluate(state_, chunk_);
-    if (reply.incomplete) return true;
-    if (!reply.error.empty()) fmt::print(stderr, "{}\n", reply.error);
+    if (needs_more_lines(state_, chunk_)) return true;
+    // Before it runs, because it may end the process.
     if (editor_) editor_->remember(chunk_);
+    const Reply reply = evaluate(state_, chunk_);
+    if (!reply.error.empty()) fmt::print(stderr, "{}\n", reply.error);
     chunk_.clear();
-    return true;
+    return !interrupt_requested();
   }
 
  private:
   Input read(const char* prompt, std::string& line) {
-    if (editor_) return editor_->read(prompt, line);
+    if (editor_) return editor_->read(prompt, chunk_, line);
     return std::getline(std::cin, line) ? Input::line : Input::closed;
   }
 
@@ -212,7 +209,7 @@ class Prompt {
 
 }  // namespace
 
-void run_prompt(ScriptState& state) {
+StopCause run_prompt(ScriptState& state) {
   lua_State* L = state.lua();
   clear_interrupt();  // of a script that ran before
   // Loads the module at the prompt; scripts load it explicitly.
@@ -220,12 +217,13 @@ void run_prompt(ScriptState& state) {
   lua_settop(L, 0);
   if (isatty(STDIN_FILENO) != 0)
     fmt::print(
-        "springlod {}: Lua 5.4 with s = require \"springlod\"; help() lists all functions, Ctrl-D "
-        "exits\n",
+        "springlod {}: Lua 5.4 with s = require \"springlod\"; help() lists all functions, Tab "
+        "completes, exit leaves\n",
         version());
   Prompt prompt(state);
   while (prompt.turn()) {
   }
+  return interrupt_requested() ? stop_cause() : StopCause::none;
 }
 
 }  // namespace springlod::scripting

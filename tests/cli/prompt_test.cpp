@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <csignal>
+#include <sstream>
+
 #include <catch2/catch.hpp>
 
 #include "tests/support/program.hpp"
@@ -5,9 +9,11 @@
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
 using springlod::test::slurp;
+using springlod::test::spit;
 using springlod::test::springlod_run;
 using springlod::test::TemporaryFolder;
 using springlod::test::Terminal;
+using springlod::test::TerminalSetup;
 
 TEST_CASE("the prompt prints the value of an expression and exits on Ctrl-D") {
   const TemporaryFolder scratch;
@@ -105,6 +111,139 @@ TEST_CASE("the prompt remembers its lines for the next session") {
   REQUIRE(terminal.shows("> "));
   terminal.type("\x10\n");  // Ctrl-P: previous line
   CHECK(terminal.shows("\nfirst session"));
+}
+
+TEST_CASE("exit and quit, alone on a line, leave the prompt") {
+  const TemporaryFolder scratch;
+  for (const char* word : {"exit\n", "quit\n", " exit() ;\n", "quit()\n"}) {
+    Terminal terminal({}, scratch.path());
+    REQUIRE(terminal.shows("> "));
+    terminal.type(word);
+    CHECK(terminal.exit_code() == 0);
+  }
+  // Not a name that the session has defined.
+  const Ran ran = springlod_run({"-i"}, "quit = 'mine'\nquit\nexit\n'not reached'\n");
+  CHECK(ran.exit_code == 0);
+  CHECK(ran.out == "mine\n");
+}
+
+TEST_CASE("the history is kept whatever ends the prompt") {
+  const auto end = GENERATE(as<std::string>(), "exit", "os.exit(3)", "os.exit(3, true)", "term",
+                            "term while busy", "hang up", "kill");
+  INFO(end);
+  const TemporaryFolder scratch;
+  const TerminalSetup utf8{.environment = {{"TERM", "dumb"}, {"LC_ALL", "C.UTF-8"}}};
+  {
+    Terminal terminal({}, scratch.path(), utf8);
+    REQUIRE(terminal.shows("> "));
+    terminal.type("print('first \\\\ ' ..\n");
+    REQUIRE(terminal.shows(">> "));
+    terminal.type("'\xC3\xBC line')\n");
+    REQUIRE(terminal.shows("\nfirst \\ \xC3\xBC line"));
+    REQUIRE(terminal.shows("> "));
+    int exit_code = 0;
+    if (end == "term while busy") {
+      terminal.type("print('busy') while true do end\n");
+      REQUIRE(terminal.shows("\nbusy"));
+    }
+    if (end.starts_with("term")) {
+      terminal.signal(SIGTERM);
+      exit_code = 128 + SIGTERM;
+    } else if (end == "hang up") {
+      terminal.signal(SIGHUP);
+      exit_code = 128 + SIGHUP;
+    } else if (end == "kill") {
+      terminal.signal(SIGKILL);
+      exit_code = 128 + SIGKILL;
+    } else {
+      terminal.type(end + "\n");
+      exit_code = end == "exit" ? 0 : 3;
+    }
+    CHECK(terminal.exit_code() == exit_code);
+  }
+  Terminal terminal({}, scratch.path(), utf8);
+  REQUIRE(terminal.shows("> "));
+  // What ended the session may be the last entry.
+  terminal.type(end.starts_with("os.") || end == "term while busy" ? "\x10\x10\n" : "\x10\n");
+  CHECK(terminal.shows("\nfirst \\ \xC3\xBC line"));
+}
+
+TEST_CASE("the history file is bounded, and a damaged one is moved aside") {
+  const TemporaryFolder scratch;
+  const auto file = scratch / "springlod/history";
+  std::string text = "_HiStOrY_V2_\n";
+  for (int i = 0; i < 5000; ++i) text += "entry\\040" + std::to_string(i) + "\n";
+  spit(file, text + "torn off");
+  const auto session = [&] {
+    Terminal terminal({}, scratch.path());
+    REQUIRE(terminal.shows("> "));
+    terminal.type("'new' .. 'est'\n");
+    REQUIRE(terminal.shows("\nnewest"));
+    REQUIRE(terminal.shows("> "));
+    terminal.type("exit\n");
+    REQUIRE(terminal.exit_code() == 0);
+  };
+  session();
+  const std::string shorter = slurp(file);
+  CHECK(std::count(shorter.begin(), shorter.end(), '\n') <= 2002);
+  CHECK_THAT(shorter, Contains("0404999\n") && !Contains("040100\n"));
+  CHECK(shorter.ends_with("'new'\\040..\\040'est'\n"));
+
+  spit(file, "nothing of ours");
+  session();
+  CHECK(slurp(file) == "_HiStOrY_V2_\n'new'\\040..\\040'est'\n");
+  CHECK(slurp(scratch / "springlod/history.damaged") == "nothing of ours");
+}
+
+TEST_CASE("Tab completes files in strings, and option keys and words in calls") {
+  const TemporaryFolder scratch;
+  spit(scratch / "meshes/dumb.obj", "");
+  spit(scratch / "meshes/.hidden", "");
+  Terminal terminal({}, scratch.path(), {.folder = scratch.path()});
+  REQUIRE(terminal.shows("> "));
+  terminal.type("print('mes\td\t .. '!')\n");
+  CHECK(terminal.shows("\nmeshes/dumb.obj!"));
+  REQUIRE(terminal.shows("> "));
+  terminal.type("s.scenario{dura\t2,\n");
+  REQUIRE(terminal.shows(">> "));
+  terminal.type("gravity = {0, 0, 0}, obstacles = {{pla\t{0, 0, 1, 0}}}}\n");
+  CHECK(terminal.shows("2 s, 1 obstacle"));
+  REQUIRE(terminal.shows("> "));
+  terminal.type("s.simplify(nil, {border = \t\t");
+  CHECK(terminal.shows("none  strong  weak"));
+}
+
+TEST_CASE("help fits the width of the terminal and pages if it is longer than the screen") {
+  const TemporaryFolder scratch;
+  const auto widest = [](const std::string& screen) {
+    std::size_t width = 0;
+    std::istringstream lines(screen);
+    for (std::string line; std::getline(lines, line);) {
+      while (!line.empty() && line.back() == '\r') line.pop_back();
+      width = std::max(width, line.size());
+    }
+    return width;
+  };
+  {
+    Terminal terminal({"-e", "help()"}, scratch.path(), {.columns = 60});
+    CHECK(terminal.exit_code() == 0);
+    CHECK(widest(terminal.screen()) <= 60);
+    CHECK_THAT(terminal.screen(), Contains("Values"));
+  }
+  const auto paged = [&](unsigned short rows, const std::string& pager, const std::string& type) {
+    Terminal terminal(
+        {"-e", "help() print('after')"}, scratch.path(),
+        {.columns = 80, .rows = rows, .environment = {{"TERM", type}, {"PAGER", pager}}});
+    CHECK(terminal.exit_code() == 0);
+    CHECK_THAT(terminal.screen(), Contains("after"));
+    return terminal.screen();
+  };
+  CHECK_THAT(paged(24, "sed s/^/paged:/", "vt100"), Contains("paged:  simplify"));
+  CHECK_THAT(paged(1000, "sed s/^/paged:/", "vt100"), !Contains("paged:"));
+  CHECK_THAT(paged(24, "sed s/^/paged:/", "dumb"), !Contains("paged:"));
+  // A pager that is left early, and one that does not exist.
+  CHECK_THAT(paged(24, "head -n 1", "vt100"), !Contains("simplify"));
+  CHECK_THAT(paged(24, "/no/such/pager", "vt100"), Contains("simplify"));
 }
 
 TEST_CASE("the flag -i opens a prompt after the code, with its globals") {

@@ -49,10 +49,9 @@ TEST_CASE("An expression is evaluated once, and its values are popped from the s
 TEST_CASE("An incomplete chunk requests more lines, an invalid one does not") {
   ScriptState state({}, make_api());
   for (const char* begun : {"for i = 1, 2 do", "f = function()", "t = {", "s = [[text"})
-    CHECK(evaluate(state, begun).incomplete);
-  const Reply wrong = evaluate(state, "for for");
-  CHECK_FALSE(wrong.incomplete);
-  CHECK_THAT(wrong.error, Contains("input:1:"));
+    CHECK(needs_more_lines(state, begun));
+  CHECK_FALSE(needs_more_lines(state, "for for"));
+  CHECK_THAT(evaluate(state, "for for").error, Contains("input:1:"));
   CHECK(evaluate(state, "for i = 1, 2 do\nfound = i\nend").error.empty());
   CHECK(found(state) == "2");
 }
@@ -61,7 +60,6 @@ TEST_CASE("A failed chunk reports the line of the error, and the next one runs")
   ScriptState state({}, make_api());
   const int height = lua_gettop(state.lua());
   const Reply reply = evaluate(state, "found = 1 error('broken')");
-  CHECK_FALSE(reply.incomplete);
   CHECK_THAT(reply.error, Contains("input:1: broken") && Contains("traceback"));
   const Reply unprintable =
       evaluate(state, "setmetatable({}, {__tostring = function() error('mute') end})");

@@ -57,15 +57,15 @@ TEST_CASE("A word is completed from globals and keywords, a path from the member
                         "m = s.model{nodes = {{0, 0, 0, mass = 1}}}",
                         "test", {})
               .done);
-  CHECK(completions(state, "mi") == Names{"mine"});
-  CHECK(completions(state, "print(mine.inner.lea") == Names{"leaf", "leave"});
-  CHECK(completions(state, "mine.") == Names{"inner"});
-  CHECK(has(completions(state, "x = whi"), "while"));
-  CHECK(completions(state, "s.vox") == Names{"voxelize"});
-  CHECK(completions(state, "m:node_").empty() == false);
-  CHECK(has(completions(state, "m:"), "springs"));
-  CHECK(has(completions(state, "m.node_"), "node_count"));
-  CHECK(has(completions(state, ""), "s"));
+  CHECK(completions(state, "mi").names == Names{"mine"});
+  CHECK(completions(state, "print(mine.inner.lea").names == Names{"leaf", "leave"});
+  CHECK(completions(state, "mine.").names == Names{"inner"});
+  CHECK(has(completions(state, "x = whi").names, "while"));
+  CHECK(completions(state, "s.vox").names == Names{"voxelize"});
+  CHECK(completions(state, "m:node_").names.empty() == false);
+  CHECK(has(completions(state, "m:").names, "springs"));
+  CHECK(has(completions(state, "m.node_").names, "node_count"));
+  CHECK(has(completions(state, "").names, "s"));
 }
 
 TEST_CASE("An unknown path has no completions, and no metamethod runs") {
@@ -77,8 +77,43 @@ TEST_CASE("An unknown path has no completions, and no metamethod runs") {
               .done);
   const int height = lua_gettop(state.lua());
   for (const char* text : {"trap.x.", "nothing.here.", "number.", "trap.inner.le", "1.5."})
-    CHECK(completions(state, text).empty());
+    CHECK(completions(state, text).names.empty());
   CHECK(lua_gettop(state.lua()) == height);
   lua_getglobal(state.lua(), "touched");
   CHECK(lua_isnil(state.lua(), -1));
+}
+
+TEST_CASE("In a table of options, the keys that are not there yet are completed") {
+  ScriptState state({}, make_api());
+  REQUIRE(state.run_text("s = require 'springlod'", "test", {}).done);
+  const Completions key = completions(state, "s.simplify(m, {lev");
+  CHECK(key.names == Names{"levels"});
+  CHECK(key.ending == " = ");
+  CHECK(has(completions(state, "s.simplify(m, {levels = 2, ").names, "border"));
+  CHECK_FALSE(has(completions(state, "s.simplify(m, {levels = 2, ").names, "levels"));
+  // Over several lines, after strings and comments with brackets, and through calls as arguments.
+  CHECK(
+      completions(state, "x = s.simplify(s.lattice(g, {style = 'a)'}), -- {(\n  {\n  grou").names ==
+      Names{"grouping"});
+  // Of records: as an argument, in a list, in a table by name.
+  CHECK(completions(state, "s.scenario{dur").names == Names{"duration"});
+  CHECK(completions(state, "s.scenario{obstacles = {{pla").names == Names{"plane"});
+  CHECK(completions(state, "s.voxelize(mesh, {materials = {rod = {you").names == Names{"young"});
+  // A value is not a key.
+  CHECK(completions(state, "s.simplify(m, {levels = 2 + lev").names.empty());
+  CHECK(completions(state, "s.simplify(m, {levels = s.vox").names == Names{"voxelize"});
+  CHECK(completions(state, "s.simplify(m, {levels == lev").names == Names{"levels"});
+  CHECK(completions(state, "-- s.simplify(m, {lev").names.empty());
+}
+
+TEST_CASE("The words of an option are completed, with and without a quote") {
+  ScriptState state({}, make_api());
+  REQUIRE(state.run_text("s = require 'springlod'", "test", {}).done);
+  const Completions word = completions(state, "s.simplify(m, {border = 'wea");
+  CHECK(word.names == Names{"weak"});
+  CHECK(word.ending == "'");
+  CHECK(has(completions(state, "s.simplify(m, {border = ").names, "\"weak\""));
+  CHECK(completions(state, "s.simplify(m, {guards = fa").names == Names{"false"});
+  CHECK(completions(state, "help('simpl").names == Names{"simplify"});
+  CHECK(completions(state, "help 'simpl").names == Names{"simplify"});
 }

@@ -161,11 +161,14 @@ Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::
   return child.finish();
 }
 
-Terminal::Terminal(const std::vector<std::string>& arguments, const fs::path& state_home) {
-  process_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
+Terminal::Terminal(const std::vector<std::string>& arguments, const fs::path& state_home,
+                   const TerminalSetup& setup) {
+  const winsize size{setup.rows, setup.columns, 0, 0};
+  process_ = forkpty(&terminal_, nullptr, nullptr, &size);
   if (process_ < 0) throw std::runtime_error("no terminal");
   if (process_ > 0) return;
-  setenv("TERM", "dumb", 1);
+  for (const auto& [name, value] : setup.environment) setenv(name.c_str(), value.c_str(), 1);
+  if (!setup.folder.empty() && chdir(setup.folder.c_str()) != 0) _exit(127);
   setenv("XDG_STATE_HOME", state_home.c_str(), 1);
   std::vector<std::string> words{kProgram};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -216,6 +219,10 @@ int Terminal::exit_code() {
   const bool ended = handle >= 0 && poll(&end, 1, kPatience) > 0;
   close(handle);
   return ended ? exit_code_of(std::exchange(process_, -1)) : -1;
+}
+
+void Terminal::signal(int number) const {
+  kill(process_, number);
 }
 
 std::string slurp(const fs::path& path) {

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/paths.hpp"
@@ -27,11 +28,19 @@ Ran springlod_run(const std::vector<std::string>& arguments, const std::string& 
 Ran springlod_interrupted(const std::vector<std::string>& arguments, const std::string& mark,
                           int signal = SIGINT);
 
+/// The surroundings of the program in a Terminal.
+struct TerminalSetup {
+  unsigned short columns = 0;  ///< 0: unknown to the program
+  unsigned short rows = 0;
+  std::vector<std::pair<std::string, std::string>> environment{{"TERM", "dumb"}};
+  std::filesystem::path folder{};  ///< where it runs; empty: the current one
+};
+
 /// The program in a pseudo-terminal with simulated keyboard input.
 class Terminal {
  public:
   explicit Terminal(const std::vector<std::string>& arguments,
-                    const std::filesystem::path& state_home);
+                    const std::filesystem::path& state_home, const TerminalSetup& setup = {});
   ~Terminal();
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
@@ -44,6 +53,7 @@ class Terminal {
   const std::string& screen() const { return screen_; }
   /// Waits for the program to exit; -1 if it hangs.
   int exit_code();
+  void signal(int number) const;
 
  private:
   bool read_more(int timeout_ms);
