@@ -46,6 +46,10 @@ constexpr Row kRows[] = {
         "Fung et al., PLoS ONE 8:e85067, 2013: by elastography, 2.3 to 5.9 kPa"),
     row(MaterialPreset::fat, "fat", "adipose tissue of the breast", 3.0e3, 0.49, 940,
         "Briot et al., Clinical Biomechanics 2022: in vivo, 3.0 (1.2) kPa"),
+    row(MaterialPreset::muscle, "muscle", "skeletal muscle at rest", 11.1e3, kNearlyIncompressible,
+        1060,
+        "Arda et al., American Journal of Roentgenology 197:532, 2011: gastrocnemius in vivo, 11.1 "
+        "(4.1) kPa"),
     row(MaterialPreset::hdpe, "hdpe", "high-density polyethylene", 1.08e9, 0.42, 950, kDowling),
     row(MaterialPreset::nylon, "nylon", "nylon 66, dry", 2.7e9, 0.41, 1140, kDowling),
     row(MaterialPreset::pmma, "pmma", "acrylic glass", 2.7e9, 0.35, 1190, kDowling),

@@ -18,6 +18,7 @@ enum class MaterialPreset {
   rigid_foam,
   liver,
   fat,
+  muscle,
   hdpe,
   nylon,
   pmma,
