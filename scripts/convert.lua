@@ -5,17 +5,20 @@ local command = require "lib.command"
 local certificates = require "lib.certificates"
 local conversion = require "lib.conversion"
 local fit_store = require "lib.fit_store"
+local manifest = require "lib.manifest"
 local show = require "lib.show"
 local simplify_options = require "lib.simplify_options"
 
 local parser = command.parser("convert", "Convert meshes to LOD assets. Each asset is one .glb "
   .. "with the base model, its coarser levels and the mesh. By default, the levels are compact "
   .. "groups of nodes, fitted to the base, and touch obstacles at its surface. Several meshes, or "
-  .. "a folder, form a batch, which continues after a failed file. An interrupted fit resumes when "
-  .. "the same command is run again.", conversion.flag_words)
-parser:argument("mesh", "mesh files, or a folder of mesh files"):args("+")
+  .. "a folder or a manifest, form a batch, which continues after a failed file. An interrupted "
+  .. "fit resumes when the same command is run again.", conversion.flag_words)
+parser:argument("mesh", "mesh files, or a folder of mesh files"):args("*")
 command.one_line(parser:option("-o --out", "asset to write, NAME.glb (default: the mesh's name, in "
-  .. "this folder); in a batch, a folder (default: out)"):argname("<asset>"))
+  .. "this folder); in a batch, a folder (default: out)"):target("output"):argname("<asset>"))
+parser:option("--manifest", "Lua file that lists the meshes of a batch with their own options and "
+  .. "outputs; the options of the command are for all"):argname("<file.lua>")
 parser:mutex(
   parser:flag("--fast", "only merge: no fit and no certificate"),
   parser:flag("--paper", "do what the paper does: nodes at cell centers, no volumes, standard "
@@ -26,12 +29,29 @@ parser:option("--resume", "folder for the intermediate results of the fit; it is
   :argname("<folder>")
 simplify_options.add(parser, conversion.presets.best.simplify)
 local args = parser:parse()
-local preset = conversion.presets[args.paper and "paper" or args.fast and "fast" or "best"]
-local options = simplify_options.read(args, preset.simplify)
-if args.resume and options.calibrate ~= "modes" then
-  parser:error("--resume needs --calibrate modes")
+if args.manifest and #args.mesh > 0 then
+  parser:error("--manifest takes the place of the meshes")
 end
-conversion.load_materials(args)
+if not args.manifest and #args.mesh == 0 then parser:error("missing argument 'mesh'") end
+
+local preset, options -- of s.simplify
+local words = arg     -- the arguments that `args` has been read from
+local output, meshes = args.output, args.mesh
+
+-- Takes what the arguments ask for. `refuse` gets the message about options that contradict.
+local function settle(refuse)
+  preset = conversion.presets[args.paper and "paper" or args.fast and "fast" or "best"]
+  options = simplify_options.read(args, preset.simplify)
+  if args.resume and options.calibrate ~= "modes" then
+    refuse("--resume needs --calibrate modes")
+  end
+  conversion.load_materials(args)
+end
+
+if not args.manifest then
+  local settled, reason = command.try(settle, function(message) parser:error(message) end)
+  if not settled then command.fail("%s", reason) end
+end
 
 -- The folder that stores the calibration of an asset while it runs.
 local function store_of(asset)
@@ -41,7 +61,7 @@ local function store_of(asset)
 end
 
 local function refuse_to_overwrite(path, asset)
-  for _, mesh in ipairs{path, table.unpack(args.mesh)} do
+  for _, mesh in ipairs{path, table.unpack(meshes)} do
     if s.same_file(mesh, asset) then
       error(("the asset would overwrite %s; give -o another name"):format(mesh), 0)
     end
@@ -60,7 +80,7 @@ local function convert_base(base, path, asset)
   local store = store_of(asset)
   local function finish()
     local chain = s.simplify(base, options)
-    s.save(asset, chain, {command = conversion.command_line(arg, args, path)})
+    s.save(asset, chain, {command = conversion.command_line(words, args, path)})
     if store and not args.resume then fit_store.remove(store) end
     written[asset] = path
     return chain
@@ -164,19 +184,49 @@ local function asset_names(paths)
     if uses[name] > 1 then name = command.base_name(path):gsub("%.", "_") end
     while taken[name] do name = name .. "_" end
     taken[name] = true
-    names[i] = args.out:gsub("/*$", "") .. "/" .. name .. ".glb"
+    names[i] = output:gsub("/*$", "") .. "/" .. name .. ".glb"
   end
   return names
 end
 
-local paths, batch = find_meshes()
-if not batch then
-  args.out = args.out or asset_beside(paths[1])
-  if not args.out:lower():find("%.glb$") then
-    parser:error(("-o '%s' must end in .glb"):format(args.out))
+-- The meshes of the manifest, each with its asset.
+local function manifest_jobs()
+  local jobs = manifest.read(args.manifest, arg)
+  local paths, unnamed = {}, {}
+  for i, job in ipairs(jobs) do
+    paths[i] = job.mesh
+    if not job.output then unnamed[#unnamed + 1] = job.mesh end
   end
-  local ok, bodies = command.try(convert, paths[1], args.out)
-  if not ok then command.fail("cannot convert %s: %s", paths[1], bodies) end
+  output = output or "out"
+  local names, named = asset_names(unnamed), 0
+  for _, job in ipairs(jobs) do
+    if not job.output then named = named + 1 end
+    job.asset = job.output or names[named]
+  end
+  meshes = paths
+  return jobs
+end
+
+local function convert_job(job)
+  if job.words then
+    local ok, parsed = parser:pparse(job.words)
+    if not ok then error(parsed, 0) end
+    args, words = parsed, job.words
+    settle(function(message) error(message, 0) end)
+    if not job.asset:lower():find("%.glb$") then
+      error(("output '%s' must end in .glb"):format(job.asset), 0)
+    end
+  end
+  return convert(job.mesh, job.asset)
+end
+
+local function convert_one(path)
+  output = output or asset_beside(path)
+  if not output:lower():find("%.glb$") then
+    parser:error(("-o '%s' must end in .glb"):format(output))
+  end
+  local ok, bodies = command.try(convert, path, output)
+  if not ok then command.fail("cannot convert %s: %s", path, bodies) end
   for _, body in ipairs(bodies) do
     if body.chain then
       print(s.format_table(level_rows(body.chain), {columns = level_columns}))
@@ -187,23 +237,35 @@ if not batch then
   if #bodies > 1 then print(s.format_table(body_rows(bodies), {columns = body_columns})) end
   local failed = failed_count(bodies)
   if failed > 0 then command.fail("%d of %d bodies failed", failed, #bodies) end
-  return
 end
 
-args.out = args.out or "out"
-if args.out:lower():find("%.glb$") then
-  parser:error(("-o '%s' must be a folder for several meshes"):format(args.out))
-end
-local rows, failed, assets = {}, 0, asset_names(paths)
-for i, path in ipairs(paths) do
-  s.say(path)
-  local ok, bodies = command.try(convert, path, assets[i])
-  if not ok then bodies = {{reason = bodies}} end
-  if failed_count(bodies) > 0 then failed = failed + 1 end
-  for _, body in ipairs(bodies) do
-    rows[#rows + 1] = {path, body.chain and "converted" or "failed",
-                       body.chain and node_counts(body.chain) or "", body.reason or body.asset}
+local function convert_batch(jobs)
+  local rows, failed = {}, 0
+  for _, job in ipairs(jobs) do
+    s.say(job.mesh)
+    local ok, bodies = command.try(convert_job, job)
+    if not ok then bodies = {{reason = bodies}} end
+    if failed_count(bodies) > 0 then failed = failed + 1 end
+    for _, body in ipairs(bodies) do
+      rows[#rows + 1] = {job.mesh, body.chain and "converted" or "failed",
+                         body.chain and node_counts(body.chain) or "", body.reason or body.asset}
+    end
   end
+  print(s.format_table(rows, {columns = {"mesh", "result", "nodes", "asset or reason"}}))
+  if failed > 0 then command.fail("%d of %d meshes failed", failed, #jobs) end
 end
-print(s.format_table(rows, {columns = {"mesh", "result", "nodes", "asset or reason"}}))
-if failed > 0 then command.fail("%d of %d meshes failed", failed, #paths) end
+
+if args.manifest then
+  local ok, jobs = command.try(manifest_jobs)
+  if not ok then command.fail("cannot read --manifest: %s", jobs) end
+  return convert_batch(jobs)
+end
+local paths, batch = find_meshes()
+if not batch then return convert_one(paths[1]) end
+output = output or "out"
+if output:lower():find("%.glb$") then
+  parser:error(("-o '%s' must be a folder for several meshes"):format(output))
+end
+local jobs, assets = {}, asset_names(paths)
+for i, path in ipairs(paths) do jobs[i] = {mesh = path, asset = assets[i]} end
+convert_batch(jobs)

@@ -56,11 +56,11 @@ function conversion.add_body_options(parser)
       .. "its cells keep the signs of their volumes, so that soft bodies do not turn inside out"))
 end
 
--- Replaces the path of the materials file by the table that it returns, or ends the command.
+-- Replaces the path of the materials file by the table that it returns.
 function conversion.load_materials(args)
   if not args.materials then return end
   local ok, result = command.try(command.load_table, args.materials)
-  if not ok then command.fail("cannot read --materials: %s", result) end
+  if not ok then error("cannot read --materials: " .. result, 0) end
   args.materials = result
 end
 

@@ -1,0 +1,62 @@
+-- Batches of convert by a manifest: a Lua file that returns a list of meshes, each with the options
+-- of convert that it needs.
+--
+--   return {
+--     unit = "mm",                                       -- for all
+--     {mesh = "bear.obj", cell = "2 mm", materials = "plush.lua", output = "assets/bear.glb"},
+--     {mesh = "car.stl", unit = "cm", cut_cells = true},
+--   }
+
+local command = require "lib.command"
+
+local manifest = {}
+
+-- The words of the command line that every mesh of the batch shares.
+local function shared_words(arguments)
+  local own = {["--manifest"] = true, ["-o"] = true, ["--out"] = true}
+  local words, skipped = {}, false
+  for _, word in ipairs(arguments) do
+    local name = word:match("^(%-%-%w+)=") or word:match("^(%-o).") or word
+    if not skipped and not own[name] then words[#words + 1] = word end
+    skipped = not skipped and own[word] or false
+  end
+  return words
+end
+
+-- Appends options as words: {cell = "2 mm", cut_cells = true} -> --cell "2 mm" --cut-cells.
+local function add_words(words, options)
+  local names = {}
+  for key in pairs(options) do
+    if type(key) == "string" and key ~= "mesh" and key ~= "output" then names[#names + 1] = key end
+  end
+  table.sort(names)
+  for _, name in ipairs(names) do
+    local value = options[name]
+    if type(value) == "table" then value = table.concat(value, ",") end
+    if value then words[#words + 1] = "--" .. name:gsub("_", "-") end
+    if value and value ~= true then words[#words + 1] = tostring(value) end
+  end
+end
+
+-- Reads the manifest at `path`. Returns a list of jobs: mesh, output (or nil), and words: the
+-- arguments of `convert` for this mesh, of which later ones replace earlier ones. `arguments`: the
+-- command line.
+function manifest.read(path, arguments)
+  local list = command.load_table(path)
+  if #list == 0 then error(("%s lists no meshes"):format(path), 0) end
+  local jobs = {}
+  for number, entry in ipairs(list) do
+    if type(entry) ~= "table" or type(entry.mesh) ~= "string" then
+      error(("%s: entry %d must be a table with a mesh: {mesh = \"bear.obj\", ...}"):format(path,
+        number), 0)
+    end
+    local words = shared_words(arguments)
+    add_words(words, list)
+    add_words(words, entry)
+    words[#words + 1] = entry.mesh
+    jobs[number] = {mesh = entry.mesh, output = entry.output, words = words}
+  end
+  return jobs
+end
+
+return manifest
