@@ -46,6 +46,21 @@ local function settle_out(parser, args)
   args.folder = args.out
 end
 
+-- The words of the command line; argparse takes a negative number for an option, unless it is
+-- joined to its own: --azimuth=-30.
+local function with_joined_negatives(words)
+  local joined = {}
+  for _, word in ipairs(words) do
+    local before = joined[#joined]
+    if before and before:find("^%-%-%a[%w-]*$") and word:find("^%-%.?%d") then
+      joined[#joined] = before .. "=" .. word
+    else
+      joined[#joined + 1] = word
+    end
+  end
+  return joined
+end
+
 local caught -- receives the parser of a command in place of running it
 
 -- A parser for `springlod NAME`. A positional argument may be left out if it has a default; with
@@ -60,11 +75,11 @@ function command.parser(name, summary, words)
     os.exit(2, true)
   end
   local parse = parser.parse
-  function parser:parse(...)
+  function parser:parse()
     self:usage(usage_of(self, name))
     speak_in_flags(self, words or {})
     if caught then caught(self) end
-    local args = parse(self, ...)
+    local args = parse(self, with_joined_negatives(arg))
     if self.out_default then settle_out(self, args) end
     return args
   end

@@ -50,7 +50,7 @@ TEST_CASE("convert writes an asset and prints its levels, info prints its conten
                                  "--seed",      "3"});
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
-  CHECK_THAT(ran.out, Contains("stable step") && Contains(" ms\n"));
+  CHECK_THAT(ran.out, Contains("stable step") && Contains(" us\n"));
   CHECK_THAT(ran.out, Contains("192"));
 
   const Ran info = springlod_run({"info", asset, "--json"});
