@@ -9,6 +9,7 @@ local command = require "lib.command"
 local comparison_table = require "lib.comparison_table"
 local paper_numbers = require "studies.paper.numbers"
 local paper_variants = require "studies.paper.variants"
+local show = require "lib.show"
 
 local parser = command.parser("demo", "Run the whole workflow on a sample: mesh, cells, model, "
   .. "levels, runs, table, chart and video.")
@@ -137,7 +138,7 @@ local function range(of, column)
   return low == high and ("%.2g"):format(low) or ("%.2g to %.2g"):format(low, high)
 end
 
--- Milliseconds of a simulated second.
+-- Time of a simulated second [s].
 local function time_of(timings, label)
   local wall, simulated = 0, 0
   for _, row in ipairs(timings) do
@@ -145,7 +146,7 @@ local function time_of(timings, label)
       wall, simulated = wall + row.wall_seconds, simulated + row.simulated
     end
   end
-  return 1000 * wall / simulated
+  return wall / simulated
 end
 
 local function print_results(runs)
@@ -157,9 +158,9 @@ local function print_results(runs)
     range(merged, "cost_ratio"), range(merged, "surface_error_percent")))
   print(("Fitted to the base, with contact at its surface, level 2 needs %s times fewer and is %s "
     .. "%% away."):format(range(fitted, "cost_ratio"), range(fitted, "surface_error_percent")))
-  print(("By the clock of this machine, a simulated second takes %.3g ms for the base and %.2g ms "
-    .. "for the fitted level 2."):format(
-    time_of(runs.timings, "base"), time_of(runs.timings, fit_label)))
+  print(("By the clock of this machine, a simulated second takes %s for the base and %s for "
+    .. "the fitted level 2."):format(show.quantity(time_of(runs.timings, "base"), "time"),
+    show.quantity(time_of(runs.timings, fit_label), "time", 2)))
 end
 
 local ok, failure = command.try_in(folder, function()

@@ -43,7 +43,9 @@ end
 
 -- A number with all its significant digits: 1.00.
 function show.full(value, digits)
-  return (("%#." .. (digits or 3) .. "g"):format(value):gsub("%.$", ""))
+  local text = ("%#." .. (digits or 3) .. "g"):format(value)
+  if text:find("e+", 1, true) then return show.number(value, digits) end
+  return (text:gsub("%.$", ""))
 end
 
 -- A fraction in percent with the digits that mean something; "-" for nil, what was not measured.
