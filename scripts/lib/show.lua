@@ -23,11 +23,11 @@ end
 -- "3.89 mm".
 function show.quantity(value, dimension, digits)
   local list = units[dimension]
-  if value == 0 then return "0 " .. list[1][2] end
   local chosen = list[#list]
   for i = #list, 1, -1 do
     -- 999.9 mm is shown as 1000 mm by its digits, so it is 1 m
-    if math.abs(value) >= 0.9995 * list[i][1] then chosen = list[i] end
+    local shown = value == 0 and 1 or math.abs(value) -- 0 in the SI unit
+    if shown >= 0.9995 * list[i][1] then chosen = list[i] end
   end
   return show.number(value / chosen[1], digits) .. " " .. chosen[2]
 end
