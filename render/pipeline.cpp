@@ -12,6 +12,7 @@
 #include "render/depth_map.hpp"
 #include "render/drawables.hpp"
 #include "render/gl.hpp"
+#include "render/gpu_slot.hpp"
 #include "render/light.hpp"
 #include "render/plane.hpp"
 #include "render/shaders.hpp"
@@ -57,52 +58,6 @@ void set(const GlProgram& of, const char* name, const Vec3f& v) {
 void set(const GlProgram& of, const char* name, float v) {
   glUniform1f(uniform(of, name), v);
 }
-
-/// Vertex buffer and layout of one kind of primitive in one panel.
-template <typename Record>
-struct Stream {
-  GlVertexArray layout = make_vertex_array();
-  GlBuffer buffer = make_buffer();
-  GLsizei count = 0;
-
-  void set(const std::vector<Record>& records) {
-    upload(GL_ARRAY_BUFFER, buffer, records);
-    count = static_cast<GLsizei>(records.size());
-  }
-  /// A record consists of consecutive attributes of `widths` floats each.
-  void describe(const std::vector<GLint>& widths, bool per_instance) {
-    glBindVertexArray(layout.name());
-    glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
-    std::size_t offset = 0;
-    for (GLuint i = 0; i < widths.size(); ++i) {
-      float_attribute(i, widths[i], sizeof(Record) / sizeof(float), offset, per_instance);
-      offset += static_cast<std::size_t>(widths[i]);
-    }
-  }
-};
-
-struct CachedSurface {
-  SplitSurface split;
-  GlBuffer indices = make_buffer();
-};
-
-/// GPU buffers of one body or box; slots are reused from panel to panel.
-struct Slot {
-  Stream<SurfaceVertex> vertices;
-  Stream<SpringInstance> springs;
-  Stream<NodeInstance> nodes;
-  Vec4f cap = Vec4f::Zero();  // plane of the cut face, its normal out of the body; zero: none
-  bool cut = false;
-  const CachedSurface* surface = nullptr;  // null: no surface is drawn
-  float opacity = 1;
-  double distance = 0;  // from its middle to the eye
-
-  Slot() {
-    vertices.describe({3, 3, 3, 1}, false);
-    springs.describe({3, 3, 3, 3, 1}, true);
-    nodes.describe({3, 3, 1}, true);
-  }
-};
 
 template <typename T>
 std::string_view bytes_of(const std::vector<T>& items) {
