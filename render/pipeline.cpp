@@ -1,7 +1,6 @@
 #include "render/pipeline.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "render/cut.hpp"
 #include "render/depth_map.hpp"
 #include "render/drawables.hpp"
+#include "render/frame_uniforms.hpp"
 #include "render/gl.hpp"
 #include "render/gpu_slot.hpp"
 #include "render/light.hpp"
@@ -21,23 +21,6 @@ namespace springlod::render {
 namespace {
 
 using Vec4f = Eigen::Vector4f;
-
-constexpr std::size_t kMostPlanes = 8;  // that occlude bodies; size of the shaders' array
-
-/// The uniform block of the shaders in std140 layout; only 16-byte members, hence no padding.
-struct FrameUniforms {
-  Mat4f view_projection;
-  Mat4f shadow_projection;
-  Mat4f from_clip;
-  Vec4f eye;
-  Vec4f key_light;
-  Vec4f world_up;
-  Vec4f camera_right;
-  Vec4f shadow_size;
-  Vec4f pixel;
-  std::array<Vec4f, kMostPlanes> planes;
-  Vec4f image;
-};
 
 GlProgram program(const char* name, const ShaderSource& source) {
   GlProgram made = make_program(name, source.vertex, source.fragment);
@@ -271,18 +254,6 @@ struct Pipeline::Impl {
     glDrawArrays(GL_TRIANGLE_FAN, 0, polygon.count);
   }
 
-  /// The part of a polygon where bodies can cast a shadow or hide ambient light.
-  static std::vector<Vec3f> shaded_part(std::vector<Vec3f> points, const KeyLight& light) {
-    constexpr float kBeyond = 0.12F;  // of the side of the shadow map
-    const Mat4f& to = light.to_unit_cube;
-    for (int axis = 0; axis < 2; ++axis) {
-      const Vec3f row = to.block<1, 3>(axis, 0).transpose();
-      points = clipped(points, row, -kBeyond - to(axis, 3));
-      points = clipped(points, -row, to(axis, 3) - 1 - kBeyond);
-    }
-    return points;
-  }
-
   void draw_plane(const std::vector<PlanePatch>& patches, std::size_t which, float spacing,
                   const KeyLight& light) {
     const PlanePatch& patch = patches[which];
@@ -303,7 +274,7 @@ struct Pipeline::Impl {
     glDepthMask(GL_FALSE);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(-1, -4);
-    draw_polygon(shaded_part(points, light));
+    draw_polygon(shaded_part(points, light.to_unit_cube));
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDepthMask(GL_TRUE);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

@@ -89,6 +89,16 @@ std::vector<Vec3f> visible_polygon(const std::vector<PlanePatch>& patches, std::
   return polygon;
 }
 
+std::vector<Vec3f> shaded_part(std::vector<Vec3f> polygon, const Mat4f& to_unit_cube) {
+  constexpr float kBeyond = 0.12F;  // of the side of the shadow map
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vec3f row = to_unit_cube.block<1, 3>(axis, 0).transpose();
+    polygon = clipped(polygon, row, -kBeyond - to_unit_cube(axis, 3));
+    polygon = clipped(polygon, -row, to_unit_cube(axis, 3) - 1 - kBeyond);
+  }
+  return polygon;
+}
+
 std::vector<SpringInstance> plane_edges(const std::vector<PlanePatch>& patches, std::size_t which,
                                         float radius) {
   constexpr int kPieces = 24;  // of an edge, so that its colour follows the fading plane

@@ -30,6 +30,10 @@ std::vector<Vec3f> clipped(const std::vector<Vec3f>& polygon, const Vec3f& norma
 /// A patch without the parts behind the other planes: a convex polygon; may be empty.
 std::vector<Vec3f> visible_polygon(const std::vector<PlanePatch>& patches, std::size_t which);
 
+/// The part of a polygon where bodies can cast a shadow or hide ambient light; `to_unit_cube` of
+/// the shadow map.
+std::vector<Vec3f> shaded_part(std::vector<Vec3f> polygon, const Mat4f& to_unit_cube);
+
 /// The lines where a plane meets others, as thin rods that fade out with the planes. `radius` [m]
 std::vector<SpringInstance> plane_edges(const std::vector<PlanePatch>& patches, std::size_t which,
                                         float radius);
