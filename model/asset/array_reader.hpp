@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,8 +12,16 @@
 #include "model/asset/asset_format.hpp"
 #include "model/asset/field_reader.hpp"
 #include "model/asset/glb.hpp"
+#include "model/vec.hpp"
 
 namespace springlod::inline model {
+
+/// The numbers that an entry of an array consists of: integers, or coordinates.
+template <class T>
+using ScalarOf =
+    std::conditional_t<sizeof(T) == 1, std::uint8_t,
+                       std::conditional_t<std::is_same_v<T, double> || std::is_same_v<T, Vec3>,
+                                          double, std::uint32_t>>;
 
 /// Copies the arrays of an asset out of the binary chunk of its file, and adds each to the
 /// checksum. The size of an array is checked before any memory is allocated for it, and all arrays
@@ -20,14 +29,28 @@ namespace springlod::inline model {
 /// one array many times. Members throw Damage or InputError.
 class ArrayReader {
  public:
-  /// `gltf` and `binary` must live as long as the reader.
-  ArrayReader(const nlohmann::json& gltf, std::string_view binary)
-      : views_(gltf.at("bufferViews")), binary_(binary), untaken_(binary.size()) {}
+  /// `gltf` and `binary` must live as long as the reader. `takes_small`: whether arrays may be of
+  /// small types, as in slim assets.
+  ArrayReader(const nlohmann::json& gltf, std::string_view binary, bool takes_small)
+      : views_(gltf.at("bufferViews")),
+        binary_(binary),
+        untaken_(binary.size()),
+        takes_small_(takes_small) {}
 
   /// The array that the field `key` of `object` refers to, which must have `count` entries. Empty
   /// arrays have no field.
   template <class T>
   std::vector<T> take(const FieldReader& object, const char* key, std::uint64_t count) {
+    if (object.is_object(key)) {
+      const SmallArray array = small_array(object, key);
+      constexpr std::size_t kWidth = sizeof(T) / sizeof(ScalarOf<T>);
+      if (array.bytes.size() != count * kWidth * array.size)
+        throw Damage(fmt::format(
+            "its array {} has {} bytes, but {} entries of {} numbers of {} "
+            "bytes need {}",
+            key, array.bytes.size(), count, kWidth, array.size, count * kWidth * array.size));
+      return unpack<T>(array, key);
+    }
     const std::string_view bytes = view(object, key);
     if (bytes.size() != count * sizeof(T))
       throw Damage(fmt::format("its array {} has {} bytes, but {} entries need {}", key,
@@ -37,6 +60,7 @@ class ArrayReader {
   /// An array whose number of entries stands nowhere else.
   template <class T>
   std::vector<T> take_any(const FieldReader& object, const char* key) {
+    if (object.is_object(key)) return unpack<T>(small_array(object, key), key);
     const std::string_view bytes = view(object, key);
     if (bytes.size() % sizeof(T) != 0) throw Damage(fmt::format("its array {} is cut short", key));
     return copy<T>(bytes);
@@ -47,8 +71,10 @@ class ArrayReader {
 
  private:
   std::string_view view(const FieldReader& object, const char* key) {
-    if (!object.has(key)) return {};
-    const std::uint32_t number = object.count(key);
+    return object.has(key) ? bytes_of(object.count(key), key) : std::string_view();
+  }
+
+  std::string_view bytes_of(std::uint32_t number, const char* key) {
     if (number >= views_.size())
       throw Damage(
           fmt::format("its array {} refers to buffer view {} of {}", key, number, views_.size()));
@@ -70,9 +96,87 @@ class ArrayReader {
     return array;
   }
 
+  /// An array of a slim asset (docs/asset-format.md).
+  struct SmallArray {
+    std::string type;
+    std::size_t size = 0;  ///< of a number [bytes]
+    std::string_view bytes;
+    double scale = 1;
+    std::vector<float> table;  ///< empty: the numbers are the values
+    bool has_table = false;
+  };
+
+  SmallArray small_array(const FieldReader& object, const char* key) {
+    if (!takes_small_) throw Damage(fmt::format("its array {} must be a number", key));
+    const FieldReader place = object.nested(key);
+    SmallArray array;
+    array.type = place.text("type");
+    array.size = small_size(array.type);
+    if (array.size == 0)
+      throw Damage(fmt::format("its array {} is of the unknown type {}", key, array.type));
+    array.bytes = bytes_of(place.count("view"), key);
+    checksum_.add(array.bytes);
+    if (array.bytes.size() % array.size != 0)
+      throw Damage(fmt::format("its array {} is cut short", key));
+    array.scale = place.optional_number("scale").value_or(1);
+    array.has_table = place.has("table");
+    if (array.has_table) {
+      const std::string_view table = bytes_of(place.count("table"), key);
+      if (table.size() % sizeof(float) != 0)
+        throw Damage(fmt::format("the table of its array {} is cut short", key));
+      array.table = copy<float>(table);
+    }
+    return array;
+  }
+
+  static std::size_t small_size(const std::string& type) {
+    if (type == "float32" || type == "uint32") return 4;
+    if (type == "uint16" || type == "int16") return 2;
+    return type == "uint8" ? 1 : 0;
+  }
+
+  template <class T>
+  static std::vector<T> unpack(const SmallArray& array, const char* key) {
+    if (array.type == "float32") return unpack_as<float, T>(array, key);
+    if (array.type == "uint32") return unpack_as<std::uint32_t, T>(array, key);
+    if (array.type == "uint16") return unpack_as<std::uint16_t, T>(array, key);
+    if (array.type == "int16") return unpack_as<std::int16_t, T>(array, key);
+    return unpack_as<std::uint8_t, T>(array, key);
+  }
+
+  /// Tuples are packed tightly. Integers must be stored as integers without sign.
+  template <class Stored, class T>
+  static std::vector<T> unpack_as(const SmallArray& array, const char* key) {
+    using Scalar = ScalarOf<T>;
+    constexpr std::size_t kWidth = sizeof(T) / sizeof(Scalar);
+    constexpr bool kFits = std::is_floating_point_v<Scalar> ||
+                           (std::is_unsigned_v<Stored> && sizeof(Stored) <= sizeof(Scalar));
+    if (!kFits || (!std::is_floating_point_v<Scalar> && (array.scale != 1 || array.has_table)))
+      throw Damage(fmt::format("its array {} cannot be of the type {}", key, array.type));
+    const std::size_t count = array.bytes.size() / sizeof(Stored);
+    if (count % kWidth != 0) throw Damage(fmt::format("its array {} is cut short", key));
+    std::vector<T> values(count / kWidth);
+    for (std::size_t i = 0; i < count; ++i) {
+      Stored stored;
+      std::memcpy(&stored, array.bytes.data() + i * sizeof stored, sizeof stored);
+      Scalar value = static_cast<Scalar>(stored);
+      if constexpr (std::is_floating_point_v<Scalar>) {
+        value *= array.scale;
+        if (array.has_table) {
+          if (!(value >= 0 && value < static_cast<double>(array.table.size())))
+            throw Damage(fmt::format("its array {} refers to a value that does not exist", key));
+          value = static_cast<double>(array.table[static_cast<std::size_t>(value)]);
+        }
+      }
+      std::memcpy(reinterpret_cast<char*>(values.data()) + i * sizeof value, &value, sizeof value);
+    }
+    return values;
+  }
+
   const nlohmann::json& views_;
   std::string_view binary_;
   std::uint64_t untaken_;  // [bytes]
+  bool takes_small_;
   asset_format::Checksum checksum_;
 };
 

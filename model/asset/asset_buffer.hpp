@@ -14,15 +14,16 @@ namespace springlod::inline model {
 /// Collects arrays in the single buffer of a .glb file and numbers their buffer views.
 class AssetBuffer {
  public:
+  /// Accessors must start at multiples of their elements; the widest one is a double.
+  explicit AssetBuffer(std::size_t alignment = sizeof(double)) : alignment_(alignment) {}
+
   void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
 
   /// The array must not be empty: glTF has no empty views.
   template <class T>
   std::size_t add(const std::vector<T>& array, gltf::Target target = gltf::Target::none) {
     static_assert(std::is_standard_layout_v<T>);
-    // The widest element is a double, and accessors must start at multiples of their elements.
-    constexpr std::size_t kAlignment = 8;
-    bytes_.resize((bytes_.size() + kAlignment - 1) / kAlignment * kAlignment, 0);
+    bytes_.resize((bytes_.size() + alignment_ - 1) / alignment_ * alignment_, 0);
     nlohmann::json view{{"buffer", 0}, {"byteLength", array.size() * sizeof(T)}};
     if (!bytes_.empty()) view["byteOffset"] = bytes_.size();
     if (target != gltf::Target::none) view["target"] = target;
@@ -37,6 +38,7 @@ class AssetBuffer {
   const nlohmann::json& views() const { return views_; }
 
  private:
+  std::size_t alignment_;  // [bytes]
   std::vector<unsigned char> bytes_;
   nlohmann::json views_ = nlohmann::json::array();
 };

@@ -49,31 +49,31 @@ std::vector<Float3> normals_for_gltf(const SplitSurface& surface,
   return normals;
 }
 
-class Display {
- public:
-  Display(json& document, AssetBuffer& buffer) : document_(document), buffer_(buffer) {}
+/// The component type of an array of integers in a slim asset.
+gltf::Component component_of(const json& array) {
+  const json& type = array.at("type");
+  return type == "uint8"    ? gltf::Component::unsigned_byte
+         : type == "uint16" ? gltf::Component::unsigned_short
+                            : gltf::Component::unsigned_int;
+}
 
-  void add(const LodAsset& asset, const SpringEnds& spring_ends) {
+std::size_t bytes_of(gltf::Component component) {
+  return component == gltf::Component::unsigned_byte    ? 1
+         : component == gltf::Component::unsigned_short ? 2
+                                                        : 4;
+}
+
+/// The parts of the scene that every asset has.
+class Scene {
+ public:
+  explicit Scene(json& document) : document_(document) {
     // A quarter turn about x, (x, y, z) -> (x, z, -y), as quaternion x, y, z, w.
     append("nodes", {{"name", "z up"}, {"rotation", {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}}});
-    const Box3 box = bounds(asset.surface).merged(bounds(asset.chain.levels[0].model.rest));
-    // A model without width in x also needs space between its levels.
-    const double step = kGap * std::max(box.sizes().x(), kLeastWidth * box.sizes().norm());
-    double shift = 0;
-    if (!asset.surface.triangles.empty()) {
-      add_node("surface", surface_primitives(asset), shift);
-      shift += step;
-    }
-    for (std::size_t n = 0; n < asset.chain.levels.size(); ++n, shift += step) {
-      const MassSpringModel& model = asset.chain.levels[n].model;
-      add_node(fmt::format("level {} ({} nodes)", n, model.node_count()),
-               level_primitives(model, spring_ends[n]), shift);
-    }
     document_["scenes"] = {{{"nodes", {0}}}};
     document_["scene"] = 0;
   }
 
- private:
+ protected:
   /// Adds an entry to a list of the document and returns its number.
   std::size_t append(const char* list, json entry) {
     document_[list].push_back(std::move(entry));
@@ -95,18 +95,88 @@ class Display {
         {{"bufferView", view}, {"componentType", component}, {"type", type}, {"count", count}});
   }
 
-  std::size_t add_positions(const std::vector<Vec3>& points) {
-    const std::vector<Float3> floats = single_precision(points);
-    const std::size_t accessor = add_vectors(floats);
-    Float3 low = floats[0];
-    Float3 high = floats[0];
-    for (const Float3& p : floats)
+  void set_bounds(std::size_t accessor, const std::vector<Float3>& points) {
+    Float3 low = points[0];
+    Float3 high = points[0];
+    for (const Float3& p : points)
       for (std::size_t d = 0; d < 3; ++d) {
         low[d] = std::min(low[d], p[d]);
         high[d] = std::max(high[d], p[d]);
       }
     document_["accessors"][accessor]["min"] = low;
     document_["accessors"][accessor]["max"] = high;
+  }
+
+  /// One primitive for each mesh part.
+  json part_primitives(const LodAsset& asset, const json& attributes, std::size_t triangles,
+                       gltf::Component of_indices) {
+    json primitives = json::array();
+    for (std::size_t p = 0; p < asset.surface.parts.size(); ++p) {
+      const MeshPart& part = asset.surface.parts[p];
+      if (part.triangle_count == 0) continue;
+      const std::size_t indices =
+          add_accessor(triangles, of_indices, "SCALAR", std::size_t{3} * part.triangle_count);
+      if (part.first_triangle > 0)
+        document_["accessors"][indices]["byteOffset"] =
+            3 * bytes_of(of_indices) * part.first_triangle;
+      primitives.push_back(
+          {{"mode", gltf::Mode::triangles},
+           {"attributes", attributes},
+           {"indices", indices},
+           {"material", part_material(part, asset.chain.levels[0].model.materials, p)}});
+    }
+    return primitives;
+  }
+
+  /// The glTF material of a mesh part. It has the colour of the springs' material of the same name.
+  std::size_t part_material(const MeshPart& part, const std::vector<Material>& materials,
+                            std::size_t p) {
+    const std::string& name = part.material.empty() ? part.name : part.material;
+    const auto known = material_of_name_.find(name);
+    if (known != material_of_name_.end()) return known->second;
+    Colour colour = palette_colour(p);
+    for (const Material& m : materials)
+      if (m.name == part.name || m.name == part.material) colour = m.colour;
+    const json shading{
+        {"baseColorFactor", {linear(colour.r), linear(colour.g), linear(colour.b), 1.0}},
+        {"metallicFactor", 0.0},
+        {"roughnessFactor", 0.8}};  // dull, as rubber or wood
+    return material_of_name_[name] =
+               append("materials",
+                      {{"name", name}, {"doubleSided", true}, {"pbrMetallicRoughness", shading}});
+  }
+
+  json& document_;
+
+ private:
+  std::map<std::string, std::size_t> material_of_name_;
+};
+
+class Display : private Scene {
+ public:
+  Display(json& document, AssetBuffer& buffer) : Scene(document), buffer_(buffer) {}
+
+  void add(const LodAsset& asset, const SpringEnds& spring_ends) {
+    const Box3 box = bounds(asset.surface).merged(bounds(asset.chain.levels[0].model.rest));
+    // A model without width in x also needs space between its levels.
+    const double step = kGap * std::max(box.sizes().x(), kLeastWidth * box.sizes().norm());
+    double shift = 0;
+    if (!asset.surface.triangles.empty()) {
+      add_node("surface", surface_primitives(asset), shift);
+      shift += step;
+    }
+    for (std::size_t n = 0; n < asset.chain.levels.size(); ++n, shift += step) {
+      const MassSpringModel& model = asset.chain.levels[n].model;
+      add_node(fmt::format("level {} ({} nodes)", n, model.node_count()),
+               level_primitives(model, spring_ends[n]), shift);
+    }
+  }
+
+ private:
+  std::size_t add_positions(const std::vector<Vec3>& points) {
+    const std::vector<Float3> floats = single_precision(points);
+    const std::size_t accessor = add_vectors(floats);
+    set_bounds(accessor, floats);
     return accessor;
   }
 
@@ -171,47 +241,57 @@ class Display {
     const std::size_t positions = add_positions(points);
     const std::size_t normals = add_vectors(normals_for_gltf(shaded, surface.positions));
     const std::size_t triangles = buffer_.add(shaded.triangles, gltf::Target::indices);
-    json primitives = json::array();
-    for (std::size_t p = 0; p < surface.parts.size(); ++p) {
-      const MeshPart& part = surface.parts[p];
-      if (part.triangle_count == 0) continue;
-      const std::size_t indices = add_accessor(triangles, gltf::Component::unsigned_int, "SCALAR",
-                                               std::size_t{3} * part.triangle_count);
-      if (part.first_triangle > 0)
-        document_["accessors"][indices]["byteOffset"] = sizeof(Triangle) * part.first_triangle;
-      primitives.push_back(
-          {{"mode", gltf::Mode::triangles},
-           {"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
-           {"indices", indices},
-           {"material", part_material(part, asset.chain.levels[0].model.materials, p)}});
-    }
-    return primitives;
+    return part_primitives(asset, {{"POSITION", positions}, {"NORMAL", normals}}, triangles,
+                           gltf::Component::unsigned_int);
   }
 
-  /// The glTF material of a mesh part. It has the colour of the springs' material of the same name.
-  std::size_t part_material(const MeshPart& part, const std::vector<Material>& materials,
-                            std::size_t p) {
-    const std::string& name = part.material.empty() ? part.name : part.material;
-    const auto known = material_of_name_.find(name);
-    if (known != material_of_name_.end()) return known->second;
-    Colour colour = palette_colour(p);
-    for (const Material& m : materials)
-      if (m.name == part.name || m.name == part.material) colour = m.colour;
-    const json shading{
-        {"baseColorFactor", {linear(colour.r), linear(colour.g), linear(colour.b), 1.0}},
-        {"metallicFactor", 0.0},
-        {"roughnessFactor", 0.8}};  // dull, as rubber or wood
-    return material_of_name_[name] =
-               append("materials",
-                      {{"name", name}, {"doubleSided", true}, {"pbrMetallicRoughness", shading}});
-  }
-
-  json& document_;
   AssetBuffer& buffer_;
-  std::map<std::string, std::size_t> material_of_name_;
+};
+
+/// The scene of a slim asset.
+class SlimDisplay : private Scene {
+ public:
+  using Scene::Scene;
+
+  void add(const LodAsset& asset, const json& extension) {
+    if (!asset.surface.triangles.empty()) {
+      const json& surface = extension.at("surface");
+      const json attributes{
+          {"POSITION", positions_of(surface.at("positions"), asset.surface.positions)}};
+      const json& indices = surface.at("indices");
+      add_node("surface",
+               part_primitives(asset, attributes, indices.at("view"), component_of(indices)), 0);
+      return;
+    }
+    const MassSpringModel& model = asset.chain.levels[0].model;
+    const json& level = extension.at("levels").at(0);
+    const json attributes{{"POSITION", positions_of(level.at("rest"), model.rest)}};
+    json primitives = json::array();
+    primitives.push_back({{"mode", gltf::Mode::points}, {"attributes", attributes}});
+    if (model.spring_count() > 0) {
+      const json& ends = level.at("ends");
+      primitives.push_back({{"mode", gltf::Mode::lines},
+                            {"attributes", attributes},
+                            {"indices", add_accessor(ends.at("view"), component_of(ends), "SCALAR",
+                                                     model.end_count())}});
+    }
+    add_node("level 0", std::move(primitives), 0);
+  }
+
+ private:
+  std::size_t positions_of(const json& array, const std::vector<Vec3>& points) {
+    const std::size_t accessor =
+        add_accessor(array.at("view"), gltf::Component::single, "VEC3", points.size());
+    set_bounds(accessor, single_precision(points));
+    return accessor;
+  }
 };
 
 }  // namespace
+
+void add_slim_display(const LodAsset& asset, const json& extension, json& document) {
+  SlimDisplay(document).add(asset, extension);
+}
 
 void add_display(const LodAsset& asset, const SpringEnds& spring_ends, json& document,
                  AssetBuffer& buffer) {

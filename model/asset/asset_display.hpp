@@ -18,4 +18,9 @@ namespace springlod::inline model {
 void add_display(const LodAsset& asset, const std::vector<std::optional<std::size_t>>& spring_ends,
                  nlohmann::json& document, AssetBuffer& buffer);
 
+/// Adds the scene of a slim asset, which uses the arrays of its extension: the surface without
+/// normals or, without a surface, the nodes and springs of level 0.
+void add_slim_display(const LodAsset& asset, const nlohmann::json& extension,
+                      nlohmann::json& document);
+
 }  // namespace springlod::inline model

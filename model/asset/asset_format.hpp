@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little,
               "arrays are copied from memory, and glTF is little-endian");
 
 inline constexpr const char* kExtension = "SPRINGLOD_lod_chain";
-inline constexpr int kVersion = 4;
+inline constexpr int kVersion = 5;
 /// The first version whose levels have corners.
 inline constexpr int kVersionWithCorners = 2;
 /// The first version whose materials have a Poisson's ratio and whose levels have dilatation terms.
@@ -25,6 +25,9 @@ inline constexpr int kVersionWithCorners = 2;
 inline constexpr int kVersionWithDilatation = 3;
 /// The first version whose base may have a contact surface; others are written as before.
 inline constexpr int kVersionWithSurface = 4;
+/// The first version with slim assets, whose arrays have small types; whole ones are written as
+/// before.
+inline constexpr int kVersionWithSlim = 5;
 
 /// xxh3-64 over the double-precision arrays in the order of writing, each preceded by its length in
 /// bytes, and over the extension's JSON (keys sorted, no white space, without the checksum itself).
@@ -50,7 +53,12 @@ namespace springlod::inline model::gltf {
 
 // Numbers of the glTF 2.0 specification.
 enum class Target { none = 0, vertices = 34962, indices = 34963 };
-enum class Component { unsigned_byte = 5121, unsigned_int = 5125, single = 5126 };
+enum class Component {
+  unsigned_byte = 5121,
+  unsigned_short = 5123,
+  unsigned_int = 5125,
+  single = 5126
+};
 enum class Mode { points = 0, lines = 1, triangles = 4 };
 
 }  // namespace springlod::inline model::gltf

@@ -113,19 +113,42 @@ void read_ends(const FieldReader& from, ArrayReader& arrays, MassSpringModel& mo
   }
 }
 
+/// Rest lengths that a slim asset omits: the distances of the ends. The array counts as empty.
+std::vector<double> distances(const MassSpringModel& model, ArrayReader& arrays) {
+  arrays.add_to_checksum({});
+  std::vector<double> lengths;
+  lengths.reserve(model.spring_count());
+  for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
+    if (model.a[s] >= model.node_count() || model.b[s] >= model.node_count())
+      throw Damage("a spring refers to a node that does not exist");
+    lengths.push_back((model.rest[model.b[s]] - model.rest[model.a[s]]).norm());
+  }
+  return lengths;
+}
+
+/// Checks the map from a level of a slim asset to level 0. It is for engines: here, the map follows
+/// from the level.
+void read_map_to_base(const FieldReader& from, ArrayReader& arrays, std::uint32_t nodes,
+                      std::uint32_t base_nodes) {
+  if (!from.has("baseStart")) return;
+  Binding map;
+  map.start = arrays.take<std::uint32_t>(from, "baseStart", base_nodes + 1ULL);
+  map.node = arrays.take<std::uint32_t>(from, "baseNode", map.start.back());
+  map.weight = arrays.take<double>(from, "baseWeight", map.start.back());
+  validate(map, nodes);
+}
+
 /// Builds the asset from the extension and verifies the checksum.
 class ExactReader {
  public:
-  ExactReader(const json& gltf, std::string_view binary) : arrays_(gltf, binary) {}
+  ExactReader(const json& gltf, std::string_view binary, std::uint32_t version)
+      : arrays_(gltf, binary, version >= asset_format::kVersionWithSlim), version_(version) {}
 
   LodAsset read(const json& extension) {
     const FieldReader from(extension, "the extension");
     LodAsset asset;
     read_provenance(from, asset.provenance);
     if (from.has("contact")) asset.chain.contact = read_contact(from.text("contact"));
-    has_corners_ = from.count("version") >= asset_format::kVersionWithCorners;
-    has_dilatation_ = from.count("version") >= asset_format::kVersionWithDilatation;
-    has_surface_ = from.count("version") >= asset_format::kVersionWithSurface;
     from.each("levels", [&](const json& level, const std::string&) {
       const std::size_t number = asset.chain.levels.size();
       asset.chain.levels.push_back(
@@ -155,15 +178,22 @@ class ExactReader {
     model.border = arrays_.take<std::uint8_t>(from, "border", nodes);
     model.material = arrays_.take<std::uint32_t>(from, "material", nodes);
     read_ends(from, arrays_, model, springs);
-    model.rest_length = arrays_.take<double>(from, "restLength", springs);
+    if (version_ >= asset_format::kVersionWithSlim && !from.has("restLength"))
+      model.rest_length = distances(model, arrays_);
+    else
+      model.rest_length = arrays_.take<double>(from, "restLength", springs);
     model.stiffness = arrays_.take<double>(from, "stiffness", springs);
     model.damping = arrays_.take<double>(from, "damping", springs);
     level.of_base.of =
         arrays_.take<std::uint32_t>(from, "nodeOfBase", number == 0 ? nodes : base_nodes);
     level.of_base.count = nodes;
-    if (has_corners_) model.corners = read_corners(from, arrays_);
-    if (has_dilatation_) model.dilatation = read_dilatation(from, arrays_);
-    if (has_surface_) model.surface = read_contact_surface(from, arrays_);
+    if (version_ >= asset_format::kVersionWithCorners) model.corners = read_corners(from, arrays_);
+    if (version_ >= asset_format::kVersionWithDilatation)
+      model.dilatation = read_dilatation(from, arrays_);
+    if (version_ >= asset_format::kVersionWithSurface)
+      model.surface = read_contact_surface(from, arrays_);
+    if (version_ >= asset_format::kVersionWithSlim)
+      read_map_to_base(from, arrays_, nodes, base_nodes);
     if (from.has("certificate"))
       level.certificate = read_certificate(object["certificate"],
                                            fmt::format("the certificate of level {}", number));
@@ -199,9 +229,7 @@ class ExactReader {
   }
 
   ArrayReader arrays_;
-  bool has_corners_ = false;
-  bool has_dilatation_ = false;
-  bool has_surface_ = false;
+  std::uint32_t version_;
 };
 
 const json* find_extension(const json& gltf) {
@@ -243,7 +271,7 @@ LodAsset parse_asset(std::string_view file, const std::string& name) {
           fmt::format("{} has format version {}; this program reads versions up to {}; update "
                       "springlod",
                       name, version, asset_format::kVersion));
-    LodAsset asset = ExactReader(gltf, chunks.binary).read(*extension);
+    LodAsset asset = ExactReader(gltf, chunks.binary, version).read(*extension);
     validate(asset);
     return asset;
   } catch (const Damage& e) {

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,28 +16,36 @@
 #include "model/asset/asset_display.hpp"
 #include "model/asset/asset_format.hpp"
 #include "model/asset/glb.hpp"
+#include "model/asset/slim_asset.hpp"
+#include "model/asset/small_arrays.hpp"
 
 namespace springlod::inline model {
 namespace {
 
 using nlohmann::json;
 
-/// Writes the double-precision arrays to the buffer and describes them in the extension.
+/// Writes the arrays to the buffer and describes them in the extension: in double precision, or as
+/// those of a slim asset.
 class ExactWriter {
  public:
-  explicit ExactWriter(AssetBuffer& buffer) : buffer_(buffer) {}
+  /// `slim`: what a slim asset has besides of each level; null for a whole one.
+  explicit ExactWriter(AssetBuffer& buffer, const std::vector<SlimLevel>* slim = nullptr)
+      : buffer_(buffer), small_(buffer, checksum_), slim_(slim) {}
 
   /// For each level the buffer view of the ends of its springs; nothing for no springs.
   std::vector<std::optional<std::size_t>> spring_ends;
 
   json describe(const LodAsset& asset) {
-    json extension{{"version", version_of(asset.chain)}};
+    json extension{{"version", slim_ ? asset_format::kVersionWithSlim : version_of(asset.chain)}};
     // Empty lists are omitted, here and below.
     for (const auto& [key, value] : asset.provenance.entries)
       extension["provenance"].push_back({key, value});
     if (asset.chain.contact != ContactAt::nodes)
       extension["contact"] = to_string(asset.chain.contact);
-    for (const Level& level : asset.chain.levels) extension["levels"].push_back(describe(level));
+    for (const Level& level : asset.chain.levels) {
+      json& object = extension["levels"].emplace_back(describe(level));
+      if (slim_) add_slim(object, (*slim_)[extension["levels"].size() - 1]);
+    }
     if (!asset.surface.positions.empty() || !asset.surface.parts.empty() ||
         !asset.surface_of_base.start.empty())
       extension["surface"] = describe(asset.surface, asset.surface_of_base);
@@ -63,11 +72,57 @@ class ExactWriter {
   template <class T>
   std::optional<std::size_t> put(json& object, const char* key, const std::vector<T>& array,
                                  gltf::Target target = gltf::Target::none) {
+    if (slim_ && !array.empty()) {
+      object[key] = small(array, target);
+      return std::nullopt;
+    }
     checksum_.add({reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T)});
     if (array.empty()) return std::nullopt;
     const std::size_t view = buffer_.add(array, target);
     object[key] = view;
     return view;
+  }
+
+  json small(const std::vector<Vec3>& array, gltf::Target target) {
+    return small_.vectors(array, target);
+  }
+  json small(const std::vector<double>& array, gltf::Target /*target*/) {
+    return small_.numbers(array);
+  }
+  json small(const std::vector<std::uint8_t>& array, gltf::Target target) {
+    const std::vector<std::uint32_t> wide(array.begin(), array.end());
+    return small(wide, target);
+  }
+  /// Of uint32 or tuples of them.
+  template <class T>
+  json small(const std::vector<T>& array, gltf::Target target) {
+    static_assert(sizeof(T) % sizeof(std::uint32_t) == 0);
+    return small_.integers(reinterpret_cast<const std::uint32_t*>(array.data()),
+                           array.size() * sizeof(T) / sizeof(std::uint32_t), target);
+  }
+
+  void put_weights(json& object, const char* key, const std::vector<double>& weights) {
+    if (slim_ && !weights.empty())
+      object[key] = small_.weights(weights);
+    else
+      put(object, key, weights);
+  }
+
+  /// Empty, and therefore omitted, in a slim asset if each is the distance of the spring's ends.
+  std::vector<double> rest_lengths(const MassSpringModel& model) const {
+    for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+      if (!slim_ ||
+          model.rest_length[s] != (model.rest[model.b[s]] - model.rest[model.a[s]]).norm())
+        return model.rest_length;
+    return {};
+  }
+
+  void add_slim(json& object, const SlimLevel& slim) {
+    object["stableStep"] = slim.stable_step;
+    if (slim.of_level.start.empty()) return;
+    put(object, "baseStart", slim.of_level.start);
+    put(object, "baseNode", slim.of_level.node);
+    put_weights(object, "baseWeight", slim.of_level.weight);
   }
 
   static json describe(const Material& material) {
@@ -121,7 +176,7 @@ class ExactWriter {
     object["contactPoints"] = surface.count();
     put(object, "contactStart", surface.of_nodes.start);
     put(object, "contactNode", surface.of_nodes.node);
-    put(object, "contactWeight", surface.of_nodes.weight);
+    put_weights(object, "contactWeight", surface.of_nodes.weight);
     put(object, "contactNormal", surface.normal);
     put(object, "contactPointArea", surface.area);
     put(object, "contactStiffness", surface.stiffness);
@@ -134,7 +189,7 @@ class ExactWriter {
                 {"madeBy", level.made_by}};
     for (const Material& material : model.materials)
       object["materials"].push_back(describe(material));
-    put(object, "rest", model.rest);
+    put(object, "rest", model.rest, slim_ ? gltf::Target::vertices : gltf::Target::none);
     put(object, "mass", model.mass);
     put(object, "volume", model.volume);
     put(object, "contactArea", model.contact_area);
@@ -147,7 +202,7 @@ class ExactWriter {
       ends.push_back(model.b[s]);
     }
     spring_ends.push_back(put(object, "ends", ends, gltf::Target::indices));
-    put(object, "restLength", model.rest_length);
+    put(object, "restLength", rest_lengths(model));
     put(object, "stiffness", model.stiffness);
     put(object, "damping", model.damping);
     put(object, "nodeOfBase", level.of_base.of);
@@ -165,16 +220,21 @@ class ExactWriter {
                                  {"material", part.material},
                                  {"firstTriangle", part.first_triangle},
                                  {"triangleCount", part.triangle_count}});
-    put(object, "positions", surface.positions);
-    put(object, "indices", surface.triangles);
+    // The scene of a slim asset uses the same views.
+    const bool shown = slim_ != nullptr;
+    put(object, "positions", surface.positions,
+        shown ? gltf::Target::vertices : gltf::Target::none);
+    put(object, "indices", surface.triangles, shown ? gltf::Target::indices : gltf::Target::none);
     put(object, "bindingStart", binding.start);
     put(object, "bindingNode", binding.node);
-    put(object, "bindingWeight", binding.weight);
+    put_weights(object, "bindingWeight", binding.weight);
     return object;
   }
 
   AssetBuffer& buffer_;
   asset_format::Checksum checksum_;
+  SmallArrays small_;
+  const std::vector<SlimLevel>* slim_;
 };
 
 /// Estimated size of the buffer: 112 B per node, 32 B per spring, 20 B per corner, and 20 B per
@@ -191,17 +251,13 @@ std::size_t expected_bytes(const LodAsset& asset) {
          12 * asset.surface_of_base.node.size();
 }
 
-}  // namespace
+json document_of(json extension) {
+  return {{"asset", {{"version", "2.0"}, {"generator", "springlod"}}},
+          {"extensionsUsed", {asset_format::kExtension}},
+          {"extensions", {{asset_format::kExtension, std::move(extension)}}}};
+}
 
-void save_asset(const LodAsset& asset, const std::filesystem::path& path) {
-  validate(asset);
-  AssetBuffer buffer;
-  buffer.reserve(expected_bytes(asset));
-  ExactWriter exact(buffer);
-  json document{{"asset", {{"version", "2.0"}, {"generator", "springlod"}}},
-                {"extensionsUsed", {asset_format::kExtension}},
-                {"extensions", {{asset_format::kExtension, exact.describe(asset)}}}};
-  add_display(asset, exact.spring_ends, document, buffer);
+void write(json& document, const AssetBuffer& buffer, const std::filesystem::path& path) {
   document["bufferViews"] = buffer.views();
   document["buffers"] = {{{"byteLength", buffer.bytes().size()}}};
 
@@ -219,6 +275,34 @@ void save_asset(const LodAsset& asset, const std::filesystem::path& path) {
     if (!out)
       throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
   });
+}
+
+}  // namespace
+
+void save_asset(const LodAsset& asset, const std::filesystem::path& path) {
+  validate(asset);
+  AssetBuffer buffer;
+  buffer.reserve(expected_bytes(asset));
+  ExactWriter exact(buffer);
+  json document = document_of(exact.describe(asset));
+  add_display(asset, exact.spring_ends, document, buffer);
+  write(document, buffer, path);
+}
+
+void save_slim_asset(const LodAsset& asset, const std::vector<SlimLevel>& levels,
+                     const std::filesystem::path& path) {
+  const std::vector<Level>& whole = asset.chain.levels;
+  if (levels.size() != whole.size())
+    throw InputError(fmt::format("slim asset: {} levels are described, but there are {}",
+                                 levels.size(), whole.size()));
+  const LodAsset slim = slimmed(asset);
+  std::vector<SlimLevel> bound = levels;
+  for (std::size_t n = 0; n < bound.size(); ++n)
+    bound[n].of_level = slim_binding(levels[n].of_level, whole[n].model.rest);
+  AssetBuffer buffer(sizeof(float));
+  json document = document_of(ExactWriter(buffer, &bound).describe(slim));
+  add_slim_display(slim, document["extensions"][asset_format::kExtension], document);
+  write(document, buffer, path);
 }
 
 }  // namespace springlod::inline model

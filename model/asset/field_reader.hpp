@@ -25,6 +25,15 @@ class FieldReader {
   }
 
   bool has(const char* key) const { return object_.contains(key); }
+  bool is_object(const char* key) const {
+    const auto found = object_.find(key);
+    return found != object_.end() && found->is_object();
+  }
+  /// Reader of the object at `key`.
+  FieldReader nested(const char* key) const {
+    return {field(key, &nlohmann::json::is_object, "an object"),
+            fmt::format("{}, {}", owner_, key)};
+  }
   double number(const char* key) const {
     return field(key, &nlohmann::json::is_number, "a number").get<double>();
   }

@@ -10,6 +10,7 @@
 #include "base/units.hpp"
 #include "elastic/moduli.hpp"
 #include "elastic/stable_step.hpp"
+#include "lod/transfer.hpp"
 #include "model/asset/asset.hpp"
 #include "scripting/bind/tables/certificate_table.hpp"
 #include "scripting/bind/tables/model_table.hpp"
@@ -130,19 +131,33 @@ int stable_step_binding(Call& call) {
   return call.give(elastic::stable_step(*call.value<ModelValue>(1)->model));
 }
 
+std::vector<SlimLevel> slim_levels(const LodChain& chain) {
+  std::vector<SlimLevel> levels;
+  for (std::uint32_t n = 0; n < chain.levels.size(); ++n)
+    levels.push_back({.of_level = n > 0 ? lod::base_from_level(chain, n) : Binding(),
+                      .stable_step = elastic::stable_step(chain.levels[n].model)});
+  return levels;
+}
+
 int save_binding(Call& call) {
   const auto chain = call.value<ChainValue>(2);
   TableReader options = call.options(3);
   std::optional<std::string> command;
+  bool slim = false;
   options.read("command", command);
+  options.read("slim", slim);
   options.finish();
-  if (!command) {
-    save_asset(*chain, call.writable(1));
-    return 0;
+  const std::filesystem::path path = call.writable(1);
+  std::optional<LodAsset> told;
+  if (command) {
+    told = *chain;
+    told->provenance.set("command", *command);
   }
-  LodAsset told = *chain;
-  told.provenance.set("command", *command);
-  save_asset(told, call.writable(1));
+  const LodAsset* asset = told ? &*told : chain.get();
+  if (slim)
+    save_slim_asset(*asset, slim_levels(asset->chain), path);
+  else
+    save_asset(*asset, path);
   return 0;
 }
 
@@ -362,10 +377,17 @@ void describe_assets(Api& api) {
                    .type = "string",
                    .fallback = "none",
                    .help = "command that makes the chain again; it becomes the entry command of "
-                           "its provenance, which springlod info prints"}},
+                           "its provenance, which springlod info prints"},
+                  {.name = "slim",
+                   .type = "boolean",
+                   .fallback = "false",
+                   .help = "whether to write only what an engine needs, in single precision: a "
+                           "third of the bytes, without certificates"}},
       .returns = "nothing",
-      .errors = "The file cannot be written.",
-      .example = "s.save(\"out/dumbbell.glb\", chain)",
+      .errors = "The file cannot be written; slim: single precision breaks a rule of models, as "
+                "for small cells far from the origin.",
+      .example = "s.save(\"out/dumbbell.glb\", chain)\n"
+                 "s.save(\"out/dumbbell-slim.glb\", chain, {slim = true})",
       .call = save_binding});
   api.add(FunctionEntry{
       .name = "load",

@@ -292,8 +292,8 @@ TEST_CASE("A file that is not an asset is rejected with the reason") {
   const std::string bytes = read_file(path);
   overwrite(path, with_json(bytes, "\"extensions\":", "\"extras\":"));
   CHECK_THROWS_WITH(load_asset(path), Contains("no level-of-detail chain"));
-  overwrite(path, with_json(bytes, "\"version\":2", "\"version\":5"));
-  CHECK_THROWS_WITH(load_asset(path), Contains("version 5") && Contains("update"));
+  overwrite(path, with_json(bytes, "\"version\":2", "\"version\":6"));
+  CHECK_THROWS_WITH(load_asset(path), Contains("version 6") && Contains("update"));
   overwrite(path, with_json(bytes, "by hand", "by mind"));
   CHECK_THROWS_WITH(load_asset(path), Contains("damaged") && Contains("checksum"));
   CHECK_THROWS_AS(load_asset(path), IoError);

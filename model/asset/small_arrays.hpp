@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "model/asset/asset_buffer.hpp"
+#include "model/asset/asset_format.hpp"
+#include "model/vec.hpp"
+
+namespace springlod::inline model {
+
+/// Writes arrays in the smallest type that holds their values, and describes them as slim assets do
+/// (docs/asset-format.md): {"view": 3, "type": "uint16"}. The arrays must not be empty.
+class SmallArrays {
+ public:
+  SmallArrays(AssetBuffer& buffer, asset_format::Checksum& checksum)
+      : buffer_(buffer), checksum_(checksum) {}
+
+  /// Single precision, three a vector.
+  nlohmann::json vectors(const std::vector<Vec3>& values, gltf::Target target);
+  /// Single precision; or, if they have few values, a table of these and their numbers in it.
+  nlohmann::json numbers(const std::vector<double>& values);
+  /// Multiples of a power of 2 that fit into 16 bits.
+  nlohmann::json weights(const std::vector<double>& values);
+  /// Unsigned integers of 8, 16 or 32 bits. The largest value of a type is not used: glTF reserves
+  /// it for indices.
+  nlohmann::json integers(const std::uint32_t* values, std::size_t count, gltf::Target target);
+
+ private:
+  template <class T>
+  std::size_t add(const std::vector<T>& values, gltf::Target target = gltf::Target::none);
+  template <class T>
+  nlohmann::json add_as(const char* type, const std::uint32_t* values, std::size_t count,
+                        gltf::Target target);
+
+  AssetBuffer& buffer_;
+  asset_format::Checksum& checksum_;
+};
+
+}  // namespace springlod::inline model
