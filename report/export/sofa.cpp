@@ -1,10 +1,8 @@
 #include <iterator>
-#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "elastic/stable_step.hpp"
 #include "report/export/draft.hpp"
 #include "report/export/explicit_step.hpp"
 #include "report/export/tetrahedra.hpp"
