@@ -10,6 +10,7 @@
 #include "report/map_picture.hpp"
 #include "report/video.hpp"
 #include "scripting/bind/tables/chart_table.hpp"
+#include "scripting/bind/tables/comparisons.hpp"
 #include "scripting/bind/tables/draw_style.hpp"
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/values.hpp"
@@ -23,24 +24,6 @@ namespace {
 
 constexpr const char* kGroup = "Pictures and reports";
 
-/// A Comparison or a list of them.
-std::vector<std::shared_ptr<const ComparisonValue>> comparisons_at(Call& call, int number) {
-  if (auto one = call.try_value<ComparisonValue>(number)) return {std::move(one)};
-  const std::string rule = "a Comparison, or a list of Comparisons";
-  lua_State* L = call.lua();
-  if (!lua_istable(L, call.index(number))) call.refuse(number, rule);
-  std::vector<std::shared_ptr<const ComparisonValue>> all;
-  for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, call.index(number))); ++i) {
-    lua_rawgeti(L, call.index(number), i);
-    all.push_back(std::static_pointer_cast<const ComparisonValue>(
-        boxed_at(L, lua_gettop(L), &kValueName<ComparisonValue>)));
-    lua_pop(L, 1);
-    if (!all.back()) call.refuse(number, rule);
-  }
-  if (all.empty()) call.refuse(number, rule);
-  return all;
-}
-
 /// A Comparison, or a list that begins with one.
 bool holds_comparisons(Call& call, int number) {
   if (call.try_value<ComparisonValue>(number)) return true;
@@ -53,7 +36,7 @@ bool holds_comparisons(Call& call, int number) {
 }
 
 int animate_binding(Call& call) {
-  const auto comparisons = comparisons_at(call, 2);
+  const auto comparisons = comparisons_at(call, 2, "a Comparison, or a list of Comparisons");
   report::AnimateOptions options;
   TableReader reader = call.options(3);
   read_options(call, reader, options);
@@ -229,6 +212,7 @@ void describe_report(Api& api) {
                  "s.chart(\"out/line.svg\", {{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}})",
       .call = chart_binding});
   describe_tables(api);
+  describe_view(api);
 }
 
 }  // namespace springlod::scripting

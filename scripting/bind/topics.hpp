@@ -32,6 +32,7 @@ void describe_stability(Api& api);  // of sim too
 void describe_render(Api& api);
 void describe_report(Api& api);
 void describe_export(Api& api);
+void describe_view(Api& api);  // of report too, called by describe_report
 void describe_statistics(Api& api);
 
 }  // namespace springlod::scripting

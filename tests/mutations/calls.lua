@@ -114,7 +114,7 @@ local texts = {
   ["video.folder"] = "frames", ["files.folder"] = ".", ["options_of.name"] = "simplify",
   ["quantity.text"] = "5", ["save_text.path"] = "out.txt",
   ["csv.path"] = "out.csv", ["hash.file"] = "box.obj", ["export.path"] = "model",
-  ["export_motion.path"] = "motion",
+  ["export_motion.path"] = "motion", ["base64.path"] = "box.obj",
 }
 
 local points = {}
