@@ -80,7 +80,7 @@ int chart_binding(Call& call) {
   }
   std::vector<report::ChartSeries> series;
   if (holds_comparisons(call, 2)) {
-    const auto comparisons = comparisons_at(call, 2);
+    const auto comparisons = comparisons_at(call, 2, "a Comparison, or a list of Comparisons");
     series = cost_error_series(comparisons, reader);
     options = cost_error_chart(*comparisons.front());
   } else {

@@ -283,6 +283,12 @@ function command.shell_line(words)
   return table.concat(quoted, " ")
 end
 
+-- The command line of this run, to copy.
+function command.line()
+  return command.shell_line{"springlod", "--seed", tostring(s.seed), name_of_command,
+                            table.unpack(arg)}
+end
+
 -- Writes s.chart to stem.svg and stem.png.
 function command.chart(stem, data, options)
   for _, ending in ipairs{"svg", "png"} do s.chart(stem .. "." .. ending, data, options) end
