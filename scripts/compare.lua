@@ -5,12 +5,14 @@ local command = require "lib.command"
 local comparison_table = require "lib.comparison_table"
 local conversion = require "lib.conversion"
 local fit_store = require "lib.fit_store"
+local page = require "lib.page"
 local simplify_options = require "lib.simplify_options"
 
 local film = {frames = 100, frame_rate = 30, least_frame_rate = 10}
 
 local parser = command.parser("compare", "Run every level of an asset under one scenario. "
-  .. "Writes table.csv, starts.csv, chart.svg, chart.png, frames/frame_0000.png ..., "
+  .. "Writes index.html (a page with all of it), table.csv, starts.csv, chart.svg, chart.png, "
+  .. "frames/frame_0000.png ..., "
   .. "comparison.mp4 and timings.csv (wall-clock times, the only output that varies between runs). "
   .. "Several assets share one table, chart and video, which has the base of the first one. "
   .. "With options of levels, such as --grouping standard, the levels are made anew from the base "
@@ -118,13 +120,50 @@ local function save_rows(file, compared, names, rows_of)
   return all
 end
 
+-- The panels of the film: the base of the first asset and the levels of all.
+local function panels_of(compared)
+  local panels = {}
+  for i, runs in ipairs(compared) do
+    for n, label in ipairs(runs.labels) do
+      if i == 1 or n > 1 then panels[#panels + 1] = label end
+    end
+  end
+  return panels
+end
+
+local function origin_of(chain)
+  local entries = {}
+  for _, path in ipairs(assets) do
+    entries[#entries + 1] = {"asset", ("%s (hash %s)"):format(path, s.hash{file = path})}
+  end
+  entries[#entries + 1] = {"scenario", ("%s (hash %s)"):format(args.scenario,
+    s.hash{file = args.scenario})}
+  entries[#entries + 1] = {"starts", ("%d, jitter %g"):format(args.starts, args.jitter or 0.02)}
+  return page.provenance(chain, entries)
+end
+
+local function write_page(chain, scene, compared, names, rows)
+  page.write(args.out .. "/index.html", {
+    command = "compare", title = ("%s: %s"):format(command.stem(assets[1]), scene.name),
+    verdict = page.comparison_verdict(rows), line = command.line(),
+    film = args.frames > 0 and args.video:find("%.mp4$")
+      and {path = args.out .. "/" .. args.video, panels = panels_of(compared)} or nil,
+    view = s.view(compared), chains = #assets > 1 and names or nil, facts = page.facts(rows),
+    charts = {page.cost_error(rows)}, tables = {page.comparison_table(rows)},
+    provenance = origin_of(chain),
+  })
+end
+
 local function compare()
   local scene = command.load_table(args.scenario)
   local anchored = scene.anchored
   scene.anchored = nil
-  local compared, names = {}, variants()
+  scene = s.scenario(scene)
+  local compared, names, chain = {}, variants(), nil
   for i = 1, #assets do
-    compared[i] = s.compare(levels_of(i), scene, {
+    local levels = levels_of(i)
+    chain = chain or levels
+    compared[i] = s.compare(levels, scene, {
       starts = args.starts, jitter = args.jitter, seed = s.seed, threads = s.threads,
       variant = names[i], frame_rate = (args.frame_rate or film.frame_rate) * args.slow,
       contact = args.contact, anchored = anchored,
@@ -135,6 +174,7 @@ local function compare()
   save_rows("timings.csv", compared, names, function(runs) return runs:timings() end)
   command.chart(args.out .. "/chart", compared)
   if args.frames > 0 then animate(compared, rows) end
+  write_page(chain, scene, compared, names, rows)
   for i = 1, #assets do fit_store.remove(fit_folder .. (#assets == 1 and "" or "/" .. i)) end
   if #assets > 1 then os.remove(fit_folder) end
   return rows
@@ -143,4 +183,4 @@ end
 local ok, rows = command.try_in(args.out, compare, fits)
 if not ok then command.fail("cannot compare %s: %s", table.concat(assets, ", "), rows) end
 comparison_table.print(rows, args.starts)
-s.say("wrote " .. args.out)
+s.say("wrote " .. args.out .. "/index.html and what it shows")

@@ -1,18 +1,19 @@
 -- Run the whole workflow on a sample, from a mesh to tables, charts and a video.
 --
 -- The sample is the second body of the paper, two stiff rods and a softer joint: mesh -> cells ->
--- model -> levels -> a throw at a wall -> table, chart, video. The levels are those of the paper,
--- and levels fitted to the base. ./dev demo runs this script.
+-- model -> levels -> a throw at a wall -> table, chart, video, page. The levels are those of the
+-- paper, and levels fitted to the base. ./dev demo runs this script.
 
 local s = require "springlod"
 local command = require "lib.command"
 local comparison_table = require "lib.comparison_table"
+local page = require "lib.page"
 local paper_numbers = require "studies.paper.numbers"
 local paper_variants = require "studies.paper.variants"
 local show = require "lib.show"
 
 local parser = command.parser("demo", "Run the whole workflow on a sample: mesh, cells, model, "
-  .. "levels, runs, table, chart and video.")
+  .. "levels, runs, table, chart, video and a page, index.html, with all of it.")
 command.add_out(parser, "out/demo", "folder", true)
 parser:argument("starts", "the same as --starts"):args("?"):convert(command.whole("starts", 1))
   :target("starts_given")
@@ -85,6 +86,7 @@ local function run_levels(chains)
       if row.level > 0 or i == 1 then rows[#rows + 1] = row end
       points[#points + 1] = {
         1 / row.cost_ratio, row.surface_error_percent, label = row.level > 0 and row.label or nil,
+        clip = row.label,
       }
     end
     series[#series + 1] = {name = paper_variants.label(variant.name), points = points}
@@ -100,16 +102,12 @@ local function run_levels(chains)
 end
 
 -- 4. Cost and error of each level.
-local function draw_chart(series)
-  for _, ending in ipairs {"svg", "png"} do
-    s.chart(folder .. "/chart." .. ending, series, {
-      title = "Two rods thrown at a wall: cost against error",
-      x_label = "cost per simulated second (spring updates, base = 1)",
-      y_label = "surface error (% of the body's diagonal)",
-      log_x = true,
-    })
-  end
-end
+local chart = {
+  title = "Two rods thrown at a wall: cost against error",
+  x_label = "cost per simulated second (spring updates, base = 1)",
+  y_label = "surface error (% of the body's diagonal)",
+  log_x = true,
+}
 
 -- 5. The video: the base, level 2 of LOD-hb and the fitted level 2, synchronized.
 local function make_video(compared)
@@ -149,24 +147,51 @@ local function time_of(timings, label)
   return wall / simulated
 end
 
-local function print_results(runs)
+local function results(runs)
   local fit_label = paper_variants.label("fit", 2)
   local merged = second_level(runs.rows, function(row) return row.label ~= fit_label end)
   local fitted = second_level(runs.rows, function(row) return row.label == fit_label end)
-  print(("\nMerged as in the paper, level 2 needs %s times fewer spring updates than the base; its "
-    .. "surface is %s %% of the body's size away from the base's."):format(
-    range(merged, "cost_ratio"), range(merged, "surface_error_percent")))
-  print(("Fitted to the base, with contact at its surface, level 2 needs %s times fewer and is %s "
-    .. "%% away."):format(range(fitted, "cost_ratio"), range(fitted, "surface_error_percent")))
-  print(("By the clock of this machine, a simulated second takes %s for the base and %s for "
-    .. "the fitted level 2."):format(show.quantity(time_of(runs.timings, "base"), "time"),
-    show.quantity(time_of(runs.timings, fit_label), "time", 2)))
+  return {
+    ("Merged as in the paper, level 2 needs %s times fewer spring updates than the base; its "
+      .. "surface is %s %% of the body's size away from the base's."):format(
+      range(merged, "cost_ratio"), range(merged, "surface_error_percent")),
+    ("Fitted to the base, with contact at its surface, level 2 needs %s times fewer and is %s "
+      .. "%% away."):format(range(fitted, "cost_ratio"), range(fitted, "surface_error_percent")),
+    ("By the clock of this machine, a simulated second takes %s for the base and %s "
+      .. "for the fitted level 2."):format(
+      show.quantity(time_of(runs.timings, "base"), "time"),
+      show.quantity(time_of(runs.timings, fit_label), "time", 2)),
+  }
+end
+
+-- 7. One page with all of it.
+local function write_page(runs, chains, sentences)
+  local comparisons, names = {}, {}
+  for i, variant in ipairs(variants) do
+    comparisons[i] = runs.compared[variant.name]
+    names[i] = paper_variants.label(variant.name)
+  end
+  page.write(folder .. "/index.html", {
+    command = "demo", title = "Two rods, joined by rubber, thrown at a wall",
+    verdict = sentences, line = command.line(),
+    film = {path = folder .. "/comparison.mp4",
+            panels = {"base", paper_variants.label("hb", 2), paper_variants.label("fit", 2)}},
+    view = s.view(comparisons), chains = names, facts = page.facts(runs.rows),
+    charts = {{runs.series, chart}},
+    tables = {page.comparison_table(runs.rows)},
+    provenance = page.provenance(chains.fit, {
+      {"scenario", "samples/throw_at_wall.lua"}, {"starts", ("%d, jitter 0.02"):format(starts)}}),
+  })
 end
 
 local ok, failure = command.try_in(folder, function()
-  local runs = run_levels(make_chains(make_base()))
-  draw_chart(runs.series)
+  local chains = make_chains(make_base())
+  local runs = run_levels(chains)
+  command.chart(folder .. "/chart", runs.series, chart)
   make_video(runs.compared)
-  print_results(runs)
+  local sentences = results(runs)
+  write_page(runs, chains, sentences)
+  print("\n" .. table.concat(sentences, "\n"))
+  print("All of it on one page: " .. folder .. "/index.html")
 end)
 if not ok then command.fail("demo: %s", failure) end

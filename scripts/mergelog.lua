@@ -4,12 +4,14 @@ local s = require "springlod"
 local command = require "lib.command"
 local fit_store = require "lib.fit_store"
 local merge_ladder = require "lib.merge_ladder"
+local page = require "lib.page"
 local percent = require("lib.show").percent
 
 local parser = command.parser("mergelog", "Merge the base of an asset step by step and certify "
   .. "each step against the base. Reports where to stop, which merges contribute most to the "
-  .. "error, and the error without them. Writes levels.csv, answers.csv, merges.csv, charts "
-  .. "(errors, costs) and where.png, a picture of the merges and their errors.")
+  .. "error, and the error without them. Writes index.html (a page with all of it), levels.csv, "
+  .. "answers.csv, merges.csv, charts (errors, costs) and where.png, a picture of the merges and "
+  .. "their errors.")
 parser:argument("asset", "a .glb asset, written by convert or s.save")
 command.add_out(parser, "out/mergelog")
 parser:option("--tolerance", "allowed mean relative error of the ten lowest frequencies "
@@ -138,6 +140,13 @@ local function merge_rows(levels)
                 "surface", "frequencies", "smooth_loads", "local_loads"}
 end
 
+local charts = {} -- for the page
+
+local function draw(name, series, options)
+  command.chart(("%s/%s"):format(args.out, name), series, options)
+  charts[#charts + 1] = {series, options}
+end
+
 local function draw_errors(levels)
   local last, low, high = levels[#levels], 100 * levels[#levels].kept, 100 * levels[1].kept
   local function line(name, error_of, cost)
@@ -176,7 +185,7 @@ local function draw_errors(levels)
   if #without.points > 0 then series[#series + 1] = without end
   series[#series + 1] = {name = ("tolerance %g %%"):format(100 * tolerance), points = {
     {low, 100 * tolerance}, {high, 100 * tolerance}}}
-  command.chart(args.out .. "/errors", series, {
+  draw("errors", series, {
     title = ("Where to stop: %s, %d to %d nodes"):format(command.base_name(args.asset),
       levels[1].nodes, last.nodes),
     x_label = "nodes kept (% of the base's); numbers: cost over the base's",
@@ -203,7 +212,7 @@ local function draw_merges(levels)
       name = ("%.0f %% kept, %d merges"):format(100 * entry.kept, #entry.merged), points = points,
     }
   end
-  command.chart(args.out .. "/costs", series, {
+  draw("costs", series, {
     title = "What the merges of a step add to the error of f1..10, costliest first",
     x_label = "merges (% of all merges of the step)", y_label = "sum of their costs (%)",
   })
@@ -220,6 +229,7 @@ local function draw_where(chain, entry)
     surface = false, nodes = true, titles = {"outside", "cut open"},
     title = ("%d nodes -> %d"):format(chain[0].node_count, entry.nodes), width = 480, height = 400,
   })
+  return cost
 end
 
 local function show(levels)
@@ -244,6 +254,7 @@ local function show(levels)
   }
   if builds_without then columns[11] = ("f1..10 without %g %%"):format(100 * args.leave_out) end
   print(s.format_table(rows, {columns = columns}))
+  return {title = "Errors of the levels", rows = rows, columns = columns}
 end
 
 -- The last level before the tolerance is first exceeded, and the level that exceeds it.
@@ -256,11 +267,17 @@ local function find_stop(levels)
   return stop, nil
 end
 
+-- Prints where to stop and why, and returns the lines.
 local function advise(stop, beyond)
+  local lines = {}
+  local function tell(line)
+    print(line)
+    lines[#lines + 1] = line
+  end
   local wanted = ("f1..10 within %g %%"):format(100 * tolerance)
   local function say_errors(entry)
     local c = entry.certificate
-    print(("  errors: %s (f1..10), %s (smooth loads), %s (local loads)"):format(
+    tell(("  errors: %s (f1..10), %s (smooth loads), %s (local loads)"):format(
       percent(c.f1_10_error), percent(c.fitted_load_error), percent(c.held_out_load_error)))
   end
   local function described(entry)
@@ -268,29 +285,30 @@ local function advise(stop, beyond)
       entry.certificate.cost_ratio)
   end
   if stop then
-    print(("coarsest level with %s: %s"):format(wanted, described(stop)))
+    tell(("coarsest level with %s: %s"):format(wanted, described(stop)))
     say_errors(stop)
   else
-    print(("no level has %s%s"):format(wanted,
+    tell(("no level has %s%s"):format(wanted,
       args.as_made and "" or "; increase --steps to start closer to the base"))
   end
   if not beyond then
-    print("all levels are within tolerance" .. (args.as_made and "" or "; --least can be lower"))
-    return
+    tell("all levels are within tolerance" .. (args.as_made and "" or "; --least can be lower"))
+    return lines
   end
-  print((stop and "next level: " or "finest level: ") .. described(beyond))
+  tell((stop and "next level: " or "finest level: ") .. described(beyond))
   say_errors(beyond)
-  print(("  costliest merge, adding %s to f1..10: %s"):format(
+  tell(("  costliest merge, adding %s to f1..10: %s"):format(
     percent(beyond.merged[1].frequencies), where(beyond.merged[1])))
   local without = beyond.without
   if without then
-    print(("  without its %d costliest merges (%d nodes): %s (f1..10), cost %.2g"):format(
+    tell(("  without its %d costliest merges (%d nodes): %s (f1..10), cost %.2g"):format(
       without.count, without.nodes, percent(without.certificate.f1_10_error),
       without.certificate.cost_ratio))
   end
   if not args.calibrate and not args.as_made then
-    print("--calibrate runs the same analysis on calibrated levels")
+    tell("--calibrate runs the same analysis on calibrated levels")
   end
+  return lines
 end
 
 local fit_folder = args.out .. "/unfinished"
@@ -309,6 +327,33 @@ local function make_chain(asset)
   return chain
 end
 
+-- Lines as sentences: indented ones continue the line before.
+local function sentences_of(lines)
+  local sentences = {}
+  for _, line in ipairs(lines) do
+    if line:find("^ ") then
+      sentences[#sentences] = sentences[#sentences] .. "; " .. line:gsub("^ +", "")
+    else
+      sentences[#sentences + 1] = line:sub(1, 1):upper() .. line:sub(2)
+    end
+  end
+  for i, sentence in ipairs(sentences) do sentences[i] = sentence .. "." end
+  return sentences
+end
+
+local function write_page(chain, advice, shown, cost)
+  page.write(args.out .. "/index.html", {
+    command = "mergelog", title = "Where to stop merging " .. command.base_name(args.asset),
+    verdict = sentences_of(advice), view = s.view(chain), charts = charts, tables = {shown},
+    values = {label = "contribution of the merge to the error of f1..10 (%)",
+              of = {base = cost}},
+    pictures = {{path = args.out .. "/where.png", caption = "What each merge adds to the error"}},
+    line = command.line(), provenance = page.provenance(chain, {
+      {"asset", ("%s (hash %s)"):format(args.asset, s.hash{file = args.asset})},
+      {"tolerance", tostring(tolerance)}}),
+  })
+end
+
 local function merge_log()
   local chain = make_chain(s.load(args.asset))
   local levels = measure(chain)
@@ -319,13 +364,14 @@ local function merge_log()
     local list, columns = make(levels)
     s.csv(("%s/%s.csv"):format(args.out, name), list, {columns = columns})
   end
-  show(levels)
+  local shown = show(levels)
   print()
   local stop, beyond = find_stop(levels)
-  advise(stop, beyond)
+  local advice = advise(stop, beyond)
   draw_errors(levels)
   draw_merges(levels)
-  draw_where(chain, beyond or levels[#levels])
+  local cost = draw_where(chain, beyond or levels[#levels])
+  write_page(chain, advice, shown, cost)
   fit_store.remove(fit_folder)
 end
 

@@ -3,6 +3,7 @@
 local s = require "springlod"
 local command = require "lib.command"
 local markdown = require "lib.markdown"
+local page = require "lib.page"
 local paper_figures = require "studies.paper.figures"
 local paper_numbers = require "studies.paper.numbers"
 local paper_runs = require "studies.paper.runs"
@@ -12,8 +13,9 @@ local paper_variants = require "studies.paper.variants"
 local run_store = require "lib.run_store"
 
 local parser = command.parser("paper", "Reproduce the tables and figures of Kot, Nagahashi and "
-  .. "Gracki, \"Simplification of mass spring models\", from many runs each. Writes CSV files, "
-  .. "charts, tables.md and figure-N.png. After an interruption (Ctrl-C) the same command resumes.")
+  .. "Gracki, \"Simplification of mass spring models\", from many runs each. Writes index.html (a "
+  .. "page with all of it), CSV files, charts, tables.md and figure-N.png. After an interruption "
+  .. "(Ctrl-C) the same command resumes.")
 command.add_out(parser, "out/paper")
 parser:flag("--quick", "use few runs: a test of the command, without significance")
 parser:option("--starts", "paired starts of each model (default: 48; --quick: 8)")
@@ -70,9 +72,16 @@ local function run_settings()
   }
 end
 
-local page = {} -- lines of tables.md
+local lines = {} -- of tables.md
 
-local function write_page(line) page[#page + 1] = line end
+local function write_line(line) lines[#lines + 1] = line end
+
+local charts, tables = {}, {} -- of the page
+
+local function draw(name, series, options)
+  command.chart(("%s/%s"):format(args.out, name), series, options)
+  charts[#charts + 1] = {series, options}
+end
 
 -- Writes a table to the terminal, to tables.md and, with all digits, to a CSV file.
 local function publish(name, title, rows, columns, shown, shown_columns)
@@ -90,7 +99,8 @@ local function publish(name, title, rows, columns, shown, shown_columns)
     end
     texts[number] = cells
   end
-  write_page(("\n## %s\n\n%s"):format(title, markdown.table(texts, shown_columns)))
+  tables[#tables + 1] = {title = title, rows = texts, columns = shown_columns}
+  write_line(("\n## %s\n\n%s"):format(title, markdown.table(texts, shown_columns)))
 end
 
 local function table_1(ball)
@@ -108,24 +118,24 @@ local function table_1(ball)
       name = rows[i].model:gsub("-1$", ""), points = {point(rows[i]), point(rows[i + 1])},
     }
   end
-  command.chart(args.out .. "/table-1-chart", series, {
+  draw("table-1-chart", series, {
     title = "Table 1: how far the ball rolls, mean of the starts and its 95 % interval",
     x_label = "ends of springs", y_label = "distance [m]",
   })
 end
 
 local function table_2(rods)
-  local all, lines = {}, {}
+  local all, means = {}, {}
   local beside = 0.08 -- offset between models in units of speed, so that intervals do not overlap
   for _, one in ipairs(rods) do
     local rows = paper_tables.rows(one, settings)
     for i, row in ipairs(rows) do
       all[#all + 1] = row
-      if not lines[row.model] then
-        lines[row.model] = {name = row.model, points = {}}
-        lines[#lines + 1] = lines[row.model]
+      if not means[row.model] then
+        means[row.model] = {name = row.model, points = {}}
+        means[#means + 1] = means[row.model]
       end
-      table.insert(lines[row.model].points, {
+      table.insert(means[row.model].points, {
         one.speed + beside * (i - 1), row.distance, low = row.distance_low,
         high = row.distance_high,
       })
@@ -136,9 +146,23 @@ local function table_2(rods)
   s.csv(args.out .. "/table-2.csv", all, {columns = paper_tables.columns})
   publish("table-2-over-speeds", "Table 2 over the speeds: mean |difference from the base| [m]",
     paper_tables.over_speeds(rods, all))
-  command.chart(args.out .. "/table-2-chart", lines, {
+  draw("table-2-chart", means, {
     title = "Table 2: final distance from the wall, means and their 95 % intervals",
     x_label = "speed (the paper's units)", y_label = "distance [m]",
+  })
+end
+
+local function write_page(summary, figures)
+  local pictures = {}
+  for i, figure in ipairs(figures) do
+    pictures[i] = {path = ("%s/%s"):format(args.out, figure.file), caption = figure.title}
+  end
+  page.write(args.out .. "/index.html", {
+    command = "paper", title = "The tables and figures of the paper, reproduced",
+    verdict = {summary}, charts = charts, tables = tables, pictures = pictures,
+    line = command.line(), provenance = page.provenance(nil, {
+      {"paper", "Kot, Nagahashi and Gracki, Simplification of mass spring models, WorldComp CGV "
+        .. "2012"}}),
   })
 end
 
@@ -147,19 +171,19 @@ local function paper()
   local store = run_store.open(args.out .. "/runs", run_settings())
   local all = {cases.ball, table.unpack(cases.rods)}
   paper_runs.run(all, settings, store)
-  write_page("# The tables of the paper, reproduced\n")
-  write_page(("%d paired starts, %d simplification seeds, jitter %g, friction %g, 1 unit of speed "
-    .. "= %g m/s, seed %d. W1: 1-Wasserstein distance to the base; inside: simplification seeds "
-    .. "whose W1 is below the noise floor; same: mean shown to be within %g spreads of the base; "
-    .. "turned: runs %s."):format(
+  write_line("# The tables of the paper, reproduced\n")
+  local summary = ("%d paired starts, %d simplification seeds, jitter %g, friction %g, 1 unit of "
+    .. "speed = %g m/s, seed %d. W1: 1-Wasserstein distance to the base; inside: simplification "
+    .. "seeds whose W1 is below the noise floor; same: mean shown to be within %g spreads of the "
+    .. "base; turned: runs %s."):format(
     settings.starts, settings.simplifications, settings.jitter, settings.friction,
     settings.speed_scale, settings.seed, settings.margin,
-    settings.volumes and "that end with inverted corners" or "in which springs inverted"))
+    settings.volumes and "that end with inverted corners" or "in which springs inverted")
+  write_line(summary)
   table_1(cases.ball)
   table_2(cases.rods)
-  if not args.no_figures then
-    paper_figures.draw(args.out, {seed = settings.seed, quick = args.quick})
-  end
+  local figures = args.no_figures and {}
+    or paper_figures.draw(args.out, {seed = settings.seed, quick = args.quick})
   publish("early-errors", "Early errors: mean distance from the base's nodes [m]",
     paper_studies.early_errors({cases.ball, cases.rods[1]}, settings, store))
   publish("three-runs", "The paper's method: three runs with different time steps [m]",
@@ -172,7 +196,8 @@ local function paper()
     paper_studies.random_models(settings, store))
   publish("sensitivity", "Sensitivity: growth of a change of 0.1 % in the start",
     paper_studies.sensitivity(settings, store))
-  s.save_text(args.out .. "/tables.md", table.concat(page, "\n") .. "\n")
+  s.save_text(args.out .. "/tables.md", table.concat(lines, "\n") .. "\n")
+  write_page(summary, figures)
 end
 
 local ok, reason = command.try_in(args.out, paper, true)

@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local page = require "lib.page"
 local pareto_chains = require "studies.pareto.chains"
 local pareto_charts = require "studies.pareto.charts"
 local pareto_ensembles = require "studies.pareto.ensembles"
@@ -18,7 +19,8 @@ local parser = command.parser("pareto", "Simplify the base of an asset with ever
   .. "grouping, border rule and calibration, run the levels under one scenario with every "
   .. "integrator, precision and kind of contact, and chart the wall-clock cost of a simulated "
   .. "second against four errors: frequencies, loads, surface (until shortly after the first "
-  .. "contact) and ensemble (final distances of many starts). Writes NAME.svg, NAME.png, NAME.csv "
+  .. "contact) and ensemble (final distances of many starts). Writes index.html (a page with all "
+  .. "of it), NAME.svg, NAME.png, NAME.csv "
   .. "and NAME-front.csv for each error, points.csv, timings.csv (only the measured times, and "
   .. "what is drawn from them, vary between runs), left-out.csv, models/ (all levels) and "
   .. "command.txt. After an interruption (Ctrl-C) the same command resumes.")
@@ -191,20 +193,43 @@ local function charts_of(study)
   return charts
 end
 
-local function report(study, variants, left_out)
+-- The ends of a front in a sentence.
+local function sentence(chart, front, count)
+  local first, last = front[1], front[#front]
+  return ("%s: %d of %d variants are on the Pareto front, from %s (%.2g of the cost of the base, "
+    .. "error %.2g) to %s (%.2g of the cost, error %.2g)."):format(chart.title, #front, count,
+    first.variant.label, first.x, first.y, last.variant.label, last.x, last.y)
+end
+
+local function write_page(asset, verdict, charts, tables)
+  page.write(args.out .. "/index.html", {
+    command = "pareto", title = "Cost against error of every way to simplify "
+      .. command.base_name(args.asset),
+    verdict = verdict, view = s.view(asset), charts = charts, tables = tables,
+    line = command.line(), provenance = page.provenance(asset, {
+      {"asset", ("%s (hash %s)"):format(args.asset, s.hash{file = args.asset})},
+      {"scenario", ("%s (hash %s)"):format(args.scenario, s.hash{file = args.scenario})}}),
+  })
+end
+
+local function report(study, asset, variants, left_out)
   pareto_tables.save(args.out, variants, left_out, study)
   local x_label = ("wall-clock cost of a simulated second, base = 1 (base: %.3g s)"):format(
     study.times:base_cost())
+  local verdict, drawn, tables = {}, {}, {}
   for _, chart in ipairs(charts_of(study)) do
     if wanted[chart.name] then
       chart.x_label = x_label
-      local front = pareto_charts.draw(args.out, variants, chart)
-      pareto_tables.show_front(args.out, chart, front)
+      local front
+      front, drawn[#drawn + 1] = pareto_charts.draw(args.out, variants, chart)
+      tables[#tables + 1] = pareto_tables.show_front(args.out, chart, front)
+      if #front > 0 then verdict[#verdict + 1] = sentence(chart, front, #variants) end
       if chart.name == "surface" then
         pareto_charts.draw_over_time(args.out, front, study.surfaces.floor, chart.title)
       end
     end
   end
+  write_page(asset, verdict, drawn, tables)
   if #left_out > 0 then
     print(("failed levels and measurements: %d (see left-out.csv)"):format(#left_out))
   end
@@ -219,9 +244,9 @@ local function pareto()
     settings = settings, folder = args.out,
     store = run_store.open(args.out .. "/runs", store_settings(settings, scene)),
   }
-  pareto_tables.save_command(args.out .. "/command.txt")
+  s.save_text(args.out .. "/command.txt", command.line() .. "\n")
   local measures, left_out = measures_of(study), {}
-  report(study, measure_all(study, measures, left_out), left_out)
+  report(study, asset, measure_all(study, measures, left_out), left_out)
 end
 
 local ok, reason = command.try_in(args.out, pareto, true)

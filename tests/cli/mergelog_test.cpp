@@ -25,8 +25,8 @@ TEST_CASE("mergelog reports where to stop and writes tables, charts and a pictur
   REQUIRE(first.exit_code == 0);
   CHECK_THAT(first.out,
              Contains("kept") && Contains("costliest merge") && Contains("f1..10 within 5 %"));
-  for (const char* file :
-       {"errors.svg", "errors.png", "costs.svg", "costs.png", "where.png", "answers.csv"})
+  for (const char* file : {"errors.svg", "errors.png", "costs.svg", "costs.png", "where.png",
+                           "answers.csv", "index.html"})
     CHECK(std::filesystem::exists(scratch / "first" / file));
   CHECK_THAT(slurp(scratch / "first/levels.csv"), Contains("left_out_f1_10_error"));
   CHECK_THAT(slurp(scratch / "first/merges.csv"), Contains("base_nodes") && Contains("default"));

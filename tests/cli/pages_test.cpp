@@ -127,9 +127,9 @@ TEST_CASE("the demo reports correct node counts and writes table, chart, video a
   const std::string counts = slurp(folder / "counts.csv");
   CHECK_THAT(counts, Contains("base,368,4748,368,4724"));
   CHECK_THAT(counts, Contains("LOD-hb-2,"));
-  for (const char* file :
-       {"table.csv", "timings.csv", "chart.svg", "chart.png", "lod-chain.glb", "lod-b-chain.glb",
-        "lod-h-chain.glb", "lod-hb-chain.glb", "lod-fit-chain.glb", "frames/frame_0059.png"})
+  for (const char* file : {"table.csv", "timings.csv", "chart.svg", "chart.png", "lod-chain.glb",
+                           "lod-b-chain.glb", "lod-h-chain.glb", "lod-hb-chain.glb",
+                           "lod-fit-chain.glb", "frames/frame_0059.png", "index.html"})
     CHECK(fs::file_size(folder / file) > 0);
   CHECK_FALSE(fs::exists(folder / "frames/frame_0060.png"));  // 60 by default
   const std::string table = slurp(folder / "table.csv");

@@ -100,6 +100,7 @@ TEST_CASE("pareto --quick writes charts, fronts and tables, and does not repeat 
     double least = 1e300;
     const auto front = rows_of(slurp(out / (std::string(error) + "-front.csv")));
     REQUIRE(!front.empty());
+    CHECK_THAT(slurp(out / "index.html"), Contains("the Pareto front"));
     for (const Row& row : front) {
       const auto value = [&](const std::string& column) {
         const Row& from = points.at(row.at("variant"));

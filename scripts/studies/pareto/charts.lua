@@ -132,7 +132,8 @@ local function series_of(points, front, y_from)
   return series, paper
 end
 
--- Draws all points and the front of one axis to folder/NAME.svg and .png, and returns the front.
+-- Draws all points and the front of one axis to folder/NAME.svg and .png. Returns the front, and
+-- what was drawn: {series, options} as for s.chart, or nil without points.
 -- `axis`: name, title, x_label, y_label, floor (nil if there is none) and floor_name.
 function pareto_charts.draw(folder, variants, axis)
   local points = points_of(variants, axis)
@@ -153,11 +154,12 @@ function pareto_charts.draw(folder, variants, axis)
         points = seen and floor_line(points, axis.floor) or {}, symbol = "none", colour = "green",
         dashed = true}
   end
-  command.chart(folder .. "/" .. axis.name, series, {
+  local options = {
     title = axis.title, x_label = axis.x_label, y_label = axis.y_label, log_x = true, log_y = true,
     y_from = y_from, width = 1200, height = 800,
-  })
-  return front
+  }
+  command.chart(folder .. "/" .. axis.name, series, options)
+  return front, {series, options}
 end
 
 -- Draws surface error over time for the variants on a front, and for the noise floor.

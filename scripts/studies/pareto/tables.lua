@@ -4,17 +4,6 @@ local s = require "springlod"
 
 local pareto_tables = {}
 
--- Saves the command line, so that it can be run again.
-function pareto_tables.save_command(path)
-  local words = {"springlod", "--seed", tostring(s.seed), "pareto"}
-  for i = 1, #arg do
-    local word = arg[i]
-    if word:find("[^%w%-_./,=]") then word = "'" .. word:gsub("'", "'\\''") .. "'" end
-    words[#words + 1] = word
-  end
-  s.save_text(path, table.concat(words, " ") .. "\n")
-end
-
 local function add_interval(row, interval)
   row[#row + 1] = interval and interval.value or ""
   row[#row + 1] = interval and interval.low or ""
@@ -83,7 +72,7 @@ local function text_of(interval)
   return ("%.3g (%.3g .. %.3g)"):format(interval.value, interval.low, interval.high)
 end
 
--- Prints a front and writes it to folder/NAME-front.csv.
+-- Prints a front and writes it to folder/NAME-front.csv. Returns it as a table of a page.
 function pareto_tables.show_front(folder, axis, front)
   local columns, rows, texts = {"variant", "label", "nodes"}, {}, {}
   interval_columns(columns, "cost / base", "")
@@ -98,8 +87,10 @@ function pareto_tables.show_front(folder, axis, front)
   s.csv(("%s/%s-front.csv"):format(folder, axis.name), rows, {columns = columns})
   print(axis.title .. ": the Pareto front" .. (axis.floor and
     ("; %s: %.3g"):format(axis.floor_name, axis.floor) or ""))
-  print(s.format_table(texts, {columns = {"variant", "nodes", "cost / base", axis.y_label}}))
+  local shown = {"variant", "nodes", "cost / base", axis.y_label}
+  print(s.format_table(texts, {columns = shown}))
   print()
+  return {title = axis.title .. ": the Pareto front", rows = texts, columns = shown}
 end
 
 return pareto_tables
