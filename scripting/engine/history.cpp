@@ -21,9 +21,9 @@ namespace {
 
 constexpr int kChunks = 2000;
 // The file is shortened to kChunks when it has more lines.
-constexpr std::ptrdiff_t kFileLines = 2 * kChunks;
+constexpr std::ptrdiff_t kFileLines = 2L * kChunks;
 // Longer chunks, such as pasted files, stay in memory [bytes].
-constexpr std::size_t kLongestChunk = 16 * 1024;
+constexpr std::size_t kLongestChunk = 16UL * 1024;
 // The first line of a history file of libedit, which reads and shortens it.
 constexpr std::string_view kFirstLine = "_HiStOrY_V2_\n";
 

@@ -33,7 +33,7 @@ bool page(const std::string& text) {
   const char* command = is_empty(std::getenv("PAGER"))
                             ? "exec 2>/dev/null; LESS=${LESS-FRX} exec less"
                             : "LESS=${LESS-FRX} exec $PAGER";
-  std::FILE* pager = popen(command, "w");  // NOLINT(cert-env33-c): the user's own pager
+  std::FILE* pager = popen(command, "w");
   if (pager == nullptr) return false;
   // A pager that is left early closes the pipe.
   const auto broken_pipe = std::signal(SIGPIPE, SIG_IGN);
