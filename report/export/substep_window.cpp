@@ -35,6 +35,13 @@ double spacing(double value) {
   return std::nextafter(single, std::numeric_limits<float>::infinity()) - single;
 }
 
+// 20 substeps in each of 60 frames, which a game can pay.
+constexpr int kCheapRate = 1200;
+
+double softening(double frequency, double rate) {
+  return kSweepError * frequency * frequency / (rate * rate);
+}
+
 // Error = sweep / rate^2 + rounding rate^2.
 struct ErrorTerms {
   double frequency = 0, sweep = 0, rounding = 0;
@@ -45,7 +52,7 @@ ErrorTerms error_terms(const MassSpringModel& model, double gravity, double exte
   const double frequency = stressed_frequency(model);
   const double pull = gravity > 0 ? gravity : kEarth;
   return {.frequency = frequency,
-          .sweep = kSweepError * frequency * frequency,
+          .sweep = softening(frequency, 1),
           .rounding = kRoundingError * spacing(extent) / pull};
 }
 
@@ -76,25 +83,24 @@ SubstepWindow substep_window(const MassSpringModel& model, double gravity, doubl
   return window;
 }
 
-double substep_error(const MassSpringModel& model, double gravity, double extent, double rate) {
-  return error_terms(model, gravity, extent).at(rate);
-}
-
 FrameSubsteps frame_substeps(const SubstepWindow& window) {
   return {static_cast<int>(std::ceil(window.rate / FrameSubsteps::kFrames))};
 }
 
 std::vector<std::string> describe_window(const SubstepWindow& window) {
-  if (window.empty())
-    return {fmt::format("no rate keeps the static deformation within {:.0f} %: at the best, {:.0f} "
-                        "substeps a second, about {:.2g} % are wrong",
-                        100 * kWindowError, window.rate, 100 * window.error),
-            "fewer substeps leave the springs unsolved, more are lost in single precision; a "
-            "coarser level or softer materials need fewer, and so stiff a body hardly deforms"};
+  if (!window.empty())
+    return {fmt::format(
+        "within {:.0f} % at rest from {:.0f} to {:.0f} substeps a second: fewer leave the springs "
+        "unsolved, with more single precision loses gravity",
+        100 * kWindowError, window.from, window.to)};
   return {
-      fmt::format("within {:.0f} % in rest from {:.0f} to {:.0f} substeps a second: fewer leave "
-                  "the springs unsolved, more are lost in single precision",
-                  100 * kWindowError, window.from, window.to)};
+      fmt::format("no rate keeps the static deformation within {:.0f} %: fewer substeps leave "
+                  "the springs unsolved, with more single precision loses gravity; this is the "
+                  "best, with an error of up to {:.2g} %",
+                  100 * kWindowError, 100 * window.error),
+      fmt::format("a coarser level or softer materials need fewer substeps; {} a second make the "
+                  "body up to {:.2g} times as soft, which may not show in a stiff one",
+                  kCheapRate, 1 + softening(window.frequency, kCheapRate))};
 }
 
 }  // namespace springlod::report

@@ -38,9 +38,6 @@ inline constexpr double kGoodError = 0.01;
 /// engine stores for a node [m].
 SubstepWindow substep_window(const MassSpringModel& model, double gravity, double extent);
 
-/// Estimated relative error of the static deformation at a rate [1/s].
-double substep_error(const MassSpringModel& model, double gravity, double extent, double rate);
-
 /// Substeps of a step of 1/60 s.
 struct FrameSubsteps {
   int per_frame = 1;

@@ -1,7 +1,8 @@
 -- Writes the levels of a dumbbell for other programs, and how far each hangs under gravity here:
 --   springlod --unsafe run tests/peers/hang_jobs.lua -- FOLDER [UNIT [soft|stiff]]
--- UNIT is that of the mesh: mm, cm, dm (default: the body is 2.3 m long), m. FOLDER/jobs.json holds a job a level: the held nodes, those whose mean displacement counts, and
--- that displacement at rest; level_N.json the arrays of the level.
+-- UNIT is that of the mesh: mm, cm, dm (default: the body is 2.3 m long), m. FOLDER/jobs.json holds
+-- a job a level: the held nodes, those whose mean displacement counts, and that displacement at
+-- rest; json/level_N.json the arrays of the level.
 local s = require "springlod"
 
 local folder, unit, kind = arg[1], arg[2] or "dm", arg[3] or "soft"
