@@ -23,7 +23,11 @@ constexpr const char* kGroup = "Assets";
 std::shared_ptr<const ModelValue> exported_model(Call& call, TableReader& options) {
   std::uint32_t level = 0;
   options.read("level", level);
-  if (const auto chain = call.try_value<ChainValue>(2)) return level_value(chain, level);
+  if (const auto chain = call.try_value<ChainValue>(2)) {
+    const std::size_t coarsest = chain->chain.levels.size() - 1;
+    if (level > coarsest) options.refuse("level", fmt::format("at most {}", coarsest));
+    return level_value(chain, level);
+  }
   const auto model = call.try_value<ModelValue>(2);
   if (!model) call.refuse(2, "a LodChain or a Model");
   if (options.has("level")) options.refuse("level", "given for a chain only: a Model is one level");
