@@ -20,8 +20,8 @@ parser:option("--frame-rate", "frames per second of a motion")
   :convert(command.number("--frame-rate", 0)):default("30")
 parser:option("--influences", "largest number of joints that move a vertex of a skinned glb")
   :convert(command.whole("--influences", 1, 8)):default("4")
-parser:option("-o --out", "file to write (default: beside the asset, NAME-levelN with the format's "
-  .. "ending)"):argname("<file>")
+parser:option("-o --out", "file to write (default: beside the asset, NAME-levelN-FORMAT)")
+  :argname("<file>")
 local args = parser:parse()
 
 local known = args.scenario and s.choices.motion_format or s.choices.model_format
@@ -32,8 +32,7 @@ if not known[args.to] then
 end
 
 local function default_path()
-  return ("%s-level%d"):format(args.asset:gsub("%.%w+$", ""), args.level)
-    .. (args.scenario and "-motion" or "")
+  return ("%s-level%d-%s"):format(args.asset:gsub("%.%w+$", ""), args.level, args.to)
 end
 
 local function export()
