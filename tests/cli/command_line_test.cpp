@@ -58,8 +58,9 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
 }
 
 TEST_CASE("every command has help") {
-  for (const char* command : {"convert", "info", "compare", "demo", "export", "help", "materials", "mergelog", "new",
-                              "pareto", "pick", "picks", "render", "slim", "stability", "refinement"}) {
+  for (const char* command :
+       {"convert", "info", "compare", "demo", "export", "help", "materials", "mergelog", "new",
+        "pareto", "pick", "picks", "render", "slim", "stability", "refinement"}) {
     const Ran ran = springlod_run({command, "--help"});
     CAPTURE(command);
     CHECK(ran.exit_code == 0);
