@@ -12,6 +12,16 @@ namespace springlod::report {
 namespace {
 
 constexpr ModelFormatChoice kFormats[] = {
+    {{ModelFormat::jolt, "jolt",
+      "Jolt Physics: code that builds its soft body, in C++ and JavaScript"},
+     ".hpp",
+     draft_jolt},
+    {{ModelFormat::mujoco, "mujoco", "MuJoCo: MJCF with a tendon for each spring"},
+     ".xml",
+     draft_mujoco},
+    {{ModelFormat::bullet, "bullet", "Bullet: C++ code that builds its soft body"},
+     ".hpp",
+     draft_bullet},
     {{ModelFormat::newton, "newton", "arrays for Newton (Warp), and NAME.py that reads them"},
      ".npz",
      draft_newton},
@@ -36,16 +46,6 @@ constexpr ModelFormatChoice kFormats[] = {
     {{ModelFormat::json, "json", "all arrays of the level, in full precision"},
      ".json",
      draft_json},
-    {{ModelFormat::jolt, "jolt",
-      "Jolt Physics: code that builds its soft body, in C++ and JavaScript"},
-     ".hpp",
-     draft_jolt},
-    {{ModelFormat::mujoco, "mujoco", "MuJoCo: MJCF with a tendon for each spring"},
-     ".xml",
-     draft_mujoco},
-    {{ModelFormat::bullet, "bullet", "Bullet: C++ code that builds its soft body"},
-     ".hpp",
-     draft_bullet},
 };
 
 }  // namespace
