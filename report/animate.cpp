@@ -19,6 +19,7 @@
 #include "base/units.hpp"
 #include "render/frame_writer.hpp"
 #include "render/frames.hpp"
+#include "report/part_materials.hpp"
 #include "report/playback.hpp"
 
 namespace springlod::report {
@@ -109,20 +110,10 @@ std::string count_text(double count) {
   return fmt::format("{:.0f}", count);
 }
 
-/// Colours of the mesh parts: the material to which most of their vertices are bound.
 std::vector<Colour> part_colours(const LodAsset& asset) {
-  const MassSpringModel& base = asset.chain.levels[0].model;
-  const Binding& binding = asset.surface_of_base;
   std::vector<Colour> colours;
-  for (const MeshPart& part : asset.surface.parts) {
-    std::vector<double> share(base.materials.size(), 0);
-    for (std::uint32_t t = 0; t < part.triangle_count; ++t)
-      for (const std::uint32_t v : asset.surface.triangles[part.first_triangle + t])
-        for (std::uint32_t e = binding.start[v]; e < binding.start[v + 1]; ++e)
-          share[base.material[binding.node[e]]] += std::abs(binding.weight[e]);
-    const auto most = std::max_element(share.begin(), share.end()) - share.begin();
-    colours.push_back(render::drawn_colour(base.materials, static_cast<std::uint32_t>(most)));
-  }
+  for (const std::uint32_t material : part_materials(asset))
+    colours.push_back(render::drawn_colour(asset.chain.levels[0].model.materials, material));
   return colours;
 }
 

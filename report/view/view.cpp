@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "lod/transfer.hpp"
 #include "render/scene.hpp"
+#include "report/part_materials.hpp"
 #include "report/playback.hpp"
 #include "report/view/coarse_surface.hpp"
 
@@ -57,28 +58,12 @@ Binding some_rows(const Binding& rows, const std::vector<std::uint32_t>& which) 
   return some;
 }
 
-/// The material of each part of the surface: that with most of the weights of its vertices.
-std::vector<std::uint32_t> part_materials(const LodAsset& asset, const CoarseSurface& surface,
-                                          const Binding& rows) {
-  const MassSpringModel& base = asset.chain.levels[0].model;
-  std::vector<std::vector<double>> share(std::max<std::size_t>(1, asset.surface.parts.size()),
-                                         std::vector<double>(base.materials.size(), 0));
-  for (std::uint32_t v = 0; v < rows.point_count(); ++v)
-    for (std::uint32_t e = rows.start[v]; e < rows.start[v + 1]; ++e)
-      share[surface.part[v]][base.material[rows.node[e]]] += std::abs(rows.weight[e]);
-  std::vector<std::uint32_t> materials;
-  for (const std::vector<double>& part : share)
-    materials.push_back(
-        static_cast<std::uint32_t>(std::max_element(part.begin(), part.end()) - part.begin()));
-  return materials;
-}
-
 void add_surface(View& view, const LodAsset& asset, const ViewOptions& options) {
   if (asset.surface.triangles.empty() || asset.surface_of_base.point_count() == 0) return;
   const CoarseSurface surface = coarse_surface(asset.surface, options.triangles);
   view.triangles = surface.triangles;
   view.surface = some_rows(asset.surface_of_base, surface.vertex);
-  const std::vector<std::uint32_t> of_part = part_materials(asset, surface, view.surface);
+  const std::vector<std::uint32_t> of_part = part_materials(asset);
   for (const std::uint32_t part : surface.part) view.vertex_colour.push_back(of_part[part]);
 }
 

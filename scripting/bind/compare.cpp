@@ -15,6 +15,7 @@
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/run_options.hpp"
 #include "scripting/bind/tables/scenario_table.hpp"
+#include "scripting/bind/tables/start_overlap.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -84,6 +85,9 @@ int compare_binding(Call& call) {
   options.contact = read_contact(reader);
   options.run.anchors = read_anchors(call, reader, value->chain->chain.levels.front().model);
   reader.finish();
+  if (const auto text =
+          overlap_warning("compare", value->chain->chain.levels.front().model, *scenario))
+    call.session().console().say(*text);
   value->comparison = sim::compare(value->chain->chain, *scenario, options);
   std::vector<sim::RunSummary> all;
   for (const sim::LevelRuns& level : value->comparison.levels)

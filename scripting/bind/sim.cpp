@@ -8,6 +8,7 @@
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/run_options.hpp"
 #include "scripting/bind/tables/scenario_table.hpp"
+#include "scripting/bind/tables/start_overlap.hpp"
 #include "scripting/bind/tables/start_table.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
@@ -61,6 +62,9 @@ int run_binding(Call& call) {
   options.anchors = read_anchors(call, reader, model);
   for (const sim::Anchor& anchor : options.anchors) value->anchor_names.push_back(anchor.name);
   reader.finish();
+  if (!quiet && !start)
+    if (const auto text = overlap_warning("run", model, *value->scenario))
+      call.session().console().say(*text);
   value->trajectory = start ? sim::run(model, *value->scenario, *start, options)
                             : sim::run(model, *value->scenario, options);
   if (!quiet)

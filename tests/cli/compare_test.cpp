@@ -138,6 +138,21 @@ TEST_CASE("compare reports errors of asset and scenario in one line") {
   refused("return {", "drop.lua");
 }
 
+TEST_CASE("compare warns of a body that starts inside an obstacle") {
+  const TemporaryFolder scratch;
+  make_asset(scratch);
+  const Ran above = springlod_run(compare_arguments(scratch, "above"));
+  CHECK_THAT(above.err, !Contains("inside"));
+  // The bar reaches from 0 to 1 m above the plane 0.05 m below it; here it is 0.5 m higher.
+  spit(scratch / "drop.lua",
+       "return {name = 'drop', duration = 0.01,\n"
+       "        obstacles = {{plane = {0, 0, 1, 0.5}, name = 'floor'}}}\n");
+  const Ran inside = springlod_run(compare_arguments(scratch, "inside"));
+  CHECK_THAT(inside.err, Contains("the body starts") &&
+                             Contains("deep inside the obstacle floor") &&
+                             Contains("change throw.position"));
+}
+
 TEST_CASE("a diverging simulation fails with node and time") {
   const TemporaryFolder scratch;
   const Ran ran = springlod_run({"-e", R"(

@@ -98,7 +98,7 @@ TEST_CASE("what does not fit into the bytes of a view is left out, and said") {
   CHECK_THROWS_WITH(moving.view({.bytes = nodes}), Catch::Contains("increase bytes"));
 }
 
-TEST_CASE("levels at rest have one instant; runs of another base are refused") {
+TEST_CASE("levels at rest have one instant, and runs of another base are refused") {
   const Moving moving;
   const View still = view_of(moving.asset);
   CHECK(still.times == std::vector<double>{0});
