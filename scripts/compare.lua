@@ -143,12 +143,15 @@ local function origin_of(chain)
 end
 
 local function write_page(chain, scene, compared, names, rows)
+  -- Bodies with different bases have no view in common: then it is that of the first asset.
+  local together, view = command.try(s.view, compared)
+  if not together then view = s.view(compared[1]) end
   page.write(args.out .. "/index.html", {
     command = "compare", title = ("%s: %s"):format(command.stem(assets[1]), scene.name),
     verdict = page.comparison_verdict(rows), line = command.line(),
     film = args.frames > 0 and args.video:find("%.mp4$")
       and {path = args.out .. "/" .. args.video, panels = panels_of(compared)} or nil,
-    view = s.view(compared), chains = #assets > 1 and names or nil, facts = page.facts(rows),
+    view = view, chains = together and #assets > 1 and names or nil, facts = page.facts(rows),
     charts = {page.cost_error(rows)}, tables = {page.comparison_table(rows)},
     provenance = origin_of(chain),
   })

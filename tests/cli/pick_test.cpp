@@ -76,9 +76,10 @@ TEST_CASE("pick --measure has the errors of compare") {
   make_asset(scratch);
   const auto measured = picked(scratch, {"--error", "50%", "--measure", "--frame-rate", "30"});
   CHECK(measured["measured"] == true);
-  const Ran compared = springlod_run({"-q", "compare", (scratch / "bar.glb").string(), "--scenario",
-                                      (scratch / "drop.lua").string(), "--out",
-                                      (scratch / "out").string(), "--frames", "0"});
+  const Ran compared =
+      springlod_run({"-q", "compare", (scratch / "bar.glb").string(), "--scenario",
+                     (scratch / "drop.lua").string(), "--out", (scratch / "out").string(),
+                     "--frames", "0", "--starts", "1"});
   REQUIRE(compared.exit_code == 0);
   const std::vector<Row> rows = rows_of(slurp(scratch / "out/table.csv"));
   REQUIRE(rows.size() == 3);

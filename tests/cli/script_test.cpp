@@ -70,9 +70,13 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
             {title = "t", log_y = true})
     s.save_text(folder .. "/out/mean.txt", "" .. s.mean{1, 2, 6})
     assert(s.hash{file = folder .. "/out/mean.txt"} == s.hash{text = "3.0"})
+    assert(s.base64(folder .. "/out/mean.txt") == "My4w")
+    assert(#s.view(runs, {frames = 2}).bodies == 3)
     s.csv(folder .. "/out/rows.csv", {{1, "two"}, {3, "four, five"}}, {columns = {"a", "b"}})
     local trajectory = s.run(chain[1], scene, {frame_rate = 100})
     print(trajectory)
+    assert(#s.export(folder .. "/out/level", chain, {to = "jolt", level = 2}).files == 2)
+    assert(#s.export_motion(folder .. "/out/fall", trajectory, {to = "glb"}).files == 1)
     s.render(folder .. "/out/still.png", {mesh, base, chain, trajectory},
              {width = 64, height = 48, titles = {"a", "b"}, springs = true})
     local again = s.load(folder .. "/out/dumbbell.glb")
@@ -116,6 +120,8 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     s.compare_samples({1, 2, 3, 4, 5}, {2, 3, 4, 5, 6})
     print(s.noise_floor({1, 2, 3, 4, 5}))
     s.format_table({{a = 1.5}})
+    s.use_flags{hinges = "--hinges"}
+    assert(s.in_flags('give hinges = "fill"') == "give --hinges fill")
     s.help("simplify")
     s.api_markdown()
     for name, value in pairs(s) do
