@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/script_number.hpp"
+#include "model/drawn_colour.hpp"
 #include "render/cut.hpp"
 #include "render/node_values.hpp"
 #include "render/strain_colour.hpp"
@@ -64,11 +65,6 @@ double drawn_length(const MassSpringModel& model) {
 }
 
 }  // namespace
-
-Colour drawn_colour(const std::vector<Material>& materials, std::uint32_t number) {
-  const Colour& own = materials[number].colour;
-  return own == Colour{} ? palette_colour(number) : own;
-}
 
 std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSurface& surface,
                                             const Vec3& origin) {

@@ -163,10 +163,6 @@ constexpr auto option_rows(const DrawStyle*) {
              "draw nodes that are not border nodes in bold red"));
 }
 
-/// Colour in which a material is drawn: its own, or a palette colour if it has the default grey, so
-/// that materials can be distinguished.
-Colour drawn_colour(const std::vector<Material>& materials, std::uint32_t number);
-
 /// One body in one panel at one instant. Its pointers do not own; the caller keeps the data alive.
 struct DrawnBody {
   const MassSpringModel* model = nullptr;

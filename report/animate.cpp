@@ -17,6 +17,7 @@
 #include "base/parallel.hpp"
 #include "base/temporary_file.hpp"
 #include "base/units.hpp"
+#include "model/drawn_colour.hpp"
 #include "render/frame_writer.hpp"
 #include "render/frames.hpp"
 #include "report/part_materials.hpp"
@@ -113,7 +114,7 @@ std::string count_text(double count) {
 std::vector<Colour> part_colours(const LodAsset& asset) {
   std::vector<Colour> colours;
   for (const std::uint32_t material : part_materials(asset))
-    colours.push_back(render::drawn_colour(asset.chain.levels[0].model.materials, material));
+    colours.push_back(drawn_colour(asset.chain.levels[0].model.materials, material));
   return colours;
 }
 

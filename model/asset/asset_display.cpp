@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "model/asset/gltf_values.hpp"
 #include "model/creases.hpp"
+#include "model/drawn_colour.hpp"
 
 namespace springlod::inline model {
 namespace {
@@ -23,21 +25,6 @@ using Byte4 = std::array<std::uint8_t, 4>;
 constexpr double kGap = 1.25;
 // Least width that counts for it, as a fraction of the size [1].
 constexpr double kLeastWidth = 0.1;
-
-/// The sRGB transfer function. Colours here are display values; glTF needs linear ones.
-double linear(float srgb) {
-  return srgb <= 0.04045F ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
-
-std::vector<Float3> single_precision(const std::vector<Vec3>& points) {
-  std::vector<Float3> floats;
-  floats.reserve(points.size());
-  for (const Vec3& p : points) {
-    const Eigen::Vector3f f = p.cast<float>();
-    floats.push_back({f.x(), f.y(), f.z()});
-  }
-  return floats;
-}
 
 /// glTF needs normals of unit length also where all triangles are degenerate; +z is used there.
 std::vector<Float3> normals_for_gltf(const SplitSurface& surface,
@@ -134,16 +121,8 @@ class Scene {
     const std::string& name = part.material.empty() ? part.name : part.material;
     const auto known = material_of_name_.find(name);
     if (known != material_of_name_.end()) return known->second;
-    Colour colour = palette_colour(p);
-    for (const Material& m : materials)
-      if (m.name == part.name || m.name == part.material) colour = m.colour;
-    const json shading{
-        {"baseColorFactor", {linear(colour.r), linear(colour.g), linear(colour.b), 1.0}},
-        {"metallicFactor", 0.0},
-        {"roughnessFactor", 0.8}};  // dull, as rubber or wood
     return material_of_name_[name] =
-               append("materials",
-                      {{"name", name}, {"doubleSided", true}, {"pbrMetallicRoughness", shading}});
+               append("materials", gltf_material(name, part_colour(part, p, materials)));
   }
 
   json& document_;
@@ -196,12 +175,13 @@ class Display : private Scene {
 
   std::size_t add_colours(const MassSpringModel& model) {
     std::vector<Byte4> of_material;
-    for (const Material& material : model.materials) {
-      const auto byte = [](float c) {
-        return static_cast<std::uint8_t>(std::lround(255 * std::clamp(linear(c), 0.0, 1.0)));
-      };
-      of_material.push_back(
-          {byte(material.colour.r), byte(material.colour.g), byte(material.colour.b), 255});
+    const auto byte = [](float c) {
+      return static_cast<std::uint8_t>(
+          std::lround(255 * std::clamp(linear_component(c), 0.0, 1.0)));
+    };
+    for (std::uint32_t m = 0; m < model.materials.size(); ++m) {
+      const Colour colour = drawn_colour(model.materials, m);
+      of_material.push_back({byte(colour.r), byte(colour.g), byte(colour.b), 255});
     }
     std::vector<Byte4> colours;
     colours.reserve(model.material.size());

@@ -1,7 +1,6 @@
 #include "model/asset/gltf_builder.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "base/error.hpp"
 #include "model/asset/asset_format.hpp"
 #include "model/asset/glb.hpp"
+#include "model/asset/gltf_values.hpp"
 
 namespace springlod::inline model {
 
@@ -20,21 +20,6 @@ using Float3 = std::array<float, 3>;
 
 // Accessors start at multiples of their components, of at most 4 bytes here.
 constexpr std::size_t kAlignment = 4;
-
-// The sRGB transfer function: colours here are display values, glTF needs linear ones.
-double linear(float srgb) {
-  return srgb <= 0.04045F ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
-
-std::vector<Float3> single_precision(const std::vector<Vec3>& points) {
-  std::vector<Float3> floats;
-  floats.reserve(points.size());
-  for (const Vec3& p : points) {
-    const Eigen::Vector3f f = p.cast<float>();
-    floats.push_back({f.x(), f.y(), f.z()});
-  }
-  return floats;
-}
 
 }  // namespace
 
@@ -131,12 +116,7 @@ std::size_t GltfBuilder::add_matrices(const std::vector<std::array<float, 16>>& 
 }
 
 std::size_t GltfBuilder::add_material(const std::string& name, const Colour& colour) {
-  const json shading{
-      {"baseColorFactor", {linear(colour.r), linear(colour.g), linear(colour.b), 1.0}},
-      {"metallicFactor", 0.0},
-      {"roughnessFactor", 0.8}};  // dull, as rubber or wood
-  return append("materials",
-                {{"name", name}, {"doubleSided", true}, {"pbrMetallicRoughness", shading}});
+  return append("materials", gltf_material(name, colour));
 }
 
 std::string GltfBuilder::glb() const {

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "model/asset/gltf_builder.hpp"
 #include "model/creases.hpp"
+#include "model/drawn_colour.hpp"
 #include "report/export/motion_files.hpp"
 #include "report/export/skinning.hpp"
 
@@ -37,12 +38,6 @@ std::vector<Vec3> drawn_normals(const SplitSurface& shaded, const std::vector<Ve
   return normals;
 }
 
-Colour colour_of(const MeshPart& part, std::size_t number, const MassSpringModel& model) {
-  for (const Material& m : model.materials)
-    if (m.name == part.name || m.name == part.material) return m.colour;
-  return palette_colour(number);
-}
-
 // A primitive for each mesh part, with these attributes.
 json primitives_of(GltfBuilder& gltf, const ExportedModel& body, const SplitSurface& shaded,
                    const json& attributes) {
@@ -55,7 +50,7 @@ json primitives_of(GltfBuilder& gltf, const ExportedModel& body, const SplitSurf
     primitives.push_back(
         {{"attributes", attributes},
          {"indices", gltf.add_indices(view, part.first_triangle, part.triangle_count)},
-         {"material", gltf.add_material(name, colour_of(part, p, body.model))}});
+         {"material", gltf.add_material(name, part_colour(part, p, body.model.materials))}});
   }
   return primitives;
 }

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "lod/transfer.hpp"
+#include "model/drawn_colour.hpp"
 #include "render/scene.hpp"
 #include "report/part_materials.hpp"
 #include "report/playback.hpp"
@@ -234,7 +235,7 @@ View view_for(const LodAsset& asset, const ViewOptions& options) {
   View view;
   const std::vector<Material>& materials = asset.chain.levels.at(0).model.materials;
   for (std::uint32_t m = 0; m < materials.size(); ++m)
-    view.palette.push_back(render::drawn_colour(materials, m));
+    view.palette.push_back(drawn_colour(materials, m));
   add_surface(view, asset, options);
   return view;
 }

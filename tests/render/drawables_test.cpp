@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "model/creases.hpp"
+#include "model/drawn_colour.hpp"
 #include "render/cut.hpp"
 #include "render/plane.hpp"
 #include "render/strain_colour.hpp"

@@ -9,6 +9,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "model/drawn_colour.hpp"
 #include "render/drawables.hpp"
 #include "render/node_values.hpp"
 #include "render/overlay.hpp"
@@ -80,7 +81,7 @@ std::vector<Colour> part_colours(const TriangleMesh& surface,
     for (std::uint32_t m = 0; m < materials.size(); ++m) {
       const std::string& name = materials[m].name;
       if (name != surface.parts[i].name && name != surface.parts[i].material) continue;
-      colours.back() = render::drawn_colour(materials, m);
+      colours.back() = drawn_colour(materials, m);
       found = true;
     }
   }
