@@ -22,7 +22,7 @@ struct ExportedMotion {
 };
 
 /// Files of other programs that hold the motion of a body.
-enum class MotionFormat { glb, glb_morph, pc2, mdd, vtu, obj };
+enum class MotionFormat { glb, glb_morph, pc2, mdd, vtu, npz, obj };
 
 /// A row of the table of formats; in the order in which help lists them.
 struct MotionFormatChoice : Choice<MotionFormat> {

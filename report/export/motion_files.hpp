@@ -43,6 +43,8 @@ void write_morphed_glb(const ExportedMotion& motion, const MotionOptions& option
 void write_pc2(const ExportedMotion& motion, const MotionOptions& options, MotionFiles& files);
 void write_mdd(const ExportedMotion& motion, const MotionOptions& options, MotionFiles& files);
 void write_vtu(const ExportedMotion& motion, const MotionOptions& options, MotionFiles& files);
+void write_motion_npz(const ExportedMotion& motion, const MotionOptions& options,
+                      MotionFiles& files);
 void write_obj_sequence(const ExportedMotion& motion, const MotionOptions& options,
                         MotionFiles& files);
 

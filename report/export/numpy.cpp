@@ -27,11 +27,26 @@ std::string npy_header(const std::string& type, const std::string& shape) {
 
 void NumpyArrays::add_bytes(const std::string& name, char kind, const void* values,
                             std::size_t size, std::size_t count, std::size_t columns) {
-  std::string content = npy_header(
-      fmt::format("{}{}{}", kind == 'S' || size == 1 ? '|' : '<', kind, size),
-      columns == 0 ? fmt::format("{},", count) : fmt::format("{}, {}", count / columns, columns));
-  if (count > 0) content.append(static_cast<const char*>(values), size * count);
+  add_entry(
+      name, fmt::format("{}{}{}", kind == 'S' || size == 1 ? '|' : '<', kind, size),
+      columns == 0 ? fmt::format("{},", count) : fmt::format("{}, {}", count / columns, columns),
+      count == 0 ? std::string_view()
+                 : std::string_view(static_cast<const char*>(values), size * count));
+}
+
+void NumpyArrays::add_entry(const std::string& name, const std::string& type,
+                            const std::string& shape, std::string_view values) {
+  std::string content = npy_header(type, shape);
+  content += values;
   entries_.push_back({name + ".npy", std::move(content)});
+}
+
+void NumpyArrays::add(const std::string& name, const std::vector<std::vector<Vec3>>& frames) {
+  std::string values;
+  for (const std::vector<Vec3>& points : frames)
+    values.append(reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Vec3));
+  const std::size_t points = frames.empty() ? 0 : frames.front().size();
+  add_entry(name, "<f8", fmt::format("{}, {}, 3", frames.size(), points), values);
 }
 
 void NumpyArrays::add(const std::string& name, const std::vector<Vec3>& points) {

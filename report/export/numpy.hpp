@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -25,6 +26,8 @@ class NumpyArrays {
   }
   /// P rows of 3.
   void add(const std::string& name, const std::vector<Vec3>& points);
+  /// F frames of P rows of 3; all frames have as many points.
+  void add(const std::string& name, const std::vector<std::vector<Vec3>>& frames);
   /// UTF-8 in bytes (numpy's dtype S).
   void add(const std::string& name, const std::vector<std::string>& texts);
 
@@ -39,6 +42,9 @@ class NumpyArrays {
   /// `kind`: of numpy's dtype: f, i, u or S; `size`: of a value.
   void add_bytes(const std::string& name, char kind, const void* values, std::size_t size,
                  std::size_t count, std::size_t columns);
+  /// `type`: numpy's; `shape`: as in a Python tuple without its brackets.
+  void add_entry(const std::string& name, const std::string& type, const std::string& shape,
+                 std::string_view values);
 
   std::vector<ZipEntry> entries_;
 };

@@ -78,9 +78,9 @@ Ran export_bar(const TemporaryFolder& folder, const std::string& format, const s
 
 void export_all(const TemporaryFolder& folder) {
   make_bar(folder);
-  const std::pair<const char*, const char*> kinds[] = {{"glb", "skin"},  {"glb_morph", "morph"},
-                                                       {"pc2", "cache"}, {"mdd", "cache"},
-                                                       {"obj", "frame"}, {"vtu", "run"}};
+  const std::pair<const char*, const char*> kinds[] = {
+      {"glb", "skin"},  {"glb_morph", "morph"}, {"pc2", "cache"}, {"mdd", "cache"},
+      {"obj", "frame"}, {"vtu", "run"},         {"npz", "arrays"}};
   for (const auto& [format, name] : kinds) {
     const Ran ran = export_bar(folder, format, name);
     CAPTURE(format, ran.err);
@@ -203,4 +203,38 @@ TEST_CASE("VTK reads an exported motion as it was simulated") {
   const Ran info = springlod_run({"info", "bar.glb", "--json"}, "", folder.path());
   CHECK_THAT(info.out, Contains(fmt::format("\"nodes\": {}", results.at("nodes"))));
   CHECK(results.at("mass") == Approx(0.2 * 0.2 * 0.6 * 1000));
+}
+
+TEST_CASE("NumPy reads an exported motion with its times, nodes and surface") {
+  const std::string python = "/usr/bin/python3";
+  if (run_program("/bin/sh", {"-c", python + " -c 'import numpy'"}).exit_code != 0) {
+    WARN("left out: python3-numpy is not installed (./dev setup peers)");
+    return;
+  }
+  const TemporaryFolder folder;
+  export_all(folder);
+  // The surface of the arrays is that of the OBJ sequence, and moves as the nodes do.
+  spit(folder / "read.py", R"py(
+import glob
+import numpy as np
+arrays = np.load("arrays.npz")
+frames = [np.loadtxt((line[2:] for line in open(path) if line.startswith("v ")))
+          for path in sorted(glob.glob("frame_*.obj"))]
+print("frames", len(arrays["time"]))
+print("last", arrays["time"][-1])
+print("distance", np.abs(arrays["surface"] - np.array(frames)).max())
+print("nodes", arrays["nodes"].shape[1])
+print("axes", arrays["nodes"].shape[2])
+print("triangles", len(arrays["triangles"]))
+print("fall", arrays["nodes"][0, :, 2].mean() - arrays["nodes"][-1, :, 2].mean())
+)py");
+  auto results = results_in(output_of(folder, python, {"read.py"}));
+  CHECK(results.at("frames") == 10);
+  CHECK(results.at("last") == Approx(0.3));
+  CHECK(results.at("distance") < 1e-12);
+  CHECK(results.at("axes") == 3);
+  CHECK(results.at("triangles") == 12);
+  CHECK(results.at("fall") > 0.05);
+  const Ran info = springlod_run({"info", "bar.glb", "--json"}, "", folder.path());
+  CHECK_THAT(info.out, Contains(fmt::format("\"nodes\": {}", results.at("nodes"))));
 }
