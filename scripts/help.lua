@@ -158,8 +158,35 @@ local function explain(word)
   return answered
 end
 
+-- Whether one letter more, less, other or swapped with its neighbour makes `a` of `b`.
+local function differ_by_one(a, b)
+  if #a > #b then a, b = b, a end
+  local at = 1
+  while at <= #a and a:sub(at, at) == b:sub(at, at) do at = at + 1 end
+  local rest_a, rest_b = a:sub(at), b:sub(at)
+  return rest_a == rest_b:sub(2) or #a == #b and (rest_a:sub(2) == rest_b:sub(2)
+    or rest_a:sub(3) == rest_b:sub(3) and rest_a:sub(1, 2) == rest_b:sub(1, 2):reverse())
+end
+
+-- "; did you mean pick?", or nothing.
+local function suggestion(word)
+  local names = {}
+  for _, one in ipairs(command.list()) do names[#names + 1] = one.name end
+  for _, page in ipairs(pages()) do names[#names + 1] = page.name end
+  local functions = {}
+  for name, value in pairs(s) do
+    if type(value) == "function" then functions[#functions + 1] = name end
+  end
+  table.sort(functions)
+  table.move(functions, 1, #functions, #names + 1, names)
+  for _, name in ipairs(names) do
+    if differ_by_one(word:lower(), name) then return ("; did you mean %s?"):format(name) end
+  end
+  return ""
+end
+
 if topic == "" then
   overview()
 elseif not explain(topic) then
-  command.fail("no help on '%s'; springlod help lists all topics", topic)
+  command.fail("no help on '%s'%s; springlod help lists all topics", topic, suggestion(topic))
 end
