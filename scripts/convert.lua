@@ -210,7 +210,7 @@ end
 local function convert_job(job)
   if job.words then
     local ok, parsed = parser:pparse(job.words)
-    if not ok then error(parsed, 0) end
+    if not ok then error(parsed:gsub("%s*\n%s*", "; "), 0) end
     args, words = parsed, job.words
     settle(function(message) error(message, 0) end)
     if not job.asset:lower():find("%.glb$") then
@@ -233,6 +233,10 @@ local function convert_one(path)
       certificates.print(s.info(body.chain).levels)
       s.say("wrote " .. body.asset)
     end
+  end
+  if #bodies == 1 then
+    s.say(("next: springlod render %s draws its levels; springlod compare %s --scenario FILE.lua "
+      .. "runs them"):format(command.shell_line{output}, command.shell_line{output}))
   end
   if #bodies > 1 then print(s.format_table(body_rows(bodies), {columns = body_columns})) end
   local failed = failed_count(bodies)

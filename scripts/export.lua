@@ -26,9 +26,9 @@ local args = parser:parse()
 
 local known = args.scenario and s.choices.motion_format or s.choices.model_format
 if not known[args.to] then
-  parser:error(("--to: '%s' is no format of %s; those are %s"):format(args.to,
-    args.scenario and "a motion" or "a level; motions need --scenario",
-    table.concat(known, ", ")))
+  parser:error(("--to: '%s' is no format of a %s; those are %s"):format(args.to,
+    args.scenario and "motion" or "level", args.scenario and motion_formats or model_formats
+      .. (s.choices.motion_format[args.to] and "; --scenario FILE.lua exports a motion" or "")))
 end
 
 local function default_path()

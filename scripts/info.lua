@@ -20,6 +20,12 @@ local args = parser:parse()
 local function print_mesh(mesh)
   local info = mesh_info.of(mesh)
   print(args.json and s.json(info) or mesh_info.text(info))
+  if args.json or info.doubt or info.refusal then return end
+  local words = {args.file}
+  for _, option in ipairs{"unit", "up"} do
+    if args[option] then table.move({"--" .. option, args[option]}, 1, 2, #words + 1, words) end
+  end
+  s.say("next: springlod convert " .. command.shell_line(words))
 end
 
 local chain, mesh = asset_or_mesh(args.file, args)
@@ -67,7 +73,7 @@ for i, name in ipairs{"inertia", "", ""} do
   print(("%-14s  %s"):format(name, vector(base.inertia[i], moment, "kg m2")))
 end
 for _, material in ipairs(base.materials) do
-  print(("material        %s: young %s, poisson %.3g, density %.4g kg/m3, damping %s"):format(
+  print(("material        %s: young %s, poisson %.3g, density %.4g kg/m3, damping time %s"):format(
     material.name, show.quantity(material.young, "pressure"), material.poisson, material.density,
     show.quantity(material.damping, "time")))
 end

@@ -28,3 +28,5 @@ for i, preset in ipairs(s.material_presets) do
   rows[i] = {preset.name, pressure(preset.young), preset.poisson, preset.density, preset.source}
 end
 print(s.format_table(rows, {columns = {"preset", "E", "nu", "kg/m3", "source of E"}}))
+print("\nIn a materials file: return {PART = {preset = \"cork\"}}; springlod convert --materials "
+  .. "FILE.lua reads it.")

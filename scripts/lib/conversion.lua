@@ -146,7 +146,8 @@ local fit_seconds, fit_nodes, fit_growth = 6.5, 5000, 1.35
 function conversion.announce_fit(base)
   local seconds = fit_seconds * (base.node_count / fit_nodes) ^ fit_growth
   if seconds < 5 then return end
-  s.say(("fitting the levels of a base of %d nodes takes about %s (--fast merges only)"):format(
+  s.say(("fitting the levels of a base of %d nodes takes about %s on two idle cores "
+    .. "(--fast merges only)"):format(
     base.node_count, seconds < 90 and ("%.0f s"):format(seconds)
       or ("%.0f minutes"):format(seconds / 60)))
 end
