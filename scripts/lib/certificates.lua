@@ -27,7 +27,7 @@ end
 local function sentence(level)
   local c = level.certificate
   return ("level %d is %s; %s"):format(level.level, c.summary, c.seconds_ratio and
-    ("a simulated second takes an estimated %s in %s (base: %s in %s)"):format(
+    ("a simulated second takes an estimated %s (kernel: %s), that of the base %s (%s)"):format(
       show.quantity(c.seconds, "time"), c.kernel, show.quantity(c.base_seconds, "time"),
       c.base_kernel) or "it has no springs")
 end
@@ -42,7 +42,8 @@ function certificates.print(levels)
     end
   end
   if #rows == 0 then return end
-  print("\ncertificate (mean errors relative to the base):")
+  print("\ncertificate (mean errors relative to the base; springlod help certificates explains "
+    .. "them):")
   print(s.format_table(rows, {columns = columns}))
   for _, level in ipairs(measured) do print(sentence(level)) end
   for _, level in ipairs(measured) do

@@ -22,10 +22,11 @@ function comparison_table.print(rows, starts)
   print(s.format_table(lines, {columns = columns}))
   print(([[
 Means over %d start%s. cost ratio: spring updates of the base over those of the level, for the same
-simulated time. surface error: distance of the surface from the base's, until shortly after the
-first contact; shape error: the same without shift and rotation, over the whole run; both in percent
-of the base's bounding diagonal. distance: how far the body went (or from the obstacle measure_from
-of the scenario), and its spread over the starts.]]):format(starts, starts == 1 and "" or "s"))
+simulated time. step: the time step, by default 0.8 of the stable step. surface error: distance of
+the surface from the base's, until shortly after the first contact; shape error: the same without
+shift and rotation, over the whole run; both in percent of the base's bounding diagonal. distance:
+how far the body went (or from the obstacle measure_from of the scenario), and its spread over the
+starts.]]):format(starts, starts == 1 and "" or "s"))
 end
 
 return comparison_table

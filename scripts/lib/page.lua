@@ -335,8 +335,9 @@ function page.comparison_table(rows)
                "energy difference [%]"},
     note = "Surface error: rms distance from the nodes of the base until shortly after the first "
       .. "contact, in % of the diagonal of the body. Shape error: the same after the best rigid "
-      .. "fit, over the whole run. Distance: where the body ends. Cost: spring updates per "
-      .. "simulated second.",
+      .. "fit, over the whole run. Distance: how far the body went, or from the obstacle that the "
+      .. "scenario names. Energy difference: the largest, in % of the largest kinetic energy of "
+      .. "the base. Cost: spring updates per simulated second.",
   }
 end
 
