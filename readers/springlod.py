@@ -24,6 +24,9 @@ SECRET = base64.b64decode(
     "wwDLiNBlixtTLqNxZEiXog35TjgZ70ap3qzYqPp2P+OcND/53LvHxwtPHYpR4EvNtFkxyJ9+ydl4c2TqxayDNNPrw8WB"
     "oP/6E2PrFw3dUbfw2knTFlUmKdRonisWvlh9R6H8j/i40XrQMc5FyzqPlRYEKK/X+8q7S0B+")
 
+class Record(SimpleNamespace):
+    def __repr__(self): return f"<springlod: {', '.join(vars(self))}>"  # not all the numbers
+
 class AssetError(ValueError): """Not a springlod asset, a damaged one, or one of a newer version."""
 
 def xxh3(data, mask=2**64 - 1):  # XXH3, 64 bits, seed 0, of more than 240 bytes
@@ -57,7 +60,7 @@ def parse(data):
     text, key = data[20:20 + json_length].decode(), '"SPRINGLOD_lod_chain":'
     at, binary, hashed = text.find(key + "{") + len(key), data[28 + json_length:], []
     if at < len(key): raise AssetError("not a springlod asset: no extension SPRINGLOD_lod_chain")
-    asset, end = json.JSONDecoder(object_hook=lambda o: SimpleNamespace(**o)).raw_decode(text, at)
+    asset, end = json.JSONDecoder(object_hook=lambda o: Record(**o)).raw_decode(text, at)
     if asset.version > 5: raise AssetError(f"of version {asset.version}; this reads up to 5")
     views = json.loads(text)["bufferViews"]
 
