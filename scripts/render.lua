@@ -9,7 +9,7 @@ local axes = {x = 1, y = 2, z = 3}
 local parser = command.parser("render", "Draw a picture of the levels of an asset side by side, or "
   .. "of a mesh. Several files share one picture and one scale.")
 parser:argument("file", "a .glb asset, written by convert or s.save, or a mesh file"):args("+")
-command.one_line(parser:option("-o --out", "picture to write (default: the file's name with .png, "
+command.one_line(parser:option("-o --out", "picture to write (default: NAME-glb.png for NAME.glb, "
   .. "in this folder)"):argname("<picture.png>"))
 parser:option("--level", "levels to draw, such as 0,2; 0 is the base (default: all)")
   :convert(command.numbers("--level", 0, true)):argname("<list>")
@@ -32,7 +32,8 @@ parser:option("--elevation", "elevation of the camera, in degrees")
   :convert(command.number("--elevation", -90, true, 90)):default("15")
 parser:option("--title", "title above all panels")
 local args = parser:parse()
-local out = args.out or command.stem(args.file[1]) .. ".png"
+-- Neither NAME.png, which may be a texture, nor one picture for NAME.obj and NAME.glb.
+local out = args.out or command.base_name(args.file[1]):gsub("%.(%w+)$", "-%1") .. ".png"
 if not out:lower():find("%.png$") then parser:error(("-o '%s' must end in .png"):format(out)) end
 
 -- The panel of a model: the plane through its center keeps what is on the far side of the camera.
