@@ -142,13 +142,27 @@ local function origin_of(chain)
   return page.provenance(chain, entries)
 end
 
-local function write_page(chain, scene, compared, names, rows)
+-- What the page says first. `starts`: the rows of starts.csv.
+local function verdict_of(rows, starts)
+  local sentences, inverted, at_end = page.comparison_verdict(rows), 0, 0
+  for _, row in ipairs(starts) do
+    if row.most_inverted > 0 then inverted = inverted + 1 end
+    if row.inverted_at_end > 0 then at_end = at_end + 1 end
+  end
+  if inverted > 0 then
+    sentences[#sentences + 1] = ("In %d of %d runs the body was inside out somewhere, in %d until "
+      .. "the end; starts.csv lists them."):format(inverted, #starts, at_end)
+  end
+  return sentences
+end
+
+local function write_page(chain, scene, compared, names, rows, starts)
   -- Bodies with different bases have no view in common: then it is that of the first asset.
   local together, view = command.try(s.view, compared)
   if not together then view = s.view(compared[1]) end
   page.write(args.out .. "/index.html", {
     command = "compare", title = ("%s: %s"):format(command.stem(assets[1]), scene.name),
-    verdict = page.comparison_verdict(rows), line = command.line(),
+    verdict = verdict_of(rows, starts), line = command.line(),
     film = args.frames > 0 and args.video:find("%.mp4$")
       and {path = args.out .. "/" .. args.video, panels = panels_of(compared)} or nil,
     view = view, chains = together and #assets > 1 and names or nil, facts = page.facts(rows),
@@ -173,11 +187,11 @@ local function compare()
     })
   end
   local rows = save_rows("table.csv", compared, names, function(runs) return runs:table() end)
-  save_rows("starts.csv", compared, names, function(runs) return runs:starts() end)
+  local starts = save_rows("starts.csv", compared, names, function(runs) return runs:starts() end)
   save_rows("timings.csv", compared, names, function(runs) return runs:timings() end)
   command.chart(args.out .. "/chart", compared)
   if args.frames > 0 then animate(compared, rows) end
-  write_page(chain, scene, compared, names, rows)
+  write_page(chain, scene, compared, names, rows, starts)
   for i = 1, #assets do fit_store.remove(fit_folder .. (#assets == 1 and "" or "/" .. i)) end
   if #assets > 1 then os.remove(fit_folder) end
   return rows
