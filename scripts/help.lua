@@ -5,7 +5,8 @@ local command = require "lib.command"
 
 local parser = command.parser("help", "Explain a topic: a command (convert), a function or value "
   .. "of scripts (simplify, Material), a page of the documentation (simulate) or a word in the "
-  .. "headings of these pages (materials, scenes). Without a topic, list all of them.")
+  .. "headings of these pages (materials, scenes) or in the glossary (jitter). Of any other word, list the pages that have it. "
+  .. "Without a topic, list all topics.")
 parser:argument("topic", "what to explain"):args("*")
 local topic = table.concat(parser:parse().topic, " ")
 
@@ -158,6 +159,59 @@ local function explain(word)
   return answered
 end
 
+-- Prints what the glossary says of a word, without links.
+local function print_definition(word)
+  for _, page in ipairs(pages()) do
+    for row in (page.name == "glossary" and page.text or ""):gmatch("\n(| %*%*[^\n]+)") do
+      local term, rest, meaning = row:match("^| %*%*(.-)%*%*(.-) | (.-) |")
+      if term and (term:lower() == word:lower() or term:lower() .. "s" == word:lower()) then
+        print(("%s%s: %s"):format(term, rest, (meaning:gsub("%[([^%]]+)%]%([^)]*%)", "%1"))))
+        return true
+      end
+    end
+  end
+  return false
+end
+
+-- At most 64 bytes of a line, up to a space.
+local function beginning(line)
+  return #line <= 64 and line or line:sub(1, 64):gsub("%s+%S*$", "") .. " ..."
+end
+
+-- Prints the pages whose text has the word, with the most lines first, and the first line of prose
+-- of each. Returns whether there are any.
+local function list_mentions(word)
+  local key, found = "%f[%w]" .. word:lower():gsub("s$", ""):gsub("%W", "%%%0"), {}
+  local for_tasks = {}
+  for _, page in ipairs(pages()) do
+    local other = not_searched[page.name] and page.name ~= "api" or page.name == "glossary"
+    if not other then for_tasks[#for_tasks + 1] = page end
+  end
+  for _, page in ipairs(for_tasks) do
+    local lines, first, code = 0, nil, false
+    for line in page.text:gmatch("[^\n]+") do
+      if line:find("^```") then code = not code end
+      if line:lower():find(key) then
+        lines = lines + 1
+        first = first or not code and not line:find("^|") and line:match("^%s*(.*)") or nil
+      end
+    end
+    if lines > 0 then found[#found + 1] = {page = page, lines = lines, first = first or ""} end
+  end
+  if #found == 0 then return false end
+  table.sort(found, function(a, b)
+    return a.lines > b.lines or a.lines == b.lines and a.page.name < b.page.name
+  end)
+  local entries = {}
+  for i = 1, math.min(#found, 6) do
+    local one = found[i]
+    entries[i] = {("docs/%s.md (%d line%s)"):format(one.page.name, one.lines,
+      one.lines == 1 and "" or "s"), beginning(one.first)}
+  end
+  list(("No heading has '%s'. Pages with it, and their first such lines:"):format(word), entries)
+  return true
+end
+
 -- Whether one letter more, less, other or swapped with its neighbour makes `a` of `b`.
 local function differ_by_one(a, b)
   if #a > #b then a, b = b, a end
@@ -188,5 +242,8 @@ end
 if topic == "" then
   overview()
 elseif not explain(topic) then
-  command.fail("no help on '%s'%s; springlod help lists all topics", topic, suggestion(topic))
+  local suggested = suggestion(topic)
+  local defined = print_definition(topic)
+  if (defined or suggested == "") and list_mentions(topic) or defined then return end
+  command.fail("no help on '%s'%s; springlod help lists all topics", topic, suggested)
 end
