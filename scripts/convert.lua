@@ -210,7 +210,7 @@ end
 local function convert_job(job)
   if job.words then
     local ok, parsed = parser:pparse(job.words)
-    if not ok then error(parsed:gsub("%s*\n%s*", "; "), 0) end
+    if not ok then error(parsed:gsub("%s*\nDid you", "; did you"), 0) end
     args, words = parsed, job.words
     settle(function(message) error(message, 0) end)
     if not job.asset:lower():find("%.glb$") then

@@ -5,8 +5,8 @@ local command = require "lib.command"
 
 local parser = command.parser("help", "Explain a topic: a command (convert), a function or value "
   .. "of scripts (simplify, Material), a page of the documentation (simulate) or a word in the "
-  .. "headings of these pages (materials, scenes) or in the glossary (jitter). Of any other word, list the pages that have it. "
-  .. "Without a topic, list all topics.")
+  .. "headings of these pages (materials, scenes) or in the glossary (jitter). Of any other "
+  .. "word, list the pages that have it. Without a topic, list all topics.")
 parser:argument("topic", "what to explain"):args("*")
 local topic = table.concat(parser:parse().topic, " ")
 
