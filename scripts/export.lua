@@ -28,7 +28,7 @@ local known = args.scenario and s.choices.motion_format or s.choices.model_forma
 if not known[args.to] then
   parser:error(("--to: '%s' is no format of a %s; those are %s"):format(args.to,
     args.scenario and "motion" or "level", args.scenario and motion_formats or model_formats
-      .. (s.choices.motion_format[args.to] and "; --scenario FILE.lua exports a motion" or "")))
+      .. (s.choices.motion_format[args.to] and "; motions need --scenario" or "")))
 end
 
 local function default_path()
