@@ -144,7 +144,7 @@ TEST_CASE("export names a wrong format, level and scenario of a motion") {
   CHECK_FALSE(std::filesystem::exists(folder / "x.glb"));
 }
 
-TEST_CASE("The Khronos validator finds no error in an exported motion") {
+TEST_CASE("The Khronos validator finds no error in an exported motion", "[long]") {
   const auto node = find_program("node");
   const auto script = source_folder() / "tests/gltf/validate.mjs";
   if (!node || !std::filesystem::exists(source_folder() / "tests/gltf/node_modules")) {
@@ -160,7 +160,7 @@ TEST_CASE("The Khronos validator finds no error in an exported motion") {
                          Contains("morph.glb: 0 errors, 0 warnings"));
 }
 
-TEST_CASE("Blender shows exported motions where the surface is") {
+TEST_CASE("Blender shows exported motions where the surface is", "[long]") {
   const auto blender = find_program("blender");
   if (!blender) {
     WARN("left out: blender is not installed (./dev setup peers)");
@@ -186,7 +186,7 @@ TEST_CASE("Blender shows exported motions where the surface is") {
   CHECK(results.at("skin.glb") == Approx(largest).epsilon(0.05));  // printed with two digits
 }
 
-TEST_CASE("VTK reads an exported motion as it was simulated") {
+TEST_CASE("VTK reads an exported motion as it was simulated", "[long]") {
   // Debian's own: it has Debian's packages, whatever else is found first.
   const std::string python = "/usr/bin/python3";
   if (run_program("/bin/sh", {"-c", python + " -c 'import vtkmodules.vtkIOXML'"}).exit_code != 0) {
@@ -205,7 +205,7 @@ TEST_CASE("VTK reads an exported motion as it was simulated") {
   CHECK(results.at("mass") == Approx(0.2 * 0.2 * 0.6 * 1000));
 }
 
-TEST_CASE("NumPy reads an exported motion with its times, nodes and surface") {
+TEST_CASE("NumPy reads an exported motion with its times, nodes and surface", "[long]") {
   const std::string python = "/usr/bin/python3";
   if (run_program("/bin/sh", {"-c", python + " -c 'import numpy'"}).exit_code != 0) {
     WARN("left out: python3-numpy is not installed (./dev setup peers)");

@@ -43,7 +43,7 @@ Ran export_to(const TemporaryFolder& folder, const std::string& format, int leve
 
 }  // namespace
 
-TEST_CASE("other programs read the positions, masses and stiffnesses of an export") {
+TEST_CASE("other programs read the positions, masses and stiffnesses of an export", "[long]") {
   // Debian's, for which Debian's packages are.
   const std::filesystem::path python = "/usr/bin/python3";
   if (!std::filesystem::exists(python)) {

@@ -68,7 +68,8 @@ TEST_CASE("new refuses an existing folder, a bad name and a bad mesh, and leaves
   CHECK(slurp(scratch / "old/notes.txt") == "mine");
 }
 
-TEST_CASE("a manifest gives each mesh its options, and a failed one does not stop the others") {
+TEST_CASE("a manifest gives each mesh its options, and a failed one does not stop the others",
+          "[long]") {
   const TemporaryFolder scratch;
   spit(scratch / "bar.obj", obj_of_boxes({{"bar", 0, 4}}));
   spit(scratch / "junk.obj", "junk");

@@ -249,7 +249,8 @@ std::vector<std::pair<std::string, double>> check_sums(const std::string& text,
 
 }  // namespace
 
-TEST_CASE("The readers for Python and JavaScript read what the program wrote, whole and slim") {
+TEST_CASE("The readers for Python and JavaScript read what the program wrote, whole and slim",
+          "[long]") {
   const TemporaryFolder scratch;
   spit(scratch / "make.lua", R"lua(
     local s = require "springlod"
@@ -328,7 +329,7 @@ TEST_CASE("The readers for Python and JavaScript read what the program wrote, wh
   }
 }
 
-TEST_CASE("The readers refuse damaged files, other files and files of a newer version") {
+TEST_CASE("The readers refuse damaged files, other files and files of a newer version", "[long]") {
   const TemporaryFolder scratch;
   springlod::test::make_bar_asset(scratch / "bar.glb", 3, {"--cell", "1"});
   const Ran slim = springlod_run({"slim", (scratch / "bar.glb").string()});
@@ -378,7 +379,7 @@ TEST_CASE("The readers refuse damaged files, other files and files of a newer ve
   }
 }
 
-TEST_CASE("The first example of asset-format.md works in Python and JavaScript") {
+TEST_CASE("The first example of asset-format.md works in Python and JavaScript", "[long]") {
   const std::string page = slurp(source_folder() / "docs/asset-format.md");
   const auto blocks = [&](const std::string& language) {
     std::string text;

@@ -128,7 +128,7 @@ TEST_CASE("A random ball is measured by surface tractions") {
   CHECK(random.poisson == Approx(0.26).margin(0.03));
 }
 
-TEST_CASE("A random model has the E and nu that its material asks for") {
+TEST_CASE("A random model has the E and nu that its material asks for", "[long]") {
   const double nu = GENERATE(-0.1, 0.1, 0.4, 0.49);
   MaterialGrid grid = box_grid(8, 8, 12, 0.01);
   grid.materials[0].poisson = nu;
