@@ -133,5 +133,5 @@ TEST_CASE("a comparison and an asset name what limits the steps of their levels"
   CHECK_THAT(ran.err, Contains("compare: damping shortens the steps of 2 of 2 levels"));
   const Ran info = springlod_run({"info", (scratch / "bar.glb").string()});
   CHECK_THAT(info.out, Contains("without") && Contains("damping") && Contains("limited") &&
-                           Contains("damping") && Contains("damping 100 ms"));
+                           Contains("damping") && Contains("damping time 100 ms"));
 }
