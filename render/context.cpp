@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <mutex>
 
 #include <GL/osmesa.h>
 #include <fmt/format.h>
@@ -16,6 +17,13 @@ namespace {
 constexpr std::uint32_t kLargestSide = 16384;
 constexpr GLsizei kSamples = 4;      // maximum of llvmpipe
 constexpr GLsizei kWindowSide = 16;  // OSMesa needs a window buffer, which is not drawn to
+
+// OSMesa keeps lists of its own for all contexts, which it does not lock: contexts are made, made
+// current and destroyed by one thread at a time. Drawing needs no lock.
+std::mutex& osmesa_lists() {
+  static std::mutex lists;
+  return lists;
+}
 
 void require_side(std::uint32_t width, std::uint32_t height) {
   if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide)
@@ -39,7 +47,9 @@ struct OffscreenContext::Impl {
       : width(static_cast<GLsizei>(w)), height(static_cast<GLsizei>(h)) {}
   // Destroying the context frees its framebuffers.
   ~Impl() {
-    if (context != nullptr) OSMesaDestroyContext(context);
+    if (context == nullptr) return;
+    const std::lock_guard lock(osmesa_lists());
+    OSMesaDestroyContext(context);
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -56,7 +66,10 @@ struct OffscreenContext::Impl {
                                          OSMESA_DEPTH_BITS,
                                          0,
                                          0};
-    context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+    {
+      const std::lock_guard lock(osmesa_lists());
+      context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+    }
     if (context == nullptr)
       throw Error("OSMesa cannot create an OpenGL 3.3 core context; is libosmesa6 22 installed?");
     make_current();
@@ -65,6 +78,7 @@ struct OffscreenContext::Impl {
 
   void make_current() {
     if (OSMesaGetCurrentContext() == context) return;
+    const std::lock_guard lock(osmesa_lists());
     if (OSMesaMakeCurrent(context, window.data(), GL_UNSIGNED_BYTE, kWindowSide, kWindowSide) ==
         GL_FALSE)
       throw Error("OSMesa cannot make its context current");
