@@ -57,10 +57,7 @@ Eigen::VectorXd least_on_simplex(Eigen::MatrixXd g) {
   for (Eigen::Index i = 0; i < n; ++i) used[static_cast<std::size_t>(i)] = i;
   for (;;) {
     const auto size = static_cast<Eigen::Index>(used.size());
-    Eigen::MatrixXd part(size, size);
-    for (Eigen::Index i = 0; i < size; ++i)
-      for (Eigen::Index j = 0; j < size; ++j)
-        part(i, j) = g(used[static_cast<std::size_t>(i)], used[static_cast<std::size_t>(j)]);
+    const Eigen::MatrixXd part = g(used, used);
     Eigen::VectorXd some = part.ldlt().solve(Eigen::VectorXd::Ones(size));
     some /= some.sum();
     Eigen::Index lowest = 0;
@@ -97,11 +94,7 @@ class VertexFit {
                      [&](Eigen::Index a, Eigen::Index b) { return all(a) > all(b); });
     order.resize(std::min<std::size_t>(order.size(), influences));
     const auto size = static_cast<Eigen::Index>(order.size());
-    Eigen::MatrixXd part(size, size);
-    for (Eigen::Index i = 0; i < size; ++i)
-      for (Eigen::Index j = 0; j < size; ++j)
-        part(i, j) = g(order[static_cast<std::size_t>(i)], order[static_cast<std::size_t>(j)]);
-    const Eigen::VectorXd some = least_on_simplex(part);
+    const Eigen::VectorXd some = least_on_simplex(g(order, order));
     Eigen::VectorXd kept = Eigen::VectorXd::Zero(g.rows());
     for (Eigen::Index i = 0; i < size; ++i) kept(order[static_cast<std::size_t>(i)]) = some(i);
     return kept;
