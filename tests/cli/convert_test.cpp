@@ -157,7 +157,7 @@ TEST_CASE("convert --bending corrected moves the mass of the surface inwards") {
   CHECK_THAT(refused.err, Contains("is for --lattice corners"));
 }
 
-TEST_CASE("convert writes identical files for any number of threads") {
+TEST_CASE("convert writes identical files for any number of threads", "[long]") {
   const TemporaryFolder scratch;
   spit(scratch / "bar.obj", small_dumbbell());
   const auto convert = [&](const std::string& name, const std::string& threads) {

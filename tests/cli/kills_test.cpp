@@ -8,7 +8,7 @@
 using Catch::Matchers::Contains;
 using namespace springlod::test;
 
-TEST_CASE("A killed conversion is resumed or absent, and ends with the same bytes") {
+TEST_CASE("A killed conversion is resumed or absent, and ends with the same bytes", "[long]") {
   const TemporaryFolder scratch;
   const std::string output = (scratch / "output.txt").string();
   const std::string script = (source_folder() / "tests/kills/kills.sh").string();

@@ -65,7 +65,7 @@ TEST_CASE("Damaged assets and .vdb files are read or refused, none crashes the p
   mutants("vdb.lua", "3-7", "vdb/two_materials.vdb");
 }
 
-TEST_CASE("Meshes with removed faces have the volume of the whole ones") {
+TEST_CASE("Meshes with removed faces have the volume of the whole ones", "[long]") {
   const auto script = springlod::test::source_folder() / "tests/mutations/holes.lua";
   const Ran ran = springlod_run({"-q", "run", script.string(), "--", "1", "samples/dumbbell.obj"});
   CAPTURE(ran.out, ran.err);

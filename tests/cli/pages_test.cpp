@@ -117,7 +117,8 @@ TEST_CASE("the sample scripts run and write their documented files", "[long]") {
   wrote("beast", {"beast.glb", "cost-error.svg", "frames/frame_0023.png"});
 }
 
-TEST_CASE("the demo reports correct node counts and writes table, chart, video and assets") {
+TEST_CASE("the demo reports correct node counts and writes table, chart, video and assets",
+          "[long]") {
   const TemporaryFolder scratch;
   const fs::path folder = scratch / "demo";
   const Ran ran = springlod_run({"-q", "run", "scripts/demo.lua", "--", folder.string(), "1"});

@@ -27,7 +27,7 @@ std::string lines_of(const std::string& table, const std::string& throw_number) 
 
 }  // namespace
 
-TEST_CASE("throws --quick: bodies keep their shape, and two runs write the same bytes") {
+TEST_CASE("throws --quick: bodies keep their shape, and two runs write the same bytes", "[long]") {
   const TemporaryFolder once, again;
   const Ran ran = springlod_run({"throws", "--quick", "-o", once.path().string()});
   CAPTURE(ran.err);

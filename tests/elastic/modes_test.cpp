@@ -43,7 +43,7 @@ TEST_CASE("The lowest modes of uneven models are those of a dense solver") {
   for (const Mode& mode : found.modes) CHECK(mode.residual <= 1e-4);
 }
 
-TEST_CASE("Shapes to start from, good or bad, do not change the modes") {
+TEST_CASE("Shapes to start from, good or bad, do not change the modes", "[long]") {
   const MassSpringModel m = uneven_model(3, 7);
   std::vector<std::vector<Vec3>> start;
   const auto add = [&](const MassSpringModel& of, std::size_t first, std::size_t count) {

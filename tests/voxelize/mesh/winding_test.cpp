@@ -65,7 +65,7 @@ TEST_CASE("No triangles, and triangles without area, have the winding number 0")
   CHECK(WindingNumber(line, std::vector<Triangle>{{0, 1, 2}}).at(Vec3(0, 1, 0)) == 0);
 }
 
-TEST_CASE("A surface with holes fills the cells of the closed one, except at the holes") {
+TEST_CASE("A surface with holes fills the cells of the closed one, except at the holes", "[long]") {
   const TriangleMesh mesh = sphere();
   const double missing = GENERATE(0.0, 0.001, 0.01, 0.05);
   const CellFrame frame = frame_around(bounds(mesh), 0.04);

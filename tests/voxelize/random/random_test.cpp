@@ -82,7 +82,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("A random model is solid with fewer or more nodes than cells") {
+TEST_CASE("A random model is solid with fewer or more nodes than cells", "[long]") {
   const auto [nodes, radius] =
       GENERATE(std::pair(50U, 6), std::pair(333U, 3), std::pair(2000U, 7), std::pair(5000U, 6));
   const RandomModel random = build_random(ball_grid(radius, 0.01), {.nodes = nodes});
@@ -146,7 +146,7 @@ TEST_CASE("A random model has the E and nu that its material asks for", "[long]"
   CHECK(poisson == Approx(nu).margin(0.02));
 }
 
-TEST_CASE("Each material of a random model has the factors of its own nu") {
+TEST_CASE("Each material of a random model has the factors of its own nu", "[long]") {
   MaterialGrid grid = box_grid(8, 8, 8, 0.01);
   grid.materials[1].poisson = 0.45;
   for (std::size_t c = 0; c < grid.cells.size(); ++c) grid.material[c] = grid.cells[c][2] < 4;
@@ -226,7 +226,7 @@ TEST_CASE("Impossible options of a random model are rejected with the reason") {
   CHECK_THROWS_AS(build_random(grid_of({}), {.nodes = 50}), InputError);
 }
 
-TEST_CASE("A periodic random network is softer than eq. 2, with nu near 1/4") {
+TEST_CASE("A periodic random network is softer than eq. 2, with nu near 1/4", "[long]") {
   // Eq. 2 is an upper bound (docs/method.md): 6 to 25 % below it at 14 ends, 6 to 13 % at 24,
   // depending on the placement of the nodes.
   const auto below = [](const PeriodicRandomOptions& options) {
