@@ -32,7 +32,11 @@ if not known[args.to] then
 end
 
 local function default_path()
-  return ("%s-level%d-%s"):format(args.asset:gsub("%.%w+$", ""), args.level, args.to)
+  local path = ("%s-level%d-%s"):format(args.asset:gsub("%.%w+$", ""), args.level, args.to)
+  if args.to ~= "newton" then return path end
+  -- Python imports it by its name.
+  local name = command.base_name(path)
+  return path:sub(1, -#name - 1) .. name:gsub("%W", "_")
 end
 
 local function export()

@@ -178,11 +178,19 @@ local function beginning(line)
   return #line <= 64 and line or line:sub(1, 64):gsub("%s+%S*$", "") .. " ..."
 end
 
+-- Whether a line has each word of a topic; a plural finds its singular.
+local function mentions(line, topic_words)
+  line = line:lower()
+  for word in topic_words:lower():gmatch("%S+") do
+    if not line:find("%f[%w]" .. word:gsub("s$", ""):gsub("%W", "%%%0")) then return false end
+  end
+  return true
+end
+
 -- Prints the pages whose text has the word, with the most lines first, and the first line of prose
--- of each. Returns whether there are any.
+-- of each, or else its title. Returns whether there are any.
 local function list_mentions(word)
-  local key, found = "%f[%w]" .. word:lower():gsub("s$", ""):gsub("%W", "%%%0"), {}
-  local for_tasks = {}
+  local found, for_tasks = {}, {}
   for _, page in ipairs(pages()) do
     local other = not_searched[page.name] and page.name ~= "api" or page.name == "glossary"
     if not other then for_tasks[#for_tasks + 1] = page end
@@ -191,12 +199,13 @@ local function list_mentions(word)
     local lines, first, code = 0, nil, false
     for line in page.text:gmatch("[^\n]+") do
       if line:find("^```") then code = not code end
-      if line:lower():find(key) then
+      if mentions(line, word) then
         lines = lines + 1
         first = first or not code and not line:find("^|") and line:match("^%s*(.*)") or nil
       end
     end
-    if lines > 0 then found[#found + 1] = {page = page, lines = lines, first = first or ""} end
+    first = first or page.title
+    if lines > 0 then found[#found + 1] = {page = page, lines = lines, first = first} end
   end
   if #found == 0 then return false end
   table.sort(found, function(a, b)

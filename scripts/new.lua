@@ -18,6 +18,8 @@ local args = parser:parse()
 -- The templates stand beside this script.
 local templates = arg[0]:gsub("[^/]*$", "") .. "templates/project/"
 local sample = {mesh = s.samples .. "/beast.obj", unit = "cm", up = "z"}
+-- Cells along the longest side, as convert's default.
+local cells = 32
 -- Colours of the parts, in their order.
 local colours = {"#d9a066", "#5b7fa6", "#6fb98f", "#e0803a", "#8c3b3b", "#7d6fb9"}
 
@@ -68,7 +70,7 @@ local function values_of(mesh, from, name, file)
     end
   end
   return {
-    name = name, mesh = file, cell = length(longest / 24), materials = materials_of(mesh),
+    name = name, mesh = file, cell = length(longest / cells), materials = materials_of(mesh),
     import = "{" .. table.concat(import, ", ") .. "}", convert = table.concat(convert),
     height = length(drop),
     duration = ("%.2g s"):format(3 * math.sqrt(2 * (drop - longest / 2) / 9.81)),

@@ -73,8 +73,9 @@ local function print_table()
     (picked.measured and "measured" or "predicted") .. " error [%]", "within"}}))
   print(([[
 ms a frame: processor time for 1/%g s. base / level: ratio of these times. error: that of the
-surface, until %g s after the first contact, in percent of the bounding diagonal of the base.
-*: picked.]]):format(args.frame_rate, args.error_window or 0.25))
+surface, until %g s after the first contact, in percent of the bounding diagonal of the base.]])
+    :format(args.frame_rate, args.error_window or 0.25))
+  if picked.level then print("*: picked.") end
   print()
   print(picked.text)
 end

@@ -14,39 +14,30 @@ namespace {
 constexpr ModelFormatChoice kFormats[] = {
     {{ModelFormat::jolt, "jolt",
       "Jolt Physics: code that builds its soft body, in C++ and JavaScript"},
-     ".hpp",
      draft_jolt},
-    {{ModelFormat::mujoco, "mujoco", "MuJoCo: MJCF with a tendon for each spring"},
-     ".xml",
-     draft_mujoco},
-    {{ModelFormat::bullet, "bullet", "Bullet: C++ code that builds its soft body"},
-     ".hpp",
-     draft_bullet},
+    {{ModelFormat::mujoco, "mujoco", "MuJoCo: MJCF with a tendon for each spring"}, draft_mujoco},
+    {{ModelFormat::bullet, "bullet", "Bullet: C++ code that builds its soft body"}, draft_bullet},
     {{ModelFormat::newton, "newton", "arrays for Newton (Warp), and NAME.py that reads them"},
-     ".npz",
      draft_newton},
     {{ModelFormat::sofa, "sofa", "scenes for SOFA: springs, and tetrahedra of a base of cells"},
-     ".scn",
      draft_sofa},
-    {{ModelFormat::msh, "msh", "Gmsh: springs, and tetrahedra with E, nu and density"},
-     ".msh",
-     draft_msh},
+    {{ModelFormat::msh, "msh", "Gmsh: springs, and tetrahedra with E, nu and density"}, draft_msh},
     {{ModelFormat::vtk, "vtk", "VTK and ParaView: springs, tetrahedra and surface with all values"},
-     ".vtu",
      draft_vtk},
-    {{ModelFormat::usda, "usda", "USD: the surface, and nodes and springs as guides"},
-     ".usda",
-     draft_usda},
+    {{ModelFormat::usda, "usda", "USD: the surface, and nodes and springs as guides"}, draft_usda},
     {{ModelFormat::obj, "obj", "the surface as the level holds it, or the springs as lines"},
-     ".obj",
      draft_obj},
-    {{ModelFormat::npz, "npz", "all arrays of the level for numpy, in full precision"},
-     ".npz",
-     draft_npz},
-    {{ModelFormat::json, "json", "all arrays of the level, in full precision"},
-     ".json",
-     draft_json},
+    {{ModelFormat::npz, "npz", "all arrays of the level for numpy, in full precision"}, draft_npz},
+    {{ModelFormat::json, "json", "all arrays of the level, in full precision"}, draft_json},
 };
+
+// The path without the ending of one of the files that will be written.
+std::string stem_of(const std::string& path, const std::vector<ExportFile>& files) {
+  for (const ExportFile& file : files)
+    if (file.ending.starts_with('.') && path.ends_with(file.ending))
+      return path.substr(0, path.size() - file.ending.size());
+  return path;
+}
 
 }  // namespace
 
@@ -58,8 +49,7 @@ ExportReport export_model(const ExportedModel& body, ModelFormat format,
                           const std::filesystem::path& path) {
   const ModelFormatChoice& row = choice_of(format);
   ExportDraft draft = row.write(body);
-  std::string stem = path.string();
-  if (stem.ends_with(row.ending)) stem.resize(stem.size() - std::string(row.ending).size());
+  const std::string stem = stem_of(path.string(), draft.files);
   ExportReport report{
       .files = {}, .settings = std::move(draft.settings), .losses = std::move(draft.losses)};
   for (const ExportFile& file : draft.files) {

@@ -29,7 +29,6 @@ enum class ModelFormat { jolt, mujoco, bullet, newton, sofa, msh, vtk, usda, obj
 
 /// A row of the table of formats; in the order in which help lists them.
 struct ModelFormatChoice : Choice<ModelFormat> {
-  const char* ending;  ///< of the main file, with the dot
   ExportDraft (*write)(const ExportedModel& body);
 };
 ChoiceTable<ModelFormatChoice> choices(ModelFormat);
@@ -41,8 +40,8 @@ struct ExportReport {
   std::vector<std::string> losses;           ///< what the format does not hold
 };
 
-/// Writes a model. `path` names the main file; without the ending of the format it is a stem, to
-/// which the ending is added. Further files have the same stem. Each file is whole or not there.
+/// Writes a model. `path` names one of its files; without an ending of the format it is a stem, to
+/// which the endings are added. Further files have the same stem. Each file is whole or not there.
 /// Throws InputError for a model that the format cannot hold, IoError.
 ExportReport export_model(const ExportedModel& body, ModelFormat format,
                           const std::filesystem::path& path);

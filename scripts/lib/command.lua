@@ -192,6 +192,21 @@ function command.numbers(option, limit, whole)
   return function(text) return list(text, convert) end
 end
 
+-- Fractions above 0, up to 1, such as 0.45,0.2 or 45%,20%.
+function command.fractions(option)
+  local read = command.quantity(option, "number")
+  return function(text)
+    return list(text, function(word)
+      local value, reason = read(word)
+      if value and value > 0 and value <= 1 then return value end
+      local percent = value and value > 1 and value <= 100 and ("; write %g%% for %g per cent")
+        :format(value, value) or ""
+      return nil, reason or ("%s: '%s' must be above 0 and at most 1%s"):format(option, word,
+        percent)
+    end)
+  end
+end
+
 -- Quantities such as 1ms,5ms in SI units.
 function command.quantities(option, dimension)
   return function(text) return list(text, command.quantity(option, dimension)) end

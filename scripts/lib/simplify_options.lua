@@ -31,7 +31,7 @@ local converters = {
     return command.number(name, option.least or 0, true, option.most)
   end,
   quantity = function() return function(text) return text end end, -- read by s.simplify
-  ["list of numbers"] = function(name) return command.numbers(name, 0) end,
+  ["list of numbers"] = command.fractions,
 }
 
 local arguments = {["list of numbers"] = "<fractions>", integer = "<count>"}

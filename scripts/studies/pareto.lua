@@ -42,7 +42,7 @@ axis("contacts", "any of " .. table.concat(all.contacts, ",")
   .. ": what of a level touches obstacles")
 axis("errors", "any of " .. table.concat(all.errors, ",") .. "; ensemble takes longest")
 parser:option("--keep", "node count of each level as a fraction of the base, such as 0.45,0.2 "
-  .. "(default: as in the asset)"):argname("<fractions>"):convert(command.numbers("--keep", 0))
+  .. "(default: as in the asset)"):argname("<fractions>"):convert(command.fractions("--keep"))
 parser:option("--seeds", "seeds of each simplification method (default: 5; --quick: 1)")
   :convert(command.whole("--seeds", 1))
 parser:option("--starts", "paired starts of each variant (default: 24; --quick: 5)")

@@ -17,7 +17,7 @@ parser:option("--set", "bodies and scenes: those that the constants of the predi
   .. "on, or others"):choices{"tuning", "checking"}:default("checking")
 parser:option("--bodies", "names of bodies, such as fork,sphere (default: all of the set)")
 parser:option("--keep", "nodes of the levels as fractions of those of the base")
-  :default("0.6,0.36,0.2"):convert(command.numbers("--keep", 0))
+  :default("0.6,0.36,0.2"):convert(command.fractions("--keep"))
 parser:option("--tolerances", "percent of the diagonal"):default("2,5,10")
   :convert(command.numbers("--tolerances", 0))
 parser:flag("--plain", "merged levels; by default, they are calibrated")

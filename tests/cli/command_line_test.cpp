@@ -96,6 +96,11 @@ TEST_CASE("help explains commands, functions, values, pages and sections of page
   CHECK_THAT(help({"scenes"}).out, StartsWith("Scenario\n"));
   CHECK_THAT(help({"simulate"}).out, StartsWith("# Simulate a scenario"));
   CHECK_THAT(help({"energy", "ledger"}).out, Contains("docs/simulate.md, The energy ledger"));
+  CHECK_THAT(help({"holes"}).out, StartsWith("(docs/convert.md, Faults and holes of the mesh)"));
+  CHECK_THAT(help({"blender"}).out, StartsWith("(docs/export.md, Motion in Blender)"));
+  // Of other words, pages that have them all, with a line of each.
+  CHECK_THAT(help({"watertight"}).out, Contains("docs/convert.md (1 line)  A mesh need not"));
+  CHECK_THAT(help({"poisson", "ratio"}).out, Contains("docs/models.md"));
   const Ran none = help({"blorb"});
   CHECK(none.exit_code == 1);
   CHECK_THAT(none.err, Contains("no help on 'blorb'") && Contains("lists all topics"));

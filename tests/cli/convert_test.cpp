@@ -367,6 +367,23 @@ TEST_CASE("convert reports an invalid mesh in one line") {
   CHECK_THAT(verbose.err, Contains("traceback"));
 }
 
+TEST_CASE("convert takes node counts as fractions or percentages") {
+  const TemporaryFolder scratch;
+  spit(scratch / "open.obj", obj_of_open_box());
+  const auto nodes = [&](const std::string& keep) {
+    const std::string asset = scratch / "keep.glb";
+    const Ran ran = springlod_run(
+        {"convert", scratch / "open.obj", "-o", asset, "--cell", "25cm", "--fast", "--keep", keep});
+    INFO(ran.err);
+    CHECK(ran.exit_code == 0);
+    return json::parse(springlod_run({"info", asset, "--json"}).out).at("levels").at(1).at("nodes");
+  };
+  CHECK(nodes("45%") == nodes("0.45"));
+  const Ran bare = springlod_run({"convert", scratch / "open.obj", "--keep", "45,20"});
+  CHECK(bare.exit_code == 2);
+  CHECK_THAT(bare.err, Contains("--keep: '45' must be above 0 and at most 1; write 45%"));
+}
+
 TEST_CASE("convert closes a hole, says so, and the asset keeps it") {
   const TemporaryFolder scratch;
   spit(scratch / "open.obj", obj_of_open_box());

@@ -91,6 +91,17 @@ TEST_CASE("export prints the settings that keep a body stable, and what is lost"
   CHECK_THAT(ran.err, Contains("wrote bar0.scn, bar0-tetrahedra.scn"));
 }
 
+TEST_CASE("export names files for Newton so that Python can import them") {
+  const TemporaryFolder folder;
+  make_asset(folder);
+  std::filesystem::rename(folder / "bar.glb", folder / "a-bar.glb");
+  const Ran ran = springlod_run({"export", "a-bar.glb", "--to", "newton"}, "", folder.path());
+  CHECK_THAT(ran.err, Contains("wrote a_bar_level0_newton.npz, a_bar_level0_newton.py"));
+  const Ran named =
+      springlod_run({"export", "a-bar.glb", "--to", "newton", "-o", "it.py"}, "", folder.path());
+  CHECK_THAT(named.err, Contains("wrote it.npz, it.py"));
+}
+
 TEST_CASE("export refuses a level that the asset does not have, and an unknown format") {
   const TemporaryFolder folder;
   make_asset(folder);
