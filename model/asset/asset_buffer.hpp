@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "model/asset/asset_format.hpp"
+#include "model/asset/gltf_values.hpp"
 
 namespace springlod::inline model {
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "model/asset/asset_buffer.hpp"
+#include "model/asset/gltf_builder.hpp"
 #include "model/chain.hpp"
 
 namespace springlod::inline model {
@@ -16,11 +16,10 @@ namespace springlod::inline model {
 /// each level the buffer view of the ends of its springs, pairs of uint32, which the LINES
 /// primitives share; nothing for no springs.
 void add_display(const LodAsset& asset, const std::vector<std::optional<std::size_t>>& spring_ends,
-                 nlohmann::json& document, AssetBuffer& buffer);
+                 GltfBuilder& gltf);
 
 /// Adds the scene of a slim asset, which uses the arrays of its extension: the surface without
 /// normals or, without a surface, the nodes and springs of level 0.
-void add_slim_display(const LodAsset& asset, const nlohmann::json& extension,
-                      nlohmann::json& document);
+void add_slim_display(const LodAsset& asset, const nlohmann::json& extension, GltfBuilder& gltf);
 
 }  // namespace springlod::inline model

@@ -48,17 +48,3 @@ class Checksum {
 };
 
 }  // namespace springlod::inline model::asset_format
-
-namespace springlod::inline model::gltf {
-
-// Numbers of the glTF 2.0 specification.
-enum class Target { none = 0, vertices = 34962, indices = 34963 };
-enum class Component {
-  unsigned_byte = 5121,
-  unsigned_short = 5123,
-  unsigned_int = 5125,
-  single = 5126
-};
-enum class Mode { points = 0, lines = 1, triangles = 4 };
-
-}  // namespace springlod::inline model::gltf

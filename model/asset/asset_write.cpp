@@ -16,6 +16,7 @@
 #include "model/asset/asset_display.hpp"
 #include "model/asset/asset_format.hpp"
 #include "model/asset/glb.hpp"
+#include "model/asset/gltf_builder.hpp"
 #include "model/asset/slim_asset.hpp"
 #include "model/asset/small_arrays.hpp"
 
@@ -251,26 +252,21 @@ std::size_t expected_bytes(const LodAsset& asset) {
          12 * asset.surface_of_base.node.size();
 }
 
-json document_of(json extension) {
-  return {{"asset", {{"version", "2.0"}, {"generator", "springlod"}}},
-          {"extensionsUsed", {asset_format::kExtension}},
-          {"extensions", {{asset_format::kExtension, std::move(extension)}}}};
+void set_extension(json& document, json extension) {
+  document["extensionsUsed"] = {asset_format::kExtension};
+  document["extensions"] = {{asset_format::kExtension, std::move(extension)}};
 }
 
-void write(json& document, const AssetBuffer& buffer, const std::filesystem::path& path) {
-  document["bufferViews"] = buffer.views();
-  document["buffers"] = {{{"byteLength", buffer.bytes().size()}}};
-
-  // Lengths in a .glb file have 32 bits; some room is left for the JSON.
-  constexpr std::size_t kLargestBuffer = 0xF0000000;
-  if (buffer.bytes().size() > kLargestBuffer)
+void write(GltfBuilder& gltf, const std::filesystem::path& path) {
+  const std::size_t bytes = gltf.buffer().bytes().size();
+  if (bytes > kLargestGlbBuffer)
     throw IoError(
         fmt::format("cannot write {}: {} bytes do not fit into a .glb file (4 GB); use "
                     "larger cells or fewer levels",
-                    path.string(), buffer.bytes().size()));
+                    path.string(), bytes));
   write_aside(path, [&](const std::filesystem::path& aside) {
     std::ofstream out(aside, std::ios::binary);
-    write_glb(out, document, buffer.bytes());
+    gltf.write(out);
     out.close();
     if (!out)
       throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
@@ -281,12 +277,12 @@ void write(json& document, const AssetBuffer& buffer, const std::filesystem::pat
 
 void save_asset(const LodAsset& asset, const std::filesystem::path& path) {
   validate(asset);
-  AssetBuffer buffer;
-  buffer.reserve(expected_bytes(asset));
-  ExactWriter exact(buffer);
-  json document = document_of(exact.describe(asset));
-  add_display(asset, exact.spring_ends, document, buffer);
-  write(document, buffer, path);
+  GltfBuilder gltf(sizeof(double));
+  gltf.buffer().reserve(expected_bytes(asset));
+  ExactWriter exact(gltf.buffer());
+  set_extension(gltf.document(), exact.describe(asset));
+  add_display(asset, exact.spring_ends, gltf);
+  write(gltf, path);
 }
 
 void save_slim_asset(const LodAsset& asset, const std::vector<SlimLevel>& levels,
@@ -299,10 +295,11 @@ void save_slim_asset(const LodAsset& asset, const std::vector<SlimLevel>& levels
   std::vector<SlimLevel> bound = levels;
   for (std::size_t n = 0; n < bound.size(); ++n)
     bound[n].of_level = slim_binding(levels[n].of_level, whole[n].model.rest);
-  AssetBuffer buffer(sizeof(float));
-  json document = document_of(ExactWriter(buffer, &bound).describe(slim));
-  add_slim_display(slim, document["extensions"][asset_format::kExtension], document);
-  write(document, buffer, path);
+  GltfBuilder gltf(sizeof(float));
+  const json extension = ExactWriter(gltf.buffer(), &bound).describe(slim);
+  set_extension(gltf.document(), extension);
+  add_slim_display(slim, extension, gltf);
+  write(gltf, path);
 }
 
 }  // namespace springlod::inline model

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <ostream>
 #include <stdexcept>
@@ -34,6 +35,9 @@ GlbChunks split_glb(std::string_view file);
 /// JSON without white space, keys sorted. Names from mesh files may have any encoding, JSON is
 /// UTF-8: other bytes become U+FFFD.
 std::string json_text(const nlohmann::json& value);
+
+/// Lengths in a .glb file have 32 bits; some room is left for the JSON [bytes].
+inline constexpr std::size_t kLargestGlbBuffer = 0xF0000000;
 
 void write_glb(std::ostream& out, const nlohmann::json& document,
                const std::vector<unsigned char>& binary);

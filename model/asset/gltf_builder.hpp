@@ -2,59 +2,64 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
+#include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "model/asset/asset_buffer.hpp"
+#include "model/asset/gltf_values.hpp"
 #include "model/material.hpp"
-#include "model/mesh.hpp"
 #include "model/vec.hpp"
 
 namespace springlod::inline model {
 
 /// Builds a binary glTF 2.0 of one buffer: the lists of its document, and accessors to arrays. Each
-/// add_ function returns the number of what it added.
+/// add_ function and `append` return the number of what they added.
 class GltfBuilder {
  public:
-  using Joints = std::array<std::uint16_t, 4>;
-  using Float4 = std::array<float, 4>;
+  /// Arrays start at multiples of `alignment` [bytes], which is at least the size of their
+  /// components.
+  explicit GltfBuilder(std::size_t alignment = sizeof(float)) : buffer_(alignment) {}
+
+  nlohmann::json& document() { return document_; }
+  AssetBuffer& buffer() { return buffer_; }
 
   /// Adds an entry to a list of the document.
   std::size_t append(const char* list, nlohmann::json entry);
-  nlohmann::json& document() { return document_; }
 
-  // Vertices, in single precision.
-  std::size_t add_positions(const std::vector<Vec3>& points);  ///< with their bounds
-  std::size_t add_vectors(const std::vector<Vec3>& vectors);
-  std::size_t add_joints(const std::vector<Joints>& joints);
-  std::size_t add_weights(const std::vector<Float4>& weights);
-  /// Triangles first .. first + count - 1 of an index array, which add_triangles added.
-  std::size_t add_indices(std::size_t view, std::size_t first, std::size_t count);
-  std::size_t add_triangles(const std::vector<Triangle>& triangles);  ///< a buffer view
+  /// Refers to `count` elements of a view of the buffer.
+  std::size_t add_accessor(std::size_t view, gltf::Component component, const char* type,
+                           std::size_t count);
+  /// An array, and the accessor to it. The array must not be empty.
+  template <class T>
+  std::size_t add_array(const std::vector<T>& values, gltf::Target target = gltf::Target::none) {
+    return add_accessor(buffer_.add(values, target), gltf::Element<T>::component,
+                        gltf::Element<T>::type, values.size());
+  }
+  /// In single precision.
+  std::size_t add_array(const std::vector<Vec3>& vectors, gltf::Target target = gltf::Target::none);
+  /// Of vertices, with their bounds.
+  std::size_t add_positions(const std::vector<Vec3>& points);
+  std::size_t add_times(const std::vector<double>& seconds);  ///< of an animation
+  /// "min" and "max", which glTF requires of positions. `points`: not empty.
+  void set_bounds(std::size_t accessor, const std::vector<std::array<float, 3>>& points);
 
-  // Animations and skins.
-  std::size_t add_times(const std::vector<double>& seconds);
-  std::size_t add_track(const std::vector<Vec3>& values);
-  std::size_t add_track(const std::vector<Float4>& values);
-  std::size_t add_track(const std::vector<float>& values);
-  std::size_t add_matrices(const std::vector<std::array<float, 16>>& matrices);  ///< by columns
-
-  /// A dull material of this display colour.
+  /// A dull material of this display colour; the one of this name, if there is one.
   std::size_t add_material(const std::string& name, const Colour& colour);
 
-  /// The file. Throws InputError beyond 4 GB.
-  std::string glb() const;
+  /// Shows these nodes.
+  void set_scene(const std::vector<std::size_t>& roots);
+
+  /// Completes the document and writes the file; for buffers of at most kLargestGlbBuffer.
+  void write(std::ostream& out);
 
  private:
-  enum class Use { data, vertices, indices };
-  std::size_t add_view(const void* data, std::size_t bytes, Use use);
-  template <class T>
-  std::size_t add_array(const std::vector<T>& array, int component, const char* type, Use use);
-
   nlohmann::json document_{{"asset", {{"version", "2.0"}, {"generator", "springlod"}}}};
-  std::vector<unsigned char> bytes_;
+  AssetBuffer buffer_;
+  std::map<std::string, std::size_t> material_of_name_;
 };
 
 }  // namespace springlod::inline model

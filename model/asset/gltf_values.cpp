@@ -27,4 +27,9 @@ nlohmann::json gltf_material(const std::string& name, const Colour& colour) {
   return {{"name", name}, {"doubleSided", true}, {"pbrMetallicRoughness", shading}};
 }
 
+nlohmann::json z_up_node() {
+  // A quarter turn about x, (x, y, z) -> (x, z, -y), as quaternion x, y, z, w.
+  return {{"name", "z up"}, {"rotation", {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}}};
+}
+
 }  // namespace springlod::inline model

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdint>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "model/asset/glb.hpp"
 #include "model/asset/gltf_builder.hpp"
+#include "model/asset/gltf_surface.hpp"
 #include "model/creases.hpp"
-#include "model/drawn_colour.hpp"
 #include "report/export/motion_files.hpp"
 #include "report/export/skinning.hpp"
 
@@ -22,42 +24,14 @@ using nlohmann::json;
 // Joints are numbered in 16 bits.
 constexpr std::size_t kMostJoints = 65536;
 
-std::vector<Vec3> spread(const SplitSurface& shaded, const std::vector<Vec3>& points) {
-  std::vector<Vec3> drawn;
-  drawn.reserve(shaded.source.size());
-  for (const std::uint32_t vertex : shaded.source) drawn.push_back(points[vertex]);
-  return drawn;
-}
-
-// Of unit length also where all triangles are degenerate, as glTF needs them.
-std::vector<Vec3> drawn_normals(const SplitSurface& shaded, const std::vector<Vec3>& points) {
-  std::vector<Vec3> normals;
-  normals.reserve(shaded.source.size());
-  for (const Eigen::Vector3f& n : vertex_normals(shaded, points))
-    normals.push_back(n.isZero(0) ? Vec3(Vec3::UnitZ()) : Vec3(n.cast<double>()));
-  return normals;
-}
+using Joints = std::array<std::uint16_t, 4>;
+using Float4 = std::array<float, 4>;
 
 // A primitive for each mesh part, with these attributes.
 json primitives_of(GltfBuilder& gltf, const ExportedModel& body, const SplitSurface& shaded,
                    const json& attributes) {
-  const std::size_t view = gltf.add_triangles(shaded.triangles);
-  json primitives = json::array();
-  for (std::size_t p = 0; p < body.surface->parts.size(); ++p) {
-    const MeshPart& part = body.surface->parts[p];
-    if (part.triangle_count == 0) continue;
-    const std::string& name = part.material.empty() ? part.name : part.material;
-    primitives.push_back(
-        {{"attributes", attributes},
-         {"indices", gltf.add_indices(view, part.first_triangle, part.triangle_count)},
-         {"material", gltf.add_material(name, part_colour(part, p, body.model.materials))}});
-  }
-  return primitives;
-}
-
-// A quarter turn about x, (x, y, z) -> (x, z, -y), as quaternion x, y, z, w.
-json z_up_node() {
-  return {{"name", "z up"}, {"rotation", {-std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}}};
+  return part_primitives(gltf, body.surface->parts, body.model.materials, attributes,
+                         add_triangles(gltf, shaded.triangles));
 }
 
 std::vector<double> times_of(const std::vector<sim::Frame>& frames) {
@@ -70,8 +44,8 @@ std::vector<double> times_of(const std::vector<sim::Frame>& frames) {
 void add_influences(GltfBuilder& gltf, const Skinning& skinning, const SplitSurface& shaded,
                     json& attributes) {
   for (std::uint32_t first = 0, n = 0; first < skinning.influences; first += 4, ++n) {
-    std::vector<GltfBuilder::Joints> joints(shaded.source.size());
-    std::vector<GltfBuilder::Float4> weights(shaded.source.size());
+    std::vector<Joints> joints(shaded.source.size());
+    std::vector<Float4> weights(shaded.source.size());
     const std::uint32_t count = std::min(4U, skinning.influences - first);
     for (std::size_t v = 0; v < shaded.source.size(); ++v)
       for (std::uint32_t i = 0; i < count; ++i) {
@@ -79,15 +53,14 @@ void add_influences(GltfBuilder& gltf, const Skinning& skinning, const SplitSurf
         joints[v][i] = static_cast<std::uint16_t>(skinning.joint[entry]);
         weights[v][i] = skinning.weight[entry];
       }
-    attributes[fmt::format("JOINTS_{}", n)] = gltf.add_joints(joints);
-    attributes[fmt::format("WEIGHTS_{}", n)] = gltf.add_weights(weights);
+    attributes[fmt::format("JOINTS_{}", n)] = gltf.add_array(joints, gltf::Target::vertices);
+    attributes[fmt::format("WEIGHTS_{}", n)] = gltf.add_array(weights, gltf::Target::vertices);
   }
 }
 
 // Of one joint, the same side of the quaternions' sphere all along: players interpolate.
-std::vector<GltfBuilder::Float4> rotation_track(const std::vector<NodePoses>& poses,
-                                                std::uint32_t node) {
-  std::vector<GltfBuilder::Float4> track;
+std::vector<Float4> rotation_track(const std::vector<NodePoses>& poses, std::uint32_t node) {
+  std::vector<Float4> track;
   Eigen::Quaterniond last = Eigen::Quaterniond::Identity();
   for (const NodePoses& pose : poses) {
     Eigen::Quaterniond q = pose.rotation[node];
@@ -126,26 +99,32 @@ std::size_t add_skin(GltfBuilder& gltf, const ExportedMotion& motion, const Skin
         {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -rest.x(), -rest.y(), -rest.z(), 1});
     joints.push_back(gltf.append("nodes", {{"name", fmt::format("node {}", node)},
                                            {"translation", {rest.x(), rest.y(), rest.z()}}}));
-    add_channel(animation, times, gltf.add_track(position_track(poses, node)), joints.back(),
+    add_channel(animation, times, gltf.add_array(position_track(poses, node)), joints.back(),
                 "translation");
-    add_channel(animation, times, gltf.add_track(rotation_track(poses, node)), joints.back(),
+    add_channel(animation, times, gltf.add_array(rotation_track(poses, node)), joints.back(),
                 "rotation");
   }
   gltf.document()["nodes"][root]["children"] = joints;
   gltf.append("animations", std::move(animation));
   return gltf.append("skins", {{"joints", joints},
                                {"skeleton", root},
-                               {"inverseBindMatrices", gltf.add_matrices(inverse_bind)}});
+                               {"inverseBindMatrices", gltf.add_array(inverse_bind)}});
 }
 
 std::string percent_of_size(double length, const ExportedModel& body) {
   return fmt::format("{:.2g} %", 100 * length / bounds(*body.surface).diagonal().norm());
 }
 
-void finish(GltfBuilder& gltf, std::vector<std::size_t> roots, MotionFiles& files) {
-  gltf.document()["scenes"] = {{{"nodes", std::move(roots)}}};
-  gltf.document()["scene"] = 0;
-  files.write(".glb", gltf.glb());
+void finish(GltfBuilder& gltf, const std::vector<std::size_t>& roots, MotionFiles& files) {
+  gltf.set_scene(roots);
+  const std::size_t bytes = gltf.buffer().bytes().size();
+  if (bytes > kLargestGlbBuffer)
+    throw InputError(fmt::format(
+        "{} bytes do not fit into a .glb file (4 GB); take fewer frames or a coarser level",
+        bytes));
+  std::ostringstream out;
+  gltf.write(out);
+  files.write(".glb", std::move(out).str());
   files.report.losses.push_back("springs and masses: what moves is the surface");
 }
 
@@ -166,8 +145,9 @@ void write_skinned_glb(const ExportedMotion& motion, const MotionOptions& option
   GltfBuilder gltf;
   const SplitSurface shaded = split_at_creases(*motion.body.surface);
   const std::vector<Vec3> points = surface_points(motion.body);
-  json attributes{{"POSITION", gltf.add_positions(spread(shaded, points))},
-                  {"NORMAL", gltf.add_vectors(drawn_normals(shaded, points))}};
+  json attributes{
+      {"POSITION", gltf.add_positions(drawn_positions(shaded, points))},
+      {"NORMAL", gltf.add_array(drawn_normals(shaded, points), gltf::Target::vertices)}};
   add_influences(gltf, skinning, shaded, attributes);
   const std::size_t mesh =
       gltf.append("meshes", {{"name", motion.body.name},
@@ -190,18 +170,21 @@ void write_morphed_glb(const ExportedMotion& motion, const MotionOptions&, Motio
   GltfBuilder gltf;
   const SplitSurface shaded = split_at_creases(*motion.body.surface);
   const std::vector<Vec3> rest = surface_points(motion.body);
-  const std::vector<Vec3> points = spread(shaded, rest), normals = drawn_normals(shaded, rest);
-  json attributes{{"POSITION", gltf.add_positions(points)}, {"NORMAL", gltf.add_vectors(normals)}};
+  const std::vector<Vec3> points = drawn_positions(shaded, rest),
+                          normals = drawn_normals(shaded, rest);
+  json attributes{{"POSITION", gltf.add_positions(points)},
+                  {"NORMAL", gltf.add_array(normals, gltf::Target::vertices)}};
   json targets = json::array();
   for (const sim::Frame& frame : motion.frames) {
     const std::vector<Vec3> surface = surface_at(motion.body, frame.x);
-    std::vector<Vec3> moved = spread(shaded, surface), turned = drawn_normals(shaded, surface);
+    std::vector<Vec3> moved = drawn_positions(shaded, surface),
+                      turned = drawn_normals(shaded, surface);
     for (std::size_t v = 0; v < moved.size(); ++v) {
       moved[v] -= points[v];
       turned[v] -= normals[v];
     }
-    targets.push_back(
-        {{"POSITION", gltf.add_positions(moved)}, {"NORMAL", gltf.add_vectors(turned)}});
+    targets.push_back({{"POSITION", gltf.add_positions(moved)},
+                       {"NORMAL", gltf.add_array(turned, gltf::Target::vertices)}});
   }
   json primitives = primitives_of(gltf, motion.body, shaded, attributes);
   for (json& primitive : primitives) primitive["targets"] = targets;
@@ -216,7 +199,7 @@ void write_morphed_glb(const ExportedMotion& motion, const MotionOptions&, Motio
   std::vector<float> track(count * count, 0.0F);
   for (std::size_t f = 0; f < count; ++f) track[f * count + f] = 1.0F;
   json animation{{"name", motion.body.name}};
-  add_channel(animation, gltf.add_times(times_of(motion.frames)), gltf.add_track(track), body,
+  add_channel(animation, gltf.add_times(times_of(motion.frames)), gltf.add_array(track), body,
               "weights");
   gltf.append("animations", std::move(animation));
   finish(gltf, {root}, files);
