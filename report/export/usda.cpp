@@ -7,10 +7,31 @@
 namespace springlod::report {
 namespace {
 
-template <class... Values>
-void append(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
-  fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
-}
+// A prim below the root. Its attributes are written in the order of the calls.
+class Prim {
+ public:
+  Prim(std::string& text, const char* type, const char* name) : text_(text) {
+    add("    def {} \"{}\"\n    {{\n", type, name);
+  }
+
+  void set(const char* declaration, const std::string& value) {
+    add("        {} = {}\n", declaration, value);
+  }
+  void set_interpolated(const char* declaration, const std::string& value,
+                        const char* interpolation) {
+    add("        {} = {} (\n            interpolation = \"{}\"\n        )\n", declaration, value,
+        interpolation);
+  }
+  void end() { text_ += "    }\n"; }
+
+ private:
+  template <class... Values>
+  void add(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+  }
+
+  std::string& text_;
+};
 
 // A list in brackets; each(i) gives the text of an element.
 template <class Each>
@@ -59,63 +80,63 @@ std::string surface_colours(const ExportedModel& body) {
 void add_surface(std::string& text, const ExportedModel& body) {
   const std::vector<Vec3> at = surface_points(body);
   const auto& triangles = body.surface->triangles;
-  append(text, "    def Mesh \"skin\"\n    {{\n");
-  append(text, "        float3[] extent = {}\n", extent(at, 0));
-  append(text, "        int[] faceVertexCounts = {}\n",
-         list(triangles.size(), [](std::size_t) { return "3"; }));
-  append(text, "        int[] faceVertexIndices = {}\n", list(triangles.size(), [&](std::size_t t) {
-           const Triangle& corner = triangles[t];
-           return fmt::format("{}, {}, {}", corner[0], corner[1], corner[2]);
-         }));
-  append(text, "        point3f[] points = {}\n", points(at));
-  append(text,
-         "        color3f[] primvars:displayColor = {} (\n"
-         "            interpolation = \"vertex\"\n        )\n",
-         surface_colours(body));
-  append(text, "        uniform token subdivisionScheme = \"none\"\n    }}\n");
+  Prim mesh(text, "Mesh", "skin");
+  mesh.set("float3[] extent", extent(at, 0));
+  mesh.set("int[] faceVertexCounts", list(triangles.size(), [](std::size_t) { return "3"; }));
+  mesh.set("int[] faceVertexIndices", list(triangles.size(), [&](std::size_t t) {
+             const Triangle& corner = triangles[t];
+             return fmt::format("{}, {}, {}", corner[0], corner[1], corner[2]);
+           }));
+  mesh.set("point3f[] points", points(at));
+  mesh.set_interpolated("color3f[] primvars:displayColor", surface_colours(body), "vertex");
+  mesh.set("uniform token subdivisionScheme", "\"none\"");
+  mesh.end();
 }
 
-// With a skin, viewers show nodes and springs only as guides.
-void add_purpose(std::string& text, const ExportedModel& body) {
-  if (body.surface) text += "        uniform token purpose = \"guide\"\n";
+// Nodes or springs, drawn with this width [m]. With a skin, viewers show them only as guides.
+Prim begin_model_prim(std::string& text, const char* type, const char* name,
+                      const ExportedModel& body, double width) {
+  Prim prim(text, type, name);
+  if (body.surface) prim.set("uniform token purpose", "\"guide\"");
+  prim.set("float3[] extent", extent(body.model.rest, width / 2));
+  return prim;
+}
+
+void set_points(Prim& prim, const std::string& points, double width) {
+  prim.set("point3f[] points", points);
+  prim.set_interpolated("float[] widths", fmt::format("[{}]", width), "constant");
 }
 
 void add_nodes(std::string& text, const ExportedModel& body, double width) {
   const MassSpringModel& model = body.model;
-  append(text, "    def Points \"nodes\"\n    {{\n");
-  add_purpose(text, body);
-  append(text, "        float3[] extent = {}\n", extent(model.rest, width / 2));
-  append(text, "        point3f[] points = {}\n", points(model.rest));
-  append(text,
-         "        float[] widths = [{}] (\n            interpolation = \"constant\"\n        )\n",
-         width);
-  append(text, "        custom double3[] springlod:rest = {}\n", points(model.rest));
-  append(text, "        custom double[] springlod:mass = {}\n", numbers(model.mass));
-  append(text, "        custom double[] springlod:volume = {}\n", numbers(model.volume));
-  append(text, "        custom double[] springlod:contactArea = {}\n", numbers(model.contact_area));
-  append(text, "        custom int[] springlod:material = {}\n    }}\n", numbers(model.material));
+  Prim nodes = begin_model_prim(text, "Points", "nodes", body, width);
+  set_points(nodes, points(model.rest), width);
+  nodes.set("custom double3[] springlod:rest", points(model.rest));
+  nodes.set("custom double[] springlod:mass", numbers(model.mass));
+  nodes.set("custom double[] springlod:volume", numbers(model.volume));
+  nodes.set("custom double[] springlod:contactArea", numbers(model.contact_area));
+  nodes.set("custom int[] springlod:material", numbers(model.material));
+  nodes.end();
 }
 
 void add_springs(std::string& text, const ExportedModel& body, double width) {
   const MassSpringModel& model = body.model;
   const std::size_t count = model.spring_count();
-  append(text, "    def BasisCurves \"springs\"\n    {{\n");
-  add_purpose(text, body);
-  append(text, "        float3[] extent = {}\n", extent(model.rest, width / 2));
-  append(text, "        uniform token type = \"linear\"\n");
-  append(text, "        int[] curveVertexCounts = {}\n",
-         list(count, [](std::size_t) { return "2"; }));
-  append(text, "        point3f[] points = {}\n", list(count, [&](std::size_t s) {
-           return triple(model.rest[model.a[s]]) + ", " + triple(model.rest[model.b[s]]);
-         }));
-  append(text,
-         "        float[] widths = [{}] (\n            interpolation = \"constant\"\n        )\n",
-         width);
-  append(text, "        custom int[] springlod:a = {}\n", numbers(model.a));
-  append(text, "        custom int[] springlod:b = {}\n", numbers(model.b));
-  append(text, "        custom double[] springlod:restLength = {}\n", numbers(model.rest_length));
-  append(text, "        custom double[] springlod:stiffness = {}\n", numbers(model.stiffness));
-  append(text, "        custom double[] springlod:damping = {}\n    }}\n", numbers(model.damping));
+  Prim springs = begin_model_prim(text, "BasisCurves", "springs", body, width);
+  springs.set("uniform token type", "\"linear\"");
+  springs.set("int[] curveVertexCounts", list(count, [](std::size_t) { return "2"; }));
+  set_points(springs,
+             list(count,
+                  [&](std::size_t s) {
+                    return triple(model.rest[model.a[s]]) + ", " + triple(model.rest[model.b[s]]);
+                  }),
+             width);
+  springs.set("custom int[] springlod:a", numbers(model.a));
+  springs.set("custom int[] springlod:b", numbers(model.b));
+  springs.set("custom double[] springlod:restLength", numbers(model.rest_length));
+  springs.set("custom double[] springlod:stiffness", numbers(model.stiffness));
+  springs.set("custom double[] springlod:damping", numbers(model.damping));
+  springs.end();
 }
 
 std::string quoted(const std::string& text) {
@@ -127,16 +148,20 @@ std::string quoted(const std::string& text) {
   return word + "\"";
 }
 
+// Attributes of the root.
 void add_materials(std::string& text, const std::vector<Material>& materials) {
+  const auto set = [&](const char* declaration, const std::string& value) {
+    fmt::format_to(std::back_inserter(text), "    custom {} = {}\n", declaration, value);
+  };
   const auto each = [&](double Material::*value) {
     return list(materials.size(),
                 [&](std::size_t m) { return fmt::format("{}", materials[m].*value); });
   };
-  append(text, "    custom string[] springlod:materialNames = {}\n",
-         list(materials.size(), [&](std::size_t m) { return quoted(materials[m].name); }));
-  append(text, "    custom double[] springlod:materialYoung = {}\n", each(&Material::young));
-  append(text, "    custom double[] springlod:materialPoisson = {}\n", each(&Material::poisson));
-  append(text, "    custom double[] springlod:materialDensity = {}\n", each(&Material::density));
+  set("string[] springlod:materialNames",
+      list(materials.size(), [&](std::size_t m) { return quoted(materials[m].name); }));
+  set("double[] springlod:materialYoung", each(&Material::young));
+  set("double[] springlod:materialPoisson", each(&Material::poisson));
+  set("double[] springlod:materialDensity", each(&Material::density));
 }
 
 }  // namespace
