@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "voxelize/bodies.hpp"
+#include "voxelize/cells/cell_materials.hpp"
 #include "voxelize/cells/claim_order.hpp"
 #include "voxelize/cells/cut_cells.hpp"
 #include "voxelize/cells/depth.hpp"
@@ -19,7 +19,6 @@
 #include "voxelize/cells/frame.hpp"
 #include "voxelize/cells/inside.hpp"
 #include "voxelize/cells/material_choice.hpp"
-#include "voxelize/cells/nearest_surface.hpp"
 #include "voxelize/cells/resolution.hpp"
 #include "voxelize/cells/slivers.hpp"
 #include "voxelize/cells/solid_field.hpp"
@@ -45,15 +44,6 @@ constexpr double kBytesPerCell = 60;
 constexpr double kBytesPerSurfaceCell = 1200;
 // Solids have 16-bit numbers; 0 is empty.
 constexpr std::size_t kMostSolids = 65535;
-
-// "rod, rubber", at most a few of them.
-std::string listed(const std::set<std::string>& names) {
-  constexpr std::size_t kMost = 20;
-  if (names.empty()) return "none";
-  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
-  const std::vector<std::string> first(names.begin(), std::next(names.begin(), kMost));
-  return fmt::format("{} and {} more", fmt::join(first, ", "), names.size() - kMost);
-}
 
 void require_solids(const std::vector<SolidReport>& solids) {
   if (solids.empty()) throw InputError("voxelize: the mesh has no triangles");
@@ -82,8 +72,7 @@ class Voxelizer {
     tbb::task_arena threads(options_.threads == 0 ? tbb::task_arena::automatic
                                                   : static_cast<int>(options_.threads));
     threads.execute([&] { fill(); });
-    paint_core();
-    paint_function();
+    paint();
     return finish();
   }
 
@@ -106,7 +95,7 @@ class Voxelizer {
     fill_solids(sort_shells(mesh(), solids_, welded));
     gather_cells();
     report_slivers();
-    assign_part_materials();
+    assign_part_materials(grid(), mesh(), solids_, frame_, materials_);
     count_bodies();
     if (options_.core_shell || options_.paint) grid().depth = measure_depth(grid(), mesh());
   }
@@ -318,29 +307,6 @@ class Voxelizer {
     }
   }
 
-  // All cells of a solid of one material have that material. In a solid of several, each cell takes
-  // that of the nearest triangle.
-  void assign_part_materials() {
-    std::vector<std::uint16_t> of_part;
-    for (const MeshPart& part : mesh().parts) of_part.push_back(materials_.of_part(part));
-    std::vector<std::uint16_t> of_solid;
-    std::vector<std::vector<std::uint32_t>> mixed_cells(
-        solids_.size());  // of solids of several materials
-    std::vector<std::uint8_t> mixed;
-    for (const SolidReport& solid : solids_) {
-      of_solid.push_back(of_part[solid.parts.front()]);
-      mixed.push_back(std::any_of(solid.parts.begin(), solid.parts.end(),
-                                  [&](std::uint32_t p) { return of_part[p] != of_solid.back(); }));
-    }
-    for (std::uint32_t c = 0; c < grid().cells.size(); ++c) {
-      const std::uint16_t s = grid().material[c];
-      grid().material[c] = of_solid[s];
-      if (mixed[s] != 0) mixed_cells[s].push_back(c);
-    }
-    for (std::size_t s = 0; s < solids_.size(); ++s)
-      if (!mixed_cells[s].empty()) assign_nearest(solids_[s], mixed_cells[s], of_part);
-  }
-
   void count_bodies() {
     bodies_ = bodies_of(grid().cells);
     if (bodies_.count == 1) return;
@@ -351,71 +317,16 @@ class Voxelizer {
                      *least, *most));
   }
 
-  void assign_nearest(const SolidReport& solid, const std::vector<std::uint32_t>& places,
-                      const std::vector<std::uint16_t>& of_part) {
-    std::vector<Triangle> triangles;
-    std::vector<std::uint32_t> labels;
-    for (const std::uint32_t p : solid.parts)
-      for (std::uint32_t i = 0; i < mesh().parts[p].triangle_count; ++i) {
-        triangles.push_back(mesh().triangles[mesh().parts[p].first_triangle + i]);
-        labels.push_back(p);
-      }
-    std::vector<CellIndex> cells;
-    cells.reserve(places.size());
-    for (const std::uint32_t c : places) cells.push_back(grid().cells[c]);
-    const std::vector<NearestPoint> nearest =
-        nearest_surface(frame_, cells, mesh().positions, triangles, labels);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      grid().material[places[i]] = of_part[nearest[i].label];
-  }
-
-  void paint_core() {
-    if (!options_.core_shell) return;
-    const double core_depth = options_.core_shell->core_depth;
-    if (!(core_depth >= 0))
-      throw InputError(fmt::format("voxelize: core_depth = {} m; give 0 or more", core_depth));
-    bool any = false;
-    for (std::size_t c = 0; c < grid().cells.size(); ++c)
-      if (grid().depth[c] > core_depth) {
-        grid().material[c] = materials_.of_core();
-        any = true;
-      }
-    if (!any)
+  void paint() {
+    if (const auto& core = options_.core_shell;
+        core && !paint_core(grid(), core->core_depth, materials_))
       warn(fmt::format("no cell lies deeper than core_depth = {:.4g} m; there is no core",
-                       core_depth));
-  }
-
-  void paint_function() {
-    if (!options_.paint) return;
-    Task task(options_.progress, "paint", grid().cells.size());
-    for (std::size_t c = 0; c < grid().cells.size(); ++c) {
-      const std::string name = options_.paint(frame_.center(grid().cells[c]), grid().depth[c],
-                                              materials_.name(grid().material[c]));
-      if (!name.empty()) grid().material[c] = materials_.of_name(name);
-      task.advance();
-    }
-  }
-
-  void warn_of_unused_materials() {
-    const std::vector<std::string> unused = materials_.unused();
-    if (unused.empty()) return;
-    std::set<std::string> keys;
-    for (const auto& [key, input] : options_.materials) keys.insert(key);
-    std::set<std::string> parts;
-    std::set<std::string> materials;
-    for (const MeshPart& part : mesh().parts) {
-      parts.insert(part.name);
-      if (!part.material.empty()) materials.insert(part.material);
-    }
-    warn(fmt::format(
-        "material{} \"{}\" {} not used: no part or material of the mesh has this name; materials "
-        "given: {}; parts of the mesh: {}; its materials: {}",
-        unused.size() == 1 ? "" : "s", fmt::join(unused, "\", \""),
-        unused.size() == 1 ? "is" : "are", listed(keys), listed(parts), listed(materials)));
+                       core->core_depth));
+    if (options_.paint) paint_cells(grid(), options_.paint, frame_, materials_, options_.progress);
   }
 
   VoxelizedMesh finish() {
-    warn_of_unused_materials();
+    if (auto warning = unused_materials(materials_, options_, mesh())) warn(std::move(*warning));
     const std::vector<MaterialInput> used = materials_.finish(grid().material);
     set_materials(grid(), used, bodies_);
     report().grid_volume = volume(grid());
