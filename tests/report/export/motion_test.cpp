@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -199,6 +200,25 @@ TEST_CASE("A skinned glb has two tracks a joint, a morphed one a target a frame"
   const json morph = document_of(read_file(morphed.files.front()));
   CHECK(morph.at("meshes").at(0).at("primitives").at(0).at("targets").size() == 6);
   CHECK(morph.at("meshes").at(0).at("weights").size() == 6);
+}
+
+TEST_CASE("Mesh parts of one material share it in a glb, as they do in an asset") {
+  const TemporaryFolder scratch;
+  Body body;
+  const std::vector<Frame> frames = bending(body.model(), 2);
+  const auto materials_of_parts = [&](const char* second) {
+    body.asset.surface.parts.at(1).material = second;
+    const ExportedMotion motion{body.exported(), frames};
+    const ExportReport report =
+        export_motion(motion, scratch / "motion.glb", {.format = MotionFormat::glb_morph});
+    const json document = document_of(read_file(report.files.front()));
+    std::vector<std::size_t> numbers{document.at("materials").size()};
+    for (const json& primitive : document.at("meshes").at(0).at("primitives"))
+      numbers.push_back(primitive.at("material"));
+    return numbers;
+  };
+  CHECK(materials_of_parts("steel") == std::vector<std::size_t>{1, 0, 0});
+  CHECK(materials_of_parts("rubber") == std::vector<std::size_t>{2, 0, 1});
 }
 
 TEST_CASE("Point caches hold every vertex of every frame, in single precision") {
