@@ -8,6 +8,7 @@
 #include "scripting/bind/tables/grouping_script.hpp"
 #include "scripting/bind/tables/node_choice.hpp"
 #include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/records.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -124,13 +125,9 @@ void describe_chain(Api& api) {
                     });
   type.field("coarsest", "integer", "number of the coarsest level",
              [](const LodAsset& asset) { return asset.chain.levels.size() - 1; });
-  type.table_field("provenance", "table of strings",
-                   "origin: version, script, parameters, seed and hashes",
-                   [](lua_State* L, const LodAsset& asset) {
-                     begin_table(L);
-                     for (const auto& [key, entry] : asset.provenance.entries)
-                       set_field(L, key.c_str(), entry);
-                   });
+  type.table_field(
+      "provenance", "table of strings", "origin: version, script, parameters, seed and hashes",
+      [](lua_State* L, const LodAsset& asset) { push_provenance(L, asset.provenance); });
   const Parameter level{
       .name = "level", .type = "integer", .help = "0 for the base, up to chain.coarsest"};
   type.method({.name = "level",

@@ -15,6 +15,7 @@ void describe_options_of(Api& api);
 void describe_files(Api& api);
 void describe_model(Api& api);
 void describe_materials(Api& api);  // of model too, called by describe_model
+void describe_assets(Api& api);     // likewise
 void describe_elastic(Api& api);
 void describe_voxelize(Api& api);
 void describe_grid(Api& api);       // of voxelize too, called by describe_voxelize

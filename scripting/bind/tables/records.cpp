@@ -76,4 +76,9 @@ void push_materials(lua_State* L, const std::vector<Material>& materials) {
   }
 }
 
+void push_provenance(lua_State* L, const Provenance& provenance) {
+  begin_table(L);
+  for (const auto& [key, entry] : provenance.entries) set_field(L, key.c_str(), entry);
+}
+
 }  // namespace springlod::scripting

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "model/chain.hpp"
 #include "model/material_input.hpp"
 #include "scripting/engine/call.hpp"
 
@@ -18,5 +19,7 @@ std::map<std::string, MaterialInput> read_materials(Call& call, int table,
                                                     const std::string& owner);
 void push_material(lua_State* L, const Material& material);
 void push_materials(lua_State* L, const std::vector<Material>& materials);
+/// {key = entry, ...}
+void push_provenance(lua_State* L, const Provenance& provenance);
 
 }  // namespace springlod::scripting
