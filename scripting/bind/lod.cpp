@@ -12,6 +12,7 @@
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
+#include "scripting/engine/quantity.hpp"
 
 namespace springlod::scripting {
 

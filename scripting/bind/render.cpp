@@ -16,6 +16,7 @@
 #include "scripting/bind/tables/still_pictures.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
+#include "scripting/engine/quantity.hpp"
 
 namespace springlod::scripting {
 

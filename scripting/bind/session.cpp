@@ -20,6 +20,7 @@
 #include "scripting/engine/help.hpp"
 #include "scripting/engine/inspect.hpp"
 #include "scripting/engine/paths.hpp"
+#include "scripting/engine/quantity.hpp"
 #include "scripting/engine/screen.hpp"
 #include "scripting/engine/suggest.hpp"
 

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "report/tables.hpp"
 #include "scripting/bind/tables/options.hpp"
+#include "scripting/engine/quantity.hpp"
 
 namespace springlod::scripting {
 

@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "scripting/bind/tables/options.hpp"
+#include "scripting/engine/quantity.hpp"
 
 namespace springlod::scripting {
 

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "scripting/bind/tables/model_table.hpp"
+#include "scripting/engine/quantity.hpp"
 
 namespace springlod::scripting {
 

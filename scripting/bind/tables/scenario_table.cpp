@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "scripting/bind/tables/values.hpp"
+#include "scripting/engine/quantity.hpp"
 
 namespace springlod::scripting {
 

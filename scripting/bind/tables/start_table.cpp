@@ -7,6 +7,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "scripting/engine/quantity.hpp"
 
 namespace springlod::scripting {
 
