@@ -26,8 +26,8 @@ parser:option("--starts", "number of starts; every level uses the same ones")
   :convert(command.whole("--starts", 1)):default("8")
 parser:option("--jitter", "relative variation of speed and height between starts (default: 0.02)")
   :convert(command.number("--jitter", 0, true))
-parser:option("--variant", "name used in labels: hb gives LOD-hb-1 (default: none; of several "
-  .. "assets, their names)")
+parser:option("--variant", "name used in labels: hb gives \"hb level 1\" (default: none; of "
+  .. "several assets, their names)")
 parser:option("--frames", "maximum number of frames; 0 draws none")
   :convert(command.whole("--frames", 0)):default(tostring(film.frames))
 parser:option("--frame-rate", ("frames per second of the video (default: %d; down to %d for a run "
@@ -112,7 +112,7 @@ local function save_rows(file, compared, names, rows_of)
     local rows
     rows, columns = rows_of(runs)
     for _, row in ipairs(rows) do
-      if #compared > 1 and row.level == 0 then row.label = "base-" .. names[i] end
+      if #compared > 1 and row.level == 0 then row.label = names[i] .. " base" end
       all[#all + 1] = row
     end
   end

@@ -44,22 +44,31 @@ local variants = table.move(paper_variants, 1, #paper_variants, 1, {})
 variants[#variants + 1] = {name = "fit", grouping = "compact", border = "none", keep = {0.45, 0.2},
                            calibrate = "modes", contact = "surface"}
 
+-- The names of a method, "LOD-hb" as in the paper, and of one of its levels, "LOD-hb level 2".
+local function method_name(variant) return paper_variants.label(variant.name) end
+local function level_name(name, level)
+  return ("%s level %d"):format(paper_variants.label(name), level)
+end
+
 local function make_chains(base)
   local counts, chains = {}, {}
-  local function count(name, model)
-    local theirs = paper_numbers.rods[name] or {}
+  local function count(name, paper_name, model)
+    local theirs = paper_numbers.rods[paper_name] or {}
     counts[#counts + 1] = {
       name, model.node_count, model.end_count, theirs.nodes or "-", theirs.ends or "-",
     }
   end
-  count("base", base)
+  count("base", "base", base)
   for _, variant in ipairs(variants) do
     local chain = s.simplify(base, {
       levels = 2, keep = variant.keep, grouping = variant.grouping, border = variant.border,
       calibrate = variant.calibrate, contact = variant.contact, seed = s.seed,
     })
-    for level = 1, 2 do count(paper_variants.label(variant.name, level), chain[level]) end
-    s.save(("%s/%s-chain.glb"):format(folder, paper_variants.label(variant.name):lower()), chain)
+    for level = 1, 2 do
+      count(level_name(variant.name, level), paper_variants.label(variant.name, level),
+        chain[level])
+    end
+    s.save(("%s/%s-chain.glb"):format(folder, method_name(variant):lower()), chain)
     chains[variant.name] = chain
   end
   local count_columns = {"model", "nodes", "ends", "paper: nodes", "paper: ends"}
@@ -76,7 +85,7 @@ local function run_levels(chains)
   local series, compared = {}, {}
   for i, variant in ipairs(variants) do
     local runs = s.compare(chains[variant.name], scene,
-      {starts = starts, jitter = 0.02, seed = s.seed, variant = variant.name})
+      {starts = starts, jitter = 0.02, seed = s.seed, variant = method_name(variant)})
     compared[variant.name] = runs
     local table_rows
     table_rows, columns = runs:table()
@@ -89,7 +98,7 @@ local function run_levels(chains)
         clip = row.label,
       }
     end
-    series[#series + 1] = {name = paper_variants.label(variant.name), points = points}
+    series[#series + 1] = {name = method_name(variant), points = points}
     local measured
     measured, timing_columns = runs:timings()
     for _, row in ipairs(measured) do timings[#timings + 1] = row end
@@ -148,7 +157,7 @@ local function time_of(timings, label)
 end
 
 local function results(runs)
-  local fit_label = paper_variants.label("fit", 2)
+  local fit_label = level_name("fit", 2)
   local merged = second_level(runs.rows, function(row) return row.label ~= fit_label end)
   local fitted = second_level(runs.rows, function(row) return row.label == fit_label end)
   return {
@@ -169,13 +178,13 @@ local function write_page(runs, chains, sentences)
   local comparisons, names = {}, {}
   for i, variant in ipairs(variants) do
     comparisons[i] = runs.compared[variant.name]
-    names[i] = paper_variants.label(variant.name)
+    names[i] = method_name(variant)
   end
   page.write(folder .. "/index.html", {
     command = "demo", title = "Two rods, joined by rubber, thrown at a wall",
     verdict = sentences, line = command.line(),
     film = {path = folder .. "/comparison.mp4",
-            panels = {"base", paper_variants.label("hb", 2), paper_variants.label("fit", 2)}},
+            panels = {"base", level_name("hb", 2), level_name("fit", 2)}},
     view = s.view(comparisons), chains = names, facts = page.facts(runs.rows),
     charts = {{runs.series, chart}},
     tables = {page.comparison_table(runs.rows)},

@@ -246,7 +246,7 @@ View view_of(const LodAsset& asset, const ViewOptions& options) {
   View view = view_for(asset, options);
   std::vector<Candidate> candidates;
   for (std::uint32_t n = 0; n < asset.chain.levels.size(); ++n)
-    candidates.push_back({&asset, nullptr, n == 0 ? "base" : fmt::format("LOD-{}", n), 0, n});
+    candidates.push_back({&asset, nullptr, n == 0 ? "base" : fmt::format("level {}", n), 0, n});
   add_bodies(view, candidates, 0, options);
   return view;
 }

@@ -37,7 +37,7 @@ constexpr auto option_rows(const ViewOptions*) {
 
 /// One level and its motion.
 struct ViewBody {
-  std::string label;                               ///< "base", "LOD-hb-1"
+  std::string label;                               ///< "base", "hb level 1"
   std::uint32_t chain = 0;                         ///< number of its comparison
   std::uint32_t level = 0;                         ///< in its chain
   std::uint32_t springs = 0;                       ///< number of springs, whether listed or not

@@ -340,8 +340,8 @@ void describe_render(Api& api) {
       .errors = "A size beyond the largest picture; node_values that are not one per node; a time "
                 "outside the run; the file cannot be written.",
       .example = "s.render(\"out/levels.png\", {chain[0], chain[1], chain[2]},\n"
-                 "  {springs = true, surface_opacity = 0.3, titles = {\"base\", \"LOD-1\", "
-                 "\"LOD-2\"}})",
+                 "  {springs = true, surface_opacity = 0.3, titles = {\"base\", \"level 1\", "
+                 "\"level 2\"}})",
       .call = render_binding});
 }
 

@@ -6,8 +6,8 @@
 --   verdict = {"One sentence.", "Another."},     what has been found, in words
 --   film = {path = , panels = {"base", ...}},    an .mp4, and the level in each of its panels
 --   view = s.view(...),                          levels in 3D; with chains = {names} if of several
---   facts = {["LOD-1"] = "4 times cheaper"},     a remark on each level in 3D
---   values = {label = , of = {["LOD-1"] = {}}},  numbers on the nodes in 3D, as colours
+--   facts = {["level 1"] = "4 times cheaper"},     a remark on each level in 3D
+--   values = {label = , of = {["level 1"] = {}}},  numbers on the nodes in 3D, as colours
 --   charts = {{series, options}, ...},           as for s.chart; a point whose clip (or label) is a
 --                                                level in 3D or in the film plays it
 --   pictures = {{path = , caption = }},          .png and .svg files; those that are missing, as

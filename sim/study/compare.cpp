@@ -37,7 +37,7 @@ void validate(const LodChain& chain, const CompareOptions& options) {
 
 std::string label_of(std::uint32_t level, const std::string& variant) {
   if (level == 0) return "base";
-  return variant.empty() ? fmt::format("LOD-{}", level) : fmt::format("LOD-{}-{}", variant, level);
+  return fmt::format("{}{}level {}", variant, variant.empty() ? "" : " ", level);
 }
 
 /// Data of the base's run that the levels of one start need.

@@ -25,7 +25,7 @@ struct CompareOptions {
   std::optional<ContactAt> contact = {};  ///< empty: that of the chain
   /// Errors are averaged from t = 0 to this long after the base's first contact [s].
   double error_window = 0.25;
-  /// Part of the labels of the levels: "hb" gives "LOD-hb-1"; empty: "LOD-1".
+  /// Start of the labels of the levels: "hb" gives "hb level 1"; empty: "level 1".
   std::string variant = {};
   Progress* progress = nullptr;
 };
@@ -42,7 +42,7 @@ constexpr auto option_rows(const CompareOptions*) {
              "time after the base's first contact up to which errors are averaged")
           .within(0, 1e6)
           .in(Dimension::time),
-      option("variant", &CompareOptions::variant, "infix of the labels: \"hb\" makes \"LOD-hb-1\"")
+      option("variant", &CompareOptions::variant, "start of the labels: \"hb\" makes \"hb level 1\"")
           .by_default("none"),
       nested(&CompareOptions::run));
 }
@@ -61,7 +61,7 @@ struct StartResult : RunSummary {
 };
 
 struct LevelRuns {
-  std::string label;  ///< "base", "LOD-hb-1"
+  std::string label;  ///< "base", "hb level 1"
   std::uint32_t level = 0;
   std::vector<StartResult> starts;
   Trajectory first;                ///< of the first start

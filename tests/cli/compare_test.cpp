@@ -63,7 +63,7 @@ TEST_CASE("compare writes table, chart, frames and timings, with identical resul
   const Ran ran = springlod_run(compare_arguments(scratch, "one"));
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
-  CHECK_THAT(ran.out, Contains("LOD-x-1") && Contains("LOD-x-2"));
+  CHECK_THAT(ran.out, Contains("x level 1") && Contains("x level 2"));
 
   auto one = contents(scratch / "one");
   for (const char* name : {"table.csv", "starts.csv", "timings.csv", "frames/frame_0000.png"})
@@ -106,7 +106,7 @@ TEST_CASE("compare takes several assets into one table, chart and film") {
   const Ran ran = springlod_run(arguments);
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
-  for (const char* label : {"base-x-bar", "LOD-x-bar-1", "base-x-other", "LOD-x-other-1"})
+  for (const char* label : {"x-bar base", "x-bar level 1", "x-other base", "x-other level 1"})
     CHECK_THAT(ran.out, Contains(label));
   CHECK_THAT(ran.out, Contains("Means over 2 starts. cost ratio: "));
   auto files = contents(scratch / "both");

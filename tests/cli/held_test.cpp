@@ -194,7 +194,7 @@ TEST_CASE("compare and stability take anchors from files") {
                                       (scratch / "scene.lua").string(), "--out",
                                       (scratch / "compared").string(), "--frames", "0"});
   require_success(compared);
-  CHECK_THAT(slurp(scratch / "compared/table.csv"), Contains("LOD-1"));
+  CHECK_THAT(slurp(scratch / "compared/table.csv"), Contains("level 1"));
   const Ran mapped =
       springlod_run({"stability", (scratch / "bar.glb").string(), "--out",
                      (scratch / "map").string(), "--ratios", "1", "--steps", "0.9", "--integrators",

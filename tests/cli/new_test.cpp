@@ -28,7 +28,7 @@ TEST_CASE("new makes a project whose script runs at once and draws pictures", "[
   const Ran ran = springlod_run({"-q", "run", "main.lua"}, "", scratch / "toy");
   CAPTURE(ran.err);
   REQUIRE(ran.exit_code == 0);
-  CHECK_THAT(ran.out, Contains("LOD-2"));
+  CHECK_THAT(ran.out, Contains("level 2"));
   for (const char* file : {"toy.glb", "levels.png", "frames/frame_0010.png"})
     CHECK(fs::file_size(scratch / "toy/out" / file) > 0);
 }

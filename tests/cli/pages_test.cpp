@@ -126,7 +126,7 @@ TEST_CASE("the demo reports correct node counts and writes table, chart, video a
   REQUIRE(ran.exit_code == 0);
   const std::string counts = slurp(folder / "counts.csv");
   CHECK_THAT(counts, Contains("base,368,4748,368,4724"));
-  CHECK_THAT(counts, Contains("LOD-hb-2,"));
+  CHECK_THAT(counts, Contains("LOD-hb level 2,"));
   for (const char* file : {"table.csv", "timings.csv", "chart.svg", "chart.png", "lod-chain.glb",
                            "lod-b-chain.glb", "lod-h-chain.glb", "lod-hb-chain.glb",
                            "lod-fit-chain.glb", "frames/frame_0059.png", "index.html"})

@@ -30,7 +30,7 @@ struct Film {
                                      {sim::Plane{-Vec3::UnitX(), -1.2}, "wall"}};
     for (std::uint32_t level = 0; level < 2; ++level) {
       sim::LevelRuns runs;
-      runs.label = level == 0 ? "base" : "LOD-1";
+      runs.label = level == 0 ? "base" : "level 1";
       runs.level = level;
       runs.first.spring_updates = level == 0 ? 18600 : 1000;
       runs.starts.resize(1);

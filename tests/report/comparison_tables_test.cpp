@@ -28,7 +28,7 @@ sim::Comparison comparison() {
   sim::Comparison c;
   for (std::uint32_t level = 0; level < 2; ++level) {
     sim::LevelRuns runs;
-    runs.label = level == 0 ? "base" : "LOD-1";
+    runs.label = level == 0 ? "base" : "level 1";
     runs.level = level;
     runs.first.step = 1e-4;
     runs.first.undamped_step = level == 0 ? 1e-3 : 2e-4;

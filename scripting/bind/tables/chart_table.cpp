@@ -125,6 +125,13 @@ report::ChartSeries series_of(const ComparisonValue& comparison, ErrorKind kind)
   return series;
 }
 
+/// The variant of a comparison, by which its labels begin ("hb level 1"), or its number.
+std::string name_of(const ComparisonValue& comparison, std::size_t number) {
+  const std::string& label = comparison.comparison.levels.back().label;
+  const std::size_t end = label.rfind(" level ");
+  return end == std::string::npos ? fmt::format("comparison {}", number) : label.substr(0, end);
+}
+
 }  // namespace
 
 std::vector<report::ChartSeries> cost_error_series(
@@ -135,9 +142,7 @@ std::vector<report::ChartSeries> cost_error_series(
   for (const auto& comparison : comparisons) {
     all.push_back(series_of(*comparison, kind));
     if (comparisons.size() == 1) break;
-    // "LOD-hb-1" names the comparison.
-    const std::string& label = comparison->comparison.levels.back().label;
-    all.back().name = label.substr(0, label.rfind('-')) + ": " + all.back().name;
+    all.back().name = fmt::format("{}: {}", name_of(*comparison, all.size()), all.back().name);
     if (all.size() > 1) all.back().points.front().label.clear();  // all bases are at 1
   }
   return all;
@@ -181,7 +186,7 @@ void describe_series(Api& api) {
   api.add(RecordEntry{.name = "Point",
                       .summary = "A point of a chart: {x, y}, with these keys if needed.",
                       .fields = parameters_of<report::ChartPoint>(),
-                      .example = "{0.4, 1.2, label = \"LOD-1\"}"});
+                      .example = "{0.4, 1.2, label = \"level 1\"}"});
   std::vector<Parameter> fields = parameters_of<report::ChartSeries>();
   fields.push_back({.name = "points",
                     .type = "list of Point",

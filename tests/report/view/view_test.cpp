@@ -29,7 +29,7 @@ struct Moving {
     comparison.scenario.obstacles = {{sim::Plane{Vec3::UnitZ(), 0}, "floor"}};
     for (std::uint32_t level = 0; level < 2; ++level) {
       sim::LevelRuns runs;
-      runs.label = level == 0 ? "base" : "LOD-1";
+      runs.label = level == 0 ? "base" : "level 1";
       runs.level = level;
       for (int k = 0; k <= 2 - static_cast<int>(level); ++k) {  // the level ends after 1 s
         std::vector<Vec3> x = base.model.rest;
@@ -53,7 +53,7 @@ TEST_CASE("a view has every level at evenly spaced times of the longest run") {
   CHECK(view.times == std::vector<double>{0, 0.5, 1, 1.5, 2});
   REQUIRE(view.bodies.size() == 2);
   CHECK(view.bodies[0].label == "base");
-  CHECK(view.bodies[1].label == "LOD-1");
+  CHECK(view.bodies[1].label == "level 1");
   const Vec3 rest = moving.asset.chain.levels[0].model.rest[0];
   CHECK((view.bodies[0].frames[1][0] - rest).x() == Approx(0.5));
   CHECK((view.bodies[0].frames[4][0] - rest).x() == Approx(2));
@@ -102,7 +102,7 @@ TEST_CASE("levels at rest have one instant, and runs of another base are refused
   const Moving moving;
   const View still = view_of(moving.asset);
   CHECK(still.times == std::vector<double>{0});
-  CHECK(still.bodies[1].label == "LOD-1");
+  CHECK(still.bodies[1].label == "level 1");
   CHECK(still.bodies[1].frames[0] == moving.asset.chain.levels[1].model.rest);
 
   Moving other;
@@ -111,7 +111,7 @@ TEST_CASE("levels at rest have one instant, and runs of another base are refused
                     Catch::Contains("comparison 2"));
   Moving blind;
   blind.comparison.levels[1].first.frames.clear();
-  CHECK_THROWS_WITH(blind.view(), Catch::Contains("LOD-1") && Catch::Contains("frame rate"));
+  CHECK_THROWS_WITH(blind.view(), Catch::Contains("level 1") && Catch::Contains("frame rate"));
 }
 
 TEST_CASE("a coarse surface has at most as many triangles as asked, of vertices of the mesh") {

@@ -66,8 +66,8 @@ TEST_CASE("One and two threads give the same bits", "[threaded]") {
     CHECK((one.levels[l].base_frames.back().x == two.levels[l].base_frames.back().x));
   }
   CHECK(one.levels[0].label == "base");
-  CHECK(one.levels[1].label == "LOD-hb-1");
-  CHECK(one.levels[2].label == "LOD-hb-2");
+  CHECK(one.levels[1].label == "hb level 1");
+  CHECK(one.levels[2].label == "hb level 2");
 }
 
 TEST_CASE("Every level starts from the same jittered throw") {
