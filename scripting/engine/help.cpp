@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "scripting/engine/call.hpp"
+#include "scripting/engine/paths.hpp"
 #include "scripting/engine/suggest.hpp"
 
 namespace springlod::scripting {
@@ -224,6 +225,7 @@ std::string help_for(const RecordEntry& record, std::size_t width) {
 }
 
 std::string help_for(const Api& api, const std::string& name, std::size_t width) {
+  if (name.starts_with("s.")) return help_for(api, name.substr(2), width);
   if (const FunctionEntry* entry = api.find_function(name)) return help_for(*entry, width);
   if (const TypeEntry* type = api.find_type(name)) return help_for(*type, width);
   for (const RecordEntry& record : api.records())
@@ -234,6 +236,10 @@ std::string help_for(const Api& api, const std::string& name, std::size_t width)
         return help_for(method, width);
   for (const auto& [table, words] : api.choices())
     if (name == table || name == "choices." + table) return help_for(words, width);
+  for (const StockCommand& command : stock_commands())
+    if (name == command.name)
+      throw InputError(fmt::format(
+          "{0} is a command for the shell; there, springlod help {0} explains it", name));
   throw InputError(fmt::format("no help on '{}'{} (help() lists all names)", name,
                                did_you_mean(name, help_topics(api))));
 }

@@ -1,7 +1,6 @@
 #include "scripting/engine/repl.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <clocale>
 #include <cstdio>
@@ -19,6 +18,7 @@
 #include "scripting/engine/history.hpp"
 #include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/paths.hpp"
+#include "scripting/engine/prompt_words.hpp"
 
 namespace springlod::scripting {
 
@@ -136,27 +136,6 @@ class LineEditor {
   std::string earlier_;
 };
 
-// `exit`, `quit()` and the like, alone on a line; unless a script has given the name a meaning.
-bool asks_to_leave(lua_State* L, std::string_view line) {
-  const auto trim = [&line] {
-    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0)
-      line.remove_suffix(1);
-    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.front())) != 0)
-      line.remove_prefix(1);
-  };
-  trim();
-  if (line.ends_with(';')) line.remove_suffix(1);
-  trim();
-  if (line.ends_with("()")) line.remove_suffix(2);
-  trim();
-  if (line != "exit" && line != "quit") return false;
-  lua_pushglobaltable(L);
-  lua_pushlstring(L, line.data(), line.size());
-  const bool unused = lua_rawget(L, -2) == LUA_TNIL;
-  lua_pop(L, 2);
-  return unused;
-}
-
 // Reads lines until they form a complete chunk, and evaluates the chunk.
 class Prompt {
  public:
@@ -181,7 +160,14 @@ class Prompt {
       case Input::line:
         break;
     }
-    if (chunk_.empty() && asks_to_leave(state_.lua(), line)) return false;
+    if (chunk_.empty()) {
+      if (asks_to_leave(state_, line)) return false;
+      if (const std::string answer = shell_command_answer(state_, line); !answer.empty()) {
+        if (editor_) editor_->remember(line);
+        fmt::print(stderr, "{}\n", answer);
+        return true;
+      }
+    }
     chunk_ += chunk_.empty() ? line : "\n" + line;
     if (chunk_.find_first_not_of(" \t\n") == std::string::npos) {
       chunk_.clear();
@@ -190,8 +176,10 @@ class Prompt {
     if (needs_more_lines(state_, chunk_)) return true;
     // Before it runs, because it may end the process.
     if (editor_) editor_->remember(chunk_);
-    const Reply reply = evaluate(state_, chunk_);
+    const Reply reply = evaluate(state_, chunk_of(state_, chunk_));
     if (!reply.error.empty()) fmt::print(stderr, "{}\n", reply.error);
+    if (const std::string hint = missing_table_hint(state_, reply.error); !hint.empty())
+      fmt::print(stderr, "{}\n", hint);
     chunk_.clear();
     return !interrupt_requested();
   }

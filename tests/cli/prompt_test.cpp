@@ -259,3 +259,54 @@ TEST_CASE("the flag -i without a terminal reads lines from stdin") {
   CHECK(ran.exit_code == 0);
   CHECK(ran.out == "21\nin\n");
 }
+
+TEST_CASE("help without brackets shows the help") {
+  const auto typed = [](const std::string& lines) {
+    const Ran ran = springlod_run({"-i"}, lines);
+    CHECK(ran.exit_code == 0);
+    return ran;
+  };
+  CHECK(typed("help\n").out == typed("help()\n").out);
+  CHECK_THAT(typed("help\n").out, Contains("simplify"));
+  const std::string text = typed("help('simplify')\n").out;
+  CHECK_THAT(text, Contains("s.simplify("));
+  for (const char* line : {"help simplify\n", " help  s.simplify \n", "help('s.simplify')\n"})
+    CHECK(typed(line).out == text);
+  CHECK_THAT(typed("help Mesh\n").out, Contains("vertex_count"));
+  CHECK_THAT(typed("help info\n").out, Contains("s.info("));
+  CHECK_THAT(typed("help convert\n").err, Contains("springlod help convert explains it"));
+  CHECK_THAT(typed("help simplfy\n").err, Contains("did you mean 'simplify'?"));
+  // Not a name that the session has defined.
+  CHECK(typed("help = 5\nhelp\n").out == "5\n");
+}
+
+TEST_CASE("a command of the shell at the prompt is answered with what does the same in Lua") {
+  const auto answer = [](const std::string& line) {
+    const Ran ran = springlod_run({"-i"}, line + "\n'still ' .. 'here'\n");
+    CAPTURE(line, ran.err);
+    CHECK(ran.exit_code == 0);
+    CHECK(ran.out == "still here\n");
+    CHECK_THAT(ran.err, Contains("a command for the shell") && Contains("leave with exit"));
+    return ran.err;
+  };
+  CHECK_THAT(answer("springlod info x.glb"),
+             Contains("type: springlod info x.glb\n") && Contains("s.load(\"x.glb\")\n"));
+  CHECK_THAT(answer("info x.glb"),
+             Contains("type: springlod info x.glb\n") && Contains("s.load(\"x.glb\")\n"));
+  CHECK_THAT(answer("info mesh.obj --unit cm"), Contains("s.import(\"mesh.obj\")"));
+  CHECK_THAT(answer("  springlod compare a.glb --scenario drop.lua"), Contains("s.compare; "));
+  CHECK_THAT(answer("export a.glb --to jolt"), Contains("s.export; "));
+  CHECK_THAT(answer("springlod run main.lua"), Contains("dofile(\"main.lua\")"));
+  CHECK_THAT(answer("springlod help info"), Contains("help(\"info\")"));
+  CHECK_THAT(answer("springlod --help"), Contains("type: springlod --help\n"));
+  for (const char* line : {"springlod", "demo", "info", "$ springlod demo"}) answer(line);
+  // Names that a session has defined, and Lua that begins with such a word.
+  const Ran own = springlod_run({"-i"}, "info = 5\ninfo\ninfo - 2\nrun = print\nrun('x')\n");
+  CHECK(own.out == "5\n3\nx\n");
+  CHECK_THAT(own.err, !Contains("shell"));
+}
+
+TEST_CASE("a function of the API that is called without s is named with it") {
+  const Ran ran = springlod_run({"-i"}, "load_mesh('x.obj')\nvoxelize(mesh)\n");
+  CHECK_THAT(ran.err, Contains("did you mean s.voxelize?") && !Contains("s.load_mesh"));
+}
