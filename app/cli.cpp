@@ -1,11 +1,16 @@
 #include "app/cli.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "base/units.hpp"
 #include "scripting/engine/suggest.hpp"
 
@@ -19,6 +24,14 @@ constexpr int kWrongUse = 2;
 const std::vector<std::string> kFlags{"--help",         "--version", "--seed",   "--threads",
                                       "--quiet",        "--verbose", "--unsafe", "--time-limit",
                                       "--memory-limit", "-e",        "-i"};
+
+// Words by which other programs, or the functions of scripts, name what a command does.
+constexpr std::pair<std::string_view, const char*> kOtherNames[] = {
+    {"create", "new"},       {"draw", "render"},  {"import", "convert"},
+    {"init", "new"},         {"inspect", "info"}, {"load", "info"},
+    {"plot", "render"},      {"show", "render"},  {"simplify", "convert"},
+    {"simulate", "compare"}, {"view", "render"},  {"voxelize", "convert"},
+};
 
 struct Switches {
   bool quiet = false;
@@ -98,13 +111,21 @@ Leave unknown_flag(const std::string& flag) {
 
 Leave unknown_command(const std::string& name,
                       const std::vector<scripting::StockCommand>& commands) {
-  if (name.ends_with(".lua"))
-    return wrong_use(fmt::format("unknown command '{0}'; did you mean: springlod run {0}?", name));
+  const std::string printed = printable(name);
+  const auto perhaps = [&](const char* command) {
+    return wrong_use(
+        fmt::format("unknown command '{0}'; did you mean: springlod {1} {0}?", printed, command));
+  };
+  if (name.ends_with(".lua")) return perhaps("run");
+  if (std::error_code ignored; std::filesystem::is_regular_file(name, ignored))
+    return perhaps("info");
   std::vector<std::string> names{"run"};
   for (const scripting::StockCommand& command : commands) names.push_back(command.name);
-  const std::string question = scripting::did_you_mean(name, names);
+  std::string question = scripting::did_you_mean(name, names);
+  for (const auto& [other, command] : kOtherNames)
+    if (name == other) question = fmt::format("; did you mean '{}'?", command);
   return wrong_use(
-      fmt::format("unknown command '{}'{}", name,
+      fmt::format("unknown command '{}'{}", printed,
                   question.empty() ? "; commands are: " + scripting::comma_list(names) : question));
 }
 

@@ -32,8 +32,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-  // Accepts one edit, or a third of the letters if that is more: "-o" is not near "--cell".
-  std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;
+  // Accepts one edit, or about a third of the letters if that is more: "rnedr" is near "render",
+  // "-o" is not near "--cell".
+  std::size_t best = std::max<std::size_t>(1, (name.size() + 1) / 3) + 1;
   std::string found;
   // A typing error leaves a name short; the distance to text of any length takes too long.
   constexpr std::size_t kLongestName = 100;

@@ -35,6 +35,11 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
     CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 2);  // the reason, and one for usage
   };
   wrong({"conver", "x.obj"}, "did you mean 'convert'?");
+  for (const char* near : {"covnert", "convrt", "convretr", "conver", "conv"})
+    wrong({near, "x.obj"}, "did you mean 'convert'?");
+  wrong({"rnedr", "x.obj"}, "did you mean 'render'?");
+  wrong({"simulate", "x.glb"}, "did you mean 'compare'?");
+  wrong({"samples/dumbbell.obj"}, "did you mean: springlod info samples/dumbbell.obj?");
   wrong({"frobnicate"}, "commands are: run, compare, convert");
   wrong({"thing.lua"}, "springlod run thing.lua");
   wrong({"--sede", "3"}, "did you mean '--seed'?");

@@ -29,6 +29,7 @@ TEST_CASE("A near name has a small edit distance: insert, delete, substitute, tr
   for (const char* typo : {"levles", "level", "levelss", "lefels", "lev"})
     CHECK(nearest_name(typo, kNames) == "levels");
   CHECK(nearest_name("kep", kNames) == "keep");
+  CHECK(nearest_name("rnedr", {"render"}) == "render");
   CHECK(nearest_name("border", kNames) == "border");
 }
 
