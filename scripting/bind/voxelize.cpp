@@ -248,9 +248,10 @@ void describe_solid(Api& api) {
       .summary = "A solid of a mesh: parts of one name, or open parts that have edges in common.",
       .fields = {result_field("part", "string", "name of its first part"),
                  result_field("volume", "number", "with each hole closed [m3]"),
-                 result_field("thickness", "number",
-                              "2 volume / area [m]: of a plate its thickness, of a rod half of its "
-                              "diameter, of a ball a third"),
+                 result_field(
+                     "thickness", "number",
+                     "median distance from its surface to the other side [m]: the wall of a "
+                     "hollow body, the width of a bar, the diameter of a rod"),
                  result_field("holes", "integer", "connected groups of open edges"),
                  result_field("open_edges", "integer", "edges with one triangle"),
                  result_field("hole_area", "number", "area of the holes [m2]"),

@@ -96,7 +96,7 @@ function mesh_info.text(info)
   end
   say("")
   lines[#lines + 1] = s.format_table(solids, {columns = {"solid", "closed", "volume", "thickness"}})
-  say("thickness: 2 volume / area; a rod is twice as thick, a ball three times")
+  say("thickness: median distance from the surface to the other side; of a tube, its wall")
   say("")
   if #faults > 0 then
     say("convert would repair (--repair strict refuses these):")

@@ -2,12 +2,13 @@
 
 local show = {}
 
+-- Size and name of each unit, and the least value that it is used for, if that is not 1 of it.
 local units = {
   length = {{1e3, "km"}, {1, "m"}, {1e-3, "mm"}, {1e-6, "um"}, {1e-9, "nm"}},
   time = {{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}},
   mass = {{1e3, "t"}, {1, "kg"}, {1e-3, "g"}, {1e-6, "mg"}},
   pressure = {{1e9, "GPa"}, {1e6, "MPa"}, {1e3, "kPa"}, {1, "Pa"}},
-  volume = {{1, "m3"}, {1e-6, "cm3"}, {1e-9, "mm3"}},
+  volume = {{1, "m3", 1e-2}, {1e-6, "cm3", 1e-8}, {1e-9, "mm3"}},
 }
 
 -- `digits` significant digits (default: 3), no exponent where that is short: 1000, not 1e+03.
@@ -27,7 +28,7 @@ function show.quantity(value, dimension, digits)
   for i = #list, 1, -1 do
     -- 999.9 mm is shown as 1000 mm by its digits, so it is 1 m
     local shown = value == 0 and 1 or math.abs(value) -- 0 in the SI unit
-    if shown >= 0.9995 * list[i][1] then chosen = list[i] end
+    if shown >= 0.9995 * (list[i][3] or list[i][1]) then chosen = list[i] end
   end
   return show.number(value / chosen[1], digits) .. " " .. chosen[2]
 end

@@ -22,7 +22,8 @@ local function bounds_something(mesh)
   local side = 0
   for axis = 1, 3 do side = math.max(side, mesh.max[axis] - mesh.min[axis]) end
   for _, solid in ipairs(mesh.solids) do
-    local area = solid.thickness > 0 and 2 * solid.volume / solid.thickness or 0
+    -- of a rod; a plate has half of it, a ball one and a half times
+    local area = solid.thickness > 0 and 4 * solid.volume / solid.thickness or 0
     if solid.volume > smallest_volume * side ^ 3 and
        solid.hole_area < open_fraction * (area + solid.hole_area) then
       return true

@@ -1,10 +1,12 @@
 #include "voxelize/cells/resolution.hpp"
 
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "base/units.hpp"
+#include "voxelize/mesh/thickness.hpp"
 
 namespace springlod::voxelize {
 namespace {
@@ -16,6 +18,20 @@ constexpr double kThin = 3;
 // Fraction of a solid's cells in slivers below which they are tips and burrs of its surface.
 constexpr double kFewSlivers = 0.01;
 
+/// "21.5 cm3"
+std::string volume_text(double cubic_metres) {
+  struct Unit {
+    double size;  // [m3]
+    const char* name;
+  };
+  // 0.05 m3 and 5000 cm3, in place of 50000 cm3 and 5e+06 mm3
+  constexpr double kLeast = 0.01;  // [1]
+  constexpr Unit kUnits[] = {{1, "m3"}, {1e-6, "cm3"}, {1e-9, "mm3"}};
+  const Unit* unit = kUnits;
+  while (unit != std::end(kUnits) - 1 && cubic_metres < kLeast * unit->size) ++unit;
+  return fmt::format("{:.4g} {}", cubic_metres / unit->size, unit->name);
+}
+
 std::string cell_for(double thickness) {
   return fmt::format("about {} thick: use a cell of {}",
                      format_quantity(thickness, Dimension::length),
@@ -24,7 +40,9 @@ std::string cell_for(double thickness) {
 
 std::string advice_for(double thick, double cell) {
   if (!(thick > 0)) return "it is a sheet and encloses nothing";
-  if (thick > kThin * cell) return "use a smaller cell or check for crossing surfaces";
+  if (thick > kThin * cell)
+    return fmt::format("use a smaller cell, such as {}, or check for crossing surfaces",
+                       format_quantity(cell / 2, Dimension::length));
   return "it is " + cell_for(thick);
 }
 
@@ -36,12 +54,12 @@ std::optional<std::string> volume_fault(const TriangleMesh& mesh, const SolidRep
   if (cells > 0 && std::abs(filled - volume) <= kVolumeTolerance * volume) return std::nullopt;
   const std::string advice = advice_for(thickness(mesh, solid, volume), cell);
   if (cells == 0)
-    return fmt::format("part \"{}\" is lost: no cell of {:.4g} m has its centre inside; {}",
-                       solid.part, cell, advice);
+    return fmt::format("part \"{}\" is lost: no cell of {} has its centre inside; {}", solid.part,
+                       format_quantity(cell, Dimension::length), advice);
   return fmt::format(
-      "part \"{}\": the volume of its cells has an error of {:+.0f} % ({:.4g} m3 against {:.4g} m3 "
-      "in the mesh); {}",
-      solid.part, 100 * (filled / volume - 1), filled, volume, advice);
+      "part \"{}\": the volume of its cells has an error of {:+.0f} % ({} against {} in the "
+      "mesh); {}",
+      solid.part, 100 * (filled / volume - 1), volume_text(filled), volume_text(volume), advice);
 }
 
 std::optional<std::string> sliver_fault(const SolidReport& solid, const Sliver& sliver,

@@ -10,6 +10,7 @@
 #include <tbb/task_group.h>
 
 #include "base/error.hpp"
+#include "base/units.hpp"
 #include "voxelize/bodies.hpp"
 #include "voxelize/cells/cell_materials.hpp"
 #include "voxelize/cells/claim_order.hpp"
@@ -273,9 +274,10 @@ class Voxelizer {
         owner_.size() - static_cast<std::size_t>(std::count(owner_.begin(), owner_.end(), 0));
     if (count == 0)
       throw InputError(
-          fmt::format("voxelize: no cell of {:.4g} m has its centre inside the mesh; use a smaller "
-                      "cell, say {:.4g} m",
-                      frame_.cell, kFinerCell * frame_.cell));
+          fmt::format("voxelize: no cell of {} has its centre inside the mesh; use a smaller cell, "
+                      "say {}",
+                      format_quantity(frame_.cell, Dimension::length),
+                      format_quantity(kFinerCell * frame_.cell, Dimension::length)));
     grid().cell = frame_.cell;
     grid().origin = frame_.origin;
     grid().distance = distance_;

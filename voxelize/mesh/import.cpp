@@ -67,7 +67,10 @@ std::string describe(const ImportReport& report) {
   else
     text += fmt::format("{} is up\n", up);
   if (report.stray_vertices > 0)
-    text += fmt::format("{} vertices without triangles left out\n", report.stray_vertices);
+    text +=
+        fmt::format("{} without triangles left out\n",
+                    report.stray_vertices == 1 ? "1 vertex"
+                                               : fmt::format("{} vertices", report.stray_vertices));
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/disjoint_sets.hpp"
+#include "voxelize/mesh/thickness.hpp"
 #include "voxelize/mesh/weld.hpp"
 
 namespace springlod::voxelize {

@@ -151,12 +151,6 @@ double volume_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& par
 
 }  // namespace
 
-double thickness(const TriangleMesh& mesh, const SolidReport& solid, double volume) {
-  double area = 0;
-  for (const std::uint32_t p : solid.parts) area += surface_area(mesh, mesh.parts[p]);
-  return area > 0 ? 2 * std::abs(volume) / area : 0;
-}
-
 std::vector<SolidReport> check_solid(const TriangleMesh& mesh) {
   validate(mesh);
   return check_solid(mesh, weld_vertices(mesh));

@@ -22,10 +22,6 @@ struct SolidReport {
   bool faultless() const { return closed() && nonmanifold_edges == 0 && volume >= 0; }
 };
 
-/// 2 V / A of a solid of that volume [m]: of a plate its thickness, of a rod half of its diameter,
-/// of a ball a third. 0 without area.
-double thickness(const TriangleMesh& mesh, const SolidReport& solid, double volume);
-
 /// One report for each solid, in the order of their first parts. Throws InputError as validate()
 /// does.
 std::vector<SolidReport> check_solid(const TriangleMesh& mesh);

@@ -284,12 +284,21 @@ TEST_CASE("A part thinner than a cell and a large volume error give warnings") {
   add_box(mesh, "sheet", {2, 2, 10}, {8, 8, 10.1});
   const VoxelizedMesh result = voxelize(mesh, with_cell(1));
   REQUIRE(result.report.warnings.size() == 1);
-  CHECK_THAT(result.report.warnings[0], Contains("\"sheet\" is lost"));
+  CHECK_THAT(result.report.warnings[0],
+             Contains("\"sheet\" is lost: no cell of 1 m has its centre"));
   TriangleMesh plate;
   add_box(plate, "plate", {0, 0, 0}, {10, 10, 1.4});
   const VoxelizedMesh thick = voxelize(plate, with_cell(1));
   REQUIRE(thick.report.warnings.size() == 1);
-  CHECK_THAT(thick.report.warnings[0], Contains("\"plate\"") && Contains("-29 %"));
+  CHECK_THAT(thick.report.warnings[0], Contains("\"plate\"") &&
+                                           Contains("-29 % (100 m3 against 140 m3 in") &&
+                                           Contains("about 1.4 m thick"));
+  // Small volumes have a unit that fits.
+  TriangleMesh coin;
+  add_box(coin, "coin", {0, 0, 0}, {0.1, 0.1, 0.0014});
+  const VoxelizedMesh thin = voxelize(coin, with_cell(1e-3));
+  REQUIRE(thin.report.warnings.size() == 1);
+  CHECK_THAT(thin.report.warnings[0], Contains("(10 cm3 against 14 cm3 in the mesh)"));
 }
 
 TEST_CASE("Cells too large, too small or not positive are rejected with a valid value") {

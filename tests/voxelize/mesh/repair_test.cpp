@@ -119,9 +119,10 @@ TEST_CASE("A plate too thin for the cells is named with a cell that resolves it"
   options.cell = 0.1;
   const VoxelizedMesh thick = voxelize::voxelize(mesh, options);
   REQUIRE(thick.report.warnings.size() == 1);
-  CHECK_THAT(thick.report.warnings[0], Contains("mm thick: use a cell of"));
+  CHECK_THAT(thick.report.warnings[0], Contains("it is about 10 mm thick: use a cell of 3.333 mm"));
   options.repair = Repair::strict;
-  CHECK_THROWS_WITH(voxelize::voxelize(mesh, options), Contains("mm thick: use a cell of"));
+  CHECK_THROWS_WITH(voxelize::voxelize(mesh, options),
+                    Contains("it is about 10 mm thick: use a cell of 3.333 mm"));
 }
 
 TEST_CASE("A sphere without some triangles has the volume of the whole one within 2 %") {
