@@ -17,7 +17,7 @@ struct Bounds {
 // Of the levels that are fitted to the nine bodies of `springlod fit`, with 45 and 20 % of their
 // nodes, all but one are within those of fair levels.
 constexpr Bounds kFrequencies{0.01, 0.03};
-constexpr Bounds kBlows{0.03, 0.1};
+constexpr Bounds kImpacts{0.03, 0.1};
 constexpr Bounds kFirstPeriod{0.2, 0.4};
 constexpr Bounds kLocalLoads{0.08, 0.2};
 // Young's modulus over the base's, or its inverse, minus 1.
@@ -35,9 +35,10 @@ struct Quantity {
 std::vector<Quantity> quantities(const Certificate& c) {
   std::vector<Quantity> all;
   if (!c.frequencies.empty())
-    all.push_back({"frequencies", mean_frequency_error(c, 0, kLowestModes), kFrequencies});
-  if (c.blow_error) all.push_back({"blows", *c.blow_error, kBlows});
-  if (c.first_period_error) all.push_back({"first period", *c.first_period_error, kFirstPeriod});
+    all.push_back({"natural frequencies", mean_frequency_error(c, 0, kLowestModes), kFrequencies});
+  if (c.blow_error) all.push_back({"velocities after an impact", *c.blow_error, kImpacts});
+  if (c.first_period_error)
+    all.push_back({"first period of vibration", *c.first_period_error, kFirstPeriod});
   if (std::any_of(c.loads.begin(), c.loads.end(),
                   [](const Certificate::Load& load) { return load.held_out; }))
     all.push_back({"local loads", mean_load_error(c, true), kLocalLoads});
@@ -54,20 +55,24 @@ Grade grade_of(double error, const Bounds& bounds) {
   return error <= bounds.fair ? Grade::fair : Grade::rough;
 }
 
+/// Two digits: "0.16 %", "2.9 %", "15 %".
+std::string percent_text(double fraction) {
+  const double percent = 100 * fraction;
+  return fmt::format("{:.{}f} %", percent, percent < 1 ? 2 : percent < 10 ? 1 : 0);
+}
+
 std::vector<std::string> faults(const Certificate& c) {
   std::vector<std::string> found;
   if (c.zero_modes > c.expected_zero_modes)
     found.push_back(
         fmt::format("{} zero modes instead of {}", c.zero_modes, c.expected_zero_modes));
   if (std::abs(c.mass_error) > kExact)
-    found.push_back(fmt::format("mass off by {:.2g}", c.mass_error));
+    found.push_back(fmt::format("its mass is {} off", percent_text(std::abs(c.mass_error))));
   return found;
 }
 
-/// Two digits: "0.16 %", "2.9 %", "15 %".
-std::string percent_text(double fraction) {
-  const double percent = 100 * fraction;
-  return fmt::format("{:.{}f} %", percent, percent < 1 ? 2 : percent < 10 ? 1 : 0);
+const char* better_than(Grade grade) {
+  return grade == Grade::fair ? "good" : "fair";
 }
 
 }  // namespace
@@ -83,14 +88,33 @@ Grade grade(const Certificate& certificate) {
 }
 
 std::string grade_text(const Certificate& certificate) {
-  std::vector<std::string> reasons = faults(certificate);
-  for (const Quantity& quantity : quantities(certificate))
-    reasons.push_back(fmt::format("{} {}", quantity.name, percent_text(quantity.error)));
-  for (const Certificate::Moduli& moduli : certificate.moduli)
-    if (modulus_error(moduli) > kModulus.good)
-      reasons.push_back(fmt::format("{} has {:.2f} of its Young's modulus", moduli.material,
-                                    moduli.young / moduli.base_young));
-  return fmt::format("{}: {}", to_string(grade(certificate)), fmt::join(reasons, ", "));
+  const Grade worst = grade(certificate);
+  std::vector<std::string> deciding = faults(certificate);
+  std::vector<std::string> others;
+  // Only a quantity outside of the bounds of a better grade has decided on this one.
+  const auto add = [&](Grade own, const std::string& text, const std::string& better) {
+    if (own != Grade::good && own == worst)
+      deciding.push_back(fmt::format("{} ({} is {})", text, better_than(own), better));
+    else
+      others.push_back(text);
+  };
+  for (const Quantity& quantity : quantities(certificate)) {
+    const Grade own = grade_of(quantity.error, quantity.bounds);
+    const double bound = own == Grade::fair ? quantity.bounds.good : quantity.bounds.fair;
+    add(own, fmt::format("{} {} off", quantity.name, percent_text(quantity.error)),
+        fmt::format("up to {:g} %", 100 * bound));
+  }
+  for (const Certificate::Moduli& moduli : certificate.moduli) {
+    const Grade own = grade_of(modulus_error(moduli), kModulus);
+    if (own == Grade::good) continue;
+    const double bound = 1 + (own == Grade::fair ? kModulus.good : kModulus.fair);
+    add(own,
+        fmt::format("{} has {:.2f} of its Young's modulus", moduli.material,
+                    moduli.young / moduli.base_young),
+        fmt::format("{:.2f} to {:.2f}", 1 / bound, bound));
+  }
+  return fmt::format("{}: {}{}{}", to_string(worst), fmt::join(deciding, ", "),
+                     deciding.empty() || others.empty() ? "" : "; ", fmt::join(others, ", "));
 }
 
 }  // namespace springlod::lod

@@ -19,13 +19,13 @@ constexpr ChoiceTable<Choice<Grade>> choices(Grade) {
   return {"grade", kGrades};
 }
 
-/// The grade of a certificate is that of its worst quantity: frequencies, blows, first period,
-/// local loads, moduli.
+/// The grade of a certificate is that of its worst quantity: natural frequencies,
+/// velocities after an impact, first period of vibration, local loads, moduli.
 Grade grade(const Certificate& certificate);
 
-/// The grade and its reasons in one line: "good: frequencies 0.5 %, blows 0 %, first period 10 %,
-/// local loads 3 %". Materials whose Young's modulus is outside the bound of a good level are
-/// named.
+/// The grade in one line, first the quantities that decided it: "fair: local loads 12 % off (good
+/// is up to 8 %); natural frequencies 0.50 % off, first period of vibration 10 % off". Of the
+/// moduli, those outside the bound of a good level.
 std::string grade_text(const Certificate& certificate);
 
 }  // namespace springlod::lod

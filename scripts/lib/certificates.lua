@@ -5,7 +5,7 @@ local show = require "lib.show"
 
 local certificates, percent = {}, show.percent
 
-local columns = {"level", "f1..10", "f11..20", "MAC", "local loads", "blows", "first period",
+local columns = {"level", "f1..10", "f11..20", "MAC", "local loads", "impact", "first period",
                  "decay", "area / mass", "cost / base", "time / base"}
 
 local function number(value, pattern) return value and pattern:format(value) or "-" end

@@ -1,4 +1,4 @@
--- Measure what the fit of levels gains, in vibration, blows and landings.
+-- Measure what the fit of levels gains, in vibration, impacts and landings.
 
 local s = require "springlod"
 local bodies = require "studies.fit.bodies"

@@ -132,7 +132,7 @@ void describe_certificate(Api& api) {
            result_field("decay_error", "number",
                         "mean |error| of the decay rates of these; nil without damping"),
            result_field("blow_error", "number",
-                        "error of the velocities right after blows that give the base the "
+                        "error of the velocities right after impacts that give the base the "
                         "velocities of its ten lowest modes; nil in old assets"),
            result_field("first_period_error", "number",
                         "error of the displacements in the first period of free vibration "
