@@ -124,8 +124,9 @@ render::Panel panel_frame(const DrawnRun& drawn) {
   const sim::LevelRuns& runs = drawn.runs;
   const MassSpringModel& model = asset.chain.levels[runs.level].model;
   render::Panel panel;
-  panel.title =
-      fmt::format("{}: {} nodes, {} springs", runs.label, model.node_count(), model.spring_count());
+  panel.title = fmt::format("{}: {} node{}, {} spring{}", runs.label, model.node_count(),
+                            model.node_count() == 1 ? "" : "s", model.spring_count(),
+                            model.spring_count() == 1 ? "" : "s");
   const auto updates = static_cast<double>(runs.first.spring_updates);
   const auto of_base = static_cast<double>(comparison.levels[0].first.spring_updates);
   if (updates > 0 && &runs == &comparison.levels[0])

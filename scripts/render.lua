@@ -39,7 +39,9 @@ if not out:lower():find("%.png$") then parser:error(("-o '%s' must end in .png")
 -- The panel of a model: the plane through its center keeps what is on the far side of the camera.
 local function panel_of(model, title)
   local panel = {
-    model, title = ("%s: %d nodes, %d springs"):format(title, model.node_count, model.spring_count),
+    model, title = ("%s: %d node%s, %d spring%s"):format(title,
+      model.node_count, model.node_count == 1 and "" or "s",
+      model.spring_count, model.spring_count == 1 and "" or "s"),
   }
   if args.cut then
     local axis, normal = axes[args.cut], {0, 0, 0}

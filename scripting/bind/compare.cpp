@@ -44,19 +44,20 @@ void warn(Console& console, const std::vector<sim::RunSummary>& runs, bool resis
   }
   if (unconverged > 0)
     console.say(
-        fmt::format("compare: in {} of {} runs the solver did not reach its tolerance in some "
+        fmt::format("compare: in {} of {} run{} the solver did not reach its tolerance in some "
                     "steps; use more iterations, a greater tolerance or a smaller step",
-                    unconverged, runs.size()));
+                    unconverged, runs.size(), runs.size() == 1 ? "" : "s"));
   if (inverted > 0)
     console.say(
-        fmt::format("compare: in {} of {} runs the body was inside out somewhere, the first "
+        fmt::format("compare: in {} of {} run{} the body was inside out somewhere, the first "
                     "at t = {}, and in {} until the end; {}",
-                    inverted, runs.size(), format_quantity(first, Dimension::time), at_end,
-                    inversion_hint(resisted)));
+                    inverted, runs.size(), runs.size() == 1 ? "" : "s",
+                    format_quantity(first, Dimension::time), at_end, inversion_hint(resisted)));
 }
 
 /// Prints a hint if damping limits the step of a level.
-void hint_at_damping(Console& console, const std::vector<sim::LevelRuns>& levels) {
+void hint_at_damping(Session& session, const MassSpringModel& base,
+                     const std::vector<sim::LevelRuns>& levels) {
   const sim::LevelRuns* worst = nullptr;
   const auto fraction = [](const sim::LevelRuns& level) {
     return level.first.predicted_step / level.first.undamped_step;
@@ -67,9 +68,10 @@ void hint_at_damping(Console& console, const std::vector<sim::LevelRuns>& levels
     ++limited;
     if (worst == nullptr || fraction(level) < fraction(*worst)) worst = &level;
   }
-  if (worst != nullptr)
-    console.say(fmt::format("compare: damping shortens the steps of {} of {} levels, that of {} {}",
-                            limited, levels.size(), worst->label, damping_hint(worst->first)));
+  if (worst != nullptr && first_hint_at_damping(session, base))
+    session.console().say(fmt::format(
+        "compare: damping shortens the steps of {} of {} level{}, that of {} {}", limited,
+        levels.size(), levels.size() == 1 ? "" : "s", worst->label, damping_hint(worst->first)));
 }
 
 int compare_binding(Call& call) {
@@ -94,7 +96,8 @@ int compare_binding(Call& call) {
     all.insert(all.end(), level.starts.begin(), level.starts.end());
   warn(call.session().console(), all,
        sim::corners_resist(value->chain->chain.levels.front().model, options.run));
-  hint_at_damping(call.session().console(), value->comparison.levels);
+  hint_at_damping(call.session(), value->chain->chain.levels.front().model,
+                  value->comparison.levels);
   return call.give(std::shared_ptr<const ComparisonValue>(value));
 }
 

@@ -157,7 +157,8 @@ std::string model_text(const ModelValue& value) {
   const MassProperties properties = mass_properties(model);
   std::string text = "Model: ";
   if (value.chain) text = fmt::format("Model, level {}: ", value.level);
-  text += fmt::format("{} nodes ({} border), {}", model.node_count(), border_count(model),
+  text += fmt::format("{} node{} ({} border), {}", model.node_count(),
+                      model.node_count() == 1 ? "" : "s", border_count(model),
                       spring_text(model.spring_count()));
   if (model.corner_count() > 0)
     text +=

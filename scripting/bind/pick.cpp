@@ -14,6 +14,7 @@
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/run_options.hpp"
 #include "scripting/bind/tables/scenario_table.hpp"
+#include "scripting/bind/tables/start_overlap.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -64,6 +65,9 @@ int pick_binding(Call& call) {
   options.contact = read_contact(reader);
   reader.finish();
   sim::validate(value->chain->chain, options);
+  const MassSpringModel& base = value->chain->chain.levels.front().model;
+  if (const auto text = overlap_warning("pick", base, *scenario))
+    call.session().console().say(*text);
   if (!options.measure) value->chain = certified(call, value->chain);
   value->pick = sim::pick_level(value->chain->chain, *scenario, options);
   return call.give(std::shared_ptr<const PickValue>(value));

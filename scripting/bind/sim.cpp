@@ -21,15 +21,21 @@ namespace {
 
 constexpr const char* kGroup = "Simulation";
 
+/// The base of the chain of a level; a model without a chain is its own.
+const MassSpringModel& base_of(const ModelValue& model) {
+  return model.chain ? model.chain->chain.levels.front().model : *model.model;
+}
+
 /// Warnings about a run that completed.
-void warn(Console& console, const sim::Trajectory& run, bool resisted) {
-  if (run.limited_by == sim::StepBound::damping)
+void warn(Session& session, const ModelValue& model, const sim::Trajectory& run, bool resisted) {
+  Console& console = session.console();
+  if (run.limited_by == sim::StepBound::damping && first_hint_at_damping(session, base_of(model)))
     console.say("run: damping shortens the step " + damping_hint(run));
   if (run.unconverged_steps > 0)
     console.say(
-        fmt::format("run: in {} of {} steps the solver did not reach its tolerance; use more "
+        fmt::format("run: in {} of {} step{} the solver did not reach its tolerance; use more "
                     "iterations, a greater tolerance or a smaller step",
-                    run.unconverged_steps, run.steps));
+                    run.unconverged_steps, run.steps, run.steps == 1 ? "" : "s"));
   if (run.first_crossing)
     console.say(fmt::format(
         "run: the spring of nodes {} and {} was inverted by t = {:.4g} s (its nodes crossed); {}",
@@ -38,10 +44,10 @@ void warn(Console& console, const sim::Trajectory& run, bool resisted) {
   if (const auto& first = run.inversions.first)
     console.say(fmt::format(
         "run: the body was inside out at t = {:.4g} s, at ({:.4g}, {:.4g}, {:.4g}) m (corner {}); "
-        "at most {} corners at one time, {} at the end; {}",
+        "at most {} corner{} at one time, {} at the end; {}",
         first->time, first->place.x(), first->place.y(), first->place.z(),
-        script_number(first->corner), run.inversions.most, run.inverted_at_end,
-        inversion_hint(resisted)));
+        script_number(first->corner), run.inversions.most, run.inversions.most == 1 ? "" : "s",
+        run.inverted_at_end, inversion_hint(resisted)));
 }
 
 int run_binding(Call& call) {
@@ -68,7 +74,7 @@ int run_binding(Call& call) {
   value->trajectory = start ? sim::run(model, *value->scenario, *start, options)
                             : sim::run(model, *value->scenario, options);
   if (!quiet)
-    warn(call.session().console(), value->trajectory, sim::corners_resist(model, options));
+    warn(call.session(), *value->model, value->trajectory, sim::corners_resist(model, options));
   return call.give(std::shared_ptr<const TrajectoryValue>(value));
 }
 
@@ -145,8 +151,9 @@ void describe_trajectory(Api& api) {
       "One run of one model; trajectory[i] is frame i, #trajectory their number.",
       [](const TrajectoryValue& value) {
         const sim::Trajectory& t = value.trajectory;
-        return fmt::format("Trajectory: {:.4g} s in {} steps of {:.4g} s, {} frames", t.simulated,
-                           t.steps, t.step, t.frames.size());
+        return fmt::format("Trajectory: {:.4g} s in {} step{} of {:.4g} s, {} frame{}", t.simulated,
+                           t.steps, t.steps == 1 ? "" : "s", t.step, t.frames.size(),
+                           t.frames.size() == 1 ? "" : "s");
       });
   const auto number = [&](const char* name, const char* help, auto get) {
     type.field(name, "number", help,

@@ -116,6 +116,29 @@ TEST_CASE("a run names what limits its step, and hints at damping") {
                            Contains("% of that without damping") && Contains("damping_ratio"));
 }
 
+TEST_CASE("the hint at damping is printed once for each body") {
+  const springlod::test::TemporaryFolder scratch;
+  const auto hints = [](const Ran& ran) {
+    std::size_t count = 0;
+    for (auto at = ran.err.find("damping shortens"); at != std::string::npos;
+         at = ran.err.find("damping shortens", at + 1))
+      ++count;
+    return count;
+  };
+  const Ran same = with_bar(R"(
+    local chain = s.simplify(bar{damping = "0.1 s"}, {levels = 1})
+    s.save(arg[1], chain)
+    for level = 0, 1 do s.run(chain[level], still) end
+    s.compare(chain, still)
+    for i = 1, 2 do s.run(s.load(arg[1])[0], still) end)",
+                            (scratch / "bar.glb").string());
+  CAPTURE(same.err);
+  CHECK(same.exit_code == 0);
+  CHECK(hints(same) == 1);
+  CHECK(hints(with_bar("for _, time in ipairs{0.1, 0.2} do s.run(bar{damping = time}, still) "
+                       "end")) == 2);
+}
+
 TEST_CASE("a comparison and an asset name what limits the steps of their levels") {
   const springlod::test::TemporaryFolder scratch;
   const Ran ran = with_bar(R"(

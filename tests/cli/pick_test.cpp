@@ -150,3 +150,22 @@ TEST_CASE("a script picks a level, runs it and reads why") {
   CHECK_THAT(ran.out, Contains("2\ttrue\tfalse\ntrue\t3\t2\ntrue\nnil\tnil\nfalse\t"));
   CHECK_THAT(ran.out, Contains("write \"2 %\"") && Contains("give error (such as"));
 }
+
+TEST_CASE("pick warns of a start inside an obstacle as compare does") {
+  const TemporaryFolder scratch;
+  make_asset(scratch);
+  std::string deep = kScenario;
+  deep.replace(deep.find("-0.1"), 4, "0.5");
+  spit(scratch / "drop.lua", deep);
+  const auto warning = [](const std::string& text) {
+    const auto at = text.find(": the body starts ");
+    REQUIRE(at != std::string::npos);
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  const std::string picked = warning(pick(scratch, {"--error", "20%"}).err);
+  CHECK_THAT(picked, Contains("deep inside the obstacle floor, which will throw it out"));
+  const Ran compared = springlod_run({"compare", (scratch / "bar.glb").string(), "--scenario",
+                                      (scratch / "drop.lua").string(), "--starts", "1", "--frames",
+                                      "0", "-o", (scratch / "out").string()});
+  CHECK(warning(compared.err) == picked);
+}

@@ -1,10 +1,38 @@
 #include "scripting/bind/tables/run_options.hpp"
 
+#include <cstddef>
+#include <functional>
+#include <set>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "base/units.hpp"
 
 namespace springlod::scripting {
+
+namespace {
+
+/// Bases for which the session has printed damping_hint().
+struct DampedBases {
+  std::set<std::size_t> hashes;
+};
+
+/// A hash of what makes the body and its damping: an asset that is loaded again has the same one.
+std::size_t hash_of(const MassSpringModel& model) {
+  std::size_t sum = 0;
+  const auto add = [&sum](const void* data, std::size_t bytes) {
+    const std::string_view text(static_cast<const char*>(data), bytes);
+    sum = 31 * sum + std::hash<std::string_view>{}(text);
+  };
+  add(model.rest.data(), model.rest.size() * sizeof(Vec3));
+  add(model.mass.data(), model.mass.size() * sizeof(double));
+  add(model.stiffness.data(), model.stiffness.size() * sizeof(double));
+  add(model.damping.data(), model.damping.size() * sizeof(double));
+  return sum;
+}
+
+}  // namespace
 
 Parameter contact_parameter() {
   return {.name = "contact",
@@ -35,6 +63,10 @@ std::string damping_hint(const sim::Trajectory& run) {
       100 * run.predicted_step / run.undamped_step,
       format_quantity(run.predicted_step, Dimension::time),
       format_quantity(run.undamped_step, Dimension::time));
+}
+
+bool first_hint_at_damping(Session& session, const MassSpringModel& base) {
+  return session.kept<DampedBases>().hashes.insert(hash_of(base)).second;
 }
 
 std::string inversion_hint(bool resisted) {

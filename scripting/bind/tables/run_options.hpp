@@ -8,6 +8,7 @@
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/engine/api.hpp"
 #include "scripting/engine/call.hpp"
+#include "scripting/engine/session.hpp"
 #include "sim/run.hpp"
 
 namespace springlod::scripting {
@@ -23,6 +24,10 @@ std::shared_ptr<const sim::ContactSkin> skin_of(const ModelValue& model,
 /// "to 12 % of that without damping (...); ...", and what to do: for a run whose step is limited by
 /// damping.
 std::string damping_hint(const sim::Trajectory& run);
+
+/// Whether no run or comparison of this session has printed damping_hint() for a body with this
+/// base; from then on one has. A script that runs a body often prints the hint once.
+bool first_hint_at_damping(Session& session, const MassSpringModel& base);
 
 /// For warnings: what keeps a body from turning inside out. `resisted`: its corners resisted.
 std::string inversion_hint(bool resisted);
