@@ -119,14 +119,13 @@ end
 local function level_rows(chain)
   local rows = {}
   for i, level in ipairs(chain.levels) do
-    rows[i] = {i - 1, level.node_count, level.spring_count, level.end_count, level.corner_count,
-               level.border_count, show.measured(s.stable_step(level), "time")}
+    rows[i] = {i - 1, level.node_count, level.spring_count, level.corner_count, level.border_count,
+               show.measured(s.stable_step(level), "time")}
   end
   return rows
 end
 
-local level_columns = {"level", "nodes", "springs", "ends", "corners", "border",
-                       "stable step"}
+local level_columns = {"level", "nodes", "springs", "corners", "border", "stable step"}
 
 local function node_counts(chain)
   local counts = {}
@@ -209,12 +208,13 @@ end
 
 local function convert_job(job)
   if job.words then
+    local function refuse(message) error(manifest.message(job, message), 0) end
     local ok, parsed = parser:pparse(job.words)
-    if not ok then error(parsed:gsub("%s*\nDid you", "; did you"), 0) end
+    if not ok then refuse(parsed:gsub("%s*\nDid you", "; did you")) end
     args, words = parsed, job.words
-    settle(function(message) error(message, 0) end)
+    settle(refuse)
     if not job.asset:lower():find("%.glb$") then
-      error(("output '%s' must end in .glb"):format(job.asset), 0)
+      refuse(("output '%s' must end in .glb"):format(job.asset))
     end
   end
   return convert(job.mesh, job.asset)
@@ -256,7 +256,9 @@ local function convert_batch(jobs)
     end
   end
   print(s.format_table(rows, {columns = {"mesh", "result", "nodes", "asset or reason"}}))
-  if failed > 0 then command.fail("%d of %d meshes failed", failed, #jobs) end
+  if failed > 0 then
+    command.fail("%d of %d mesh%s failed", failed, #jobs, #jobs == 1 and "" or "es")
+  end
 end
 
 if args.manifest then

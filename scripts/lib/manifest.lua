@@ -38,6 +38,16 @@ local function add_words(words, options)
   end
 end
 
+-- An error message about the options of a job, in the words of its manifest: where they are, and
+-- cut_cells for --cut-cells.
+function manifest.message(job, text)
+  text = text:gsub("%-%-(%a[%w-]*)", function(flag) return (flag:gsub("-", "_")) end)
+  local name = text:match("option '([%w_]+)'") or text:match("^([%w_]+):")
+  local of_all = name and job.entry[name] == nil
+  return ("%s, %s: %s"):format(job.path, of_all and "options of all meshes"
+    or "entry " .. job.number, text)
+end
+
 -- Reads the manifest at `path`. Returns a list of jobs: mesh, output (or nil), and words: the
 -- arguments of `convert` for this mesh, of which later ones replace earlier ones. `arguments`: the
 -- command line.
@@ -54,7 +64,8 @@ function manifest.read(path, arguments)
     add_words(words, list)
     add_words(words, entry)
     words[#words + 1] = entry.mesh
-    jobs[number] = {mesh = entry.mesh, output = entry.output, words = words}
+    jobs[number] = {mesh = entry.mesh, output = entry.output, words = words,
+                    path = path, number = number, entry = entry}
   end
   return jobs
 end

@@ -86,8 +86,8 @@ TEST_CASE("a manifest gives each mesh its options, and a failed one does not sto
                                 "", scratch.path());
   CHECK(ran.exit_code == 1);
   CHECK_THAT(ran.err, Contains("3 of 5 meshes failed"));
-  CHECK_THAT(ran.out, Contains("cannot read junk.obj") && Contains("'--unit' must be one of") &&
-                          Contains("must end in .glb"));
+  CHECK_THAT(ran.out, Contains("cannot read junk.obj") && Contains("list.lua, entry 3: ") &&
+                          Contains("'unit' must be one of") && Contains("must end in .glb"));
   const Ran sizes = springlod_run(
       {"-e",
        "s = require 'springlod' a = s.load('assets/soft.glb') b = s.load('out/bar.glb') "
@@ -104,6 +104,13 @@ TEST_CASE("a manifest gives each mesh its options, and a failed one does not sto
   CHECK_THAT(wrong("return {}").err, Contains("wrong.lua lists no meshes"));
   CHECK_THAT(wrong("return {{'bar.obj'}}").err, Contains("entry 1 must be a table with a mesh"));
   CHECK_THAT(wrong("return {{mesh = 'none.obj'}}").out, Contains("none.obj"));
+  CHECK_THAT(wrong("return {{mesh = 'bar.obj', cel = '5 mm'}}").out,
+             Contains("wrong.lua, entry 1: unknown option 'cel'; did you mean 'cell'?"));
+  CHECK_THAT(wrong("return {cut_cell = true, {mesh = 'bar.obj'}}").out,
+             Contains("wrong.lua, options of all meshes: unknown option 'cut_cell'") &&
+                 Contains("'cut_cells'"));
+  CHECK_THAT(wrong("return {{mesh = 'bar.obj', cell = '2kg'}}").out,
+             Contains("wrong.lua, entry 1: cell: \"2kg\""));
   CHECK(wrong("return 3").exit_code == 1);
   CHECK(springlod_run({"convert", "bar.obj", "--manifest", "list.lua"}, "", scratch.path())
             .exit_code == 2);
