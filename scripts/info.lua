@@ -39,17 +39,29 @@ if args.json then
   return
 end
 
-print(chain)
+-- "368 -> 161 -> 78"
+local function of_levels(key)
+  local values = {}
+  for i, level in ipairs(info.levels) do values[i] = tostring(level[key]) end
+  return table.concat(values, " -> ")
+end
+
+print(("asset of %d level%s, base to coarsest: %s nodes, %s springs"):format(
+  #info.levels, #info.levels == 1 and "" or "s", of_levels("nodes"), of_levels("springs")))
 local rows = {}
 for i, level in ipairs(info.levels) do
-  rows[i] = {level.level, level.nodes, level.springs, level.ends, level.corners, level.border_nodes,
+  rows[i] = {level.level, level.nodes, level.springs, level.corners, level.border_nodes,
              show.measured(level.mass, "mass"), show.measured(level.stable_dt, "time"),
              show.measured(level.undamped_dt, "time"), level.limited_by, level.made_by}
 end
 print()
-print(s.format_table(rows, {columns = {"level", "nodes", "springs", "ends", "corners", "border",
-                                       "mass", "stable step", "without damping", "limited by",
+print(s.format_table(rows, {columns = {"level", "nodes", "springs", "corners", "border", "mass",
+                                       "stable step", "without damping", "limited by",
                                        "made by"}}))
+print([[
+border: nodes at the surface. corners: of cells, which resist turning inside out. stable step: the
+longest time step with which a run stays stable, and the same without damping; limited by: what
+keeps it from being longer. springlod help glossary explains more words.]])
 print(("\ncontact points of the levels: %s (%s)"):format(info.contact,
   s.choices.contact[info.contact].help))
 local points = chain[0].contact_point_count
@@ -87,5 +99,6 @@ for _, key in ipairs(keys) do
     local asset = info.provenance.body and args.file:gsub("%-%d+(%.%w+)$", "%1") or args.file
     entry = entry .. " " .. command.shell_line{"-o", asset}
   end
-  print(("%-14s  %s"):format(key, entry))
+  local cell = key == "cell" and tonumber(entry:match("^(%S+) m$"))
+  print(("%-14s  %s"):format(key, cell and show.quantity(cell, "length", 4) or entry))
 end

@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local show = require "lib.show"
 
 local parser = command.parser("slim", "Write an asset with what an engine needs and no more: the "
   .. "surface, all levels, the maps between them and their stable steps, in single precision. It "
@@ -25,7 +26,7 @@ local function level_rows(chain)
   local rows = {}
   for i, level in ipairs(chain.levels) do
     rows[i] = {i - 1, level.node_count, level.spring_count, level.corner_count,
-               ("%.4g"):format(s.stable_step(level))}
+               show.measured(s.stable_step(level), "time")}
   end
   return rows
 end
@@ -38,7 +39,7 @@ local ok, failure = command.try(function()
   end
   s.save(output, chain, {slim = true})
   print(s.format_table(level_rows(chain),
-    {columns = {"level", "nodes", "springs", "corners", "stable step [s]"}}))
+    {columns = {"level", "nodes", "springs", "corners", "stable step"}}))
   local before, after = size(args.asset), size(output)
   print(("%.1f kB instead of %.1f kB (%.0f %%): %s"):format(
     after / 1000, before / 1000, 100 * after / before, s.load(output).provenance.slim))

@@ -101,14 +101,12 @@ int to_base_method(Call& call) {
 std::string chain_text(const LodAsset& asset) {
   std::vector<std::string> nodes;
   std::vector<std::string> springs;
-  std::vector<std::string> ends;
   for (const Level& level : asset.chain.levels) {
     nodes.push_back(fmt::format("{}", level.model.node_count()));
     springs.push_back(fmt::format("{}", level.model.spring_count()));
-    ends.push_back(fmt::format("{}", level.model.end_count()));
   }
-  return fmt::format("LodChain: {} nodes, {} springs ({} ends)", fmt::join(nodes, " -> "),
-                     fmt::join(springs, " -> "), fmt::join(ends, " -> "));
+  return fmt::format("LodChain: {} nodes, {} springs", fmt::join(nodes, " -> "),
+                     fmt::join(springs, " -> "));
 }
 
 void describe_chain(Api& api) {

@@ -18,5 +18,6 @@ return function(path, args)
     if imported then return nil, mesh end
     chain = chain or mesh
   end
-  command.fail("cannot read %s: %s", path, chain)
+  local said = chain:find("^cannot read ") and chain or ("cannot read %s: %s"):format(path, chain)
+  command.fail("%s", said)
 end

@@ -5,7 +5,7 @@ local show = require "lib.show"
 
 local comparison_table = {}
 
-local columns = {"level", "nodes", "ends", "step", "limited by", "cost ratio", "surface error",
+local columns = {"level", "nodes", "springs", "step", "limited by", "cost ratio", "surface error",
                  "shape error", "distance", "spread"}
 
 -- `rows`: those of Comparison:table, of one or more comparisons; means over `starts` starts.
@@ -13,7 +13,7 @@ function comparison_table.print(rows, starts)
   local lines = {}
   for i, row in ipairs(rows) do
     lines[i] = {
-      row.label, row.nodes, row.ends, show.measured(row.step, "time"), row.limited_by,
+      row.label, row.nodes, row.springs, show.measured(row.step, "time"), row.limited_by,
       show.full(row.cost_ratio), show.percent(row.surface_error_percent / 100),
       show.percent(row.shape_error_percent / 100), show.measured(row.distance, "length"),
       starts > 1 and show.measured(row.distance_spread, "length", 2) or "-",

@@ -290,8 +290,9 @@ function page.comparison_verdict(rows)
       local cheaper = row.cost_ratio >= 1
       sentences[#sentences + 1] = ("%s (%d nodes) takes %.3g times %s spring updates than the "
         .. "base; its surface is %s of the body's size away from the base's."):format(
-        row.label, row.nodes, cheaper and row.cost_ratio or 1 / row.cost_ratio,
-        cheaper and "fewer" or "more", percent(row.surface_error_percent))
+        row.label:gsub("^level", "Level"), row.nodes,
+        cheaper and row.cost_ratio or 1 / row.cost_ratio, cheaper and "fewer" or "more",
+        percent(row.surface_error_percent))
     end
   end
   if #sentences == 0 then sentences[1] = "The asset has only a base." end

@@ -111,7 +111,7 @@ TEST_CASE("a script reads the corners of a model and leaves them out") {
     print(s.lattice(grid, {volumes = false})))");
   CAPTURE(ran.err);
   CHECK(ran.exit_code == 0);
-  CHECK_THAT(ran.out, Contains("ends, 2944 corners, ") && Contains("ends, 368 kg"));
+  CHECK_THAT(ran.out, Contains(" springs, 2944 corners, ") && Contains(" springs, 368 kg"));
 }
 
 TEST_CASE("a script finds the corners that a state turns over") {

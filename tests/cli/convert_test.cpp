@@ -77,7 +77,7 @@ TEST_CASE("convert writes an asset and prints its levels, info prints its conten
 
   const Ran text = springlod_run({"info", asset});
   CHECK(text.exit_code == 0);
-  CHECK_THAT(text.out, Contains("LodChain: 192 -> "));
+  CHECK_THAT(text.out, Contains("192 -> "));
 }
 
 TEST_CASE("convert gives the levels corners unless it is told to leave them out") {

@@ -134,9 +134,9 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
   CHECK_THAT(ran.out, !Contains("NEVER CALLED"));
   CHECK_THAT(ran.out, Contains("Mesh: 16 vertices, 36 triangles, 3 parts, 230 mm x 40 mm x 40 mm"));
   CHECK_THAT(ran.out, Contains("Grid: 368 cells of 10 mm"));
-  CHECK_THAT(ran.out, Contains("Model: 368 nodes (") && Contains("2374 springs, 4748 ends"));
   CHECK_THAT(ran.out,
-             Contains("LodChain: 368 -> ") && Contains("2374 -> ") && Contains("(4748 -> "));
+             Contains("Model: 368 nodes (") && Contains("2374 springs") && !Contains("ends"));
+  CHECK_THAT(ran.out, Contains("LodChain: 368 -> ") && Contains("2374 -> ") && !Contains("ends)"));
 }
 
 TEST_CASE("a model from tables reads back node by node and spring by spring") {
@@ -226,8 +226,7 @@ TEST_CASE("groups can be given explicitly, by node priority and by pair cost") {
     print(pcall(s.simplify, m, {levels = 1, grouping = {{1, 2}, {2, 3}}})))");
   CAPTURE(ran.err);
   CHECK_THAT(ran.out, Contains("2\t50.0\t2.0\t{1, 1, 2, 2}\n"));
-  CHECK_THAT(ran.out,
-             Contains("LodChain: 4 -> 3 -> 2 nodes, 3 -> 2 -> 1 springs (6 -> 4 -> 2 ends)"));
+  CHECK_THAT(ran.out, Contains("LodChain: 4 -> 3 -> 2 nodes, 3 -> 2 -> 1 springs"));
   CHECK_THAT(ran.out, Contains("{1, 2, 2, 3}"));
   CHECK_THAT(ran.out, Contains("false\t") && Contains(": mine"));
 }

@@ -45,7 +45,7 @@ Binding surface_binding(const ModelValue& model) {
 }
 
 std::string spring_text(std::uint32_t springs) {
-  return fmt::format("{} spring{}, {} ends", springs, springs == 1 ? "" : "s", 2ULL * springs);
+  return fmt::format("{} spring{}", springs, springs == 1 ? "" : "s");
 }
 
 }  // namespace springlod::scripting
