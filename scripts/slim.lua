@@ -7,7 +7,8 @@ local show = require "lib.show"
 local parser = command.parser("slim", "Write an asset with what an engine needs and no more: the "
   .. "surface, all levels, the maps between them and their stable steps, in single precision. It "
   .. "takes about a third of the bytes. springlod reads it as any asset, but it has no "
-  .. "certificates; keep the asset that it was made of.")
+  .. "certificates; keep the asset that it was made of. It also writes slim assets of older "
+  .. "versions of the format again.")
 parser:argument("asset", "a .glb asset, written by convert or s.save")
 parser:option("-o", "asset to write (default: NAME-slim.glb beside the asset)")
   :target("output"):argname("<asset>")
@@ -33,7 +34,6 @@ end
 
 local ok, failure = command.try(function()
   local chain = s.load(args.asset)
-  if chain.provenance.slim then error("it is slim already", 0) end
   if s.same_file(args.asset, output) then
     error("the asset would overwrite itself; give -o another name", 0)
   end

@@ -10,45 +10,36 @@
 #include <fmt/format.h>
 
 #include "model/asset/asset_format.hpp"
+#include "model/asset/checksum.hpp"
 #include "model/asset/field_reader.hpp"
 #include "model/asset/glb.hpp"
 #include "model/vec.hpp"
 
 namespace springlod::inline model {
 
-/// The numbers that an entry of an array consists of: integers, or coordinates.
-template <class T>
-using ScalarOf =
-    std::conditional_t<sizeof(T) == 1, std::uint8_t,
-                       std::conditional_t<std::is_same_v<T, double> || std::is_same_v<T, Vec3>,
-                                          double, std::uint32_t>>;
-
 /// Copies the arrays of an asset out of the binary chunk of its file, and adds each to the
-/// checksum. The size of an array is checked before any memory is allocated for it, and all arrays
-/// together are at most as large as the chunk: a small file cannot ask for much memory by naming
-/// one array many times. Members throw Damage or InputError.
+/// checksum of versions 1 to 5. The size of an array is checked before any memory is allocated for
+/// it, and all arrays together are at most as large as the chunk: a small file cannot ask for much
+/// memory by naming one array many times. Members throw Damage or InputError.
 class ArrayReader {
  public:
-  /// `gltf` and `binary` must live as long as the reader. `takes_small`: whether arrays may be of
-  /// small types, as in slim assets.
-  ArrayReader(const nlohmann::json& gltf, std::string_view binary, bool takes_small)
+  /// `gltf` and `binary` must live as long as the reader. `version`: of the asset.
+  ArrayReader(const nlohmann::json& gltf, std::string_view binary, std::uint32_t version)
       : views_(gltf.at("bufferViews")),
         binary_(binary),
         untaken_(binary.size()),
-        takes_small_(takes_small) {}
+        version_(version) {}
 
   /// The array that the field `key` of `object` refers to, which must have `count` entries. Empty
   /// arrays have no field.
   template <class T>
   std::vector<T> take(const FieldReader& object, const char* key, std::uint64_t count) {
-    if (object.is_object(key)) {
-      const SmallArray array = small_array(object, key);
-      constexpr std::size_t kWidth = sizeof(T) / sizeof(ScalarOf<T>);
+    if (is_described(object, key)) {
+      constexpr std::size_t kWidth = asset_format::kWidthOf<T>;
+      const DescribedArray array = described_array(object, key, kWidth);
       if (array.bytes.size() != count * kWidth * array.size)
-        throw Damage(fmt::format(
-            "its array {} has {} bytes, but {} entries of {} numbers of {} "
-            "bytes need {}",
-            key, array.bytes.size(), count, kWidth, array.size, count * kWidth * array.size));
+        throw Damage(fmt::format("its array {} has {} bytes, but {} entries need {}", key,
+                                 array.bytes.size(), count, count * kWidth * array.size));
       return unpack<T>(array, key);
     }
     const std::string_view bytes = view(object, key);
@@ -60,18 +51,37 @@ class ArrayReader {
   /// An array whose number of entries stands nowhere else.
   template <class T>
   std::vector<T> take_any(const FieldReader& object, const char* key) {
-    if (object.is_object(key)) return unpack<T>(small_array(object, key), key);
+    if (is_described(object, key))
+      return unpack<T>(described_array(object, key, asset_format::kWidthOf<T>), key);
     const std::string_view bytes = view(object, key);
     if (bytes.size() % sizeof(T) != 0) throw Damage(fmt::format("its array {} is cut short", key));
     return copy<T>(bytes);
   }
 
-  void add_to_checksum(std::string_view bytes) { checksum_.add(bytes); }
-  std::string checksum() const { return checksum_.text(); }
+  /// Whether the array is empty: an empty list, or nothing in versions before 6.
+  static bool is_empty(const FieldReader& object, const char* key) {
+    return !object.has(key) || object.is_empty_list(key);
+  }
+
+  void add_to_checksum(std::string_view bytes) {
+    if (version_ < asset_format::kVersionWithCrc) checksum_.add(bytes);
+  }
+  std::string old_checksum() const { return checksum_.text(); }
 
  private:
+  /// Whether the array is an object, instead of the number of its view. Before slim assets, none
+  /// was; since version 6, all are that are not empty.
+  bool is_described(const FieldReader& object, const char* key) const {
+    const bool described = object.is_object(key);
+    if (described ? version_ < asset_format::kVersionWithSlim
+                  : version_ >= asset_format::kVersionWithCrc && !is_empty(object, key))
+      throw Damage(
+          fmt::format("its array {} must be {}", key, described ? "a number" : "an object"));
+    return described;
+  }
+
   std::string_view view(const FieldReader& object, const char* key) {
-    return object.has(key) ? bytes_of(object.count(key), key) : std::string_view();
+    return is_empty(object, key) ? std::string_view() : bytes_of(object.count(key), key);
   }
 
   std::string_view bytes_of(std::uint32_t number, const char* key) {
@@ -90,14 +100,14 @@ class ArrayReader {
 
   template <class T>
   std::vector<T> copy(std::string_view bytes) {
-    checksum_.add(bytes);
+    add_to_checksum(bytes);
     std::vector<T> array(bytes.size() / sizeof(T));
     if (!bytes.empty()) std::memcpy(static_cast<void*>(array.data()), bytes.data(), bytes.size());
     return array;
   }
 
-  /// An array of a slim asset (docs/asset-format.md).
-  struct SmallArray {
+  /// An array that is an object (docs/asset-format.md).
+  struct DescribedArray {
     std::string type;
     std::size_t size = 0;  ///< of a number [bytes]
     std::string_view bytes;
@@ -106,16 +116,19 @@ class ArrayReader {
     bool has_table = false;
   };
 
-  SmallArray small_array(const FieldReader& object, const char* key) {
-    if (!takes_small_) throw Damage(fmt::format("its array {} must be a number", key));
+  /// `width`: what it must have; versions before 6 do not state it.
+  DescribedArray described_array(const FieldReader& object, const char* key, std::size_t width) {
     const FieldReader place = object.nested(key);
-    SmallArray array;
+    DescribedArray array;
     array.type = place.text("type");
-    array.size = small_size(array.type);
+    array.size = size_of(array.type);
     if (array.size == 0)
       throw Damage(fmt::format("its array {} is of the unknown type {}", key, array.type));
+    if (version_ >= asset_format::kVersionWithCrc &&
+        (place.has("width") ? place.count("width") : 1) != width)
+      throw Damage(fmt::format("the entries of its array {} must have {} numbers", key, width));
     array.bytes = bytes_of(place.count("view"), key);
-    checksum_.add(array.bytes);
+    add_to_checksum(array.bytes);
     if (array.bytes.size() % array.size != 0)
       throw Damage(fmt::format("its array {} is cut short", key));
     array.scale = place.optional_number("scale").value_or(1);
@@ -129,14 +142,16 @@ class ArrayReader {
     return array;
   }
 
-  static std::size_t small_size(const std::string& type) {
+  static std::size_t size_of(const std::string& type) {
+    if (type == "float64") return 8;
     if (type == "float32" || type == "uint32") return 4;
     if (type == "uint16" || type == "int16") return 2;
     return type == "uint8" ? 1 : 0;
   }
 
   template <class T>
-  static std::vector<T> unpack(const SmallArray& array, const char* key) {
+  static std::vector<T> unpack(const DescribedArray& array, const char* key) {
+    if (array.type == "float64") return unpack_as<double, T>(array, key);
     if (array.type == "float32") return unpack_as<float, T>(array, key);
     if (array.type == "uint32") return unpack_as<std::uint32_t, T>(array, key);
     if (array.type == "uint16") return unpack_as<std::uint16_t, T>(array, key);
@@ -146,9 +161,9 @@ class ArrayReader {
 
   /// Tuples are packed tightly. Integers must be stored as integers without sign.
   template <class Stored, class T>
-  static std::vector<T> unpack_as(const SmallArray& array, const char* key) {
-    using Scalar = ScalarOf<T>;
-    constexpr std::size_t kWidth = sizeof(T) / sizeof(Scalar);
+  static std::vector<T> unpack_as(const DescribedArray& array, const char* key) {
+    using Scalar = asset_format::ScalarOf<T>;
+    constexpr std::size_t kWidth = asset_format::kWidthOf<T>;
     constexpr bool kFits = std::is_floating_point_v<Scalar> ||
                            (std::is_unsigned_v<Stored> && sizeof(Stored) <= sizeof(Scalar));
     if (!kFits || (!std::is_floating_point_v<Scalar> && (array.scale != 1 || array.has_table)))
@@ -176,8 +191,8 @@ class ArrayReader {
   const nlohmann::json& views_;
   std::string_view binary_;
   std::uint64_t untaken_;  // [bytes]
-  bool takes_small_;
-  asset_format::Checksum checksum_;
+  std::uint32_t version_;
+  OldChecksum checksum_;
 };
 
 }  // namespace springlod::inline model

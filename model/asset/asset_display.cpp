@@ -17,7 +17,6 @@ namespace springlod::inline model {
 namespace {
 
 using nlohmann::json;
-using SpringEnds = std::vector<std::optional<std::size_t>>;
 using Byte4 = std::array<std::uint8_t, 4>;
 
 /// Distance between levels along x, in widths of the base.
@@ -65,7 +64,7 @@ class Display : private Scene {
  public:
   using Scene::Scene;
 
-  void add(const LodAsset& asset, const SpringEnds& spring_ends) {
+  void add(const LodAsset& asset, const json& extension) {
     const Box3 box = bounds(asset.surface).merged(bounds(asset.chain.levels[0].model.rest));
     // A model without width in x also needs space between its levels.
     const double step = kGap * std::max(box.sizes().x(), kLeastWidth * box.sizes().norm());
@@ -77,7 +76,7 @@ class Display : private Scene {
     for (std::size_t n = 0; n < asset.chain.levels.size(); ++n, shift += step) {
       const MassSpringModel& model = asset.chain.levels[n].model;
       add_node(fmt::format("level {} ({} nodes)", n, model.node_count()),
-               level_primitives(model, spring_ends[n]), shift);
+               level_primitives(model, extension.at("levels").at(n)), shift);
     }
   }
 
@@ -108,7 +107,7 @@ class Display : private Scene {
     return accessor;
   }
 
-  json level_primitives(const MassSpringModel& model, std::optional<std::size_t> spring_ends) {
+  json level_primitives(const MassSpringModel& model, const json& level) {
     // In this order the arrays follow each other in the buffer.
     const std::size_t positions = gltf_.add_positions(model.rest);
     const std::size_t colours = add_colours(model);
@@ -119,12 +118,12 @@ class Display : private Scene {
     points["_MATERIAL"] = add_numbers(model.material);
     json primitives = json::array();
     primitives.push_back({{"mode", gltf::Mode::points}, {"attributes", std::move(points)}});
-    if (spring_ends)
-      primitives.push_back(
-          {{"mode", gltf::Mode::lines},
-           {"attributes", {{"POSITION", positions}, {"COLOR_0", colours}}},
-           {"indices", gltf_.add_accessor(*spring_ends, gltf::Component::unsigned_int, "SCALAR",
-                                          model.end_count())}});
+    if (model.spring_count() > 0)
+      primitives.push_back({{"mode", gltf::Mode::lines},
+                            {"attributes", {{"POSITION", positions}, {"COLOR_0", colours}}},
+                            {"indices", gltf_.add_accessor(level.at("ends").at("view"),
+                                                           gltf::Component::unsigned_int, "SCALAR",
+                                                           model.end_count())}});
     return primitives;
   }
 
@@ -184,8 +183,8 @@ void add_slim_display(const LodAsset& asset, const json& extension, GltfBuilder&
   SlimDisplay(gltf).add(asset, extension);
 }
 
-void add_display(const LodAsset& asset, const SpringEnds& spring_ends, GltfBuilder& gltf) {
-  Display(gltf).add(asset, spring_ends);
+void add_display(const LodAsset& asset, const json& extension, GltfBuilder& gltf) {
+  Display(gltf).add(asset, extension);
 }
 
 }  // namespace springlod::inline model

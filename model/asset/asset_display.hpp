@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <vector>
-
 #include <nlohmann/json.hpp>
 
 #include "model/asset/gltf_builder.hpp"
@@ -12,11 +8,9 @@
 namespace springlod::inline model {
 
 /// Adds what any glTF viewer shows, in single precision: the surface and, side by side along x, the
-/// nodes and springs of each level. A root node rotates z up to glTF's y up. `spring_ends`: for
-/// each level the buffer view of the ends of its springs, pairs of uint32, which the LINES
-/// primitives share; nothing for no springs.
-void add_display(const LodAsset& asset, const std::vector<std::optional<std::size_t>>& spring_ends,
-                 GltfBuilder& gltf);
+/// nodes and springs of each level. A root node rotates z up to glTF's y up. The LINES primitives
+/// share the arrays of the ends of the springs with the extension.
+void add_display(const LodAsset& asset, const nlohmann::json& extension, GltfBuilder& gltf);
 
 /// Adds the scene of a slim asset, which uses the arrays of its extension: the surface without
 /// normals or, without a surface, the nodes and springs of level 0.

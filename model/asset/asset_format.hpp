@@ -1,50 +1,41 @@
 #pragma once
 
-// Constants and the checksum shared by the writer and the reader (docs/asset-format.md).
+// Constants shared by the writer and the reader (docs/asset-format.md).
 
 #include <bit>
 #include <cstdint>
-#include <memory>
-#include <string>
-#include <string_view>
+#include <type_traits>
 
-#include <fmt/format.h>
-#include <xxhash.h>
+#include "model/vec.hpp"
 
 namespace springlod::inline model::asset_format {
 
 static_assert(std::endian::native == std::endian::little,
               "arrays are copied from memory, and glTF is little-endian");
 
+/// The numbers that an entry of an array consists of: integers, or coordinates.
+template <class T>
+using ScalarOf =
+    std::conditional_t<sizeof(T) == 1, std::uint8_t,
+                       std::conditional_t<std::is_same_v<T, double> || std::is_same_v<T, Vec3>,
+                                          double, std::uint32_t>>;
+/// How many they are.
+template <class T>
+inline constexpr std::size_t kWidthOf = sizeof(T) / sizeof(ScalarOf<T>);
+
 inline constexpr const char* kExtension = "SPRINGLOD_lod_chain";
-inline constexpr int kVersion = 5;
+/// That of all written assets.
+inline constexpr int kVersion = 6;
 /// The first version whose levels have corners.
 inline constexpr int kVersionWithCorners = 2;
 /// The first version whose materials have a Poisson's ratio and whose levels have dilatation terms.
-/// Assets without are written as the version before, which older programs read.
 inline constexpr int kVersionWithDilatation = 3;
-/// The first version whose base may have a contact surface; others are written as before.
+/// The first version whose base may have a contact surface.
 inline constexpr int kVersionWithSurface = 4;
-/// The first version with slim assets, whose arrays have small types; whole ones are written as
-/// before.
+/// The first version with slim assets, whose arrays are objects that state their type.
 inline constexpr int kVersionWithSlim = 5;
-
-/// xxh3-64 over the double-precision arrays in the order of writing, each preceded by its length in
-/// bytes, and over the extension's JSON (keys sorted, no white space, without the checksum itself).
-class Checksum {
- public:
-  Checksum() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
-  void add(std::string_view bytes) {
-    const std::uint64_t length = bytes.size();
-    XXH3_64bits_update(state_.get(), &length, sizeof length);
-    XXH3_64bits_update(state_.get(), bytes.data(), bytes.size());
-  }
-  std::string text() const {
-    return fmt::format("xxh3-64:{:016x}", XXH3_64bits_digest(state_.get()));
-  }
-
- private:
-  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
-};
+/// The first version whose checksum is a CRC-32 of the whole file, and in which the arrays of all
+/// assets are objects.
+inline constexpr int kVersionWithCrc = 6;
 
 }  // namespace springlod::inline model::asset_format

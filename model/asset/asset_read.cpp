@@ -14,6 +14,7 @@
 #include "model/asset/asset.hpp"
 #include "model/asset/asset_certificate.hpp"
 #include "model/asset/asset_format.hpp"
+#include "model/asset/checksum.hpp"
 #include "model/asset/field_reader.hpp"
 #include "model/asset/glb.hpp"
 
@@ -142,9 +143,10 @@ void read_map_to_base(const FieldReader& from, ArrayReader& arrays, std::uint32_
 class ExactReader {
  public:
   ExactReader(const json& gltf, std::string_view binary, std::uint32_t version)
-      : arrays_(gltf, binary, version >= asset_format::kVersionWithSlim), version_(version) {}
+      : arrays_(gltf, binary, version), version_(version) {}
 
-  LodAsset read(const json& extension) {
+  /// `file`: all of it, whose checksum is verified.
+  LodAsset read(const json& extension, std::string_view file) {
     const FieldReader from(extension, "the extension");
     LodAsset asset;
     read_provenance(from, asset.provenance);
@@ -155,7 +157,7 @@ class ExactReader {
           read_level(level, number, number == 0 ? 0 : asset.chain.levels[0].model.node_count()));
     });
     if (from.has("surface")) read_surface(extension["surface"], asset);
-    verify_checksum(extension, from.text("checksum"));
+    verify_checksum(extension, from.text("checksum"), file);
     return asset;
   }
 
@@ -178,7 +180,7 @@ class ExactReader {
     model.border = arrays_.take<std::uint8_t>(from, "border", nodes);
     model.material = arrays_.take<std::uint32_t>(from, "material", nodes);
     read_ends(from, arrays_, model, springs);
-    if (version_ >= asset_format::kVersionWithSlim && !from.has("restLength"))
+    if (version_ >= asset_format::kVersionWithSlim && ArrayReader::is_empty(from, "restLength"))
       model.rest_length = distances(model, arrays_);
     else
       model.rest_length = arrays_.take<double>(from, "restLength", springs);
@@ -213,19 +215,26 @@ class ExactReader {
     Binding& binding = asset.surface_of_base;
     // Without vertices, the start may be missing.
     binding.start = arrays_.take<std::uint32_t>(
-        from, "bindingStart", vertices > 0 || from.has("bindingStart") ? vertices + 1ULL : 0);
+        from, "bindingStart",
+        vertices > 0 || !ArrayReader::is_empty(from, "bindingStart") ? vertices + 1ULL : 0);
     const std::uint32_t entries = binding.start.empty() ? 0 : binding.start.back();
     binding.node = arrays_.take<std::uint32_t>(from, "bindingNode", entries);
     binding.weight = arrays_.take<double>(from, "bindingWeight", entries);
   }
 
-  void verify_checksum(const json& extension, const std::string& stated) {
+  void verify_checksum(const json& extension, const std::string& stated, std::string_view file) {
+#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // a fuzzer would hardly pass it
+    if (checksum_of(extension, stated, file) != stated)
+      throw Damage("its contents do not match its checksum");
+#endif
+  }
+
+  std::string checksum_of(const json& extension, const std::string& stated, std::string_view file) {
+    if (version_ >= asset_format::kVersionWithCrc) return checksum_of_file(file, stated);
     json rest = extension;
     rest.erase("checksum");
     arrays_.add_to_checksum(rest.dump());
-#ifndef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // a fuzzer would hardly pass it
-    if (arrays_.checksum() != stated) throw Damage("its contents do not match its checksum");
-#endif
+    return arrays_.old_checksum();
   }
 
   ArrayReader arrays_;
@@ -271,7 +280,7 @@ LodAsset parse_asset(std::string_view file, const std::string& name) {
           fmt::format("{} has format version {}; this program reads versions up to {}; update "
                       "springlod",
                       name, version, asset_format::kVersion));
-    LodAsset asset = ExactReader(gltf, chunks.binary, version).read(*extension);
+    LodAsset asset = ExactReader(gltf, chunks.binary, version).read(*extension, file);
     validate(asset);
     return asset;
   } catch (const Damage& e) {

@@ -1,8 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <optional>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "model/asset/asset_certificate.hpp"
 #include "model/asset/asset_display.hpp"
 #include "model/asset/asset_format.hpp"
+#include "model/asset/checksum.hpp"
 #include "model/asset/glb.hpp"
 #include "model/asset/gltf_builder.hpp"
 #include "model/asset/slim_asset.hpp"
@@ -25,63 +27,51 @@ namespace {
 
 using nlohmann::json;
 
+/// The type of the numbers of an array in full precision, as the file states it.
+template <class T>
+constexpr const char* exact_type() {
+  using Scalar = asset_format::ScalarOf<T>;
+  return std::is_same_v<Scalar, double> ? "float64" : sizeof(Scalar) == 1 ? "uint8" : "uint32";
+}
+
 /// Writes the arrays to the buffer and describes them in the extension: in double precision, or as
 /// those of a slim asset.
-class ExactWriter {
+class ArrayWriter {
  public:
   /// `slim`: what a slim asset has besides of each level; null for a whole one.
-  explicit ExactWriter(AssetBuffer& buffer, const std::vector<SlimLevel>* slim = nullptr)
-      : buffer_(buffer), small_(buffer, checksum_), slim_(slim) {}
-
-  /// For each level the buffer view of the ends of its springs; nothing for no springs.
-  std::vector<std::optional<std::size_t>> spring_ends;
+  explicit ArrayWriter(AssetBuffer& buffer, const std::vector<SlimLevel>* slim = nullptr)
+      : buffer_(buffer), small_(buffer), slim_(slim) {}
 
   json describe(const LodAsset& asset) {
-    json extension{{"version", slim_ ? asset_format::kVersionWithSlim : version_of(asset.chain)}};
-    // Empty lists are omitted, here and below.
+    json extension{{"version", asset_format::kVersion}, {"checksum", kNoChecksum}};
+    extension["provenance"] = json::array();
     for (const auto& [key, value] : asset.provenance.entries)
       extension["provenance"].push_back({key, value});
     if (asset.chain.contact != ContactAt::nodes)
       extension["contact"] = to_string(asset.chain.contact);
     for (const Level& level : asset.chain.levels) {
       json& object = extension["levels"].emplace_back(describe(level));
-      if (slim_) add_slim(object, (*slim_)[extension["levels"].size() - 1]);
+      if (slim_)
+        add_slim(object, (*slim_)[extension["levels"].size() - 1]);
+      else
+        add_stable_step(object, level, asset.chain);
     }
     if (!asset.surface.positions.empty() || !asset.surface.parts.empty() ||
         !asset.surface_of_base.start.empty())
       extension["surface"] = describe(asset.surface, asset.surface_of_base);
-    checksum_.add(json_text(extension));
-    extension["checksum"] = checksum_.text();
     return extension;
   }
 
  private:
-  static int version_of(const LodChain& chain) {
-    if (std::any_of(chain.levels.begin(), chain.levels.end(),
-                    [](const Level& level) { return !level.model.surface.empty(); }))
-      return asset_format::kVersionWithSurface;
-    const auto with_dilatation = [](const Level& level) {
-      return !level.model.dilatation.empty() ||
-             std::any_of(level.model.materials.begin(), level.model.materials.end(),
-                         [](const Material& m) { return m.poisson != kSpringPoisson; });
-    };
-    return std::any_of(chain.levels.begin(), chain.levels.end(), with_dilatation)
-               ? asset_format::kVersionWithDilatation
-               : asset_format::kVersionWithDilatation - 1;
-  }
-
+  /// glTF has no empty views: empty arrays are empty lists.
   template <class T>
-  std::optional<std::size_t> put(json& object, const char* key, const std::vector<T>& array,
-                                 gltf::Target target = gltf::Target::none) {
-    if (slim_ && !array.empty()) {
-      object[key] = small(array, target);
-      return std::nullopt;
-    }
-    checksum_.add({reinterpret_cast<const char*>(array.data()), array.size() * sizeof(T)});
-    if (array.empty()) return std::nullopt;
-    const std::size_t view = buffer_.add(array, target);
-    object[key] = view;
-    return view;
+  void put(json& object, const char* key, const std::vector<T>& array,
+           gltf::Target target = gltf::Target::none) {
+    json& place = object[key] = json::array();
+    if (array.empty()) return;
+    place = slim_ ? small(array, target)
+                  : json{{"view", buffer_.add(array, target)}, {"type", exact_type<T>()}};
+    if (asset_format::kWidthOf < T >> 1) place["width"] = asset_format::kWidthOf<T>;
   }
 
   json small(const std::vector<Vec3>& array, gltf::Target target) {
@@ -109,7 +99,7 @@ class ExactWriter {
       put(object, key, weights);
   }
 
-  /// Empty, and therefore omitted, in a slim asset if each is the distance of the spring's ends.
+  /// Empty in a slim asset if each is the distance of the spring's ends.
   std::vector<double> rest_lengths(const MassSpringModel& model) const {
     for (std::uint32_t s = 0; s < model.spring_count(); ++s)
       if (!slim_ ||
@@ -126,6 +116,17 @@ class ExactWriter {
     put_weights(object, "baseWeight", slim.of_level.weight);
   }
 
+  /// Certificates know the stable steps: each that of its level, and all that of the base.
+  static void add_stable_step(json& object, const Level& level, const LodChain& chain) {
+    const auto& of_last = chain.levels.back().certificate;
+    if (level.certificate)
+      object["stableStep"] = level.certificate->stable_step;
+    else if (&level == &chain.levels.front() && of_last)
+      object["stableStep"] = of_last->base_stable_step;
+    else
+      object["stableStep"] = nullptr;
+  }
+
   static json describe(const Material& material) {
     json object{{"name", material.name},
                 {"young", material.young},
@@ -139,12 +140,12 @@ class ExactWriter {
   /// The nodes of each corner, the different Young's moduli, and the modulus of each corner. A body
   /// of few materials has few moduli; if there is only one, no number of it is written.
   void put_corners(json& object, const std::vector<Corner>& corners) {
-    std::vector<std::uint32_t> nodes;
+    std::vector<std::array<std::uint32_t, 4>> nodes;
     std::vector<double> young;
-    nodes.reserve(4 * corners.size());
+    nodes.reserve(corners.size());
     young.reserve(corners.size());
     for (const Corner& corner : corners) {
-      nodes.insert(nodes.end(), corner.node.begin(), corner.node.end());
+      nodes.push_back(corner.node);
       young.push_back(corner.young);
     }
     std::sort(young.begin(), young.end());
@@ -156,7 +157,7 @@ class ExactWriter {
         young_of.push_back(static_cast<std::uint32_t>(
             std::lower_bound(young.begin(), young.end(), corner.young) - young.begin()));
     }
-    if (!corners.empty()) object["corners"] = corners.size();
+    object["corners"] = corners.size();
     put(object, "cornerNodes", nodes);
     put(object, "cornerYoung", young);
     put(object, "cornerYoungNumber", young_of);
@@ -187,7 +188,8 @@ class ExactWriter {
     const MassSpringModel& model = level.model;
     json object{{"nodes", model.node_count()},
                 {"springs", model.spring_count()},
-                {"madeBy", level.made_by}};
+                {"madeBy", level.made_by},
+                {"materials", json::array()}};
     for (const Material& material : model.materials)
       object["materials"].push_back(describe(material));
     put(object, "rest", model.rest, slim_ ? gltf::Target::vertices : gltf::Target::none);
@@ -196,13 +198,11 @@ class ExactWriter {
     put(object, "contactArea", model.contact_area);
     put(object, "border", model.border);
     put(object, "material", model.material);
-    std::vector<std::uint32_t> ends;
-    ends.reserve(model.end_count());
-    for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
-      ends.push_back(model.a[s]);
-      ends.push_back(model.b[s]);
-    }
-    spring_ends.push_back(put(object, "ends", ends, gltf::Target::indices));
+    std::vector<std::array<std::uint32_t, 2>> ends;
+    ends.reserve(model.spring_count());
+    for (std::uint32_t s = 0; s < model.spring_count(); ++s)
+      ends.push_back({model.a[s], model.b[s]});
+    put(object, "ends", ends, gltf::Target::indices);
     put(object, "restLength", rest_lengths(model));
     put(object, "stiffness", model.stiffness);
     put(object, "damping", model.damping);
@@ -215,7 +215,9 @@ class ExactWriter {
   }
 
   json describe(const TriangleMesh& surface, const Binding& binding) {
-    json object{{"vertices", surface.positions.size()}, {"triangles", surface.triangles.size()}};
+    json object{{"vertices", surface.positions.size()},
+                {"triangles", surface.triangles.size()},
+                {"parts", json::array()}};
     for (const MeshPart& part : surface.parts)
       object["parts"].push_back({{"name", part.name},
                                  {"material", part.material},
@@ -233,7 +235,6 @@ class ExactWriter {
   }
 
   AssetBuffer& buffer_;
-  asset_format::Checksum checksum_;
   SmallArrays small_;
   const std::vector<SlimLevel>* slim_;
 };
@@ -264,9 +265,12 @@ void write(GltfBuilder& gltf, const std::filesystem::path& path) {
         fmt::format("cannot write {}: {} bytes do not fit into a .glb file (4 GB); use "
                     "larger cells or fewer levels",
                     path.string(), bytes));
+  GlbPieces glb = gltf.pieces();
+  const std::string checksum = crc_text({glb.head, glb.binary, glb.padding});
+  glb.head.replace(glb.head.find(kNoChecksum), kNoChecksum.size(), checksum);
   write_aside(path, [&](const std::filesystem::path& aside) {
     std::ofstream out(aside, std::ios::binary);
-    gltf.write(out);
+    write_glb(out, glb);
     out.close();
     if (!out)
       throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
@@ -279,9 +283,9 @@ void save_asset(const LodAsset& asset, const std::filesystem::path& path) {
   validate(asset);
   GltfBuilder gltf(sizeof(double));
   gltf.buffer().reserve(expected_bytes(asset));
-  ExactWriter exact(gltf.buffer());
-  set_extension(gltf.document(), exact.describe(asset));
-  add_display(asset, exact.spring_ends, gltf);
+  const json extension = ArrayWriter(gltf.buffer()).describe(asset);
+  set_extension(gltf.document(), extension);
+  add_display(asset, extension, gltf);
   write(gltf, path);
 }
 
@@ -296,7 +300,7 @@ void save_slim_asset(const LodAsset& asset, const std::vector<SlimLevel>& levels
   for (std::size_t n = 0; n < bound.size(); ++n)
     bound[n].of_level = slim_binding(levels[n].of_level, whole[n].model.rest);
   GltfBuilder gltf(sizeof(float));
-  const json extension = ExactWriter(gltf.buffer(), &bound).describe(slim);
+  const json extension = ArrayWriter(gltf.buffer(), &bound).describe(slim);
   set_extension(gltf.document(), extension);
   add_slim_display(slim, extension, gltf);
   write(gltf, path);

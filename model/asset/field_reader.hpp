@@ -29,6 +29,10 @@ class FieldReader {
     const auto found = object_.find(key);
     return found != object_.end() && found->is_object();
   }
+  bool is_empty_list(const char* key) const {
+    const auto found = object_.find(key);
+    return found != object_.end() && found->is_array() && found->empty();
+  }
   /// Reader of the object at `key`.
   FieldReader nested(const char* key) const {
     return {field(key, &nlohmann::json::is_object, "an object"),

@@ -55,22 +55,16 @@ void require_shallow(std::string_view json) {
   }
 }
 
-void write_words(std::ostream& out, std::initializer_list<std::size_t> words) {
+void add_words(std::string& to, std::initializer_list<std::size_t> words) {
   for (const std::size_t each : words) {
     const auto word = static_cast<std::uint32_t>(each);
-    out.write(reinterpret_cast<const char*>(&word), sizeof word);
+    to.append(reinterpret_cast<const char*>(&word), sizeof word);
   }
 }
 
 /// Chunks are multiples of 4 bytes.
 std::size_t padded(std::size_t size) {
   return (size + 3) / 4 * 4;
-}
-
-void write_chunk(std::ostream& out, std::uint32_t type, std::string_view bytes, char padding) {
-  write_words(out, {padded(bytes.size()), type});
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  for (std::size_t i = bytes.size(); i < padded(bytes.size()); ++i) out.put(padding);
 }
 
 }  // namespace
@@ -99,14 +93,24 @@ std::string json_text(const nlohmann::json& value) {
   return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void write_glb(std::ostream& out, const nlohmann::json& document,
-               const std::vector<unsigned char>& binary) {
-  const std::string text = json_text(document);
-  out << kMagic;
-  write_words(out,
-              {kVersion, kHeader + 2 * kChunkHeader + padded(text.size()) + padded(binary.size())});
-  write_chunk(out, kJson, text, ' ');
-  write_chunk(out, kBinary, {reinterpret_cast<const char*>(binary.data()), binary.size()}, '\0');
+GlbPieces glb_pieces(const nlohmann::json& document, const std::vector<unsigned char>& binary) {
+  constexpr std::string_view kZeros("\0\0\0", 3);
+  std::string text = json_text(document);
+  text.resize(padded(text.size()), ' ');
+  GlbPieces glb;
+  glb.head = kMagic;
+  add_words(glb.head, {kVersion, kHeader + 2 * kChunkHeader + text.size() + padded(binary.size())});
+  add_words(glb.head, {text.size(), kJson});
+  glb.head += text;
+  add_words(glb.head, {padded(binary.size()), kBinary});
+  glb.binary = {reinterpret_cast<const char*>(binary.data()), binary.size()};
+  glb.padding = kZeros.substr(0, padded(binary.size()) - binary.size());
+  return glb;
+}
+
+void write_glb(std::ostream& out, const GlbPieces& glb) {
+  for (const std::string_view piece : {std::string_view(glb.head), glb.binary, glb.padding})
+    out.write(piece.data(), static_cast<std::streamsize>(piece.size()));
 }
 
 }  // namespace springlod::inline model

@@ -39,7 +39,15 @@ std::string json_text(const nlohmann::json& value);
 /// Lengths in a .glb file have 32 bits; some room is left for the JSON [bytes].
 inline constexpr std::size_t kLargestGlbBuffer = 0xF0000000;
 
-void write_glb(std::ostream& out, const nlohmann::json& document,
-               const std::vector<unsigned char>& binary);
+/// A .glb file in pieces that follow each other.
+struct GlbPieces {
+  std::string head;  ///< what stands before the binary data, with the JSON text of the document
+  std::string_view binary;
+  std::string_view padding;  ///< of the binary data
+};
+
+/// The pieces refer to `binary`.
+GlbPieces glb_pieces(const nlohmann::json& document, const std::vector<unsigned char>& binary);
+void write_glb(std::ostream& out, const GlbPieces& glb);
 
 }  // namespace springlod::inline model

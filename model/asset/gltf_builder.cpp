@@ -63,10 +63,10 @@ void GltfBuilder::set_scene(const std::vector<std::size_t>& roots) {
   document_["scene"] = 0;
 }
 
-void GltfBuilder::write(std::ostream& out) {
+GlbPieces GltfBuilder::pieces() {
   document_["bufferViews"] = buffer_.views();
   document_["buffers"] = {{{"byteLength", buffer_.bytes().size()}}};
-  write_glb(out, document_, buffer_.bytes());
+  return glb_pieces(document_, buffer_.bytes());
 }
 
 }  // namespace springlod::inline model

@@ -3,13 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <map>
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "model/asset/asset_buffer.hpp"
+#include "model/asset/glb.hpp"
 #include "model/asset/gltf_values.hpp"
 #include "model/material.hpp"
 #include "model/vec.hpp"
@@ -53,8 +53,8 @@ class GltfBuilder {
   /// Shows these nodes.
   void set_scene(const std::vector<std::size_t>& roots);
 
-  /// Completes the document and writes the file; for buffers of at most kLargestGlbBuffer.
-  void write(std::ostream& out);
+  /// Completes the document. The pieces refer to the buffer, of at most kLargestGlbBuffer.
+  GlbPieces pieces();
 
  private:
   nlohmann::json document_{{"asset", {{"version", "2.0"}, {"generator", "springlod"}}}};

@@ -18,18 +18,12 @@ constexpr std::size_t kTableCost = 100;
 }  // namespace
 
 template <class T>
-std::size_t SmallArrays::add(const std::vector<T>& values, gltf::Target target) {
-  checksum_.add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
-  return buffer_.add(values, target);
-}
-
-template <class T>
 nlohmann::json SmallArrays::add_as(const char* type, const std::uint32_t* values, std::size_t count,
                                    gltf::Target target) {
   std::vector<T> small;
   small.reserve(count);
   for (std::size_t i = 0; i < count; ++i) small.push_back(static_cast<T>(values[i]));
-  return {{"view", add(small, target)}, {"type", type}};
+  return {{"view", buffer_.add(small, target)}, {"type", type}};
 }
 
 nlohmann::json SmallArrays::vectors(const std::vector<Vec3>& values, gltf::Target target) {
@@ -38,7 +32,7 @@ nlohmann::json SmallArrays::vectors(const std::vector<Vec3>& values, gltf::Targe
   for (const Vec3& v : values)
     floats.push_back(
         {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
-  return {{"view", add(floats, target)}, {"type", "float32"}};
+  return {{"view", buffer_.add(floats, target)}, {"type", "float32"}};
 }
 
 nlohmann::json SmallArrays::numbers(const std::vector<double>& values) {
@@ -48,14 +42,14 @@ nlohmann::json SmallArrays::numbers(const std::vector<double>& values) {
   table.erase(std::unique(table.begin(), table.end()), table.end());
   if (table.size() > kLargestTable ||
       kTableCost + table.size() * sizeof(float) + floats.size() > floats.size() * sizeof(float))
-    return {{"view", add(floats)}, {"type", "float32"}};
+    return {{"view", buffer_.add(floats)}, {"type", "float32"}};
   std::vector<std::uint8_t> number;
   number.reserve(floats.size());
   for (const float value : floats)
     number.push_back(static_cast<std::uint8_t>(std::lower_bound(table.begin(), table.end(), value) -
                                                table.begin()));
-  nlohmann::json place{{"view", add(number)}, {"type", "uint8"}};
-  place["table"] = add(table);
+  nlohmann::json place{{"view", buffer_.add(number)}, {"type", "uint8"}};
+  place["table"] = buffer_.add(table);
   return place;
 }
 
@@ -65,7 +59,7 @@ nlohmann::json SmallArrays::weights(const std::vector<double>& values) {
   multiples.reserve(values.size());
   for (const double value : values)
     multiples.push_back(static_cast<std::int16_t>(std::lround(value / unit)));
-  return {{"view", add(multiples)}, {"type", "int16"}, {"scale", unit}};
+  return {{"view", buffer_.add(multiples)}, {"type", "int16"}, {"scale", unit}};
 }
 
 nlohmann::json SmallArrays::integers(const std::uint32_t* values, std::size_t count,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,8 +16,7 @@ namespace springlod::inline model {
 /// (docs/asset-format.md): {"view": 3, "type": "uint16"}. The arrays must not be empty.
 class SmallArrays {
  public:
-  SmallArrays(AssetBuffer& buffer, asset_format::Checksum& checksum)
-      : buffer_(buffer), checksum_(checksum) {}
+  explicit SmallArrays(AssetBuffer& buffer) : buffer_(buffer) {}
 
   /// Single precision, three a vector.
   nlohmann::json vectors(const std::vector<Vec3>& values, gltf::Target target);
@@ -32,13 +30,10 @@ class SmallArrays {
 
  private:
   template <class T>
-  std::size_t add(const std::vector<T>& values, gltf::Target target = gltf::Target::none);
-  template <class T>
   nlohmann::json add_as(const char* type, const std::uint32_t* values, std::size_t count,
                         gltf::Target target);
 
   AssetBuffer& buffer_;
-  asset_format::Checksum& checksum_;
 };
 
 }  // namespace springlod::inline model

@@ -123,7 +123,7 @@ void finish(GltfBuilder& gltf, const std::vector<std::size_t>& roots, MotionFile
         "{} bytes do not fit into a .glb file (4 GB); take fewer frames or a coarser level",
         bytes));
   std::ostringstream out;
-  gltf.write(out);
+  write_glb(out, gltf.pieces());
   files.write(".glb", std::move(out).str());
   files.report.losses.push_back("springs and masses: what moves is the surface");
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "base/subprocess.hpp"
 #include "model/asset/asset.hpp"
@@ -119,6 +120,16 @@ try {
 }
 writeFileSync(process.argv[4], out);
 )";
+
+/// CRC-32, bit by bit.
+std::uint32_t crc32_of(const std::string& bytes) {
+  std::uint32_t crc = 0xFFFFFFFF;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xEDB88320 : 0);
+  }
+  return ~crc;
+}
 
 /// A language with a reader and the program that prints what it read.
 struct Reader {
@@ -357,7 +368,8 @@ TEST_CASE("The readers refuse damaged files, other files and files of a newer ve
         {with("\"young\":1", "\"young\":2"), "checksum"},
         {with("\"byteLength\":", "\"byteLengtg\":"), "damaged"},
         {with("SPRINGLOD_lod_chain\":{", "SPRINGLOD_lod_chaim\":{"), "not a springlod asset"},
-        {with("\"bufferViews\"", "\"bufferView_\""), "damaged"}};
+        {with("\"bufferViews\"", "\"bufferView_\""), "damaged"},
+        {with("glTF\2", "glTF\3"), "damaged"}};
     for (const Reader& reader : kReaders) {
       for (const auto& [file, reason] : wrong) {
         CAPTURE(name, reader.script, reason);
@@ -367,12 +379,18 @@ TEST_CASE("The readers refuse damaged files, other files and files of a newer ve
         CHECK_THAT(*text, StartsWith("refused ") && Contains("wrong.glb") && Contains(reason));
         CHECK(text->size() < 400);
       }
-      std::string newer = whole;
-      const std::size_t at = newer.rfind("\"version\":", newer.find("extensionsUsed"));
-      newer[at + 10] = '6';
+      std::string newer = with("\"version\":6", "\"version\":7");
+      const std::size_t digits = newer.find("crc32:") + 6;
+      newer.replace(digits, 8, 8, '0');
+      newer.replace(digits, 8, fmt::format("{:08x}", crc32_of(newer)));
       spit(scratch / "newer.glb", newer);
       if (const auto text = read_by(reader, scratch / "newer.glb", scratch))
-        CHECK_THAT(*text, StartsWith("refused ") && Contains("version 6") && Contains("up to 5"));
+        CHECK_THAT(*text, StartsWith("refused ") && Contains("version 7") &&
+                              Contains("take a newer springlod."));
+      for (const char* old : {"version_1.glb", "version_2.glb", "version_5.glb"})
+        if (const auto text = read_by(reader, source_folder() / "tests/golden" / old, scratch))
+          CHECK_THAT(*text, StartsWith("refused ") && Contains("not ") && Contains("version") &&
+                                Contains("springlod slim") && !Contains("damaged"));
       if (const auto text = read_by(reader, scratch / "missing.glb", scratch))
         CHECK_THAT(*text, StartsWith("refused ") && Contains("missing.glb"));
     }

@@ -2,8 +2,10 @@
 #include <string>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
@@ -100,13 +102,36 @@ TEST_CASE("slim refuses wrong use and keeps the asset") {
   CHECK(slurp(whole) == before);
   CHECK_FALSE(fs::exists(scratch / "bar-slim.glb"));
 
-  // A file of that name is replaced, as by convert; a slim asset has nothing left to drop.
+  // A file of that name is replaced, as by convert.
   spit(scratch / "bar-slim.glb", "something else");
   CHECK(springlod_run({"slim", whole.string()}).exit_code == 0);
   const std::string slim = slurp(scratch / "bar-slim.glb");
   CHECK(slim.starts_with("glTF"));
-  refuses({(scratch / "bar-slim.glb").string()}, 1, "slim already");
   // The same asset gives the same bytes.
   CHECK(springlod_run({"slim", whole.string()}).exit_code == 0);
   CHECK(slurp(scratch / "bar-slim.glb") == slim);
+}
+
+TEST_CASE("slim writes assets of older versions of the format again, slim ones too") {
+  const TemporaryFolder scratch;
+  for (const char* version : {"1", "2", "3", "4", "5"}) {
+    CAPTURE(version);
+    const fs::path old =
+        springlod::test::source_folder() / "tests/golden" / fmt::format("version_{}.glb", version);
+    const fs::path slim = scratch / "slim.glb";
+    const Ran ran = springlod_run({"slim", old.string(), "-o", slim.string()});
+    CAPTURE(ran.err);
+    REQUIRE(ran.exit_code == 0);
+    CHECK_THAT(slurp(slim), Contains(R"("version":6)") && Contains(R"("checksum":"crc32:)"));
+    const json before = info_of(old);
+    const json after = info_of(slim);
+    REQUIRE(before.at("levels").size() == after.at("levels").size());
+    for (std::size_t level = 0; level < before.at("levels").size(); ++level) {
+      const json& p = before.at("levels").at(level);
+      const json& q = after.at("levels").at(level);
+      for (const char* key : {"nodes", "springs", "corners", "made_by"})
+        CHECK(p.at(key) == q.at(key));
+      CHECK(q.at("mass").get<double>() == Approx(p.at("mass").get<double>()).epsilon(1e-6));
+    }
+  }
 }

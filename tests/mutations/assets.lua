@@ -1,6 +1,6 @@
 -- Load and run many damaged assets, and count what becomes of them:
 --   springlod run tests/mutations/assets.lua -- COUNT FILE...
--- COUNT may also be FIRST-LAST. Damages assets of format version 2 in turn, each in another way:
+-- COUNT may also be FIRST-LAST. Damages assets of format version 6 in turn, each in another way:
 -- their bytes, their JSON or their arrays. Every second one gets a valid checksum again, so that
 -- only the checks behind it can find the damage. Each level of what is loaded falls onto a floor
 -- for some steps. Prints a row for each half: run, refused, and errors of any other kind and calls
@@ -103,11 +103,11 @@ local function damage(bytes, number)
   end
   local json, binary = glb_text.split(bytes)
   assert(glb_text.checksum(json, binary) == glb_text.stated_checksum(json),
-         "name assets of format version 2")
+         "name assets of format version 6")
   local name
   json, binary, name = damaged_parts(json, binary)
   if is_valid(number) then
-    json = glb_text.with_checksum(json, glb_text.checksum(json, binary) or "")
+    json = glb_text.with_checksum(json, glb_text.checksum(json, binary))
   end
   return glb_text.join(json, binary), name
 end

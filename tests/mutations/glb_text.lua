@@ -1,14 +1,7 @@
 -- Takes a .glb of springlod apart, puts it together again, and computes its checksum as
 -- docs/asset-format.md defines it.
 
-local s = require "springlod"
-
 local glb_text = {}
-
-local kLevelArrays = {"rest", "mass", "volume", "contactArea", "border", "material", "ends",
-                      "restLength", "stiffness", "damping", "nodeOfBase", "cornerNodes",
-                      "cornerYoung", "cornerYoungNumber"}
-local kSurfaceArrays = {"positions", "indices", "bindingStart", "bindingNode", "bindingWeight"}
 
 -- Its JSON text and its arrays.
 function glb_text.split(bytes)
@@ -37,44 +30,34 @@ function glb_text.views(json)
   return views
 end
 
-local function add_arrays(strings, object, keys, views, binary)
-  for _, key in ipairs(keys) do
-    local view = views[whole(object, key, -1) + 1]
-    local bytes = view and binary:sub(view[1], view[1] + view[2] - 1) or ""
-    strings[#strings + 1] = ("<I8"):pack(#bytes) .. bytes
-  end
+-- CRC-32 of zlib, a byte at a time.
+local crc_of_byte = {}
+for byte = 0, 255 do
+  local crc = byte
+  for _ = 1, 8 do crc = crc >> 1 ~ (crc & 1 == 1 and 0xedb88320 or 0) end
+  crc_of_byte[byte] = crc
 end
 
-local function extension(json) return json:match('"SPRINGLOD_lod_chain":(%b{})') end
-
--- The checksum of an asset, whose texts must not hold braces or brackets; nil if its JSON is not
--- that of an asset.
-function glb_text.checksum(json, binary)
-  local ours = extension(json)
-  local levels = ours and ours:match('"levels":(%b[])')
-  if not levels then return nil end
-  local views, strings = glb_text.views(json), {}
-  for level in levels:sub(2, -2):gmatch("%b{}") do
-    level = level:gsub('"materials":%b[]', ""):gsub('"certificate":%b{}', "")
-    add_arrays(strings, level, kLevelArrays, views, binary)
-  end
-  local surface = ours:match('"surface":(%b{})')
-  if surface then
-    add_arrays(strings, surface:gsub('"parts":%b[]', ""), kSurfaceArrays, views, binary)
-  end
-  local rest = ours:gsub('"checksum":"[^"]*",', "")
-  strings[#strings + 1] = ("<I8"):pack(#rest) .. rest
-  return "xxh3-64:" .. s.hash{text = table.concat(strings)}
+local function crc32(bytes)
+  local crc = 0xffffffff
+  for at = 1, #bytes do crc = crc >> 8 ~ crc_of_byte[(crc ~ bytes:byte(at)) & 255] end
+  return crc ~ 0xffffffff
 end
 
--- The checksum that the asset states.
+-- The checksum that the asset states; nil if its JSON is not that of an asset.
 function glb_text.stated_checksum(json)
-  return (extension(json) or ""):match('"checksum":"([^"]*)"')
+  return json:match('"SPRINGLOD_lod_chain":{"checksum":"(crc32:%x+)"')
+end
+
+-- The checksum of an asset that states one.
+function glb_text.checksum(json, binary)
+  return ("crc32:%08x"):format(crc32(glb_text.join(
+    glb_text.with_checksum(json, "crc32:00000000"), binary)))
 end
 
 -- The JSON text with another checksum.
 function glb_text.with_checksum(json, checksum)
-  return (json:gsub('"checksum":"[^"]*"', '"checksum":"' .. checksum .. '"'))
+  return (json:gsub('"checksum":"[^"]*"', '"checksum":"' .. checksum .. '"', 1))
 end
 
 return glb_text

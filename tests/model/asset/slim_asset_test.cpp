@@ -220,7 +220,8 @@ TEST_CASE("A damaged slim asset is refused") {
     CAPTURE(before, after);
     CHECK_THROWS_WITH(parse_asset(file, "slim.glb"), Contains("damaged") && Contains(reason));
   };
-  refuses(R"("version":5})", R"("version":4})", "must be a number");
+  refuses(R"("version":6})", R"("version":4})", "must be a number");
+  refuses(R"("width":3)", R"("width":2)", "must have 3 numbers");
   refuses(R"("type":"float32")", R"("type":"float33")", "unknown type float33");
   refuses(R"("type":"int16")", R"("type":"uint8")", "has");
   refuses(R"("ends":{"type":"uint8")", R"("ends":{"type":"int16")", "has");
