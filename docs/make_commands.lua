@@ -1,5 +1,5 @@
 -- Writes what is made from the help of the commands: docs/commands.md, the man pages and the
--- completion for bash and fish.
+-- completion for bash, fish and zsh.
 --
 --   springlod --unsafe run docs/make_commands.lua -- --reference docs/commands.md
 --   springlod --unsafe run docs/make_commands.lua -- --man DIR --completion DIR
@@ -11,7 +11,7 @@ local parser = command.parser("run docs/make_commands.lua --",
   "Write the reference, man pages and shell completion of the commands, from their help.")
 parser:option("--reference", "Markdown file to write"):argname("<file>")
 parser:option("--man", "folder for the man pages"):argname("<folder>")
-parser:option("--completion", "folder for springlod.bash and springlod.fish"):argname("<folder>")
+parser:option("--completion", "folder for springlod.bash, .fish and .zsh"):argname("<folder>")
 local args = parser:parse()
 
 -- ---------------------------------------------------------------- the commands
@@ -36,10 +36,14 @@ end
 -- An argument or option: its names (none for an argument), what follows them, its help.
 local function entry_of(element)
   local choices = {}
-  for _, word in ipairs(element._choices or {}) do choices[#choices + 1] = word end
+  for _, word in ipairs(element._choices or element.completed or {}) do
+    choices[#choices + 1] = word
+  end
   return {names = element._aliases, label = table.concat(element:_get_label_lines(), ", "),
           help = element:_get_description(), choices = choices,
-          flag = element._aliases and element._maxargs == 0, path = element._argname}
+          flag = element._aliases and element._maxargs == 0, path = element._argname,
+          name = element._name, values = element._maxargs,
+          repeats = element._aliases and element._maxcount > 1}
 end
 
 -- Groups of entries: arguments, the named groups, other options.
@@ -89,13 +93,15 @@ local overview = program_help()
 
 -- Flags of the program: "-q, --quiet    print ..." -> names, help.
 local flags = {}
+local follow = overview:match("\nflags %((.-) may also follow the command")
 for line in overview:match("\nflags.-\n(.*)"):gmatch("[^\n]+") do
   local label, help = line:match("^  (%-.-)  +(.+)$")
   if label then
     local names = {}
     for name in label:gmatch("%-[%w-]+") do names[#names + 1] = name end
     flags[#flags + 1] = {names = names, label = label, help = help,
-                         flag = not label:find("[ =]%u")}
+                         flag = not label:find("[ =]%u"),
+                         follows = follow:find(names[1], 1, true) ~= nil}
   end
 end
 
@@ -280,6 +286,94 @@ local function fish()
   return table.concat(lines, "\n") .. "\n"
 end
 
+local function zsh()
+  local function quoted(text) return "'" .. text:gsub("'", "'\\''") .. "'" end
+  -- Help or a name in a field of _arguments, where the marks of its syntax are escaped.
+  local function field(text) return (text:gsub("\n", " "):gsub("[%[%]:\\]", "\\%0")) end
+  -- What completes a value: its words, files of a kind, or nothing.
+  local function action(entry, name)
+    if entry.choices and #entry.choices > 0 then
+      return "(" .. table.concat(entry.choices, " ") .. ")"
+    end
+    if name:find("%.lua") then return '_files -g "*.lua"' end
+    for _, kind in ipairs{"file", "folder", "asset", "mesh"} do
+      if name:find(kind) then return "_files" end
+    end
+    return " "
+  end
+  local function value(entry, name)
+    return (":%s:%s"):format(field(name), action(entry, entry.path or name))
+  end
+  local function option(entry)
+    local values = ""
+    if not entry.flag then values = value(entry, (entry.names[#entry.names]:gsub("^%-+", ""))) end
+    if (entry.values or 1) > 1 then values = ":*-*" .. values end -- all words up to an option
+    local help, specs = ("[%s]"):format(field(entry.help)), {}
+    for i, name in ipairs(entry.names) do
+      -- --unit mm and --unit=mm; -o FILE and -oFILE
+      local takes = entry.flag and "" or name:find("^%-%-") and "=" or "+"
+      -- An option that is given is not offered again, nor its other names.
+      local excludes = entry.repeats and "*" or ("(%s)"):format(table.concat(entry.names, " "))
+      specs[i] = quoted(excludes .. name .. takes .. help .. values)
+    end
+    return table.concat(specs, " ")
+  end
+  local function argument(entry)
+    return quoted((entry.values > 1 and "*" or "") .. value(entry, entry.name))
+  end
+  local lines = {
+    "#compdef springlod",
+    "# Completion of springlod for zsh. Made by docs/make_commands.lua.",
+    "_springlod() {",
+    "  local curcontext=$curcontext state line ret=1",
+    "  local -A opt_args",
+    "  local -a commands=(",
+    "    'run:Run a Lua script.'",
+  }
+  local function add(text) lines[#lines + 1] = text end
+  for _, each in ipairs(commands) do
+    add("    " .. quoted(each.name .. ":" .. field(each.summary)))
+  end
+  add("  )")
+  add("  _arguments -C \\")
+  for _, flag in ipairs(flags) do add("    " .. option(flag) .. " \\") end
+  add("    '1: :->command' '*:: :->rest' && ret=0")
+  add("  case $state in")
+  add("    command) _describe -t commands command commands && ret=0 ;;")
+  add("    rest)")
+  add("      curcontext=${curcontext%:*}-$words[1]:")
+  add("      case $words[1] in")
+  add("        run) _arguments '1:script:_files -g \"*.lua\"' '*:argument:_files' && ret=0 ;;")
+  for _, each in ipairs(commands) do
+    add(("        %s)"):format(each.name))
+    add("          _arguments \\")
+    for _, group in ipairs(each.groups) do
+      for _, entry in ipairs(group.entries) do
+        add(("            %s \\"):format((entry.names and option or argument)(entry)))
+      end
+    end
+    for _, flag in ipairs(flags) do
+      if flag.follows then add(("            %s \\"):format(option(flag))) end
+    end
+    add("            && ret=0 ;;")
+  end
+  table.move({
+    "      esac ;;",
+    "  esac",
+    "  return ret",
+    "}",
+    "",
+    "# As a function of fpath it completes; sourced, it registers itself.",
+    "if [[ $funcstack[1] == _springlod ]]; then",
+    "  _springlod \"$@\"",
+    "else",
+    "  compdef _springlod springlod",
+    "fi",
+    "",
+  }, 1, 12, #lines + 1, lines)
+  return table.concat(lines, "\n")
+end
+
 if args.reference then s.save_text(args.reference, reference()) end
 if args.man then
   s.save_text(args.man .. "/springlod.1", program_man())
@@ -290,4 +384,5 @@ end
 if args.completion then
   s.save_text(args.completion .. "/springlod.bash", bash())
   s.save_text(args.completion .. "/springlod.fish", fish())
+  s.save_text(args.completion .. "/springlod.zsh", zsh())
 end

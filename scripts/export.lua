@@ -10,8 +10,12 @@ local parser = command.parser("export", "Write a level of an asset as a file of 
   .. "an engine, a solver or a viewer. With --scenario, run the level and write its motion. Prints "
   .. "the settings that keep the body stable and right there, and what the format does not hold.")
 parser:argument("asset", "a .glb asset, written by convert or s.save")
-parser:option("--to", ("format of a level: %s; of a motion: %s"):format(
+local to = parser:option("--to", ("format of a level: %s; of a motion: %s"):format(
   model_formats, motion_formats)):count(1):argname("<format>")
+to.completed = {table.unpack(s.choices.model_format)} -- what shells complete
+for _, format in ipairs(s.choices.motion_format) do
+  if not s.choices.model_format[format] then to.completed[#to.completed + 1] = format end
+end
 parser:option("--level", "level to write; 0 is the base"):convert(command.whole("--level", 0, 1000))
   :default("0")
 parser:option("--scenario", "Lua file that returns a table for s.scenario: writes the motion")

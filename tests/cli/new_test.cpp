@@ -8,6 +8,7 @@
 
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using springlod::test::obj_of_boxes;
 using springlod::test::Ran;
 using springlod::test::slurp;
@@ -133,4 +134,8 @@ TEST_CASE("docs/commands.md, man pages and completion come from the help of the 
   CHECK_THAT(slurp(scratch / "springlod.bash"), Contains("--unit) words='m nm um mm cm"));
   CHECK_THAT(slurp(scratch / "springlod.fish"),
              Contains("__fish_seen_subcommand_from convert' -l unit -r -f -a 'm nm um mm cm"));
+  // What zsh makes of it is tested in tests/peers/completion, where zsh is installed.
+  CHECK_THAT(slurp(scratch / "springlod.zsh"), StartsWith("#compdef springlod\n") &&
+                                                   Contains(":unit:(m nm um mm cm") &&
+                                                   Contains(":to:(jolt mujoco bullet"));
 }
