@@ -3,7 +3,7 @@
 namespace springlod::inline model {
 namespace {
 
-// Rubbers, silicones and flesh have Poisson's ratios of 0.499 and more.
+// Rubbers, silicones, gels and flesh have Poisson's ratios of 0.499 and more.
 constexpr double kNearlyIncompressible = 0.495;
 // Middle of the published range of foams, 0.1 to 0.4.
 constexpr double kFoam = 0.25;
@@ -35,6 +35,15 @@ constexpr Row kRows[] = {
     row(MaterialPreset::pdms, "pdms", "silicone rubber Sylgard 184, base and agent 10 to 1", 2.0e6,
         kNearlyIncompressible, 1030,
         "Wang, Volinsky and Gallant, Journal of Applied Polymer Science 131:41050, 2014"),
+    // Without filler, so of the density of the polymer: 970 kg/m3.
+    row(MaterialPreset::silicone_gel, "silicone_gel", "silicone gel Sylgard 527", 5e3,
+        kNearlyIncompressible, 970,
+        "Palchesko et al., PLoS ONE 7:e51499, 2012: the softest of its blends with Sylgard 184"),
+    // Water with 4.8 % by mass of collagen, of some 1350 kg/m3.
+    row(MaterialPreset::gelatin, "gelatin", "gelatin, one part of powder in 20 of water", 4.34e3,
+        kNearlyIncompressible, 1010,
+        "Bonavia, Viscoelastic Material Properties of Gelatin, arXiv:2512.20502, 2025: in "
+        "compression, instantaneous, 4.34 (0.64) kPa; 277 kPa at one part in 2"),
     row(MaterialPreset::cork, "cork", "cork", 25.5e6, 0, 170,
         "Ashby, Materials Selection in Mechanical Design, appendix A: 13 to 50 MPa"),
     row(MaterialPreset::flexible_foam, "flexible_foam", "flexible polymer foam of low density",

@@ -13,6 +13,8 @@ enum class MaterialPreset {
   ecoflex_00_30,
   dragon_skin_30,
   pdms,
+  silicone_gel,
+  gelatin,
   cork,
   flexible_foam,
   rigid_foam,

@@ -127,7 +127,7 @@ TEST_CASE("materials lists the presets, which materials take unless they say oth
       return s.grid{cell = 1, size = {1, 1, 1}, materials = {a = given},
                     fill = function() return "a" end}.materials[1]
     end
-    assert(#s.material_presets == 18)
+    assert(#s.material_presets == 20)
     for _, preset in ipairs(s.material_presets) do
       local found = material{preset = preset.name}
       assert(found.young == preset.young and found.poisson == preset.poisson)
