@@ -6,6 +6,7 @@ local fit_store = require "lib.fit_store"
 local merge_ladder = require "lib.merge_ladder"
 local page = require "lib.page"
 local percent = require("lib.show").percent
+local split_table = require "lib.split_table"
 
 local parser = command.parser("mergelog", "Merge the base of an asset step by step and certify "
   .. "each step against the base. Reports where to stop, which merges contribute most to the "
@@ -253,7 +254,10 @@ local function show(levels)
     "omega_max / base", "cost / base", "costliest merge",
   }
   if builds_without then columns[11] = ("f1..10 without %g %%"):format(100 * args.leave_out) end
-  print(s.format_table(rows, {columns = columns}))
+  print(split_table.format(rows, columns, 2))
+  print([[
+kept: nodes over those of the base. f1..10, f11..20: errors of natural frequencies; loads: errors of
+compliance, worst local: the largest of them. omega_max: highest frequency; cost: spring updates.]])
   return {title = "Errors of the levels", rows = rows, columns = columns}
 end
 

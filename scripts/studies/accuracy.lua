@@ -5,6 +5,8 @@ local command = require "lib.command"
 local bodies = require "studies.accuracy.bodies"
 local intervals = require "lib.intervals"
 local lists = require "lib.lists"
+local show = require "lib.show"
+local split_table = require "lib.split_table"
 local timed_run = require "lib.timed_run"
 local trade_off = require "studies.accuracy.trade_off"
 local unit_store = require "lib.unit_store"
@@ -181,18 +183,34 @@ local function summary_rows()
   return all
 end
 
-local function show(all)
-  local texts = {}
+-- What is not an error, as a ratio or a share of the levels.
+local text_of = {
+  ["omega/base"] = show.full, ["base cost/cost"] = show.full, ["same kernel"] = show.full,
+  ["fastest kernel"] = show.full,
+  mechanisms = function(share) return ("%.0f %%"):format(100 * share) end,
+}
+
+local meanings = [[
+Means over bodies and seeds%s; errors in percent. Level 1 has 45 %%, level 2 20 %% of the nodes.
+f1..10, f11..20: natural frequencies; loads: compliance under smooth loads, and loads that no fit
+sees. omega/base: highest frequency over the base's. base cost/cost: spring updates of the base over
+those of the level. same kernel, fastest kernel: the same by the clock, with one kernel for both and
+with the fastest of each. second moments: of the mass. mechanisms: levels with a motion that needs
+no force.]]
+
+local function print_means(all)
+  local several, texts, columns = #args.bodies > 1, {}, {"level", "method"}
   for i, row in ipairs(all) do
     texts[i] = {row[1], row[2]}
-    for k = 1, #measures do
-      texts[i][k + 2] = ("%.2f (%.2f)"):format(row[3 + k], row[3 + #measures + k])
+    for k, measure in ipairs(measures) do
+      local as_text = text_of[measure[1]] or function(value) return show.percent(value / 100) end
+      local mean_text, worst_text = as_text(row[3 + k]), as_text(row[3 + #measures + k])
+      texts[i][k + 2] = several and ("%s (%s)"):format(mean_text, worst_text) or mean_text
     end
   end
-  local columns = {"level", "method"}
   for i, measure in ipairs(measures) do columns[i + 2] = measure[1] end
-  print("means over bodies and seeds (worst body in parentheses); errors in percent")
-  print(s.format_table(texts, {columns = columns}))
+  print(split_table.format(texts, columns, 2))
+  print(meanings:format(several and " (worst body in parentheses)" or ""))
 end
 
 local function wanted(list, one)
@@ -240,7 +258,7 @@ local ok, failure = command.try_in(args.folder, function()
   s.csv(args.folder .. "/levels.csv", rows, {columns = level_columns})
   local all = summary_rows()
   s.csv(args.folder .. "/methods.csv", all, {columns = method_columns})
-  show(all)
+  print_means(all)
   if args.trade_off then draw_trade_off() end
   store:remove()
 end, true)

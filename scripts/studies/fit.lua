@@ -6,6 +6,8 @@ local command = require "lib.command"
 local landing = require "studies.fit.landing"
 local lists = require "lib.lists"
 local motion = require "studies.fit.motion"
+local show = require "lib.show"
+local split_table = require "lib.split_table"
 local trade_off = require "studies.fit.trade_off"
 local unit_store = require "lib.unit_store"
 
@@ -274,14 +276,33 @@ local function with_measures(columns)
   return columns
 end
 
-local function show(list)
-  local texts = {}
+-- What is not an error: as a number, or with its unit.
+local texts_of = {
+  MAC = function(value) return ("%.3f"):format(value) end,
+  modulus = show.full, ["area / mass"] = show.full, gain = show.full,
+  seconds = function(value) return show.measured(value, "time", 2) end,
+}
+
+local meanings = [[
+Means over bodies and seeds. Level 1 has 45 %, level 2 20 % of the nodes. f1..10, f11..20: errors of
+natural frequencies; MAC: agreement of mode shapes, 1 is best. loads: errors of the compliance under
+smooth loads, under loads that no fit sees, and under those on small patches. modulus: over the
+base's, of the material that is farthest off. area / mass: the largest contact area over mass of a
+node, over the base's. gain: spring updates of the base over those of the level. impulse, period:
+errors of the free body's motion right after a blow, in the first and in later periods. landing:
+rms distance of the surface after the first contact. seconds: of the fit of both levels.]]
+
+local function print_means(list)
+  local texts, columns = {}, with_measures{"level", "variant"}
   for i, row in ipairs(list) do
     texts[i] = {row[1], row[2]}
-    for k = 4, #row do texts[i][k - 1] = ("%.3g"):format(row[k]) end
+    for k = 4, #row do
+      local text_of = texts_of[columns[k - 1]]
+      texts[i][k - 1] = text_of and text_of(row[k]) or show.percent(row[k] / 100)
+    end
   end
-  print("means over bodies and seeds; errors in percent")
-  print(s.format_table(texts, {columns = with_measures{"level", "variant"}}))
+  print(split_table.format(texts, columns, 2))
+  print(meanings)
 end
 
 local function draw_trade_off()
@@ -304,7 +325,7 @@ local ok, failure = command.try_in(args.folder, function()
   local list = mean_rows()
   s.csv(args.folder .. "/means.csv", list,
     {columns = with_measures{"level", "variant", "levels"}})
-  show(list)
+  print_means(list)
   if args.trade_off then draw_trade_off() end
   store:remove()
 end, true)

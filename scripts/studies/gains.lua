@@ -126,6 +126,12 @@ local function mean_rows()
   return means
 end
 
+local meanings = [[
+A gain is the cost of the base over that of the level. plain: spring updates; certificate: predicted
+by the certificate, with the speed of the kernels; clock: measured in the scene, with contact at
+nodes, at the surface, in flight without obstacles, and at nodes with the same kernel for both.
+clock over certificate: measured over predicted.]]
+
 local function show(list, columns)
   local texts, titles = {}, {}
   for k, column in ipairs(columns) do titles[k] = column:gsub("_", " ") end
@@ -180,6 +186,7 @@ local ok, failure = command.try_in(args.folder, function()
   show(rows, lists.joined({"body", "scene", "level", "nodes"}, gains))
   print("\ngeometric means over bodies")
   show(means, mean_columns)
+  print(meanings)
   draw()
   store:remove()
 end, true)

@@ -11,6 +11,8 @@ local paper_studies = require "studies.paper.studies"
 local paper_tables = require "studies.paper.tables"
 local paper_variants = require "studies.paper.variants"
 local run_store = require "lib.run_store"
+local show = require "lib.show"
+local split_table = require "lib.split_table"
 
 local parser = command.parser("paper", "Reproduce the tables and figures of Kot, Nagahashi and "
   .. "Gracki, \"Simplification of mass spring models\", from many runs each. Writes index.html (a "
@@ -83,12 +85,17 @@ local function draw(name, series, options)
   charts[#charts + 1] = {series, options}
 end
 
+-- Of the columns of tables 1 and 2.
+local meanings = [[
+ends: springs at both nodes. distance, W1, difference/spread: with 95 % intervals. spread: standard
+deviation over the starts. difference: of the means, from the base's; paper's: the same there. W1:
+Wasserstein distance from the ends of the base; floor: what other starts of the base reach; inside:
+simplifications below it. same: whether the means are equivalent. turned: share of turned bodies.]]
+
 -- Writes a table to the terminal, to tables.md and, with all digits, to a CSV file.
 local function publish(name, title, rows, columns, shown, shown_columns)
   s.csv(("%s/%s.csv"):format(args.out, name), rows, {columns = columns})
   shown, shown_columns = shown or rows, shown_columns or columns
-  print("\n" .. title .. "\n")
-  print(s.format_table(shown, {columns = shown_columns}))
   local texts = {}
   for number, row in ipairs(shown) do
     local cells = {}
@@ -99,6 +106,18 @@ local function publish(name, title, rows, columns, shown, shown_columns)
     end
     texts[number] = cells
   end
+  local names, short = {}, {}
+  for i, column in ipairs(shown_columns) do names[i] = column:gsub("_", " ") end
+  for number, row in ipairs(texts) do
+    short[number] = {}
+    for i, cell in ipairs(row) do
+      local value = math.tointeger(cell) == nil and tonumber(cell)
+      short[number][i] = value and shown == rows and show.number(value) or cell
+    end
+  end
+  print("\n" .. title .. "\n")
+  print(split_table.format(short, names, 1))
+  if shown ~= rows then print(meanings) end
   tables[#tables + 1] = {title = title, rows = texts, columns = shown_columns}
   write_line(("\n## %s\n\n%s"):format(title, markdown.table(texts, shown_columns)))
 end

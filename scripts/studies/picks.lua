@@ -139,7 +139,10 @@ for i, row in ipairs(pick_rows) do
 end
 print(s.format_table(lines, {columns = {"body", "scene", "tolerance", "picked level",
   "best by runs", "predicted error", "measured error", "verdict"}}))
+print([[
+tolerance and errors: of the surface, in percent of the diagonal. best by runs: the coarsest level
+whose measured error is within the tolerance.]])
 print(("\n%d picks: %d are the best level by runs; %d too coarse (error above %g times the "
-  .. "tolerance), %d too fine (by more than one level)"):format(counts.picks, counts.same,
+  .. "tolerance),\n%d too fine (by more than one level)"):format(counts.picks, counts.same,
   counts.coarse, most_error, counts.fine))
 s.say("wrote " .. args.folder)

@@ -1,6 +1,7 @@
 -- The tables of springlod pareto.
 
 local s = require "springlod"
+local show = require "lib.show"
 
 local pareto_tables = {}
 
@@ -68,13 +69,25 @@ function pareto_tables.save(folder, variants, left_out, study)
   s.csv(folder .. "/left-out.csv", left_out, {columns = {"variant", "what", "reason"}})
 end
 
-local function text_of(interval)
-  return ("%.3g (%.3g .. %.3g)"):format(interval.value, interval.low, interval.high)
+-- `text`: number -> text.
+local function text_of(interval, text)
+  if interval.value == interval.low and interval.value == interval.high then
+    return text(interval.value) -- nothing varied
+  end
+  return ("%s (%s .. %s)"):format(text(interval.value), text(interval.low), text(interval.high))
+end
+
+-- How errors of an axis are shown, and its label without the unit that they then have themselves.
+local function shown_by(axis)
+  local label, metres = axis.y_label:gsub(" %[m%]$", "")
+  if metres == 0 then return show.number, label end
+  return function(value) return show.quantity(value, "length") end, label
 end
 
 -- Prints a front and writes it to folder/NAME-front.csv. Returns it as a table of a page.
 function pareto_tables.show_front(folder, axis, front)
   local columns, rows, texts = {"variant", "label", "nodes"}, {}, {}
+  local error_text, label = shown_by(axis)
   interval_columns(columns, "cost / base", "")
   interval_columns(columns, axis.y_label, "")
   for i, point in ipairs(front) do
@@ -82,12 +95,13 @@ function pareto_tables.show_front(folder, axis, front)
     rows[i] = {v.name, v.label, v.nodes}
     add_interval(rows[i], point.cost)
     add_interval(rows[i], point.error)
-    texts[i] = {v.label, v.nodes, text_of(point.cost), text_of(point.error)}
+    texts[i] = {v.label, v.nodes, text_of(point.cost, show.number),
+                text_of(point.error, error_text)}
   end
   s.csv(("%s/%s-front.csv"):format(folder, axis.name), rows, {columns = columns})
   print(axis.title .. ": the Pareto front" .. (axis.floor and
-    ("; %s: %.3g"):format(axis.floor_name, axis.floor) or ""))
-  local shown = {"variant", "nodes", "cost / base", axis.y_label}
+    ("; %s: %s"):format(axis.floor_name, error_text(axis.floor)) or ""))
+  local shown = {"variant", "nodes", "cost / base", label}
   print(s.format_table(texts, {columns = shown}))
   print()
   return {title = axis.title .. ": the Pareto front", rows = texts, columns = shown}

@@ -102,13 +102,37 @@ local function references(problem)
   return table.concat(list, ", ")
 end
 
+-- A list in lines of at most 100 characters, cut after commas.
+local function folded(text)
+  local lines, line = {}, ""
+  for item in text:gmatch("[^,]+,? ?") do
+    if utf8.len(line .. item) > 100 then
+      lines[#lines + 1], line = line:gsub(" $", ""), "  "
+    end
+    line = line .. item
+  end
+  lines[#lines + 1] = line
+  return table.concat(lines, "\n")
+end
+
 function report.print(pages)
   for _, page in ipairs(pages) do
     local rows, columns = table_of(page)
     local known = references(page.problem)
-    print("\n" .. page.problem.title .. (known ~= "" and (" (%s)"):format(known) or ""))
+    print("\n" .. page.problem.title)
+    if known ~= "" then print(folded("known: " .. known)) end
+    for i, entry in ipairs(page.entries) do
+      -- What should vanish is an error, of which two digits mean something.
+      if entry.value and entry.quantity.reference == 0 then
+        rows[i][5] = ("%.2g"):format(entry.value)
+      end
+    end
     print(s.format_table(rows, {columns = columns}))
   end
+  print([[
+
+error: against the known answer; quantities without a known value are errors themselves. order: of
+convergence from the size before. goal: largest error that is good enough; within: whether it is.]])
 end
 
 local function chart_name(problem) return "validation-" .. problem.name end
