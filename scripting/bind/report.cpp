@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "base/progress.hpp"
 #include "report/animate.hpp"
 #include "report/chart.hpp"
 #include "report/csv.hpp"
@@ -55,6 +56,7 @@ int video_binding(Call& call) {
   TableReader reader = call.options(3);
   reader.read("frame_rate", frame_rate);
   reader.finish();
+  const Task task(call.progress(), "encoding the video", 0);
   const report::VideoResult video =
       report::encode_video(call.readable(2), frame_rate, call.writable(1));
   if (!video.made)
@@ -71,6 +73,7 @@ int give_drawn(Call& call, const report::Drawing& drawing) {
 }
 
 int chart_binding(Call& call) {
+  const Task task(call.progress(), "drawing the chart", 0);
   report::ChartOptions options;
   TableReader reader = call.options(3);
   if (const auto map = call.try_value<sim::StabilityMap>(2)) {

@@ -10,6 +10,7 @@
 #include "base/base64.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/progress.hpp"
 #include "report/view/packed.hpp"
 #include "scripting/bind/tables/comparisons.hpp"
 #include "scripting/bind/tables/options.hpp"
@@ -101,6 +102,7 @@ void push_view(lua_State* L, const report::View& view) {
 }
 
 int view_binding(Call& call) {
+  const Task task(call.progress(), "making the 3D view", 0);
   report::ViewOptions options;
   TableReader reader = call.options(2);
   read_options(call, reader, options);

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <condition_variable>
+#include <csignal>
 #include <cstdlib>
+#include <stop_token>
+#include <thread>
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -23,11 +27,21 @@ using namespace std::chrono_literals;
 constexpr auto kSilentFor = 500ms;
 // Interval between two updates of the bar.
 constexpr auto kRedraw = 100ms;
+// Longest time without a redraw, of which half passes between two looks.
+constexpr auto kSignOfLife = 1000ms;
+// In front of the bar; the next one at each redraw.
+constexpr std::string_view kMarks = "|/-\\";
 // Interval between two progress lines in a log file.
 constexpr auto kLogLine = 10s;
 constexpr int kBarWidth = 24;
 // Of a terminal that does not state its size.
 constexpr std::size_t kUsualColumns = 80;
+
+// Redraws the line of work that reports nothing, such as a factorization. It lives while a task
+// runs. One for the process, as is the terminal.
+std::jthread sign_of_life;
+// Its mark turns with each redraw.
+std::size_t redraws = 0;
 
 std::string clock_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(std::min(seconds, 359999.0)));
@@ -80,13 +94,16 @@ std::string progress_line(std::string_view task, std::uint64_t done, std::uint64
                           double seconds, bool bar) {
   const double rate = seconds > 0 ? static_cast<double>(done) / seconds : 0;
   std::string line = fmt::format("{:<12}", task);
-  if (total == 0) return line + fmt::format("  {}  {}", done, rate_text(rate));
+  if (total == 0)  // of unknown length
+    return done == 0 ? line : line + fmt::format("  {}  {}", done, rate_text(rate));
   const double part = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
   if (bar) {
     const int filled = static_cast<int>(part * kBarWidth);
     line += fmt::format("  [{}{}]", std::string(filled, '='), std::string(kBarWidth - filled, ' '));
   }
-  line += fmt::format("  {:3.0f} %  {}", 100 * part, rate_text(rate));
+  line += fmt::format("  {:3.0f} %", 100 * part);
+  if (done == 0) return line;
+  line += fmt::format("  {}", rate_text(rate));
   if (done >= total) return line + fmt::format("  took {}", clock_text(seconds));
   if (rate > 0)
     line += fmt::format("  {} left", clock_text(static_cast<double>(total - done) / rate));
@@ -102,7 +119,10 @@ std::string fitted_progress_line(std::string_view task, std::uint64_t done, std:
   };
   const std::string full = line(true);
   if (cut(full, columns) == full) return full;
-  return cut(line(false), columns);
+  const std::string text = cut(line(false), columns);
+  // Without part of a number: fields have two spaces between them.
+  const bool whole = text.size() >= progress_line(task, done, total, seconds, false).size();
+  return whole ? text : text.substr(0, text.rfind("  "));
 }
 
 Console::Console(Verbosity verbosity)
@@ -134,6 +154,23 @@ void Console::begin(std::string_view task, std::uint64_t total) {
                       false,
                       {}});
   next_check_ = 0;
+  if (!terminal_ || verbosity_ == Verbosity::quiet || running_.size() > 1) return;
+  sign_of_life = std::jthread([this](const std::stop_token& stop) {
+    sigset_t all;  // signals are for the thread that waits for keys
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, nullptr);
+    std::condition_variable_any stopped;
+    std::unique_lock until_stopped(mutex_);
+    while (!stopped.wait_for(until_stopped, stop, kSignOfLife / 2, [] { return false; }) &&
+           !stop.stop_requested()) {
+      if (running_.empty()) continue;
+      Running& running = running_.back();
+      const auto time = Clock::now();
+      running.done += pending_.exchange(0);
+      // next_report is a kRedraw after the last one.
+      if (time >= running.next_report + (kSignOfLife / 2 - kRedraw)) report(running, time, false);
+    }
+  });
 }
 
 void Console::advance(std::uint64_t count) {
@@ -150,13 +187,21 @@ void Console::advance(std::uint64_t count) {
 }
 
 void Console::end() {
+  std::jthread finished;  // ends and is joined after the lock, for which it may wait
   const std::lock_guard lock(mutex_);
   if (running_.empty()) return;
   Running running = std::move(running_.back());
   running_.pop_back();
   running.done += pending_.exchange(0);
+  if (running_.empty()) finished = std::move(sign_of_life);
   if (terminal_) {
-    clear_bar();
+    // The line of an outer task stays, or takes the place of its own at once: cleared and drawn
+    // again, it would flicker.
+    const bool outer = bar_shown_ && !running_.empty() && running_.back().reported;
+    if (!outer)
+      clear_bar();
+    else if (running.reported)
+      report(running_.back(), Clock::now(), false);
   } else if (running.reported) {
     report(running, Clock::now(), true);
   }
@@ -185,11 +230,14 @@ void Console::report(Running& running, Clock::time_point now, bool last) {
   }
   // A terminal may wrap when its last column is written, so that column stays empty.
   const std::size_t columns = terminal_columns();
+  const char mark = kMarks[redraws++ % kMarks.size()];
+  constexpr std::size_t kBeside = 3;  // the mark, a space, and the last column
   const std::string line =
       fitted_progress_line(running.name, running.done, running.total, seconds, detail,
-                           (columns > 1 ? columns : kUsualColumns) - 1);
+                           std::max(columns > 0 ? columns : kUsualColumns, kBeside) - kBeside);
   // \033[K clears the rest of an earlier, longer line; \033[2m is dim, which NO_COLOR turns off.
-  put(fmt::format("\r{}{}{}\033[K", colour_ ? "\033[2m" : "", line, colour_ ? "\033[0m" : ""));
+  put(fmt::format("\r{}{} {}{}\033[K", colour_ ? "\033[2m" : "", mark, line,
+                  colour_ ? "\033[0m" : ""));
   bar_shown_ = !last;
 }
 

@@ -25,6 +25,7 @@ TEST_CASE("A line of progress never exceeds the terminal, and drops its bar firs
   CHECK_THAT(line(90), !Contains("[") && Contains(" 30 %") && EndsWith("residual 0.034"));
   for (std::size_t columns = 1; columns < 130; ++columns) CHECK(line(columns).size() <= columns);
   CHECK(line(9) == "factorizi");
+  CHECK(line(38) == "factorizing the stiffness   30 %");  // not half a rate
 }
 
 TEST_CASE("Columns of a line of progress are characters, not bytes") {
