@@ -151,10 +151,10 @@ void Overlay::draw_panel(Image& image, const PixelRect& panel, const PanelLabels
   }
 }
 
-void Overlay::draw_footer(Image& image, const std::string& text) {
+void Overlay::draw_footer(Image& image, const std::string& text, int panel_height) {
   if (text.empty()) return;
   const PixelRect all{0, 0, static_cast<int>(image.width), static_cast<int>(image.height)};
-  const Sizes sizes(all.height);
+  const Sizes sizes(panel_height);
   const std::string line =
       text_.fitted(text, sizes.title, all.width - 2 * (sizes.margin + sizes.pad));
   const double width = text_.width(line, sizes.title);

@@ -39,8 +39,8 @@ double scale_share(int panel_height);
 class Overlay {
  public:
   void draw_panel(Image& image, const PixelRect& panel, const PanelLabels& labels);
-  /// Draws a line of text at the bottom centre of the image.
-  void draw_footer(Image& image, const std::string& text);
+  /// Draws a line of text at the bottom centre of the image, in the size of the panels' titles.
+  void draw_footer(Image& image, const std::string& text, int panel_height);
   /// Draws thin lines between panels of equal size.
   static void draw_dividers(Image& image, const PixelRect& first_panel);
   /// Height of the title strip above the panels [px]; 0 without a title.

@@ -192,7 +192,7 @@ Image Renderer::draw(std::vector<Panel> panels, const PictureText& text) {
   }
   if (layout.top > 0) im.overlay.draw_title(picture, text.title, panel_height);
   Overlay::draw_dividers(picture, layout.place(0));
-  im.overlay.draw_footer(picture, text.footer);
+  im.overlay.draw_footer(picture, text.footer, panel_height);
   return picture;
 }
 

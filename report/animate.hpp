@@ -7,9 +7,8 @@
 #include "base/choice.hpp"
 #include "base/option.hpp"
 #include "base/progress.hpp"
-#include "model/chain.hpp"
 #include "render/scene.hpp"
-#include "sim/study/compare.hpp"
+#include "report/filmed_run.hpp"
 
 namespace springlod::report {
 
@@ -23,25 +22,21 @@ constexpr ChoiceTable<Choice<CameraMode>> choices(CameraMode) {
   return {"camera", kCameraModes};
 }
 
-/// The runs of one chain.
-struct ComparedChain {
-  const LodAsset& asset;
-  const sim::Comparison& comparison;
-};
-
 struct AnimateOptions {
   std::uint32_t width = 640;  ///< of one panel [px]
   std::uint32_t height = 480;
-  double frame_rate = 30;    ///< [1/s]; frames are 1 / (frame_rate * slow) simulated seconds apart
-  double slow = 1;           ///< slow motion: 4 plays four times slower than real time
-  std::uint32_t frames = 0;  ///< maximum number of frames; 0: no limit
-  /// fixed: one view of the whole motion; follow: each panel keeps its body in the middle.
+  std::uint32_t columns = 0;  ///< panels in a row; 0: all of them
+  double frame_rate = 30;     ///< [1/s]; frames are 1 / (frame_rate * slow) simulated seconds apart
+  double slow = 1;            ///< slow motion: 4 plays four times slower than real time
+  std::uint32_t frames = 0;   ///< maximum number of frames; 0: no limit
+  /// fixed: one view of the whole motion, or one for each run of bodies that differ in size;
+  /// follow: each panel keeps its body in the middle.
   CameraMode camera = CameraMode::fixed;
   double azimuth = -70;  ///< of the eye, from x towards y [deg]
   double elevation = 15;
   /// Mirrors the azimuth if a wall would hide the motion from the camera.
   bool avoid_walls = true;
-  /// Levels to draw of each chain, 0 for the base; empty: all.
+  /// Levels to draw of each chain that was compared, 0 for the base; empty: all.
   std::vector<std::uint32_t> levels = {};
   render::DrawStyle style = {};
   Progress* progress = nullptr;
@@ -51,6 +46,9 @@ constexpr auto option_rows(const AnimateOptions*) {
   return std::tuple(
       option("width", &Options::width, "width of a panel in pixels").within(1, 16384),
       option("height", &Options::height, "height of a panel in pixels").within(1, 16384),
+      option("columns", &Options::columns, "number of panels in a row")
+          .within(1, 1000)
+          .by_default("all in one row"),
       option("frame_rate", &Options::frame_rate, "frames per second of the video")
           .within(0.01, 1000),
       option("slow", &Options::slow, "slow motion; 4: four times slower than real time")
@@ -58,7 +56,10 @@ constexpr auto option_rows(const AnimateOptions*) {
       option("frames", &Options::frames, "maximum number of frames")
           .within(1, 1e6)
           .by_default("all"),
-      option("camera", &Options::camera, "whether the camera follows the body"),
+      option(
+          "camera", &Options::camera,
+          "whether the camera follows the body. A fixed one has one view for all panels, but one "
+          "for each if the bodies differ in size by more than a factor 1.5"),
       option("azimuth", &Options::azimuth,
              "azimuth of the camera about the vertical, from x, in degrees")
           .within(-360, 360),
@@ -66,7 +67,7 @@ constexpr auto option_rows(const AnimateOptions*) {
           .within(-90, 90),
       option("avoid_walls", &Options::avoid_walls,
              "mirror the azimuth if a wall would hide the motion"),
-      option("levels", &Options::levels, "levels to draw of each chain; 0 is the base")
+      option("levels", &Options::levels, "levels to draw of each comparison; 0 is the base")
           .within(0, 1000)
           .by_default("all"));
 }
@@ -76,12 +77,16 @@ struct Animation {
   std::filesystem::path folder;
 };
 
-/// Draws the base of the first chain and the levels of all chains side by side, synchronized, as
-/// folder/frame_0000.png ... The chains must have been run in one scenario. Positions between
-/// the frames of a trajectory are interpolated linearly; a run that ended early keeps its last
-/// frame. If the style shows only things that the asset lacks (such as a surface), nodes and
-/// springs are drawn. Removes surplus frame_*.png of an earlier, longer animation. Throws
-/// InputError (no runs, or runs of another asset) and IoError.
+/// Draws the runs side by side, synchronized, as folder/frame_0000.png ... Positions between the
+/// frames of a run are interpolated linearly. A run that ended before others keeps its last frame,
+/// and its panel says so. If the style shows only things that a body lacks (such as a surface),
+/// nodes and springs are drawn. Removes surplus frame_*.png of an earlier, longer animation. Throws
+/// InputError (no runs; a run with no frames but the first and the last) and IoError.
+Animation animate(const std::vector<FilmedRun>& runs, const std::filesystem::path& folder,
+                  const AnimateOptions& options = {});
+
+/// The same of the base of the first chain and the levels of all. Throws InputError as filmed_runs
+/// does, too.
 Animation animate(const std::vector<ComparedChain>& chains, const std::filesystem::path& folder,
                   const AnimateOptions& options = {});
 

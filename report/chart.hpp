@@ -103,10 +103,10 @@ constexpr auto option_rows(const ChartOptions*) {
           .by_default("the scenario's name, else none"),
       option("x_label", &ChartOptions::x_label, "label of the horizontal axis")
           .within(0, kLongestTitle)
-          .by_default("taken from a comparison, else none"),
+          .by_default("taken from comparisons and runs, else none"),
       option("y_label", &ChartOptions::y_label, "label of the vertical axis")
           .within(0, kLongestTitle)
-          .by_default("taken from a comparison, else none"),
+          .by_default("taken from comparisons and runs, else none"),
       option("log_x", &ChartOptions::log_x, "whether the horizontal axis is logarithmic")
           .by_default("true for a comparison, else false"),
       option("log_y", &ChartOptions::log_y, "whether the vertical axis is logarithmic"),

@@ -14,25 +14,30 @@ std::optional<std::uint32_t> by_name(const MeshPart& part, const std::vector<Mat
   return std::nullopt;
 }
 
-std::uint32_t by_weight(const MeshPart& part, const LodAsset& asset) {
-  const MassSpringModel& base = asset.chain.levels[0].model;
-  const Binding& binding = asset.surface_of_base;
-  std::vector<double> share(base.materials.size(), 0);
+std::uint32_t by_weight(const MeshPart& part, const TriangleMesh& surface, const Binding& binding,
+                        const MassSpringModel& model) {
+  std::vector<double> share(model.materials.size(), 0);
   for (std::uint32_t t = 0; t < part.triangle_count; ++t)
-    for (const std::uint32_t v : asset.surface.triangles[part.first_triangle + t])
+    for (const std::uint32_t v : surface.triangles[part.first_triangle + t])
       for (std::uint32_t e = binding.start[v]; e < binding.start[v + 1]; ++e)
-        share[base.material[binding.node[e]]] += std::abs(binding.weight[e]);
+        share[model.material[binding.node[e]]] += std::abs(binding.weight[e]);
   return static_cast<std::uint32_t>(std::max_element(share.begin(), share.end()) - share.begin());
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> part_materials(const LodAsset& asset) {
+std::vector<std::uint32_t> part_materials(const TriangleMesh& surface,
+                                          const Binding& surface_of_nodes,
+                                          const MassSpringModel& model) {
   std::vector<std::uint32_t> materials;
-  for (const MeshPart& part : asset.surface.parts)
+  for (const MeshPart& part : surface.parts)
     materials.push_back(
-        by_name(part, asset.chain.levels[0].model.materials).value_or(by_weight(part, asset)));
+        by_name(part, model.materials).value_or(by_weight(part, surface, surface_of_nodes, model)));
   return materials;
+}
+
+std::vector<std::uint32_t> part_materials(const LodAsset& asset) {
+  return part_materials(asset.surface, asset.surface_of_base, asset.chain.levels[0].model);
 }
 
 }  // namespace springlod::report

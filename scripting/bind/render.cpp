@@ -1,7 +1,6 @@
 // Still pictures.
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "render/frames.hpp"
 #include "render/scene.hpp"
 #include "report/animate.hpp"
+#include "report/film_cameras.hpp"
 #include "scripting/bind/tables/draw_style.hpp"
 #include "scripting/bind/tables/picture.hpp"
 #include "scripting/bind/tables/still_pictures.hpp"
@@ -139,18 +139,9 @@ Vec3 middle(const std::vector<Vec3>& points) {
   return box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.center());
 }
 
-/// Whether the bodies differ so much in size that one scale would leave most of some panels empty.
-bool differ_in_size(const std::vector<std::vector<Vec3>>& subjects) {
-  constexpr double kAlike = 1.5;  // levels of one chain, and a body before and after it deforms
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0;
-  for (const std::vector<Vec3>& points : subjects) {
-    const Box3 box = bounds(points);
-    const double size = box.isEmpty() ? 0 : box.diagonal().norm();
-    least = std::min(least, size);
-    most = std::max(most, size);
-  }
-  return most > kAlike * least;
+double size_of(const std::vector<Vec3>& points) {
+  const Box3 box = bounds(points);
+  return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
 /// The camera of each panel. A fixed camera sees every subject, wherever it is. Otherwise each
@@ -162,13 +153,13 @@ std::vector<render::Camera> cameras_of(const std::vector<std::unique_ptr<Picture
   std::vector<std::vector<Vec3>> subjects;  // relative to their centers
   std::vector<Vec3> centers;
   std::vector<Vec3> all;
-  std::vector<std::vector<Vec3>> sizes;
+  std::vector<double> sizes;
   for (const auto& panel : panels) {
     std::vector<Vec3>& points = subjects.emplace_back(panel->points());
     centers.push_back(follow ? middle(points) : Vec3(Vec3::Zero()));
     for (Vec3& point : points) point -= centers.back();
     all.insert(all.end(), points.begin(), points.end());
-    sizes.push_back(panel->body_at_rest());
+    sizes.push_back(size_of(panel->body_at_rest()));
   }
   const int height = static_cast<int>(options.height);
   double headings = 0;
@@ -186,7 +177,7 @@ std::vector<render::Camera> cameras_of(const std::vector<std::unique_ptr<Picture
       .aspect = static_cast<double>(options.width) / static_cast<double>(options.height),
       .headroom = shrink * headings,
       .footroom = shrink * scales};
-  const bool own = follow && differ_in_size(sizes);
+  const bool own = follow && report::differ_in_size(sizes);
   const render::Camera common = render::frame_points(all, framing);
   std::vector<render::Camera> cameras;
   for (std::size_t i = 0; i < panels.size(); ++i) {

@@ -9,11 +9,14 @@
 #include "report/csv.hpp"
 #include "report/gnuplot.hpp"
 #include "report/map_picture.hpp"
+#include "report/run_chart.hpp"
 #include "report/video.hpp"
 #include "scripting/bind/tables/chart_table.hpp"
 #include "scripting/bind/tables/comparisons.hpp"
 #include "scripting/bind/tables/draw_style.hpp"
+#include "scripting/bind/tables/labelled_runs.hpp"
 #include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/value_list.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -25,30 +28,28 @@ namespace {
 
 constexpr const char* kGroup = "Pictures and reports";
 
-/// A Comparison, or a list that begins with one.
-bool holds_comparisons(Call& call, int number) {
-  if (call.try_value<ComparisonValue>(number)) return true;
-  lua_State* L = call.lua();
-  if (!lua_istable(L, call.index(number))) return false;
-  lua_rawgeti(L, call.index(number), 1);
-  const bool holds = boxed_at(L, lua_gettop(L), &kValueName<ComparisonValue>) != nullptr;
-  lua_pop(L, 1);
-  return holds;
-}
+constexpr const char* kComparisons = "a Comparison, or a list of Comparisons";
+constexpr const char* kRuns = "a Trajectory, or a list of Trajectories";
 
 int animate_binding(Call& call) {
-  const auto comparisons = comparisons_at(call, 2, "a Comparison, or a list of Comparisons");
   report::AnimateOptions options;
   TableReader reader = call.options(3);
   read_options(call, reader, options);
   read_style(call, reader, options.style);
-  reader.finish();
   options.progress = call.progress();
-  std::vector<report::ComparedChain> chains;
-  for (const auto& comparison : comparisons)
-    chains.push_back({*comparison->chain, comparison->comparison});
-  const report::Animation animation = report::animate(chains, call.writable(1), options);
-  return call.give(animation.frames);
+  if (begins_with<TrajectoryValue>(call, 2)) {
+    const auto values = values_at<TrajectoryValue>(call, 2, kRuns);
+    if (reader.has("levels"))
+      reader.refuse("levels", "given for comparisons only: a run is that of one level");
+    const auto runs = labelled_runs(values, reader);
+    reader.finish();
+    return call.give(report::animate(report::filmed_runs(runs), call.writable(1), options).frames);
+  }
+  const auto comparisons =
+      values_at<ComparisonValue>(call, 2, "a Comparison, a Trajectory, or a list of either");
+  refuse_labels(reader, "the option variant of compare is part of the labels of levels");
+  reader.finish();
+  return call.give(report::animate(compared_chains(comparisons), call.writable(1), options).frames);
 }
 
 int video_binding(Call& call) {
@@ -65,6 +66,13 @@ int video_binding(Call& call) {
   return call.give(video.made, video.command);
 }
 
+/// For charts of other data than runs.
+void refuse_run_options(TableReader& reader) {
+  refuse_labels(reader, "other series have names of their own");
+  if (reader.has("quantity"))
+    reader.refuse("quantity", "given for Trajectories only; give other data as series of points");
+}
+
 int give_drawn(Call& call, const report::Drawing& drawing) {
   if (!drawing.drawn)
     call.session().console().say("no chart: gnuplot is not installed; with it, run\n  " +
@@ -76,14 +84,23 @@ int chart_binding(Call& call) {
   const Task task(call.progress(), "drawing the chart", 0);
   report::ChartOptions options;
   TableReader reader = call.options(3);
+  const bool of_runs = begins_with<TrajectoryValue>(call, 2);
+  if (!of_runs) refuse_run_options(reader);
   if (const auto map = call.try_value<sim::StabilityMap>(2)) {
     read_chart_options(call, reader, options);
     reader.finish();
     return give_drawn(call, report::draw_map(*map, options.title, call.writable(1)));
   }
   std::vector<report::ChartSeries> series;
-  if (holds_comparisons(call, 2)) {
-    const auto comparisons = comparisons_at(call, 2, "a Comparison, or a list of Comparisons");
+  if (of_runs) {
+    const auto values = values_at<TrajectoryValue>(call, 2, kRuns);
+    const auto runs = labelled_runs(values, reader);
+    report::RunQuantity quantity = report::RunQuantity::height;
+    reader.read("quantity", quantity);
+    series = report::run_series(runs, quantity);
+    options = report::run_chart(runs, quantity);
+  } else if (begins_with<ComparisonValue>(call, 2)) {
+    const auto comparisons = values_at<ComparisonValue>(call, 2, kComparisons);
     series = cost_error_series(comparisons, reader);
     options = cost_error_chart(*comparisons.front());
   } else {
@@ -115,6 +132,7 @@ int format_table_binding(Call& call) {
 std::vector<Parameter> animate_parameters() {
   const report::AnimateOptions usual;
   std::vector<Parameter> parameters = parameters_of(usual);
+  parameters.push_back(labels_parameter());
   const std::vector<Parameter> style = style_parameters(usual.style);
   parameters.insert(parameters.end(), style.begin(), style.end());
   return parameters;
@@ -124,17 +142,21 @@ void describe_film(Api& api) {
   api.add(FunctionEntry{
       .name = "animate",
       .group = kGroup,
-      .summary = "Draws base and levels side by side, synchronized, as frame_0000.png ...",
+      .summary = "Draws levels or runs side by side, synchronized, as frame_0000.png ...",
       .arguments = {{.name = "folder", .type = "string", .help = "folder for the frames"},
-                    {.name = "comparison",
-                     .type = "Comparison or list of Comparison",
-                     .help = "result of compare; of several, all levels are drawn and the base of "
-                             "the first one"}},
+                    {.name = "runs",
+                     .type = "Comparison, Trajectory or list of either",
+                     .help =
+                         "results of compare, of which all levels are drawn and the base of the "
+                         "first one; or of run, of any bodies and scenarios: a run that ends "
+                         "before others keeps its last frame"}},
       .options = animate_parameters(),
       .returns = "integer: number of frames",
-      .errors = "A size beyond the largest picture; a file cannot be written.",
-      .example = "s.animate(\"out/frames\", runs, {frames = 60})\n"
-                 "s.animate(\"out/both\", {merged, fitted}, {levels = {0, 2}})",
+      .errors = "A size beyond the largest picture; a file cannot be written; labels that do not "
+                "match in number; a run with no frames but the first and the last.",
+      .example = "s.animate(\"out/frames\", comparison, {frames = 60})\n"
+                 "s.animate(\"out/both\", {merged, fitted}, {levels = {0, 2}})\n"
+                 "s.animate(\"out/runs\", {soft, hard}, {labels = {\"soft\", \"hard\"}})",
       .call = animate_binding});
   api.add(FunctionEntry{
       .name = "video",
@@ -198,20 +220,22 @@ void describe_report(Api& api) {
   api.add(FunctionEntry{
       .name = "chart",
       .group = kGroup,
-      .summary = "Draws a chart as .svg or .png: cost against error of a comparison, a stability "
-                 "map, or any "
-                 "series.",
+      .summary = "Draws a chart as .svg or .png: cost against error of a comparison, runs over "
+                 "time, a stability map, or any series.",
       .arguments = {{.name = "path", .type = "string", .help = "NAME.svg or NAME.png to write"},
                     {.name = "data",
-                     .type = "Comparison, list of Comparison, StabilityMap or list of Series",
+                     .type = "Comparison, Trajectory, list of either, StabilityMap or list of "
+                             "Series",
                      .help = "data to draw: one point per level of a comparison, one series per "
-                             "comparison of a list, or one panel per level and integrator of a map "
-                             "(which uses only the option title)"}},
+                             "comparison of a list, one line per run, or one panel per level and "
+                             "integrator of a map (which uses only the option title)"}},
       .options = chart_parameters(),
       .returns = "boolean, string: whether the chart was drawn (gnuplot may be missing), the "
                  "command that draws it",
-      .errors = "No points; another ending than .svg or .png.",
-      .example = "s.chart(\"out/cost-error.svg\", runs)\n"
+      .errors = "No points; another ending than .svg or .png; labels that do not match in number; "
+                "a run with fewer than three frames, or without a ledger for its energies.",
+      .example = "s.chart(\"out/cost-error.svg\", comparison)\n"
+                 "s.chart(\"out/height.svg\", {soft, hard}, {labels = {\"soft\", \"hard\"}})\n"
                  "s.chart(\"out/line.svg\", {{name = \"y = x^2\", points = {{1, 1}, {2, 4}}}})",
       .call = chart_binding});
   describe_tables(api);

@@ -14,6 +14,7 @@
 #include "report/view/packed.hpp"
 #include "scripting/bind/tables/comparisons.hpp"
 #include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/value_list.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -112,10 +113,8 @@ int view_binding(Call& call) {
     return 1;
   }
   const auto comparisons =
-      comparisons_at(call, 1, "a LodChain, a Comparison, or a list of Comparisons");
-  std::vector<report::ComparedChain> chains;
-  for (const auto& one : comparisons) chains.push_back({*one->chain, one->comparison});
-  push_view(call.lua(), report::view_of(chains, options));
+      values_at<ComparisonValue>(call, 1, "a LodChain, a Comparison, or a list of Comparisons");
+  push_view(call.lua(), report::view_of(compared_chains(comparisons), options));
   return 1;
 }
 

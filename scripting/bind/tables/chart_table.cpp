@@ -6,7 +6,9 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "report/run_chart.hpp"
 #include "report/tables.hpp"
+#include "scripting/bind/tables/labelled_runs.hpp"
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/engine/quantity.hpp"
 
@@ -157,7 +159,9 @@ report::ChartOptions cost_error_chart(const ComparisonValue& comparison) {
 
 std::vector<report::ChartSeries> series_from_table(Call& call, int index) {
   lua_State* L = call.lua();
-  if (!lua_istable(L, index)) call.refuse(2, "a Comparison or a list of Series");
+  if (!lua_istable(L, index))
+    call.refuse(2,
+                "a Comparison, a Trajectory, a list of either, a StabilityMap or a list of Series");
   std::vector<report::ChartSeries> series;
   for (lua_Integer i = 1; i <= static_cast<lua_Integer>(lua_rawlen(L, index)); ++i) {
     lua_rawgeti(L, index, i);
@@ -179,6 +183,12 @@ std::vector<Parameter> chart_parameters() {
                         .fallback = "\"surface\"",
                         .help = "error shown for a comparison",
                         .choices = words_of<ErrorKind>()});
+  parameters.push_back({.name = "quantity",
+                        .type = "one of",
+                        .fallback = "\"height\"",
+                        .help = "what a chart of Trajectories shows over time",
+                        .choices = words_of<report::RunQuantity>()});
+  parameters.push_back(labels_parameter());
   return parameters;
 }
 

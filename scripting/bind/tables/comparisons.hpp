@@ -1,17 +1,15 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "report/filmed_run.hpp"
 #include "scripting/bind/tables/values.hpp"
-#include "scripting/engine/call.hpp"
 
 namespace springlod::scripting {
 
-/// A Comparison or a list of them. `rule`: what the argument must be, for the error of any other
-/// value.
-std::vector<std::shared_ptr<const ComparisonValue>> comparisons_at(Call& call, int number,
-                                                                   const std::string& rule);
+/// The comparisons with their assets. They refer to `comparisons`.
+std::vector<report::ComparedChain> compared_chains(
+    const std::vector<std::shared_ptr<const ComparisonValue>>& comparisons);
 
 }  // namespace springlod::scripting
