@@ -114,6 +114,7 @@ TEST_CASE("the sample scripts run and write their documented files", "[long]") {
   };
   wrote("dumbbell", {"dumbbell.glb", "levels.png", "frames/frame_0029.png"});
   wrote("ball", {"ball.glb", "ledger.csv", "levels.png"});
+  wrote("stiffness", {"height.csv", "height.gp", "frames/frame_0029.png"});
   wrote("beast", {"beast.glb", "cost-error.svg", "frames/frame_0023.png"});
 }
 

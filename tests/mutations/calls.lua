@@ -158,7 +158,9 @@ function valid(parameter, owner)
   if type:find("^list of tables") then return {{a = 1, b = "x"}, {a = 2, b = "y"}} end
   if type:find("^list of integers") or type:find("^list of numbers") then return {1} end
   if type:find("^{") then return {1, 2, 3, type:find("offset") and 0 or nil} end
-  if type:find("^Comparison, Trajectory") then return one_of{values.Comparison, values.Trajectory} end
+  if type:find("^Comparison, Trajectory") then
+    return one_of{values.Comparison, values.Trajectory}
+  end
   if type:find("^Comparison") then return values.Comparison end
   if type:find("^LodChain") then return values.LodChain end
   if type:find("^Mesh") then return one_of{values.Mesh, values.Model, values.Trajectory} end

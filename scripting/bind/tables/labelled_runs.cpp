@@ -54,12 +54,11 @@ void refuse_labels(TableReader& reader, const std::string& instead) {
 }
 
 Parameter labels_parameter() {
-  return {
-      .name = "labels",
-      .type = "list of strings",
-      .range = Range{0, kLongestTitle},
-      .fallback = "their levels, such as \"base\", or \"run 1\", ... if these are not different",
-      .help = "names of the Trajectories, one for each"};
+  return {.name = "labels",
+          .type = "list of strings",
+          .range = Range{0, kLongestTitle},
+          .fallback = "\"base\", \"LOD-1\", ... for levels of one chain, else \"run 1\", ...",
+          .help = "names of the Trajectories, one for each"};
 }
 
 }  // namespace springlod::scripting
