@@ -96,13 +96,13 @@ Axes make_axes(const std::vector<ChartSeries>& series, const ChartOptions& optio
 struct Key {
   int columns = 0;  // 0: no key
   double height = 0;
-  int sample = 2;  // length of the line samples [gnuplot units]
+  bool dashed = false;  // longer samples with wider gaps
 };
 
 Key plan_key(const std::vector<ChartSeries>& series, const ChartFrame& frame) {
   const bool dashed =
       std::any_of(series.begin(), series.end(), [](const ChartSeries& s) { return s.dashed; });
-  const double sample = dashed ? 90 : 72;  // line sample and gaps [px]; a longer one shows dashes
+  const double sample = dashed ? 100 : 72;  // line sample and gaps [px]; a longer one shows dashes
   double widest = 0;
   int named = 0;
   for (const ChartSeries& s : series) {
@@ -114,7 +114,7 @@ Key plan_key(const std::vector<ChartSeries>& series, const ChartFrame& frame) {
   const int fit = std::max(1, static_cast<int>((frame.right - frame.left) / widest));
   const int columns = std::min(fit, named);
   const int rows = (named + columns - 1) / columns;
-  return {columns, rows * frame.font * 1.5, dashed ? 3 : 2};
+  return {columns, rows * frame.font * 1.5, dashed};
 }
 
 ChartFrame frame_of(const std::vector<ChartSeries>& series, const ChartOptions& options) {
@@ -163,9 +163,10 @@ std::string style_lines(const ChartFrame& frame, const ChartOptions& options, co
     text += "unset key\n";
   else
     text += fmt::format(
-        "set key at graph 0.5,{:.4f} center bottom horizontal maxcols {} Left reverse samplen {} "
+        "set key at graph 0.5,{:.4f} center bottom horizontal maxcols {} Left reverse {} "
         "textcolor rgb '#2B2F36'\n",
-        1 + 0.4 * frame.font / (frame.bottom - frame.top), key.columns, key.sample);
+        1 + 0.4 * frame.font / (frame.bottom - frame.top), key.columns,
+        key.dashed ? "samplen 3 width 1" : "samplen 2");
   return text;
 }
 
