@@ -31,6 +31,14 @@ struct Stream {
   }
 };
 
+/// Draws the records of a stream as instances of a quad.
+template <typename Record>
+void draw_quads(const Stream<Record>& stream) {
+  if (stream.count == 0) return;
+  glBindVertexArray(stream.layout.name());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, stream.count);
+}
+
 struct CachedSurface {
   SplitSurface split;
   GlBuffer indices = make_buffer();

@@ -10,37 +10,16 @@
 #include "render/cut.hpp"
 #include "render/depth_map.hpp"
 #include "render/drawables.hpp"
+#include "render/frame_program.hpp"
 #include "render/frame_uniforms.hpp"
 #include "render/gl.hpp"
 #include "render/gpu_slot.hpp"
 #include "render/light.hpp"
-#include "render/plane.hpp"
+#include "render/plane_painter.hpp"
 #include "render/shaders.hpp"
 
 namespace springlod::render {
 namespace {
-
-using Vec4f = Eigen::Vector4f;
-
-GlProgram program(const char* name, const ShaderSource& source) {
-  GlProgram made = make_program(name, source.vertex, source.fragment);
-  glUniformBlockBinding(made.name(), glGetUniformBlockIndex(made.name(), "Frame"), 0);
-  glUseProgram(made.name());
-  glUniform1i(glGetUniformLocation(made.name(), "shadow_compare"), 0);
-  glUniform1i(glGetUniformLocation(made.name(), "shadow_depth"), 1);
-  glUniform1i(glGetUniformLocation(made.name(), "body_depth"), 2);
-  return made;
-}
-
-GLint uniform(const GlProgram& of, const char* name) {
-  return glGetUniformLocation(of.name(), name);
-}
-void set(const GlProgram& of, const char* name, const Vec3f& v) {
-  glUniform3fv(uniform(of, name), 1, v.data());
-}
-void set(const GlProgram& of, const char* name, float v) {
-  glUniform1f(uniform(of, name), v);
-}
 
 template <typename T>
 std::string_view bytes_of(const std::vector<T>& items) {
@@ -57,24 +36,6 @@ std::string surface_key(const TriangleMesh& mesh) {
 
 constexpr Colour kBoxColour{0.70F, 0.76F, 0.73F};
 constexpr Colour kBoxEdgeColour{0.40F, 0.46F, 0.44F};
-constexpr Colour kFloorColour{0.935F, 0.938F, 0.942F};
-constexpr Colour kRampColour{0.935F, 0.905F, 0.850F};
-constexpr Colour kWallColour{0.850F, 0.880F, 0.915F};
-
-Vec3f vector(const Colour& c) {
-  return {c.r, c.g, c.b};
-}
-Vec3f colour_of(PlanePatch::Kind kind) {
-  switch (kind) {
-    case PlanePatch::Kind::floor:
-      return vector(kFloorColour);
-    case PlanePatch::Kind::ramp:
-      return vector(kRampColour);
-    case PlanePatch::Kind::wall:
-      break;
-  }
-  return vector(kWallColour);
-}
 
 // Radius of the lines along edges of obstacles [px].
 constexpr double kEdgeRadius = 0.8;
@@ -97,28 +58,21 @@ struct Pipeline::Impl {
   // Half the resolution suffices for ambient occlusion.
   DepthMap body_depth{static_cast<GLsizei>((context.width() + 1) / 2),
                       static_cast<GLsizei>((context.height() + 1) / 2)};
-  GlProgram backdrop = program("backdrop", backdrop_shader());
-  GlProgram surface = program("surface", surface_shader());
-  GlProgram cut_surface = program("cut surface", cut_surface_shader());
-  GlProgram spring = program("spring", spring_shader());
-  GlProgram line = program("line", line_shader());
-  GlProgram node = program("node", node_shader());
-  GlProgram plane = program("plane", plane_shader());
-  GlProgram plane_shade = program("plane shade", plane_shade_shader());
-  GlProgram surface_depth = program("surface depth", surface_depth_shader());
-  GlProgram spring_depth = program("spring depth", spring_depth_shader());
-  GlProgram node_depth = program("node depth", node_depth_shader());
+  GlProgram backdrop = frame_program("backdrop", backdrop_shader());
+  GlProgram surface = frame_program("surface", surface_shader());
+  GlProgram cut_surface = frame_program("cut surface", cut_surface_shader());
+  GlProgram spring = frame_program("spring", spring_shader());
+  GlProgram node = frame_program("node", node_shader());
+  GlProgram surface_depth = frame_program("surface depth", surface_depth_shader());
+  GlProgram spring_depth = frame_program("spring depth", spring_depth_shader());
+  GlProgram node_depth = frame_program("node depth", node_depth_shader());
   std::map<std::string, CachedSurface> surfaces;
   std::vector<Slot> slots;
-  Stream<Vec3f> polygon;
+  PlanePainter plane_painter;
   float occlusion_reach = 1;  // [m]
-  Stream<SpringInstance> edges;
   std::vector<SpringInstance> edges_of_boxes;
 
-  explicit Impl(OffscreenContext& of) : context(of) {
-    polygon.describe({3}, false);
-    edges.describe({3, 3, 3, 3, 1}, true);
-  }
+  explicit Impl(OffscreenContext& of) : context(of) {}
 
   const CachedSurface& cached(const TriangleMesh& mesh) {
     const auto [at, fresh] = surfaces.try_emplace(surface_key(mesh));
@@ -198,17 +152,12 @@ struct Pipeline::Impl {
   }
 
   static void draw_surface(const Slot& slot) {
+    if (slot.cut) glEnable(GL_CLIP_DISTANCE0);
     glBindVertexArray(slot.vertices.layout.name());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, slot.surface->indices.name());
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(slot.surface->split.triangles.size() * 3),
                    GL_UNSIGNED_INT, nullptr);
-  }
-
-  template <typename Record>
-  static void draw_quads(const Stream<Record>& stream) {
-    if (stream.count == 0) return;
-    glBindVertexArray(stream.layout.name());
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, stream.count);
+    glDisable(GL_CLIP_DISTANCE0);
   }
 
   static bool opaque(const Slot& slot) { return slot.surface != nullptr && slot.opacity >= 1; }
@@ -236,75 +185,6 @@ struct Pipeline::Impl {
     glBindVertexArray(no_attributes.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glEnable(GL_DEPTH_TEST);
-  }
-
-  static void set_patch(const GlProgram& of, const PlanePatch& patch) {
-    glUseProgram(of.name());
-    set(of, "plane_center", patch.center);
-    set(of, "plane_u", patch.u);
-    set(of, "plane_v", patch.v);
-    set(of, "plane_reach", patch.reach);
-    glUniform2fv(uniform(of, "grid_origin"), 1, patch.grid_origin.data());
-  }
-
-  void draw_polygon(const std::vector<Vec3f>& points) {
-    if (points.empty()) return;
-    polygon.set(points);
-    glBindVertexArray(polygon.layout.name());
-    glDrawArrays(GL_TRIANGLE_FAN, 0, polygon.count);
-  }
-
-  void draw_plane(const std::vector<PlanePatch>& patches, std::size_t which, float spacing,
-                  const KeyLight& light) {
-    const PlanePatch& patch = patches[which];
-    constexpr float kGhost = 0.16F;  // opacity of a wall between the viewer and the bodies
-    set_patch(plane, patch);
-    set(plane, "plane_colour", colour_of(patch.kind));
-    set(plane, "plane_alpha", patch.seen_from_behind ? kGhost : 1.0F);
-    set(plane, "plane_slope", patch.kind == PlanePatch::Kind::ramp ? 1.0F : 0.0F);
-    set(plane, "grid_spacing", spacing);
-    const std::vector<Vec3f> points = visible_polygon(patches, which);
-    draw_polygon(points);
-    if (patch.seen_from_behind || slots.empty()) return;
-    // Shadows cost several times what the rest of a plane does, so they multiply its colour in a
-    // second pass over the part that can have any.
-    set_patch(plane_shade, patch);
-    set(plane_shade, "plane_normal", patch.normal);
-    glBlendFunc(GL_DST_COLOR, GL_ZERO);
-    glDepthMask(GL_FALSE);
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(-1, -4);
-    draw_polygon(shaded_part(points, light.to_unit_cube));
-    glDisable(GL_POLYGON_OFFSET_FILL);
-    glDepthMask(GL_TRUE);
-    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  }
-
-  void draw_planes(const std::vector<PlanePatch>& patches, float spacing, const KeyLight& light,
-                   bool from_behind) {
-    glEnable(GL_BLEND);
-    glDepthMask(from_behind ? GL_FALSE : GL_TRUE);
-    for (std::size_t i = 0; i < patches.size(); ++i)
-      if (patches[i].seen_from_behind == from_behind) draw_plane(patches, i, spacing, light);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
-  }
-
-  /// Lines along the edges of boxes, and where planes that the viewer faces meet.
-  void draw_edges(const std::vector<PlanePatch>& patches, float radius) {
-    std::vector<SpringInstance> lines = edges_of_boxes;
-    for (std::size_t i = 0; i < patches.size(); ++i) {
-      if (patches[i].seen_from_behind) continue;
-      const std::vector<SpringInstance> more = plane_edges(patches, i, radius);
-      lines.insert(lines.end(), more.begin(), more.end());
-    }
-    edges.set(lines);
-    glUseProgram(line.name());
-    // In front of the surfaces that meet there.
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(-1, -16);
-    draw_quads(edges);
-    glDisable(GL_POLYGON_OFFSET_FILL);
   }
 
   void use_surface(const Slot& slot) const {
@@ -387,29 +267,31 @@ struct Pipeline::Impl {
     glCullFace(GL_BACK);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     const KeyLight light = key_light(panel.camera, fill_slots(panel));
-    std::vector<PlanePatch> patches;
+    PlaneScene planes{.patches = {},
+                      .view_radius = static_cast<float>(view_radius(panel.camera)),
+                      .light = light,
+                      .shaded = !slots.empty()};
     for (const DrawnPlane& p : panel.planes)
-      patches.push_back(plane_patch(p, panel.camera, aspect));
-    const FrameUniforms frame = frame_uniforms(panel.camera, aspect, light, patches);
-    const auto spacing = static_cast<float>(grid_spacing(view_radius(panel.camera)));
+      planes.patches.push_back(plane_patch(p, panel.camera, aspect));
+    const FrameUniforms frame = frame_uniforms(panel.camera, aspect, light, planes.patches);
 
     FrameUniforms from_light = frame;
     from_light.view_projection = light.projection;
     from_light.eye << light.direction, 0;
     draw_depths(from_light, shadow_map);
     draw_depths(frame, body_depth);
-    shadow_map.bind_compare(0);
-    shadow_map.bind_plain(1);
-    body_depth.bind_plain(2);
+    shadow_map.bind_compare(static_cast<GLuint>(LightMap::shadow_compare));
+    shadow_map.bind_plain(static_cast<GLuint>(LightMap::shadow_depth));
+    body_depth.bind_plain(static_cast<GLuint>(LightMap::body_depth));
     context.begin();
     glClear(GL_DEPTH_BUFFER_BIT);
     draw_backdrop();
     // Bodies first: what they hide of the planes is not shaded.
     draw_opaque();
-    draw_planes(patches, spacing, light, false);
-    draw_edges(patches, edge_radius(panel.camera));
+    plane_painter.draw(planes, false);
+    plane_painter.draw_edges(planes, edges_of_boxes, edge_radius(panel.camera));
     draw_transparent();
-    draw_planes(patches, spacing, light, true);
+    plane_painter.draw(planes, true);
   }
 };
 

@@ -12,14 +12,20 @@ namespace {
 
 // Half size of a patch in view radii; the plane has faded out at this distance.
 constexpr double kReach = 4.5;
-// The shader draws every fifth line stronger, so the grid repeats after 5 spacings.
-constexpr double kGridPeriod = 5;
+// Every fifth line is stronger, and arrows are 1, 2 or 5 spacings apart: both repeat after 10.
+constexpr double kGridPeriod = 10;
 
 }  // namespace
 
 double grid_spacing(double view_radius) {
   // 1 m for views of 2 to 20 m, so that 2 to 20 lines cross the image.
   return std::pow(10., std::floor(std::log10(std::max(view_radius, 1e-9))));
+}
+
+double arrow_spacing(double view_radius) {
+  const double spacing = grid_spacing(view_radius);
+  const double lines = view_radius / spacing;  // 1 to 10
+  return spacing * (lines < 2 ? 1 : lines < 5 ? 2 : 5);
 }
 
 PlanePatch plane_patch(const DrawnPlane& plane, const Camera& camera, double aspect) {

@@ -86,9 +86,8 @@ layout(location = 3) in float inside_in;  // distance from the cut at rest [m], 
 out vec3 position;
 out vec3 normal;
 out vec3 colour;
-out float inside;
 void main() {
-  inside = inside_in;
+  gl_ClipDistance[0] = inside_in;  // counts only for bodies that are cut
   position = position_in;
   normal = normal_in;
   colour = colour_in;
@@ -148,7 +147,6 @@ uniform float opacity;
 in vec3 position;
 in vec3 normal;
 in vec3 colour;
-in float inside;
 out vec4 result;
 vec4 lit_surface(vec3 c, vec3 n, vec3 p) {
   float key = opacity < 1.0 ? 1.0 : light_on_body(p, n);
@@ -175,7 +173,6 @@ ShaderSource cut_surface_shader() {
   return {kHeader + kSurfaceVertex, kHeader + kLighting + kSurfaceLight + R"(
 uniform vec4 cap;  // plane of the cut face, its normal out of the body; zero: no cut face is drawn
 void main() {
-  if (inside < 0.0) discard;
   vec3 p = position;
   vec3 n = normalize(normal);
   vec3 c = colour;
@@ -246,8 +243,8 @@ ShaderSource plane_shader() {
   return {kHeader + kPlaneVertex, kHeader + R"(
 uniform vec3 plane_colour;
 uniform float plane_alpha;
-uniform float plane_slope;  // 1: a ramp, marked by arrows that point downhill
-uniform float grid_spacing;
+uniform float grid_spacing;   // [m]
+uniform float arrow_spacing;  // of the arrows that point down a ramp [m]; 0: no ramp
 in vec2 grid;
 in vec2 from_center;
 out vec4 result;
@@ -265,13 +262,16 @@ float lines(float spacing, float width) {
   return max(line.x, line.y);
 }
 
-// Arrow heads in every second cell of the grid.
+// Coverage by arrows that point to -v. Distances from the outline are in cells of the arrows.
 float arrows() {
-  vec2 cell = fract(grid / grid_spacing / 2.0) - 0.5;
-  float away = abs(cell.y + 0.08 - 0.5 * abs(cell.x)) ;
-  float soft = fwidth(grid.y / grid_spacing / 2.0);
-  return (1.0 - smoothstep(0.014 - soft, 0.014 + soft, away)) * step(abs(cell.x), 0.10) *
-         (1.0 - smoothstep(0.03, 0.12, soft));
+  vec2 at = grid / arrow_spacing;
+  vec2 cell = fract(at) - 0.5;
+  float soft = max(length(fwidth(at)), 1e-4);
+  float x = abs(cell.x);
+  float head = max(0.8 * x - 0.6 * (cell.y + 0.26), cell.y + 0.04);
+  float shaft = max(x - 0.04, abs(cell.y - 0.105) - 0.155);
+  float away = min(head, shaft);
+  return clamp(0.5 - away / soft, 0.0, 1.0) * (1.0 - smoothstep(0.08, 0.3, soft));
 }
 
 void main() {
@@ -279,8 +279,9 @@ void main() {
   float minor = lines(grid_spacing, grid_spacing * 0.010);
   float major = lines(grid_spacing * 5.0, grid_spacing * 0.024);
   float drawn = max(minor * 0.75, major);
-  if (plane_slope > 0.0) drawn = max(drawn, 0.9 * arrows());
-  result = vec4(plane_colour * (1.0 - 0.13 * drawn), fade * plane_alpha);
+  vec3 c = plane_colour * (1.0 - 0.13 * drawn);
+  if (arrow_spacing > 0.0) c = mix(c, vec3(0.62, 0.47, 0.28), 0.55 * arrows());
+  result = vec4(c, fade * plane_alpha);
 }
 )"};
 }
@@ -305,18 +306,12 @@ ShaderSource surface_depth_shader() {
   return {kHeader + R"(
 layout(location = 0) in vec3 position_in;
 layout(location = 3) in float inside_in;
-out float inside;
 void main() {
-  inside = inside_in;
+  gl_ClipDistance[0] = inside_in;
   gl_Position = view_projection * vec4(position_in, 1.0);
 }
 )",
-          kHeader + R"(
-in float inside;
-void main() {
-  if (inside < 0.0) discard;
-}
-)"};
+          kHeader + kNothing};
 }
 
 ShaderSource spring_depth_shader() {
