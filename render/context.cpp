@@ -96,7 +96,7 @@ struct OffscreenContext::Impl {
     glGenFramebuffers(1, &multisampled);
     glBindFramebuffer(GL_FRAMEBUFFER, multisampled);
     attach(GL_COLOR_ATTACHMENT0, GL_RGBA8, kSamples);
-    attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, kSamples);
+    attach(GL_DEPTH_STENCIL_ATTACHMENT, GL_DEPTH24_STENCIL8, kSamples);
     const bool drawn_ok = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     glGenFramebuffers(1, &resolved);
     glBindFramebuffer(GL_FRAMEBUFFER, resolved);

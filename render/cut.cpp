@@ -1,6 +1,10 @@
 #include "render/cut.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <utility>
+
+#include "render/drawables.hpp"
 
 namespace springlod::render {
 
@@ -42,6 +46,25 @@ Eigen::Vector4f cut_face(const DrawnBody& body, const Vec3& origin) {
   Eigen::Vector4f face;
   face << (normal / length).cast<float>(), static_cast<float>(offset / length);
   return face;
+}
+
+std::vector<CutPart> parts_by_size(const DrawnBody& body) {
+  const TriangleMesh& mesh = *body.surface;
+  std::vector<std::pair<double, CutPart>> sized;
+  for (std::uint32_t i = 0; i < mesh.parts.size(); ++i) {
+    const MeshPart& part = mesh.parts[i];
+    Box3 box;
+    for (std::uint32_t t = 0; t < part.triangle_count; ++t)
+      for (const std::uint32_t vertex : mesh.triangles[part.first_triangle + t])
+        box.extend(mesh.positions[vertex]);
+    sized.emplace_back(box.isEmpty() ? 0 : box.diagonal().norm(),
+                       CutPart{part.first_triangle, part.triangle_count, part_colour(body, i)});
+  }
+  std::stable_sort(sized.begin(), sized.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<CutPart> parts;
+  for (const auto& [size, part] : sized) parts.push_back(part);
+  return parts;
 }
 
 }  // namespace springlod::render

@@ -66,6 +66,10 @@ double drawn_length(const MassSpringModel& model) {
 
 }  // namespace
 
+Colour part_colour(const DrawnBody& body, std::uint32_t part) {
+  return part < body.part_colours.size() ? body.part_colours[part] : palette_colour(part);
+}
+
 std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSurface& surface,
                                             const Vec3& origin) {
   const std::vector<Vec3>& positions = surface_positions(body);
@@ -73,11 +77,8 @@ std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSu
   const std::vector<float> inside = kept_distances(body);
   std::vector<SurfaceVertex> vertices(surface.source.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const std::uint32_t part = surface.part[i];
-    const Colour colour =
-        part < body.part_colours.size() ? body.part_colours[part] : palette_colour(part);
-    vertices[i] = {relative(positions[surface.source[i]], origin), normals[i], colour,
-                   inside[surface.source[i]]};
+    vertices[i] = {relative(positions[surface.source[i]], origin), normals[i],
+                   part_colour(body, surface.part[i]), inside[surface.source[i]]};
   }
   return vertices;
 }

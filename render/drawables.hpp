@@ -27,6 +27,9 @@ struct NodeInstance {
   float radius;
 };
 
+/// Colour of a part of the surface.
+Colour part_colour(const DrawnBody& body, std::uint32_t part);
+
 std::vector<SurfaceVertex> surface_vertices(const DrawnBody& body, const SplitSurface& surface,
                                             const Vec3& origin);
 std::vector<SpringInstance> spring_instances(const DrawnBody& body, const Vec3& origin);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "render/cut.hpp"
 #include "render/drawables.hpp"
 #include "render/gl.hpp"
 
@@ -49,9 +50,12 @@ struct Slot {
   Stream<SurfaceVertex> vertices;
   Stream<SpringInstance> springs;
   Stream<NodeInstance> nodes;
-  Eigen::Vector4f cap =
-      Eigen::Vector4f::Zero();  // plane of the cut face, its normal out of the body; zero: none
   bool cut = false;
+  /// Plane of the cut face, its normal out of the body; zero: no face is drawn.
+  Eigen::Vector4f cap = Eigen::Vector4f::Zero();
+  std::vector<CutPart> cut_parts;  // with a face
+  Vec3f middle = Vec3f::Zero();    // of the body, and a radius around it that contains it [m]
+  float reach = 0;
   const CachedSurface* surface = nullptr;  // null: no surface is drawn
   float opacity = 1;
   double distance = 0;  // from its middle to the eye
@@ -62,5 +66,16 @@ struct Slot {
     nodes.describe({3, 3, 1}, true);
   }
 };
+
+/// Draws some triangles of a slot's surface, clipped at its cut.
+inline void draw_triangles(const Slot& slot, std::size_t first, std::size_t count) {
+  if (slot.cut) glEnable(GL_CLIP_DISTANCE0);
+  glBindVertexArray(slot.vertices.layout.name());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, slot.surface->indices.name());
+  // The last argument is an offset [bytes], which OpenGL takes as a pointer.
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(first * sizeof(Triangle)));
+  glDisable(GL_CLIP_DISTANCE0);
+}
 
 }  // namespace springlod::render

@@ -69,6 +69,17 @@ double scale_share(int panel_height) {
   return (sizes.margin + scale_height(sizes)) / panel_height;
 }
 
+double footer_share(int panel_height) {
+  const Sizes sizes(panel_height);
+  return (sizes.margin + sizes.line(sizes.title) + sizes.pad) / panel_height;
+}
+
+LabelRoom room_beside_labels(double above, double below) {
+  constexpr double kMost = 0.5;
+  const double shrink = std::min(1., kMost / std::max(above + below, 1e-9));
+  return {shrink * above, shrink * below};
+}
+
 void Overlay::draw_heading(Image& image, const PixelRect& panel, const PanelLabels& labels) {
   const Sizes sizes = sizes_in(panel);
   const double room = panel.width - 2 * (sizes.margin + sizes.pad);

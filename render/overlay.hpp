@@ -34,6 +34,16 @@ struct PanelLabels {
 double heading_share(int panel_height, std::size_t captions);
 /// Fraction of a panel's height taken by a colour scale.
 double scale_share(int panel_height);
+/// Fraction of the height of a picture of one row taken by its footer.
+double footer_share(int panel_height);
+
+/// Fractions of a panel's height kept free for labels.
+struct LabelRoom {
+  double above = 0;
+  double below = 0;
+};
+/// Labels that would fill more than half of a very small panel get half of it.
+LabelRoom room_beside_labels(double above, double below);
 
 /// Draws labels, colour scales and dividers on finished images.
 class Overlay {

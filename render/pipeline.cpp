@@ -7,6 +7,7 @@
 
 #include "base/file.hpp"
 #include "render/camera.hpp"
+#include "render/cap_painter.hpp"
 #include "render/cut.hpp"
 #include "render/depth_map.hpp"
 #include "render/drawables.hpp"
@@ -60,7 +61,6 @@ struct Pipeline::Impl {
                       static_cast<GLsizei>((context.height() + 1) / 2)};
   GlProgram backdrop = frame_program("backdrop", backdrop_shader());
   GlProgram surface = frame_program("surface", surface_shader());
-  GlProgram cut_surface = frame_program("cut surface", cut_surface_shader());
   GlProgram spring = frame_program("spring", spring_shader());
   GlProgram node = frame_program("node", node_shader());
   GlProgram surface_depth = frame_program("surface depth", surface_depth_shader());
@@ -69,6 +69,7 @@ struct Pipeline::Impl {
   std::map<std::string, CachedSurface> surfaces;
   std::vector<Slot> slots;
   PlanePainter plane_painter;
+  CapPainter cap_painter;
   float occlusion_reach = 1;  // [m]
   std::vector<SpringInstance> edges_of_boxes;
 
@@ -99,11 +100,16 @@ struct Pipeline::Impl {
       if (slot.cut && slot.surface->split.closed && opaque(slot) && !style.springs &&
           !draws_balls(style))
         slot.cap = cut_face(body, origin);
+      if (!slot.cap.isZero()) slot.cut_parts = parts_by_size(body);
     }
     slot.springs.set(style.springs ? spring_instances(body, origin)
                                    : std::vector<SpringInstance>{});
     slot.nodes.set(draws_balls(style) ? node_instances(body, origin) : std::vector<NodeInstance>{});
     const Box3 box = drawn_bounds(body);
+    if (!box.isEmpty()) {
+      slot.middle = (box.center() - origin).cast<float>();
+      slot.reach = static_cast<float>(box.diagonal().norm());
+    }
     slot.distance = box.isEmpty() ? 0 : (box.center() - camera.eye).norm();
   }
 
@@ -152,12 +158,7 @@ struct Pipeline::Impl {
   }
 
   static void draw_surface(const Slot& slot) {
-    if (slot.cut) glEnable(GL_CLIP_DISTANCE0);
-    glBindVertexArray(slot.vertices.layout.name());
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, slot.surface->indices.name());
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(slot.surface->split.triangles.size() * 3),
-                   GL_UNSIGNED_INT, nullptr);
-    glDisable(GL_CLIP_DISTANCE0);
+    draw_triangles(slot, 0, slot.surface->split.triangles.size());
   }
 
   static bool opaque(const Slot& slot) { return slot.surface != nullptr && slot.opacity >= 1; }
@@ -188,19 +189,18 @@ struct Pipeline::Impl {
   }
 
   void use_surface(const Slot& slot) const {
-    const GlProgram& with = slot.cut ? cut_surface : surface;
-    glUseProgram(with.name());
-    set(with, "opacity", slot.opacity);
-    if (slot.cut) glUniform4fv(uniform(with, "cap"), 1, slot.cap.data());
+    glUseProgram(surface.name());
+    set(surface, "opacity", slot.opacity);
   }
 
-  void draw_opaque() const {
+  void draw_opaque() {
     for (const Slot& slot : slots) {
       if (opaque(slot)) {
         use_surface(slot);
         if (slot.surface->split.closed && !slot.cut) glEnable(GL_CULL_FACE);
         draw_surface(slot);
         glDisable(GL_CULL_FACE);
+        if (!slot.cap.isZero()) cap_painter.draw(slot);
       }
       glUseProgram(spring.name());
       draw_quads(slot.springs);
@@ -284,7 +284,7 @@ struct Pipeline::Impl {
     shadow_map.bind_plain(static_cast<GLuint>(LightMap::shadow_depth));
     body_depth.bind_plain(static_cast<GLuint>(LightMap::body_depth));
     context.begin();
-    glClear(GL_DEPTH_BUFFER_BIT);
+    glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     draw_backdrop();
     // Bodies first: what they hide of the planes is not shaded.
     draw_opaque();

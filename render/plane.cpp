@@ -25,7 +25,7 @@ double grid_spacing(double view_radius) {
 double arrow_spacing(double view_radius) {
   const double spacing = grid_spacing(view_radius);
   const double lines = view_radius / spacing;  // 1 to 10
-  return spacing * (lines < 2 ? 1 : lines < 5 ? 2 : 5);
+  return spacing * (lines < 3 ? 1 : lines < 6 ? 2 : 5);
 }
 
 PlanePatch plane_patch(const DrawnPlane& plane, const Camera& camera, double aspect) {

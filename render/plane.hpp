@@ -10,7 +10,7 @@ namespace springlod::render {
 /// Spacing of the grid lines [m]: a power of ten that suits the size of the view.
 double grid_spacing(double view_radius);
 
-/// Spacing of the arrows on a ramp [m]: 1, 2 or 5 times that of the grid, so that two to five of
+/// Spacing of the arrows on a ramp [m]: 1, 2 or 5 times that of the grid, so that two to six of
 /// them fit the height of the view at any scale.
 double arrow_spacing(double view_radius);
 

@@ -139,61 +139,46 @@ void main() {
 )"};
 }
 
-namespace {
-
-// Lights a point of a surface.
-const std::string kSurfaceLight = R"(
+ShaderSource surface_shader() {
+  return {kHeader + kSurfaceVertex, kHeader + kLighting + R"(
 uniform float opacity;
 in vec3 position;
 in vec3 normal;
 in vec3 colour;
 out vec4 result;
-vec4 lit_surface(vec3 c, vec3 n, vec3 p) {
-  float key = opacity < 1.0 ? 1.0 : light_on_body(p, n);
-  // Transparent surfaces are more opaque at grazing angles.
-  float edge = 1.0 - abs(dot(n, towards_eye(p)));
-  float alpha = opacity < 1.0 ? mix(opacity, min(1.0, opacity + 0.45), edge * edge * edge) : 1.0;
-  float open = opacity < 1.0 ? 1.0 : open_sky(p, n);
-  return vec4(dithered(to_display(studio(c, n, p, key, open))), alpha);
-}
-)";
-
-}  // namespace
-
-ShaderSource surface_shader() {
-  return {kHeader + kSurfaceVertex, kHeader + kLighting + kSurfaceLight + R"(
 void main() {
-  vec3 n = normalize(normal);
-  result = lit_surface(colour, gl_FrontFacing ? n : -n, position);
+  vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+  float key = opacity < 1.0 ? 1.0 : light_on_body(position, n);
+  // Transparent surfaces are more opaque at grazing angles.
+  float edge = 1.0 - abs(dot(n, towards_eye(position)));
+  float alpha = opacity < 1.0 ? mix(opacity, min(1.0, opacity + 0.45), edge * edge * edge) : 1.0;
+  float open = opacity < 1.0 ? 1.0 : open_sky(position, n);
+  result = vec4(dithered(to_display(studio(colour, n, position, key, open))), alpha);
 }
 )"};
 }
 
-ShaderSource cut_surface_shader() {
-  return {kHeader + kSurfaceVertex, kHeader + kLighting + kSurfaceLight + R"(
-uniform vec4 cap;  // plane of the cut face, its normal out of the body; zero: no cut face is drawn
+ShaderSource cap_shader() {
+  return {kHeader + R"(
+layout(location = 0) in vec3 position_in;
+out vec3 position;
 void main() {
-  vec3 p = position;
-  vec3 n = normalize(normal);
-  vec3 c = colour;
-  gl_FragDepth = gl_FragCoord.z;
-  if (!gl_FrontFacing) {
-    n = -n;
-    // A ray that meets the inner side first has passed the cut face: this pixel shows that face.
-    vec3 ray = position - eye.xyz;
-    float along = dot(cap.xyz, ray);
-    if (along < 0.0) {
-      p = eye.xyz + ray * (cap.w - dot(cap.xyz, eye.xyz)) / along;
-      n = cap.xyz;
-      vec4 clip = view_projection * vec4(p, 1.0);
-      // The inner of two nested parts, whose back is nearer, wins.
-      gl_FragDepth = mix(clip.z / clip.w * 0.5 + 0.5, gl_FragCoord.z, 1e-3);
-      // Hatched, as a section in an engineering drawing.
-      float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / 11.0) - 0.5) * 11.0;
-      c = mix(mix(c, vec3(1.0), 0.30), c * 0.92, 1.0 - smoothstep(0.4, 1.4, stripe));
-    }
-  }
-  result = lit_surface(c, n, p);
+  position = position_in;
+  gl_Position = view_projection * vec4(position_in, 1.0);
+}
+)",
+          kHeader + kLighting + R"(
+uniform vec3 cap_normal;
+uniform vec3 cap_colour;
+in vec3 position;
+out vec4 result;
+void main() {
+  float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / 11.0) - 0.5) * 11.0;
+  float line = 1.0 - smoothstep(0.4, 1.4, stripe);
+  vec3 c = mix(mix(cap_colour, vec3(1.0), 0.30), cap_colour * 0.92, line);
+  float key = light_on_body(position, cap_normal);
+  float open = open_sky(position, cap_normal);
+  result = vec4(dithered(to_display(studio(c, cap_normal, position, key, open))), 1.0);
 }
 )"};
 }

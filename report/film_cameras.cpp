@@ -7,6 +7,7 @@
 #include <span>
 #include <variant>
 
+#include "render/overlay.hpp"
 #include "report/playback.hpp"
 
 namespace springlod::report {
@@ -94,13 +95,54 @@ double azimuth_of(const std::vector<FilmedRun>& runs, const AnimateOptions& opti
   return best;
 }
 
-double aspect_of(const AnimateOptions& options) {
-  return static_cast<double>(options.width) / options.height;
+/// The part of a panel that labels leave to the body.
+render::LabelRoom room_for_labels(const std::vector<FilmedRun>& runs,
+                                  const AnimateOptions& options) {
+  const int height = static_cast<int>(options.height);
+  std::size_t captions = 0;
+  for (const FilmedRun& run : runs) captions = std::max(captions, run.captions.size());
+  const render::DrawStyle& style = options.style;
+  const bool strain = style.springs && style.spring_colour == render::SpringColour::strain;
+  const bool values = style.node_colour != render::NodeColour::material;
+  const double scales = ((strain ? 1 : 0) + (values ? 1 : 0)) * render::scale_share(height);
+  return render::room_beside_labels(render::heading_share(height, captions),
+                                    std::max(render::footer_share(height), scales));
+}
+
+render::Framing framing_of(const std::vector<FilmedRun>& runs, const AnimateOptions& options) {
+  constexpr double kFieldOfView = 35;  // [degrees]
+  constexpr double kMargin = 0.08;
+  const render::LabelRoom room = room_for_labels(runs, options);
+  return {.azimuth = azimuth_of(runs, options),
+          .elevation = options.elevation,
+          .aspect = static_cast<double>(options.width) / options.height,
+          .fov_degrees = kFieldOfView,
+          .headroom = room.above,
+          .footroom = room.below,
+          .margin = kMargin};
+}
+
+/// Points whose hull is nearly the ball: the directions to corners, edges and faces of a cube.
+std::vector<Vec3> points_of_ball(const Vec3& center, double radius) {
+  std::vector<Vec3> points;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z)
+        if (x != 0 || y != 0 || z != 0)
+          points.emplace_back(center + radius * Vec3(x, y, z).normalized());
+  return points;
+}
+
+std::vector<Vec3> corners(const Box3& box) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 8; ++i) points.push_back(box.corner(static_cast<Box3::CornerType>(i)));
+  return points;
 }
 
 /// A camera that keeps the body of the run in the middle, one per frame.
 std::vector<render::Camera> following_cameras(const FilmedRun& run,
-                                              const std::vector<double>& times, double azimuth,
+                                              const std::vector<double>& times,
+                                              const render::Framing& framing,
                                               const AnimateOptions& options) {
   std::vector<Vec3> path;
   for (const double t : times)
@@ -110,20 +152,18 @@ std::vector<render::Camera> following_cameras(const FilmedRun& run,
   // Three box filters are close to a Gaussian one: no kink where the body bounces.
   for (int pass = 0; pass < 3; ++pass)
     path = smoothed(path, static_cast<std::uint32_t>(kSmooth * options.frame_rate));
-  // A ball that contains the body in every orientation, with space for labels and surroundings.
+  // A ball that contains the body in every orientation, and stretched by an impact.
   const Vec3 center = center_of_mass(run.body, run.body.rest);
   double radius = 0;
   for (const Vec3& p : run.body.rest) radius = std::max(radius, (p - center).norm());
   double behind = 0;  // largest distance of the body from the middle of the view
   for (std::size_t k = 0; k < path.size(); ++k)
     behind = std::max(behind, (path[k] - centers[k]).norm());
-  constexpr double kRoom = 1.5;
-  const Vec3 half = Vec3::Constant(
-      std::max(kRoom * (radius + surface_margin(run)), radius + behind) / std::sqrt(3.));
+  constexpr double kStretch = 1.15;
+  radius = std::max(kStretch * (radius + surface_margin(run)), radius + behind);
   std::vector<render::Camera> cameras;
   for (const Vec3& p : path)
-    cameras.push_back(render::frame_box(Box3(p - half, p + half), azimuth, options.elevation,
-                                        aspect_of(options)));
+    cameras.push_back(render::frame_points(points_of_ball(p, radius), framing));
   return cameras;
 }
 
@@ -148,17 +188,16 @@ bool differ_in_size(const std::vector<double>& sizes) {
 std::vector<std::vector<render::Camera>> film_cameras(const std::vector<FilmedRun>& runs,
                                                       const std::vector<double>& times,
                                                       const AnimateOptions& options) {
-  const double azimuth = azimuth_of(runs, options);
+  const render::Framing framing = framing_of(runs, options);
   std::vector<std::vector<render::Camera>> cameras;
   if (options.camera == CameraMode::follow) {
     for (const FilmedRun& run : runs)
-      cameras.push_back(following_cameras(run, times, azimuth, options));
+      cameras.push_back(following_cameras(run, times, framing, options));
     return cameras;
   }
   const auto fixed = [&](std::span<const FilmedRun> seen) {
-    const render::Camera camera = render::frame_box(action_bounds(seen, times), azimuth,
-                                                    options.elevation, aspect_of(options));
-    return std::vector<render::Camera>(times.size(), camera);
+    return std::vector<render::Camera>(
+        times.size(), render::frame_points(corners(action_bounds(seen, times)), framing));
   };
   if (!bodies_differ_in_size(runs)) {
     cameras.assign(runs.size(), fixed(runs));

@@ -3,18 +3,19 @@
 local s = require "springlod"
 local asset_or_mesh = require "lib.asset_or_mesh"
 local command = require "lib.command"
+local show = require "lib.show"
 
 local axes = {x = 1, y = 2, z = 3}
 
 local parser = command.parser("render", "Draw a picture of the levels of an asset side by side, or "
-  .. "of a mesh. Several files share one picture and one scale.")
+  .. "of a mesh. Several files share one picture, and one scale unless they differ in size.")
 parser:argument("file", "a .glb asset, written by convert or s.save, or a mesh file"):args("+")
 command.one_line(parser:option("-o --out", "picture to write (default: NAME-glb.png for NAME.glb, "
   .. "in this folder)"):argname("<picture.png>"))
 parser:option("--level", "levels to draw, such as 0,2; 0 is the base (default: all)")
   :convert(command.numbers("--level", 0, true)):argname("<list>")
 parser:flag("--surface", "draw the surface, transparent, over the nodes and springs of levels")
-parser:option("--cut", "keep the half of each level behind a plane through its center, across this "
+parser:option("--cut", "keep the half of each body behind a plane through its center, across this "
   .. "axis, so that the inside shows"):choices{"x", "y", "z"}
 parser:option("--unit", "length unit of a mesh file (default: as the file declares, else m)")
   :choices(s.choices.unit)
@@ -36,21 +37,49 @@ local args = parser:parse()
 local out = args.out or command.base_name(args.file[1]):gsub("%.(%w+)$", "-%1") .. ".png"
 if not out:lower():find("%.png$") then parser:error(("-o '%s' must end in .png"):format(out)) end
 
--- The panel of a model: the plane through its center keeps what is on the far side of the camera.
-local function panel_of(model, title)
-  local panel = {
-    model, title = ("%s: %d node%s, %d spring%s"):format(title,
-      model.node_count, model.node_count == 1 and "" or "s",
-      model.spring_count, model.spring_count == 1 and "" or "s"),
-  }
-  if args.cut then
-    local axis, normal = axes[args.cut], {0, 0, 0}
-    local azimuth, elevation = math.rad(args.azimuth), math.rad(args.elevation)
-    local toward_eye = ({math.cos(azimuth), math.sin(azimuth), math.sin(elevation)})[axis]
-    normal[axis] = toward_eye > 0 and -1 or 1
-    panel.cut = {normal[1], normal[2], normal[3], normal[axis] * model.center[axis]}
+-- The size of a box: "20 x 20 x 5.6 mm".
+local function size_text(low, high)
+  local side = 0
+  for axis = 1, 3 do side = math.max(side, high[axis] - low[axis]) end
+  local unit = show.quantity(side, "length"):match("%a+$")
+  local in_unit, sides = s.quantity("1 " .. unit, "length"), {}
+  for axis = 1, 3 do
+    sides[axis] = show.number((high[axis] - low[axis]) / in_unit, 3, side / in_unit)
   end
-  return panel
+  return ("%s %s"):format(table.concat(sides, " x "), unit)
+end
+
+-- The plane through a center, across the axis of --cut, that keeps what is on the far side of the
+-- camera.
+local function cut_through(center)
+  if not args.cut then return nil end
+  local axis, normal = axes[args.cut], {0, 0, 0}
+  local azimuth, elevation = math.rad(args.azimuth), math.rad(args.elevation)
+  local toward_eye = ({math.cos(azimuth), math.sin(azimuth), math.sin(elevation)})[axis]
+  normal[axis] = toward_eye > 0 and -1 or 1
+  return {normal[1], normal[2], normal[3], normal[axis] * center[axis]}
+end
+
+-- Panels of several files tell their sizes: they may have different scales.
+local function panel_of(subject, title, center, low, high)
+  if #args.file > 1 then title = title .. "\n" .. size_text(low, high) end
+  return {subject, title = title, cut = cut_through(center)}
+end
+
+local function panel_of_model(model, name)
+  local bounds = model.bounds
+  local function counted(count, what)
+    return ("%d %s%s"):format(count, what, count == 1 and "" or "s")
+  end
+  local title = ("%s: %s, %s"):format(name, counted(model.node_count, "node"),
+    counted(model.spring_count, "spring"))
+  return panel_of(model, title, model.center, bounds.low, bounds.high)
+end
+
+local function panel_of_mesh(mesh, name)
+  local center = {}
+  for axis = 1, 3 do center[axis] = (mesh.min[axis] + mesh.max[axis]) / 2 end
+  return panel_of(mesh, name, center, mesh.min, mesh.max)
 end
 
 local function levels_of(chain)
@@ -74,11 +103,11 @@ local function panels()
     local chain, mesh = asset_or_mesh(path, args)
     local prefix = #args.file > 1 and command.stem(path) .. ", " or ""
     if mesh then
-      list[#list + 1] = {mesh, title = command.base_name(path)}
+      list[#list + 1] = panel_of_mesh(mesh, command.base_name(path))
       meshes[#meshes + 1] = list[#list]
     else
       for _, level in ipairs(levels_of(chain)) do
-        list[#list + 1] = panel_of(chain[level],
+        list[#list + 1] = panel_of_model(chain[level],
           prefix .. (level == 0 and "base" or "level " .. level))
       end
     end

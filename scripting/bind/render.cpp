@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "render/frames.hpp"
+#include "render/overlay.hpp"
 #include "render/scene.hpp"
 #include "report/animate.hpp"
 #include "report/film_cameras.hpp"
@@ -168,15 +169,13 @@ std::vector<render::Camera> cameras_of(const std::vector<std::unique_ptr<Picture
     headings = std::max(headings, panel->heading_share(height));
     scales = std::max(scales, panel->scales_share(height));
   }
-  // Labels must not fill a very small panel.
-  constexpr double kMostForLabels = 0.5;
-  const double shrink = std::min(1., kMostForLabels / std::max(headings + scales, 1e-9));
+  const render::LabelRoom room = render::room_beside_labels(headings, scales);
   const render::Framing framing{
       .azimuth = options.azimuth,
       .elevation = options.elevation,
       .aspect = static_cast<double>(options.width) / static_cast<double>(options.height),
-      .headroom = shrink * headings,
-      .footroom = shrink * scales};
+      .headroom = room.above,
+      .footroom = room.below};
   const bool own = follow && report::differ_in_size(sizes);
   const render::Camera common = render::frame_points(all, framing);
   std::vector<render::Camera> cameras;
