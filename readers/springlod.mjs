@@ -5,7 +5,10 @@ const TYPES = {float64: Float64Array, float32: Float32Array, uint8: Uint8Array,
   uint16: Uint16Array, uint32: Uint32Array, int16: Int16Array};
 const NAMES = [["nodes", "rest", 3], ["springs", "ends", 2], ["corners", "cornerNodes", 4],
   ["vertices", "positions", 3], ["triangles", "indices", 3]];
-
+const CRC = Int32Array.from({length: 256}, (_, n) => {  // CRC-32 of each byte
+  for (let bit = 0; bit < 8; ++bit) n = n >>> 1 ^ -(n & 1) & 0xEDB88320;
+  return n;
+});
 export class AssetError extends Error {}  // not an asset, damaged, or of another version
 
 export function interpolate(start, node, weight, x) {  // x: positions or velocities of the nodes
@@ -17,18 +20,16 @@ export function interpolate(start, node, weight, x) {  // x: positions or veloci
 }
 
 export function parse(file, name = "asset") {  // file: an ArrayBuffer or Uint8Array
-  const bytes = new Uint8Array(file).slice(), header = new DataView(bytes.buffer);
+  const bytes = new Uint8Array(file).slice(), head = new DataView(bytes.buffer);
   const check = (is, why) => { if (!is) throw new AssetError(`${name}: ${why}`); };
-  check(bytes.length >= 28 && header.getUint32(0) === 0x676C5446, "not a .glb file");
-  check(header.getUint32(8, true) === bytes.length, "damaged: cut short");
-  const end = 20 + header.getUint32(12, true);
-  const text = new TextDecoder().decode(bytes.slice(20, end));
+  check(bytes.length >= 28 && head.getUint32(0) === 0x676C5446, "not a .glb file");
+  check(head.getUint32(8, true) === bytes.length, "damaged: cut short");
+  const end = 20 + head.getUint32(12, true), text = new TextDecoder().decode(bytes.slice(20, end));
   const given = text.match(/"SPRINGLOD_lod_chain":{"checksum":"(crc32:\w{8})"/)?.[1];
   check(given, "not a springlod asset of version 6; springlod slim writes older ones again");
   bytes.set(new TextEncoder().encode("crc32:00000000"), 20 + text.indexOf(given));
   let crc = -1;
-  for (const byte of bytes)
-    for (let bit = 0; bit < 8; ++bit) crc = crc >>> 1 ^ -((crc ^ byte >> bit) & 1) & 0xEDB88320;
+  for (let i = 0; i < bytes.length; ++i) crc = CRC[(crc ^ bytes[i]) & 255] ^ crc >>> 8;
   check(given === `crc32:${(~crc >>> 0).toString(16).padStart(8, "0")}`, "damaged: wrong checksum");
   const gltf = JSON.parse(text), asset = gltf.extensions.SPRINGLOD_lod_chain;
   check(asset.version === 6, `of version ${asset.version}: take a newer springlod.mjs`);
@@ -46,10 +47,9 @@ export function parse(file, name = "asset") {  // file: an ArrayBuffer or Uint8A
       check(owner[field].length === width * owner[count], `damaged: ${count}`);
       owner[count] = owner[field];
     }
-    const {rest: x, ends, restLength} = owner, along = (s, d) => x[3 * ends[s] + d];
-    if (restLength?.length === 0)  // no spring has a force at rest
-      owner.restLength = Float64Array.from(owner.stiffness, (_, s) => Math.hypot(
-        ...[0, 1, 2].map((d) => along(2 * s + 1, d) - along(2 * s, d))));
+    if (owner.restLength?.length === 0)  // no spring has a force at rest
+      owner.restLength = Float64Array.from(owner.stiffness, (_, s) => Math.hypot(...[0, 1, 2].map(
+        (d) => owner.rest[3 * owner.ends[2 * s] + d] - owner.rest[3 * owner.ends[2 * s + 1] + d])));
   }
   return asset;
 }
