@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kHead = R"(#pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -26,6 +27,7 @@ constexpr const char* kHead = R"(#pragma once
 
 // Bullet corrects a link by C / c0 with c0 = (1/m_a + 1/m_b) / kLST, once an iteration. One
 // iteration is a substep of XPBD with the compliance 1 / k if c0 = 1/m_a + 1/m_b + 1 / (k dt^2).
+// The other corrections soften the link as half of 1/m_a + 1/m_b would, so that half is left out.
 constexpr const char* kBuild = R"(
 /// A soft body with its middle at `position`; nodes of `held` do not move. The world must be a
 /// btSoftRigidDynamicsWorld that is stepped by `step` seconds:
@@ -50,7 +52,8 @@ inline btSoftBody* make_soft_body(
     const btScalar mobility = body->m_nodes[a].m_im + body->m_nodes[b].m_im;
     // A link of stiffness k [N/m]: Bullet divides the correction by mobility / kLST.
     btSoftBody::Material* material = body->appendMaterial();
-    material->m_kLST = mobility / (mobility + 1 / (kStiffness[s] * step * step));
+    material->m_kLST =
+        std::min(mobility / (mobility / 2 + 1 / (kStiffness[s] * step * step)), btScalar(1));
     body->appendLink(a, b, material);
     body->m_links[static_cast<int>(s)].m_rl = kRestLength[s];
   }

@@ -24,8 +24,10 @@ std::string comment(const ExportedModel& body, const std::vector<std::string>& l
 
 constexpr const char* kCppBuild = R"(
 /// The nodes and springs, to be shared by all bodies of this kind. Nodes of `held` do not move.
+/// `substep`: step over iterations [s]. Edges are stiffer than the springs by what Jolt softens
+/// them in a substep.
 inline JPH::Ref<JPH::SoftBodySharedSettings> shared_settings(
-    const std::vector<std::uint32_t>& held = {}) {
+    const std::vector<std::uint32_t>& held = {}, float substep = kStep / kIterations) {
   JPH::Ref<JPH::SoftBodySharedSettings> shared = new JPH::SoftBodySharedSettings;
   for (std::uint32_t n = 0; n < kNodes; ++n)
     shared->mVertices.emplace_back(
@@ -33,7 +35,10 @@ inline JPH::Ref<JPH::SoftBodySharedSettings> shared_settings(
         JPH::Float3(0, 0, 0), 1 / kMass[n]);
   for (const std::uint32_t n : held) shared->mVertices[n].mInvMass = 0;
   for (std::uint32_t s = 0; s < kSprings; ++s) {
-    JPH::SoftBodySharedSettings::Edge edge(kEnds[2 * s], kEnds[2 * s + 1], 1 / kStiffness[s]);
+    JPH::SoftBodySharedSettings::Edge edge(kEnds[2 * s], kEnds[2 * s + 1]);
+    const float mobility =
+        shared->mVertices[kEnds[2 * s]].mInvMass + shared->mVertices[kEnds[2 * s + 1]].mInvMass;
+    edge.mCompliance = std::max(1 / kStiffness[s] - mobility * substep * substep / 2, 0.0F);
     edge.mRestLength = kRestLength[s];
     shared->mEdgeConstraints.push_back(edge);
   }
@@ -57,7 +62,8 @@ std::string cpp_file(const ExportedModel& body, const SingleBody& single, int it
                      const std::vector<std::string>& lines) {
   return comment(body, lines) +
          fmt::format(
-             "#pragma once\n\n#include <array>\n#include <cstdint>\n#include <vector>\n\n"
+             "#pragma once\n\n#include <algorithm>\n#include <array>\n#include <cstdint>\n#include "
+             "<vector>\n\n"
              "#include <Jolt/Jolt.h>\n\n"
              "#include <Jolt/Physics/SoftBody/SoftBodyCreationSettings.h>\n"
              "#include <Jolt/Physics/SoftBody/SoftBodySharedSettings.h>\n\n"
@@ -71,23 +77,26 @@ std::string cpp_file(const ExportedModel& body, const SingleBody& single, int it
 // What follows the data in the JavaScript file.
 constexpr const char* kJavaScriptBuild = R"(
 /** JPH::SoftBodySharedSettings, to be shared by all bodies of this kind. `Jolt` is the module of
- *  jolt-physics; nodes of `held` do not move. */
-export function sharedSettings(Jolt, held = []) {
+ *  jolt-physics; nodes of `held` do not move; `substep`: step over iterations [s]. Edges are
+ *  stiffer than the springs by what Jolt softens them in a substep. */
+export function sharedSettings(Jolt, held = [], substep = settings.step / settings.iterations) {
   const shared = new Jolt.SoftBodySharedSettings();
   const fixed = new Set(held);
   const vertex = new Jolt.SoftBodySharedSettingsVertex();
-  nodes.mass.forEach((mass, n) => {
+  const inverse = nodes.mass.map((mass, n) => (fixed.has(n) ? 0 : 1 / mass));
+  inverse.forEach((inverseMass, n) => {
     [vertex.mPosition.x, vertex.mPosition.y, vertex.mPosition.z] =
       nodes.position.slice(3 * n, 3 * n + 3);
-    vertex.mInvMass = fixed.has(n) ? 0 : 1 / mass;
+    vertex.mInvMass = inverseMass;
     shared.mVertices.push_back(vertex);
   });
   const edge = new Jolt.SoftBodySharedSettingsEdge(0, 0, 0);
   springs.stiffness.forEach((stiffness, s) => {
-    edge.set_mVertex(0, springs.ends[2 * s]);
-    edge.set_mVertex(1, springs.ends[2 * s + 1]);
+    const [a, b] = springs.ends.slice(2 * s, 2 * s + 2);
+    edge.set_mVertex(0, a);
+    edge.set_mVertex(1, b);
     edge.mRestLength = springs.restLength[s];
-    edge.mCompliance = 1 / stiffness;
+    edge.mCompliance = Math.max(1 / stiffness - (inverse[a] + inverse[b]) * substep ** 2 / 2, 0);
     shared.mEdgeConstraints.push_back(edge);
   });
   Jolt.destroy(vertex);
@@ -191,6 +200,9 @@ ExportDraft draft_jolt(const ExportedModel& body) {
       fmt::format("step 1/{} s with {} iterations (mNumIterations): {} substeps a "
                   "second; mLinearDamping 0",
                   FrameSubsteps::kFrames, substeps.per_frame, substeps.per_second())};
+  draft.settings.push_back(
+      "edges are stiffer than the springs by what Jolt softens them in a substep: with another "
+      "substep, give it to the function that makes the shared settings");
   for (std::string& line : describe_window(window)) draft.settings.push_back(std::move(line));
   draft.losses = losses(body);
   std::vector<std::string> lines = draft.settings;

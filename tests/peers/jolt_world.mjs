@@ -35,10 +35,13 @@ export function addBody(world, settings) {
 export const yUp = ([x, y, z]) => [x, z, -y];
 
 /** Elongation [m] of a level held at an end, from its exported module: the mean over the last 40 %
- *  of the time in which its vibrations die out. `rate`: substeps a second. */
-export function hang(file, job, rate, iterations) {
-  const world = makeWorld(yUp(job.gravity));
-  const settings = file.creationSettings(Jolt, file.sharedSettings(Jolt, job.held), moving);
+ *  of the time in which its vibrations die out. `rate`: substeps a second; `iterations` of them are
+ *  one step of the world. `substep`: what the edges are told [s]; with 0, they have the compliance
+ *  1/k. `scale`: units of length a metre. */
+export function hang(file, job, rate, iterations, { substep = 1 / rate, scale = 1 } = {}) {
+  const world = makeWorld(yUp(job.gravity).map((g) => g * scale));
+  const shared = scaled(file.sharedSettings(Jolt, job.held, substep), scale);
+  const settings = file.creationSettings(Jolt, shared, moving, file.center.map((x) => x * scale));
   const frequency = Math.sqrt(Math.hypot(...job.gravity) / job.elongation);
   settings.mNumIterations = iterations;
   // Jolt damps what a substep adds for gravity, too.
@@ -46,6 +49,7 @@ export function hang(file, job, rate, iterations) {
   settings.mGravityFactor = 1 / (1 - settings.mLinearDamping / rate);
   settings.mAllowSleeping = false;
   const body = addBody(world, settings);
+  Jolt.destroy(settings);
   const along = job.gravity.map((g) => g / Math.hypot(...job.gravity));
   const direction = yUp(along);
   const elongation = () => {
@@ -53,11 +57,11 @@ export function hang(file, job, rate, iterations) {
     let total = 0;
     for (const n of job.free)
       for (let axis = 0; axis < 3; ++axis)
-        total += direction[axis] *
-          (now[3 * n + axis] - file.nodes.position[3 * n + axis] - file.center[axis]);
+        total += direction[axis] * (now[3 * n + axis] / scale -
+          file.nodes.position[3 * n + axis] - file.center[axis]);
     return total / job.free.length;
   };
-  const steps = Math.ceil((16 / frequency) * (rate / iterations));
+  const steps = Math.max(10, Math.ceil((16 / frequency) * (rate / iterations)));
   let total = 0, count = 0;
   for (let step = 0; step < steps; ++step) {
     world.Step(iterations / rate, 1);
@@ -67,4 +71,16 @@ export function hang(file, job, rate, iterations) {
   }
   Jolt.destroy(world);
   return total / count;
+}
+
+/** Shared settings in another unit of length. Masses and compliances [s2/kg] keep their numbers. */
+function scaled(shared, scale) {
+  if (scale === 1) return shared;
+  for (let n = 0; n < shared.mVertices.size(); ++n) {
+    const { mPosition } = shared.mVertices.at(n);
+    for (const axis of ["x", "y", "z"]) mPosition[axis] *= scale;
+  }
+  for (let s = 0; s < shared.mEdgeConstraints.size(); ++s)
+    shared.mEdgeConstraints.at(s).mRestLength *= scale;
+  return shared;
 }

@@ -44,9 +44,10 @@ TEST_CASE("the window of substeps holds the recommended rate and what it promise
   CHECK(window.from < window.rate);
   CHECK(window.rate < window.to);
   CHECK(window.error <= kWindowError);
-  // A sweep that leaves 2 % by itself needs fewer substeps than both errors together.
-  CHECK(window.from > 0.999 * window.frequency * std::sqrt(kSweepError / kWindowError));
-  CHECK_THAT(joined(describe_window(window)), Contains("within 2 % at rest from"));
+  // Sweeps that leave 2 % by their order alone need fewer substeps than all errors together.
+  CHECK(window.from > 0.999 * window.frequency * std::sqrt(kOrderError / kWindowError));
+  CHECK_THAT(joined(describe_window(window)),
+             Contains("expect an error of up to 1 %; at most 2 % from"));
 }
 
 TEST_CASE("a stiff body in single precision has no window, and the report says what to do") {
@@ -54,7 +55,8 @@ TEST_CASE("a stiff body in single precision has no window, and the report says w
   CHECK(window.empty());
   CHECK(window.error > kWindowError);
   CHECK_THAT(joined(describe_window(window)),
-             Contains("no rate keeps") && Contains("coarser level") && Contains("times as soft"));
+             Contains("expect an error of") && Contains("the least of all rates") &&
+                 Contains("coarser level") && Contains("times as soft"));
 }
 
 TEST_CASE("stiffness raises the lower end of the window, and size lowers the upper one") {
