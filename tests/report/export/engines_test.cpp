@@ -59,6 +59,15 @@ TEST_CASE("a stiff body in single precision has no window, and the report says w
                  Contains("coarser level") && Contains("times as soft"));
 }
 
+TEST_CASE("a quarter of the stiffness halves the least error of a body without a window") {
+  const SubstepWindow stiff = substep_window(block(1e9), kEarth, 0.2);
+  const SubstepWindow soft = substep_window(block(0.25e9), kEarth, 0.2);
+  REQUIRE(soft.empty());
+  CHECK(soft.error == Approx(stiff.error / 2).epsilon(0.05));
+  CHECK(soft.cheap_softening < stiff.cheap_softening);
+  CHECK(soft.cheap_softening > 1);
+}
+
 TEST_CASE("stiffness raises the lower end of the window, and size lowers the upper one") {
   const SubstepWindow soft = substep_window(block(1e4), kEarth, 0.2);
   const SubstepWindow hard = substep_window(block(4e4), kEarth, 0.2);
