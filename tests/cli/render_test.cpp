@@ -1,5 +1,8 @@
 // Options of s.render in scripts.
 
+#include <algorithm>
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "render/frames.hpp"
@@ -70,6 +73,48 @@ TEST_CASE("panels of one picture can show different things and times, in rows") 
   CHECK(picture.height > 270);
 }
 
+TEST_CASE("bodies of 2 cm, 1 m and 30 m each fill their panel") {
+  const TemporaryFolder scratch;
+  const Ran ran = draw(R"lua(
+    local subjects = {}
+    for i, size in ipairs {0.02, 1, 30} do
+      local file = io.open(folder .. "/cube.obj", "w")
+      for corner = 0, 7 do
+        file:write(("v %g %g %g\n"):format(size * (corner & 1), size * (corner >> 1 & 1),
+          size * (corner >> 2 & 1)))
+      end
+      file:write("f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")
+      file:close()
+      subjects[i] = s.import(folder .. "/cube.obj", {unit = "m", up = "z"})
+    end
+    s.render(folder .. "/a.png", subjects, {width = 160, height = 120})
+  )lua",
+                       scratch);
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  const auto picture = springlod::render::load_png(scratch / "a.png");
+  for (int left = 0; left < 480; left += 160) {
+    int low_x = 160, high_x = -1, low_y = 120, high_y = -1;
+    for (int y = 0; y < 120; ++y)
+      for (int x = 2; x < 158; ++x) {  // between the dividers
+        const std::uint8_t* p = &picture.rgb[3 * static_cast<std::size_t>(y * 480 + left + x)];
+        const auto [least, most] = std::minmax({p[0], p[1], p[2]});
+        if (most - least < 60) continue;  // the backdrop is grey
+        low_x = std::min(low_x, x);
+        high_x = std::max(high_x, x);
+        low_y = std::min(low_y, y);
+        high_y = std::max(high_y, y);
+      }
+    CAPTURE(left, low_x, high_x, low_y, high_y);
+    CHECK(high_y - low_y > 90);
+    CHECK(low_y > 1);
+    CHECK(high_y < 118);
+    CHECK(low_x > 3);
+    CHECK(high_x < 156);
+    CHECK(std::abs(low_x + high_x - 160) < 12);
+  }
+}
+
 TEST_CASE("the command render draws levels and meshes") {
   const TemporaryFolder scratch;
   make_bar_asset(scratch / "bar.glb", 3, {"--cell", "0.25", "--fast"});
@@ -93,6 +138,7 @@ TEST_CASE("the command render draws levels and meshes") {
         render({asset, "--level", "0", "--cut", "x"}).rgb);
   const std::string mesh = (source_folder() / "samples/dumbbell.obj").string();
   CHECK(render({mesh}).width == 120);
+  CHECK(render({mesh, "--cut", "y"}).rgb != render({mesh}).rgb);
   CHECK(render({asset, mesh, "--columns", "2"}).height == 180);
 
   const Ran none = springlod_run({"render", asset, "--level", "7", "-o", "x.png"});

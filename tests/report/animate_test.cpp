@@ -1,9 +1,13 @@
 #include "report/animate.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "base/error.hpp"
 #include "render/frames.hpp"
+#include "render/overlay.hpp"
 #include "report/playback.hpp"
 #include "tests/render/bodies.hpp"
 #include "tests/render/golden.hpp"
@@ -171,6 +175,50 @@ TEST_CASE("follow camera, nodes and springs, and an asset without surface can be
   options.style.spring_colour = render::SpringColour::strain;
   options.style.springs = true;
   CHECK(animate({{film.asset, film.comparison}}, folder.path(), options).frames == 2);
+}
+
+TEST_CASE("the follow camera keeps a tumbling body between the labels, near the middle") {
+  const TemporaryFolder folder;
+  Film film;
+  film.comparison.scenario.obstacles.pop_back();  // the wall
+  const MassSpringModel& model = film.asset.chain.levels[0].model;
+  // Up and down again, 4 m far, with a sudden turn at the floor.
+  for (sim::LevelRuns& runs : film.comparison.levels) {
+    runs.first.frames.clear();
+    for (int k = 0; k <= 40; ++k) {
+      const double t = k / 40.;
+      const Mat3 turn = Eigen::AngleAxisd(9 * t, Vec3(0.3, 1, 0).normalized()).toRotationMatrix();
+      const Vec3 move(4 * t, 0, 0.5 + std::abs(1.5 - 3 * t));
+      sim::Frame frame{t, {}};
+      for (const Vec3& p : model.rest) frame.x.emplace_back(turn * p + move);
+      runs.first.frames.push_back(std::move(frame));
+    }
+    runs.base_frames = runs.first.frames;
+  }
+  AnimateOptions options = small();
+  options.camera = CameraMode::follow;
+  const Animation animation = animate({{film.asset, film.comparison}}, folder.path(), options);
+  REQUIRE(animation.frames == 31);
+  for (std::uint32_t k = 0; k < animation.frames; ++k) {
+    const render::Image frame = render::load_png(render::frame_path(folder.path(), k));
+    for (const int left : {0, 160}) {
+      Eigen::AlignedBox2i box;
+      for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x) {
+          const std::uint8_t* p = &frame.rgb[3 * static_cast<std::size_t>(y * 320 + left + x)];
+          const auto [low, high] = std::minmax({p[0], p[1], p[2]});
+          if (high - low > 60) box.extend(Eigen::Vector2i(x, y));  // the body alone has colours
+        }
+      CAPTURE(k, left, box.min().transpose(), box.max().transpose());
+      REQUIRE_FALSE(box.isEmpty());
+      CHECK(box.min().x() > 2);
+      CHECK(box.max().x() < 157);
+      CHECK(box.min().y() > 120 * render::heading_share(120, left == 0 ? 1 : 2) - 4);
+      CHECK(box.max().y() < 117);
+      CHECK(std::abs(box.center().x() - 80) < 20);
+      CHECK(box.sizes().maxCoeff() > 18);
+    }
+  }
 }
 
 TEST_CASE("the camera avoids a wall that would hide the motion") {
