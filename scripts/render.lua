@@ -60,7 +60,7 @@ local function cut_through(center)
   return {normal[1], normal[2], normal[3], normal[axis] * center[axis]}
 end
 
--- Panels of several files tell their sizes: they may have different scales.
+-- Panels of several files state their sizes: they may have different scales.
 local function panel_of(subject, title, center, low, high)
   if #args.file > 1 then title = title .. "\n" .. size_text(low, high) end
   return {subject, title = title, cut = cut_through(center)}
