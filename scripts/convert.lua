@@ -45,6 +45,7 @@ local function settle(refuse)
   if args.resume and options.calibrate ~= "modes" then
     refuse("--resume needs --calibrate modes")
   end
+  if options.levels == 0 then options.calibrate = "none" end -- nothing is fitted
   conversion.load_materials(args)
 end
 
@@ -192,8 +193,8 @@ end
 local function manifest_jobs()
   local jobs = manifest.read(args.manifest, arg)
   local paths, unnamed = {}, {}
-  for i, job in ipairs(jobs) do
-    paths[i] = job.mesh
+  for _, job in ipairs(jobs) do
+    if not job.problem then paths[#paths + 1] = job.mesh end
     if not job.output then unnamed[#unnamed + 1] = job.mesh end
   end
   output = output or "out"
@@ -207,6 +208,7 @@ local function manifest_jobs()
 end
 
 local function convert_job(job)
+  if job.problem then error(job.problem, 0) end
   if job.words then
     local function refuse(message) error(manifest.message(job, message), 0) end
     local ok, parsed = parser:pparse(job.words)

@@ -89,6 +89,12 @@ for _, material in ipairs(base.materials) do
     material.name, show.quantity(material.young, "pressure"), material.poisson, material.density,
     show.quantity(material.damping, "time")))
 end
+-- A name for the asset that a slim one was made of.
+local function whole_asset(slim)
+  local name = slim:gsub("%-slim(%.%w+)$", "%1")
+  return name ~= slim and name or slim:gsub("(%.%w+)$", "-whole%1")
+end
+
 local keys = {}
 for key in pairs(info.provenance) do keys[#keys + 1] = key end
 table.sort(keys)
@@ -97,7 +103,11 @@ for _, key in ipairs(keys) do
   if key == "command" then
     -- convert --bodies separate appends the number of the body to the name.
     local asset = info.provenance.body and args.file:gsub("%-%d+(%.%w+)$", "%1") or args.file
-    entry = entry .. " " .. command.shell_line{"-o", asset}
+    local whole = info.provenance.slim and whole_asset(args.file) or asset
+    entry = entry .. " " .. command.shell_line{"-o", whole}
+    if info.provenance.slim then
+      entry = ("%s && springlod slim %s"):format(entry, command.shell_line{whole, "-o", args.file})
+    end
   end
   local cell = key == "cell" and tonumber(entry:match("^(%S+) m$"))
   print(("%-14s  %s"):format(key, cell and show.quantity(cell, "length", 4) or entry))

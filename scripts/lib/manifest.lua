@@ -48,24 +48,31 @@ function manifest.message(job, text)
     or "entry " .. job.number, text)
 end
 
+local function job_of(list, number, entry, path, arguments)
+  if type(entry) ~= "table" or type(entry.mesh) ~= "string" then
+    return {mesh = "entry " .. number, problem = ("%s, entry %d: must be a table with a mesh: "
+      .. "{mesh = \"bear.obj\", ...}"):format(path, number)}
+  end
+  local words = shared_words(arguments)
+  add_words(words, list)
+  add_words(words, entry)
+  words[#words + 1] = entry.mesh
+  return {mesh = entry.mesh, output = entry.output, words = words, path = path, number = number,
+          entry = entry}
+end
+
 -- Reads the manifest at `path`. Returns a list of jobs: mesh, output (or nil), and words: the
 -- arguments of `convert` for this mesh, of which later ones replace earlier ones. `arguments`: the
--- command line.
+-- command line. A job that cannot be done has a `problem` instead, a message.
 function manifest.read(path, arguments)
   local list = command.load_table(path)
-  if #list == 0 then error(("%s lists no meshes"):format(path), 0) end
+  if #list == 0 then
+    error(("%s lists no meshes; it must return a list: {{mesh = \"bear.obj\"}, ...}"):format(path),
+      0)
+  end
   local jobs = {}
   for number, entry in ipairs(list) do
-    if type(entry) ~= "table" or type(entry.mesh) ~= "string" then
-      error(("%s: entry %d must be a table with a mesh: {mesh = \"bear.obj\", ...}"):format(path,
-        number), 0)
-    end
-    local words = shared_words(arguments)
-    add_words(words, list)
-    add_words(words, entry)
-    words[#words + 1] = entry.mesh
-    jobs[number] = {mesh = entry.mesh, output = entry.output, words = words,
-                    path = path, number = number, entry = entry}
+    jobs[number] = job_of(list, number, entry, path, arguments)
   end
   return jobs
 end

@@ -99,7 +99,7 @@ function mesh_info.text(info)
   say("thickness: median distance from the surface to the other side; of a tube, its wall")
   say("")
   if #faults > 0 then
-    say("convert would repair (--repair strict refuses these):")
+    say(info.refusal and "Faults:" or "convert would repair (--repair strict refuses these):")
     for _, fault in ipairs(faults) do say("  %s", fault) end
   else
     say("No faults.")

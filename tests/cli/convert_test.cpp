@@ -367,6 +367,18 @@ TEST_CASE("convert reports an invalid mesh in one line") {
   CHECK_THAT(verbose.err, Contains("traceback"));
 }
 
+TEST_CASE("convert --levels 0 writes the base alone, without a fit") {
+  const TemporaryFolder scratch;
+  spit(scratch / "open.obj", obj_of_open_box());
+  const std::string asset = scratch / "base.glb";
+  const Ran ran = springlod_run(
+      {"convert", scratch / "open.obj", "-o", asset, "--cell", "5cm", "--levels", "0"});
+  INFO(ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK_THAT(ran.err, !Contains("fit"));
+  CHECK(json::parse(springlod_run({"info", asset, "--json"}).out).at("levels").size() == 1);
+}
+
 TEST_CASE("convert takes node counts as fractions or percentages") {
   const TemporaryFolder scratch;
   spit(scratch / "open.obj", obj_of_open_box());

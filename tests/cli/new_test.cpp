@@ -82,11 +82,12 @@ TEST_CASE("a manifest gives each mesh its options, and a failed one does not sto
     {mesh = "bar.obj", unit = "lightyear", output = "far.glb"},
     {mesh = "bar.obj", unit = "dm", cell = "5 cm", no_volumes = true, keep = {0.5, 0.2}},
     {mesh = "bar.obj", output = "bar.obj"},
+    {msh = "bar.obj"},
   })");
   const Ran ran = springlod_run({"-q", "convert", "--manifest", "list.lua", "--fast", "-o", "out"},
                                 "", scratch.path());
   CHECK(ran.exit_code == 1);
-  CHECK_THAT(ran.err, Contains("3 of 5 meshes failed"));
+  CHECK_THAT(ran.err, Contains("4 of 6 meshes failed"));
   CHECK_THAT(ran.out, Contains("cannot read junk.obj") && Contains("list.lua, entry 3: ") &&
                           Contains("'unit' must be one of") && Contains("must end in .glb"));
   const Ran sizes = springlod_run(
@@ -102,8 +103,9 @@ TEST_CASE("a manifest gives each mesh its options, and a failed one does not sto
     spit(scratch / "wrong.lua", list);
     return springlod_run({"convert", "--manifest", "wrong.lua"}, "", scratch.path());
   };
-  CHECK_THAT(wrong("return {}").err, Contains("wrong.lua lists no meshes"));
-  CHECK_THAT(wrong("return {{'bar.obj'}}").err, Contains("entry 1 must be a table with a mesh"));
+  CHECK_THAT(wrong("return {mesh = 'bar.obj'}").err,
+             Contains("wrong.lua lists no meshes") && Contains("{{mesh = \"bar.obj\"}, ...}"));
+  CHECK_THAT(wrong("return {{'bar.obj'}}").out, Contains("entry 1: must be a table with a mesh"));
   CHECK_THAT(wrong("return {{mesh = 'none.obj'}}").out, Contains("none.obj"));
   CHECK_THAT(wrong("return {{mesh = 'bar.obj', cel = '5 mm'}}").out,
              Contains("wrong.lua, entry 1: unknown option 'cel'; did you mean 'cell'?"));

@@ -96,8 +96,9 @@ TEST_CASE("several runs are drawn in one film and on one chart") {
   CHECK_THAT(script, Contains("'fall'") && Contains("'time [s]'") &&
                          Contains("'height of the centre of mass [m]'") &&
                          Contains("title 'soft'") && Contains("title 'hard'"));
-  CHECK_THAT(slurp(scratch / "kinetic.gp"),
-             Contains("'own title'") && Contains("'kinetic energy [J]'") && Contains("title 'run 1'"));
+  CHECK_THAT(slurp(scratch / "kinetic.gp"), Contains("'own title'") &&
+                                                Contains("'kinetic energy [J]'") &&
+                                                Contains("title 'run 1'"));
   CHECK_THAT(slurp(scratch / "levels.gp"), Contains("title 'LOD-1'") && Contains("title 'base'"));
 }
 

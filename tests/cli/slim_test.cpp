@@ -57,6 +57,11 @@ TEST_CASE("slim writes a smaller asset that info and compare take") {
   CHECK_THAT(after.at("provenance").at("slim").get<std::string>(), Contains("single precision"));
   CHECK_FALSE(before.at("provenance").contains("slim"));
 
+  // The commands that make it again.
+  CHECK_THAT(springlod_run({"info", slim.string()}).out,
+             Contains(" -o " + whole.string() + " && springlod slim " + whole.string() + " -o " +
+                      slim.string() + "\n"));
+
   // A run differs by what single precision changes.
   const Ran moved = springlod_run({"--unsafe", "-e",
                                    R"lua(
