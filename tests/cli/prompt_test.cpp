@@ -281,25 +281,31 @@ TEST_CASE("help without brackets shows the help") {
 }
 
 TEST_CASE("a command of the shell at the prompt is answered with what does the same in Lua") {
-  const auto answer = [](const std::string& line) {
-    const Ran ran = springlod_run({"-i"}, line + "\n'still ' .. 'here'\n");
-    CAPTURE(line, ran.err);
-    CHECK(ran.exit_code == 0);
-    CHECK(ran.out == "still here\n");
-    CHECK_THAT(ran.err, Contains("a command for the shell") && Contains("leave with exit"));
-    return ran.err;
-  };
-  CHECK_THAT(answer("springlod info x.glb"),
-             Contains("type: springlod info x.glb\n") && Contains("s.load(\"x.glb\")\n"));
-  CHECK_THAT(answer("info x.glb"),
-             Contains("type: springlod info x.glb\n") && Contains("s.load(\"x.glb\")\n"));
-  CHECK_THAT(answer("info mesh.obj --unit cm"), Contains("s.import(\"mesh.obj\")"));
-  CHECK_THAT(answer("  springlod compare a.glb --scenario drop.lua"), Contains("s.compare; "));
-  CHECK_THAT(answer("export a.glb --to jolt"), Contains("s.export; "));
-  CHECK_THAT(answer("springlod run main.lua"), Contains("dofile(\"main.lua\")"));
-  CHECK_THAT(answer("springlod help info"), Contains("help(\"info\")"));
-  CHECK_THAT(answer("springlod --help"), Contains("type: springlod --help\n"));
-  for (const char* line : {"springlod", "demo", "info", "$ springlod demo"}) answer(line);
+  const Ran ran = springlod_run({"-i"}, R"(springlod info x.glb
+info mesh.obj --unit cm
+  springlod compare a.glb --scenario drop.lua
+export a.glb --to jolt
+springlod run main.lua
+springlod help info
+springlod --help
+springlod
+demo
+$ springlod demo -q
+'still ' .. 'here'
+)");
+  CAPTURE(ran.err);
+  CHECK(ran.exit_code == 0);
+  CHECK(ran.out == "still here\n");
+  CHECK_THAT(ran.err,
+             Contains("a command for the shell") && Contains("leave with exit") &&
+                 Contains("type: springlod info x.glb\nhere, in Lua: s.load(\"x.glb\")\n") &&
+                 Contains("type: springlod info mesh.obj --unit cm\nhere, in Lua: "
+                          "s.import(\"mesh.obj\")\n") &&
+                 Contains("here, in Lua: s.compare; ") && Contains("here, in Lua: s.export; "));
+  CHECK_THAT(ran.err, Contains("dofile(\"main.lua\")\n") && Contains("help(\"info\")\n") &&
+                          Contains("type: springlod --help\n") && Contains("type: springlod\n") &&
+                          Contains("type: springlod demo\n") &&
+                          Contains("type: springlod demo -q\n"));
   // Names that a session has defined, and Lua that begins with such a word.
   const Ran own = springlod_run({"-i"}, "info = 5\ninfo\ninfo - 2\nrun = print\nrun('x')\n");
   CHECK(own.out == "5\n3\nx\n");
