@@ -62,14 +62,22 @@ void require_drawable(const std::vector<ChartSeries>& series, const fs::path& pa
   if (points == 0) throw InputError("chart: there are no points to draw");
 }
 
+/// gnuplot takes a line break in a cell for the end of the row, and ends text at any double quote.
+std::string plain_cell(std::string text) {
+  std::replace(text.begin(), text.end(), '"', '\'');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
 Table data_table(const std::vector<ChartSeries>& series) {
   Table table{{"series", "x", "y", "y_low", "y_high", "label", "x_low", "x_high"}, {}};
   for (const ChartSeries& s : series)
     for (const ChartPoint& p : s.points) {
       const bool y = p.has_y_interval();
       const bool x = p.has_x_interval();
-      table.rows.push_back({s.name, p.x, p.y, y ? p.y_low : p.y, y ? p.y_high : p.y, p.label,
-                            x ? p.x_low : p.x, x ? p.x_high : p.x});
+      table.rows.push_back({plain_cell(s.name), p.x, p.y, y ? p.y_low : p.y, y ? p.y_high : p.y,
+                            plain_cell(p.label), x ? p.x_low : p.x, x ? p.x_high : p.x});
     }
   return table;
 }

@@ -49,8 +49,8 @@ std::string title_of(const std::string& label, const MassSpringModel& model) {
   const auto counted = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
   };
-  return fmt::format("{}: {}, {}", label, counted(model.node_count(), "node"),
-                     counted(model.spring_count(), "spring"));
+  return fmt::format("{}{}{}, {}", label, label.empty() ? "" : ": ",
+                     counted(model.node_count(), "node"), counted(model.spring_count(), "spring"));
 }
 
 std::vector<std::string> cost_captions(double updates) {

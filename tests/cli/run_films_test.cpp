@@ -114,6 +114,7 @@ TEST_CASE("films and charts of runs that do not fit are refused with what to do"
   refuses("s.animate(folder .. '/f', {soft, hard}, {labels = {'soft'}})",
           "labels must be a list with one label for each run: 1 labels for 2 runs");
   refuses("s.chart(folder .. '/c.svg', soft, {labels = {'a', 'b'}})", "2 labels for 1 run");
+  refuses("s.chart(folder .. '/c.svg', soft, {labels = {'a\\nb'}})", "texts of one line each");
   refuses("s.animate(folder .. '/f', {soft, compared})", "(entry 2 is a Comparison)");
   refuses("s.animate(folder .. '/f', {compared, soft})", "(entry 2 is a Trajectory)");
   refuses("s.chart(folder .. '/c.svg', {soft, 5})", "(entry 2 is a number)");

@@ -1,5 +1,6 @@
 #include "report/chart.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -55,6 +56,17 @@ TEST_CASE("a chart is drawn with its labels, and script and data are kept beside
   std::filesystem::remove(path);
   REQUIRE(std::system(files.command.c_str()) == 0);
   CHECK(read_file(path) == svg);
+}
+
+TEST_CASE("quotes and line breaks in names leave the points of other series where they are") {
+  const TemporaryFolder folder;
+  const PathIs nothing("");  // gnuplot is not found: the test reads the data
+  const std::vector<ChartSeries> series{{"it's \"a\", b\nc", {{1, 2, "d\n\"e\""}}},
+                                        {"next", {{3, 4, ""}}}};
+  const std::string data =
+      read_file(draw_chart(series, kOptions, folder.path() / "names.svg").data);
+  CHECK(std::count(data.begin(), data.end(), '\n') == 3);  // the head and a row for each point
+  CHECK(data.find("\"it's 'a', b c\",1,2,2,2,d 'e',1,1") != std::string::npos);
 }
 
 TEST_CASE("a chart can be a PNG") {

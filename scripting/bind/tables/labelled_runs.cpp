@@ -31,6 +31,8 @@ std::vector<std::string> labels_of(const RunValues& runs, TableReader& reader) {
     reader.refuse("labels",
                   fmt::format("a list with one label for each run: {} labels for {} run{}",
                               labels.size(), runs.size(), runs.size() == 1 ? "" : "s"));
+  for (const std::string& label : labels)
+    if (label.find('\n') != std::string::npos) reader.refuse("labels", "texts of one line each");
   return labels;
 }
 
