@@ -99,7 +99,7 @@ TEST_CASE("several runs are drawn in one film and on one chart") {
   CHECK_THAT(slurp(scratch / "kinetic.gp"), Contains("'own title'") &&
                                                 Contains("'kinetic energy [J]'") &&
                                                 Contains("title 'run 1'"));
-  CHECK_THAT(slurp(scratch / "levels.gp"), Contains("title 'LOD-1'") && Contains("title 'base'"));
+  CHECK_THAT(slurp(scratch / "levels.gp"), Contains("title 'level 1'") && Contains("title 'base'"));
 }
 
 TEST_CASE("films and charts of runs that do not fit are refused with what to do") {

@@ -17,7 +17,7 @@ std::vector<std::string> usual_labels(const RunValues& runs) {
   for (const auto& run : runs) {
     const std::uint32_t level = run->model->level;
     if (run->model->chain && run->model->chain == runs.front()->model->chain) levels.insert(level);
-    names.push_back(level == 0 ? "base" : fmt::format("LOD-{}", level));
+    names.push_back(level == 0 ? "base" : fmt::format("level {}", level));
     numbers.push_back(fmt::format("run {}", names.size()));
   }
   return levels.size() == runs.size() ? names : numbers;
@@ -59,7 +59,7 @@ Parameter labels_parameter() {
   return {.name = "labels",
           .type = "list of strings",
           .range = Range{0, kLongestTitle},
-          .fallback = "\"base\", \"LOD-1\", ... for levels of one chain, else \"run 1\", ...",
+          .fallback = "\"base\", \"level 1\", ... for levels of one chain, else \"run 1\", ...",
           .help = "names of the Trajectories, one for each"};
 }
 

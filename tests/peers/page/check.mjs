@@ -99,9 +99,9 @@ async function checkUse(browser) {
   expect(await page.evaluate(`[...document.querySelectorAll(".chosen")].length >= 2`),
          "LOD-2 is not marked in chart and table");
   // The same by keyboard.
-  await page.evaluate(`document.querySelector('.point[data-clip="LOD-1"]').focus()`);
+  await page.evaluate(`document.querySelector('.point[data-clip="level 1"]').focus()`);
   await page.press("Enter", "Enter", "\r");
-  expect(await body() === "LOD-1", "Enter on its point does not show LOD-1");
+  expect(await body() === "level 1", "Enter on its point does not show level 1");
   await page.evaluate(`document.querySelector('#level').focus()`);
   await page.press("ArrowRight");
   expect(await body() === "LOD-2", "an arrow key on the slider does not change the level");
