@@ -82,7 +82,7 @@ async function checkUse(browser) {
   expect(await body() === "base", "the base is not shown first");
   // A click on a point plays its level.
   const spot = await page.evaluate(`(() => {
-    const point = document.querySelector('.point[data-clip="LOD-2"]');
+    const point = document.querySelector('.point[data-clip="level 2"]');
     point.scrollIntoView({block: "center"});
     const box = point.querySelector(".target").getBoundingClientRect();
     return {x: box.x + box.width / 2, y: box.y + box.height / 2};
@@ -90,21 +90,21 @@ async function checkUse(browser) {
   for (const type of ["mousePressed", "mouseReleased"])
     await page.call("Input.dispatchMouseEvent", {type, ...spot, button: "left", clickCount: 1});
   await page.settle();
-  expect(await body() === "LOD-2", "a click on its point does not show LOD-2");
+  expect(await body() === "level 2", "a click on its point does not show level 2");
   expect(await page.evaluate("springlodPage.view.playing || springlodPage.view.view.time > 0"),
          "a click on a point does not play");
   expect(await page.evaluate(`(() => { const f = document.getElementById("film-panel");
     return !f || !f.hidden && f.style.left.startsWith("66"); })()`),
-         "the panel of LOD-2 is not marked in the film");
+         "the panel of level 2 is not marked in the film");
   expect(await page.evaluate(`[...document.querySelectorAll(".chosen")].length >= 2`),
-         "LOD-2 is not marked in chart and table");
+         "level 2 is not marked in chart and table");
   // The same by keyboard.
   await page.evaluate(`document.querySelector('.point[data-clip="level 1"]').focus()`);
   await page.press("Enter", "Enter", "\r");
   expect(await body() === "level 1", "Enter on its point does not show level 1");
   await page.evaluate(`document.querySelector('#level').focus()`);
   await page.press("ArrowRight");
-  expect(await body() === "LOD-2", "an arrow key on the slider does not change the level");
+  expect(await body() === "level 2", "an arrow key on the slider does not change the level");
   await page.evaluate("springlodPage.view.pause(); springlodPage.view.view.time = 0");
   await page.evaluate("springlodPage.view.speed = 0.001"); // so that the end is far away
   await page.evaluate(`document.querySelector("canvas").focus()`);

@@ -1,5 +1,5 @@
 // Screenshots of a page at several sizes, light and dark: node shoot.mjs CHROMIUM PAGE FOLDER [SCRIPT]
-// SCRIPT is run in the page first, such as 'springlodPage.pick.play("LOD-2")'.
+// SCRIPT is run in the page first, such as 'springlodPage.pick.play("level 2")'.
 
 import {mkdirSync, writeFileSync} from "node:fs";
 import {join, resolve} from "node:path";
