@@ -42,7 +42,8 @@ constexpr auto option_rows(const CompareOptions*) {
              "time after the base's first contact up to which errors are averaged")
           .within(0, 1e6)
           .in(Dimension::time),
-      option("variant", &CompareOptions::variant, "start of the labels: \"hb\" makes \"hb level 1\"")
+      option("variant", &CompareOptions::variant,
+             "start of the labels: \"hb\" makes \"hb level 1\"")
           .by_default("none"),
       nested(&CompareOptions::run));
 }
