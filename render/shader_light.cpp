@@ -62,8 +62,12 @@ float pixel_angle() {
 
 // Fraction of the key light that reaches a body; the shadow edge is narrow and soft.
 float light_on_body(vec3 p, vec3 n) {
-  vec3 q = (shadow_projection * vec4(p + n * shadow_size.z * 2.0, 1.0)).xyz;
-  bool away = dot(n, key_light.xyz) < -0.15;
+  float facing = dot(n, key_light.xyz);
+  // A face that the light grazes must not hide itself: its depth in the map changes over the taps,
+  // of 2.5 texels, and the filter and rounding of each, of one.
+  float lift = 0.3 + 3.5 * sqrt(max(1.0 - facing * facing, 0.0));
+  vec3 q = (shadow_projection * vec4(p + n * shadow_size.z * lift, 1.0)).xyz;
+  bool away = facing < -0.15;
   int taps = away || !in_shadow_map(q) ? 0 : 6;
   float z = min(q.z, 1.0) - 0.6 * shadow_size.z / shadow_size.y;
   float reach = 2.5 * shadow_size.z / shadow_size.x;
