@@ -6,8 +6,6 @@
 #include <condition_variable>
 #include <csignal>
 #include <cstdlib>
-#include <stop_token>
-#include <thread>
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -36,12 +34,6 @@ constexpr auto kLogLine = 10s;
 constexpr int kBarWidth = 24;
 // Of a terminal that does not state its size.
 constexpr std::size_t kUsualColumns = 80;
-
-// Redraws the line of work that reports nothing, such as a factorization. It lives while a task
-// runs. One for the process, as is the terminal.
-std::jthread sign_of_life;
-// Its mark turns with each redraw.
-std::size_t redraws = 0;
 
 std::string clock_text(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(std::min(seconds, 359999.0)));
@@ -155,22 +147,24 @@ void Console::begin(std::string_view task, std::uint64_t total) {
                       {}});
   next_check_ = 0;
   if (!terminal_ || verbosity_ == Verbosity::quiet || running_.size() > 1) return;
-  sign_of_life = std::jthread([this](const std::stop_token& stop) {
-    sigset_t all;  // signals are for the thread that waits for keys
-    sigfillset(&all);
-    pthread_sigmask(SIG_BLOCK, &all, nullptr);
-    std::condition_variable_any stopped;
-    std::unique_lock until_stopped(mutex_);
-    while (!stopped.wait_for(until_stopped, stop, kSignOfLife / 2, [] { return false; }) &&
-           !stop.stop_requested()) {
-      if (running_.empty()) continue;
-      Running& running = running_.back();
-      const auto time = Clock::now();
-      running.done += pending_.exchange(0);
-      // next_report is a kRedraw after the last one.
-      if (time >= running.next_report + (kSignOfLife / 2 - kRedraw)) report(running, time, false);
-    }
-  });
+  sign_of_life_ = std::jthread([this](const std::stop_token& stop) { redraw_until(stop); });
+}
+
+void Console::redraw_until(const std::stop_token& stop) {
+  sigset_t all;  // signals are for the thread that waits for keys
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  std::condition_variable_any stopped;
+  std::unique_lock until_stopped(mutex_);
+  while (!stopped.wait_for(until_stopped, stop, kSignOfLife / 2, [] { return false; }) &&
+         !stop.stop_requested()) {
+    if (running_.empty()) continue;
+    Running& running = running_.back();
+    const auto time = Clock::now();
+    running.done += pending_.exchange(0);
+    // next_report is a kRedraw after the last one.
+    if (time >= running.next_report + (kSignOfLife / 2 - kRedraw)) report(running, time, false);
+  }
 }
 
 void Console::advance(std::uint64_t count) {
@@ -193,7 +187,7 @@ void Console::end() {
   Running running = std::move(running_.back());
   running_.pop_back();
   running.done += pending_.exchange(0);
-  if (running_.empty()) finished = std::move(sign_of_life);
+  if (running_.empty()) finished = std::move(sign_of_life_);
   if (terminal_) {
     // The line of an outer task stays, or takes the place of its own at once: cleared and drawn
     // again, it would flicker.
@@ -230,7 +224,7 @@ void Console::report(Running& running, Clock::time_point now, bool last) {
   }
   // A terminal may wrap when its last column is written, so that column stays empty.
   const std::size_t columns = terminal_columns();
-  const char mark = kMarks[redraws++ % kMarks.size()];
+  const char mark = kMarks[redraws_++ % kMarks.size()];
   constexpr std::size_t kBeside = 3;  // the mark, a space, and the last column
   const std::string line =
       fitted_progress_line(running.name, running.done, running.total, seconds, detail,

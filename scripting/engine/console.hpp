@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -16,8 +18,9 @@ namespace springlod::scripting {
 enum class Verbosity { quiet, normal, verbose };
 
 /// Writes messages and the progress of long tasks to stderr (stdout carries results). On a
-/// terminal, progress is a bar with rate and remaining time, redrawn in place; otherwise, a line at
-/// intervals. If verbose, each detail is a line. `advance` throws InterruptedError after Ctrl-C.
+/// terminal, progress is a bar with rate and remaining time, redrawn in place, also while a task
+/// reports nothing; otherwise, a line at intervals. If verbose, each detail is a line. `advance`
+/// throws InterruptedError after Ctrl-C.
 class Console : public Progress {
  public:
   explicit Console(Verbosity verbosity);
@@ -49,6 +52,7 @@ class Console : public Progress {
 
   void report(Running& running, Clock::time_point now, bool last);
   void clear_bar();
+  void redraw_until(const std::stop_token& stop);
 
   Verbosity verbosity_;
   bool terminal_;
@@ -58,7 +62,11 @@ class Console : public Progress {
   std::atomic<std::uint64_t> pending_{0};  // counts not yet added to running_.back()
   std::atomic<Clock::rep> next_check_{0};
   bool bar_shown_ = false;
+  std::size_t redraws_ = 0;  // the mark in front of the bar turns with each
   FlagWords flag_words_;
+  // Redraws the line of work that reports nothing, such as a factorization. It lives while a task
+  // runs, and ends before the members that it uses.
+  std::jthread sign_of_life_;
 };
 
 /// Columns of the terminal that shows stderr; 0 if it shows on none.
