@@ -14,6 +14,7 @@
 #include "lod/grouping/exact_count.hpp"
 #include "lod/grouping/grouping.hpp"
 #include "lod/merging/guard.hpp"
+#include "lod/merging/mechanisms.hpp"
 #include "lod/merging/merge.hpp"
 #include "lod/merging/merge_corners.hpp"
 #include "lod/merging/merge_dilatation.hpp"
@@ -72,7 +73,14 @@ Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyO
 struct Step {
   Groups groups;
   Relinking links;
+  std::uint32_t regrouped = 0;  ///< nodes, see without_mechanisms
 };
+
+GuardOptions guard_of(const SimplifyOptions& options) {
+  GuardOptions guard = options.guard;
+  guard.border = options.grouping.border;
+  return guard;
+}
 
 Step guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
                   const SimplifyOptions& options) {
@@ -80,9 +88,7 @@ Step guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
     Relinking links = relink(springs, groups);
     return {std::move(groups), std::move(links)};
   }
-  GuardOptions guard = options.guard;
-  guard.border = options.grouping.border;
-  GuardedGroups sound = guard_groups(finer.model, springs, groups, guard);
+  GuardedGroups sound = guard_groups(finer.model, springs, groups, guard_of(options));
   return {std::move(sound.groups), std::move(sound.links)};
 }
 
@@ -114,12 +120,26 @@ Step step_near(const Level& finer, const SpringRows& springs, const SimplifyOpti
   return std::move(*nearest);
 }
 
+/// `step` without mechanisms; groups of a script stay as they are.
+Step sound_step(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
+                std::uint32_t before, Step step) {
+  if (!options.guards || options.groups) return step;
+  RegroupedStep sound =
+      without_mechanisms(finer.model, springs, {std::move(step.groups), std::move(step.links)},
+                         before, guard_of(options));
+  return {std::move(sound.step.groups), std::move(sound.step.links), sound.regrouped};
+}
+
+/// `before`: number of nodes of the level before.
 Step next_step(const Level& finer, const SimplifyOptions& options, std::uint32_t level,
-               std::uint32_t wanted) {
+               std::uint32_t wanted, std::uint32_t before) {
   const SpringRows springs(finer.model);
   if (wanted == 0)
-    return guarded_step(finer, springs, raw_groups(finer, springs, options, level, 0), options);
-  Step step = step_near(finer, springs, options, level, wanted);
+    return sound_step(
+        finer, springs, options, before,
+        guarded_step(finer, springs, raw_groups(finer, springs, options, level, 0), options));
+  Step step = sound_step(finer, springs, options, before,
+                         step_near(finer, springs, options, level, wanted));
   // Without `keep`, the number is only the usual one.
   if (!options.keep.empty() && step.groups.count != wanted)
     throw InputError(
@@ -146,15 +166,19 @@ void require_coarser(const Level& finer, const Groups& groups, const SimplifyOpt
       options.grouping.border == BorderRule::strong ? " or border = \"weak\"" : ""));
 }
 
+std::string regrouped_remark(std::uint32_t nodes) {
+  return nodes == 0 ? "" : fmt::format(", {} nodes regrouped to stay rigid", nodes);
+}
+
 Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uint32_t level) {
   const Level& finer = straight_from_base(options) ? chain.levels.front() : chain.levels.back();
   const std::uint32_t wanted = wanted_nodes(chain, options, level);
-  Step step = next_step(finer, options, level, wanted);
+  Step step = next_step(finer, options, level, wanted, chain.levels.back().model.node_count());
   require_coarser(chain.levels.back(), step.groups, options, level, wanted);
   Level coarse{merge_springs(finer.model, step.groups, std::move(step.links)),
                compose(finer.of_base, step.groups),
                (options.made_by.empty() ? summary_of(options) : options.made_by) +
-                   choice_of(options.calibrate).remark};
+                   regrouped_remark(step.regrouped) + choice_of(options.calibrate).remark};
   coarse.model.corners = merge_corners(finer.model.corners, step.groups, coarse.model.rest);
   // From the base: from level to level, the shares of the terms would spread further each time.
   coarse.model.dilatation =
