@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/units.hpp"
+#include "report/no_contact_text.hpp"
 
 namespace springlod::report {
 namespace {
@@ -69,7 +70,7 @@ std::string gain(const PickLevel& base, const PickLevel& level) {
 }
 
 std::string would_be(const Pick& pick, const PickLevel& level) {
-  if (!std::isfinite(level.error)) return "";
+  if (!std::isfinite(level.error) || level.faulty) return "";
   return fmt::format(" Level {} would be {}, with {} of {}.", level.level,
                      gain(pick.levels.front(), level), words_of(pick).an_error,
                      percent(level.error));
@@ -117,7 +118,15 @@ std::string within_budget(const Pick& pick) {
 }  // namespace
 
 std::string pick_text(const sim::Pick& pick) {
-  return pick.options.error ? within_error(pick) : within_budget(pick);
+  std::string text = pick.options.error ? within_error(pick) : within_budget(pick);
+  for (const PickLevel& level : pick.levels)
+    if (level.faulty)
+      text += fmt::format(
+          " Level {} is faulty, so it is not picked: springlod info says why; make it anew with "
+          "more nodes (keep) or smaller cells.",
+          level.level);
+  if (pick.no_contact) text += "\nwarning: " + no_contact_text(*pick.no_contact);
+  return text;
 }
 
 Table pick_table(const sim::Pick& pick) {

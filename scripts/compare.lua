@@ -1,6 +1,7 @@
 -- Run the levels of an asset side by side: table, chart, frames, video.
 
 local s = require "springlod"
+local certificates = require "lib.certificates"
 local command = require "lib.command"
 local comparison_table = require "lib.comparison_table"
 local conversion = require "lib.conversion"
@@ -142,9 +143,17 @@ local function origin_of(chain)
   return page.provenance(chain, entries)
 end
 
+-- A sentence that the body touches nothing, or nil.
+local function untouched_of(compared)
+  for _, runs in ipairs(compared) do
+    if runs.no_contact then return "Warning: " .. runs.no_contact .. "." end
+  end
+end
+
 -- What the page says first. `starts`: the rows of starts.csv.
-local function verdict_of(rows, starts)
+local function verdict_of(rows, starts, untouched)
   local sentences, inverted, at_end = page.comparison_verdict(rows), 0, 0
+  if untouched then table.insert(sentences, 1, untouched) end
   for _, row in ipairs(starts) do
     if row.most_inverted > 0 then inverted = inverted + 1 end
     if row.inverted_at_end > 0 then at_end = at_end + 1 end
@@ -162,7 +171,7 @@ local function write_page(chain, scene, compared, names, rows, starts)
   if not together then view = s.view(compared[1]) end
   page.write(args.out .. "/index.html", {
     command = "compare", title = ("%s: %s"):format(command.stem(assets[1]), scene.name),
-    verdict = verdict_of(rows, starts), line = command.line(),
+    verdict = verdict_of(rows, starts, untouched_of(compared)), line = command.line(),
     film = args.frames > 0 and args.video:find("%.mp4$")
       and {path = args.out .. "/" .. args.video, panels = panels_of(compared)} or nil,
     view = view, chains = together and #assets > 1 and names or nil, facts = page.facts(rows),
@@ -180,6 +189,7 @@ local function compare()
   for i = 1, #assets do
     local levels = levels_of(i)
     chain = chain or levels
+    certificates.warn_of_faults(levels, assets[i])
     compared[i] = s.compare(levels, scene, {
       starts = args.starts, jitter = args.jitter, seed = s.seed, threads = s.threads,
       variant = names[i], frame_rate = (args.frame_rate or film.frame_rate) * args.slow,
@@ -194,10 +204,11 @@ local function compare()
   write_page(chain, scene, compared, names, rows, starts)
   for i = 1, #assets do fit_store.remove(fit_folder .. (#assets == 1 and "" or "/" .. i)) end
   if #assets > 1 then os.remove(fit_folder) end
-  return rows
+  return {rows = rows, untouched = untouched_of(compared)}
 end
 
-local ok, rows = command.try_in(args.out, compare, fits)
-if not ok then command.fail("cannot compare %s: %s", table.concat(assets, ", "), rows) end
-comparison_table.print(rows, args.starts)
+local ok, done = command.try_in(args.out, compare, fits)
+if not ok then command.fail("cannot compare %s: %s", table.concat(assets, ", "), done) end
+comparison_table.print(done.rows, args.starts)
+if done.untouched then print(done.untouched) end
 s.say("wrote " .. args.out .. "/index.html and what it shows")

@@ -233,6 +233,7 @@ local function convert_one(path)
     if body.chain then
       print(s.format_table(level_rows(body.chain), {columns = level_columns}))
       certificates.print(s.info(body.chain).levels)
+      certificates.warn_of_faults(body.chain, body.asset)
       s.say("wrote " .. body.asset)
     end
   end
@@ -252,6 +253,9 @@ local function convert_batch(jobs)
     local ok, bodies = command.try(convert_job, job)
     if not ok then bodies = {{reason = bodies}} end
     if failed_count(bodies) > 0 then failed = failed + 1 end
+    for _, body in ipairs(bodies) do
+      if body.chain then certificates.warn_of_faults(body.chain, body.asset) end
+    end
     for _, body in ipairs(bodies) do
       rows[#rows + 1] = {job.mesh, body.chain and "converted" or "failed",
                          body.chain and node_counts(body.chain) or "", body.reason or body.asset}

@@ -1,6 +1,7 @@
 -- Write a level of an asset, or its motion in a scene, as a file of another program.
 
 local s = require "springlod"
+local certificates = require "lib.certificates"
 local command = require "lib.command"
 
 local model_formats = table.concat(s.choices.model_format, ", ")
@@ -45,6 +46,9 @@ end
 
 local function export()
   local chain, path = s.load(args.asset), args.out or default_path()
+  if args.level <= chain.coarsest then
+    certificates.warn_of_faults(chain, args.asset, {args.level})
+  end
   if not args.scenario then return s.export(path, chain, {to = args.to, level = args.level}) end
   if args.level > #chain then
     error(("--level: the asset has no level %d; its coarsest is %d"):format(

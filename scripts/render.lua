@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local asset_or_mesh = require "lib.asset_or_mesh"
+local certificates = require "lib.certificates"
 local command = require "lib.command"
 local show = require "lib.show"
 
@@ -106,6 +107,7 @@ local function panels()
       list[#list + 1] = panel_of_mesh(mesh, command.base_name(path))
       meshes[#meshes + 1] = list[#list]
     else
+      certificates.warn_of_faults(chain, path, levels_of(chain))
       for _, level in ipairs(levels_of(chain)) do
         list[#list + 1] = panel_of_model(chain[level],
           prefix .. (level == 0 and "base" or "level " .. level))

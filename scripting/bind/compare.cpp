@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 #include <lua.hpp>
 
 #include "base/units.hpp"
+#include "report/no_contact_text.hpp"
 #include "report/tables.hpp"
 #include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/chart_table.hpp"
@@ -20,6 +23,7 @@
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
 #include "sim/study/ensemble.hpp"
+#include "sim/study/no_contact.hpp"
 
 namespace springlod::scripting {
 
@@ -74,6 +78,15 @@ void hint_at_damping(Session& session, const MassSpringModel& base,
         levels.size(), levels.size() == 1 ? "" : "s", worst->label, damping_hint(worst->first)));
 }
 
+/// That the body touches nothing; held bodies without obstacles are not meant to.
+std::optional<std::string> no_contact_of(const ComparisonValue& value) {
+  const sim::Trajectory& base = value.comparison.levels.front().first;
+  const std::optional<sim::NoContact> found = sim::no_contact(base, value.comparison.scenario);
+  const bool held = !base.anchor_loads.empty();
+  if (!found || (held && !found->nearest)) return std::nullopt;
+  return report::no_contact_text(*found);
+}
+
 int compare_binding(Call& call) {
   auto value = std::make_shared<ComparisonValue>();
   value->chain = call.value<ChainValue>(1);
@@ -91,6 +104,8 @@ int compare_binding(Call& call) {
           overlap_warning("compare", value->chain->chain.levels.front().model, *scenario))
     call.session().console().say(*text);
   value->comparison = sim::compare(value->chain->chain, *scenario, options);
+  const std::optional<std::string> untouched = no_contact_of(*value);
+  if (untouched) call.session().console().say("compare: " + *untouched);
   std::vector<sim::RunSummary> all;
   for (const sim::LevelRuns& level : value->comparison.levels)
     all.insert(all.end(), level.starts.begin(), level.starts.end());
@@ -178,6 +193,12 @@ void describe_comparison(Api& api) {
     for (const sim::LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
     return labels;
   });
+  type.table_field("no_contact", "string",
+                   "what to change if the body touches nothing in the scene, else nil",
+                   [](lua_State* L, const ComparisonValue& value) {
+                     const std::optional<std::string> text = no_contact_of(value);
+                     text ? push(L, *text) : lua_pushnil(L);
+                   });
   type.method(
       {.name = "table",
        .summary = "Cost and error of every level, means over the starts.",

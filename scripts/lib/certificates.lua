@@ -32,6 +32,36 @@ local function sentence(level)
       c.base_kernel) or "it has no springs")
 end
 
+local function mechanisms(model)
+  local count = 0
+  for _, part in ipairs(s.zero_modes(model)) do count = count + part.zero_modes - part.expected end
+  return count
+end
+
+-- Warns in one line of levels that fold where the base does not: `which` is a list of numbers of
+-- levels, nil: all. `name`: the file of the asset.
+function certificates.warn_of_faults(chain, name, which)
+  local faulty, worst, of_base = {}, 0, nil
+  if not which then
+    which = {}
+    for level = 1, chain.coarsest do which[level] = level end
+  end
+  for _, level in ipairs(which) do
+    local found = level > 0 and mechanisms(chain[level]) or 0
+    if found > 0 then of_base = of_base or mechanisms(chain[0]) end
+    if found > (of_base or 0) then
+      faulty[#faulty + 1] = level
+      worst = math.max(worst, found)
+    end
+  end
+  if #faulty == 0 then return end
+  s.say(("%s: level%s %s %s faulty: parts fold without resistance (%d zero modes too many); use a "
+    .. "finer level, or convert again with %s"):format(name, #faulty == 1 and "" or "s",
+    table.concat(faulty, ", "), #faulty == 1 and "is" or "are", worst,
+    faulty[1] > 1 and ("--levels %d or a smaller --cell"):format(faulty[1] - 1)
+      or "a smaller --cell"))
+end
+
 -- `levels`: those of s.info. Prints nothing if no level has a certificate.
 function certificates.print(levels)
   local measured, rows = {}, {}

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "elastic/zero_modes.hpp"
+#include "lod/quality/grade.hpp"
 #include "sim/integrators/step_limit.hpp"
 #include "sim/study/compare.hpp"
 #include "sim/study/level_cost.hpp"
@@ -24,15 +26,36 @@ std::vector<PickLevel> described_levels(const LodChain& chain) {
   return levels;
 }
 
+std::uint32_t mechanisms(std::uint32_t zero_modes, std::uint32_t expected) {
+  return zero_modes - std::min(expected, zero_modes);
+}
+
+/// A body whose base has mechanisms, such as a rope, may keep them.
+void mark_faulty(const LodChain& chain, std::vector<PickLevel>& levels) {
+  std::optional<std::uint32_t> of_base;
+  for (PickLevel& level : levels) {
+    const std::optional<Certificate>& c = chain.levels[level.level].certificate;
+    if (!c || lod::grade(*c) != lod::Grade::faulty) continue;
+    const std::uint32_t found = mechanisms(c->zero_modes, c->expected_zero_modes);
+    if (!of_base) {
+      of_base = 0;
+      for (const elastic::ComponentModes& part : elastic::zero_modes(chain.levels[0].model))
+        *of_base += mechanisms(part.zero_modes, part.expected);
+    }
+    level.faulty = found == 0 || found > *of_base;
+  }
+}
+
 void measure(const LodChain& chain, const Scenario& scenario, const PickOptions& options,
-             std::vector<PickLevel>& levels) {
+             Pick& pick) {
   const Comparison runs = compare(chain, scenario,
                                   {.threads = options.threads,
                                    .run = options.run,
                                    .contact = options.contact,
                                    .error_window = options.error_window,
                                    .progress = options.progress});
-  for (PickLevel& level : levels) {
+  pick.no_contact = no_contact(runs.levels.front().first, scenario);
+  for (PickLevel& level : pick.levels) {
     const LevelRuns& own = runs.levels[level.level];
     level.error = own.starts.front().surface_error;
     level.cost = cost_of(own.first);
@@ -58,7 +81,7 @@ void add_contacts(const Prediction& prediction, ContactAt contact,
 }
 
 void predict(const LodChain& chain, const Scenario& scenario, const PickOptions& options,
-             std::vector<PickLevel>& levels) {
+             Pick& pick) {
   const ContactAt contact = options.contact.value_or(chain.contact);
   const Prediction prediction = predict_errors(chain, scenario,
                                                {.error_window = options.error_window,
@@ -66,14 +89,15 @@ void predict(const LodChain& chain, const Scenario& scenario, const PickOptions&
                                                 .run = options.run,
                                                 .contact = contact,
                                                 .progress = options.progress});
+  pick.no_contact = prediction.no_contact;
   std::vector<RunPlan> plans;
-  for (PickLevel& level : levels) {
+  for (PickLevel& level : pick.levels) {
     const MassSpringModel& model = chain.levels[level.level].model;
     plans.push_back(plan_runs(model, scenario, options.run));
     level.error = prediction.levels[level.level].error;
     level.cost = measured_cost(model, scenario, options.run, plans.back());
   }
-  if (prediction.probe > 0) add_contacts(prediction, contact, plans, levels);
+  if (prediction.probe > 0) add_contacts(prediction, contact, plans, pick.levels);
 }
 
 }  // namespace
@@ -109,7 +133,8 @@ std::optional<std::uint32_t> choose_level(std::vector<PickLevel>& levels,
                                           const PickOptions& options) {
   std::optional<std::uint32_t> picked;
   for (PickLevel& level : levels) {
-    level.within = options.error ? level.error <= *options.error : level.cost <= *options.budget;
+    level.within = !level.faulty &&
+                   (options.error ? level.error <= *options.error : level.cost <= *options.budget);
     if (!level.within) continue;
     if (!picked || options.error || level.error < levels[*picked].error) picked = level.level;
   }
@@ -121,10 +146,11 @@ Pick pick_level(const LodChain& chain, const Scenario& scenario, const PickOptio
   validate(scenario);
   Pick pick{.options = options, .levels = described_levels(chain), .level = std::nullopt};
   pick.options.progress = nullptr;
+  mark_faulty(chain, pick.levels);
   if (options.measure)
-    measure(chain, scenario, options, pick.levels);
+    measure(chain, scenario, options, pick);
   else
-    predict(chain, scenario, options, pick.levels);
+    predict(chain, scenario, options, pick);
   const double diagonal = bounds(chain.levels.front().model.rest).diagonal().norm();
   for (PickLevel& level : pick.levels) {
     level.error /= diagonal;

@@ -10,6 +10,7 @@
 #include "model/chain.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
+#include "sim/study/no_contact.hpp"
 
 namespace springlod::sim {
 
@@ -57,13 +58,16 @@ struct PickLevel {
   /// Surface error (docs/method.md, eq. 72), over the base's bounding diagonal [1]; 0 for the base.
   double error = 0;
   double cost = 0;      ///< processor time for a frame [s]; measured on this machine
-  bool within = false;  ///< within the requested error or budget
+  bool within = false;  ///< within the requested error or budget, and not faulty
+  /// Its certificate has more mechanisms than the base, or another mass: never picked.
+  bool faulty = false;
 };
 
 struct Pick {
   PickOptions options;
-  std::vector<PickLevel> levels;       ///< one for each level of the chain, the base first
-  std::optional<std::uint32_t> level;  ///< the picked one; none: all levels exceed the budget
+  std::vector<PickLevel> levels;             ///< one for each level of the chain, the base first
+  std::optional<std::uint32_t> level;        ///< the picked one; none: all levels exceed the budget
+  std::optional<NoContact> no_contact = {};  ///< of the run that errors come from
 };
 
 /// Throws InputError for a chain of one level, and for options out of range.
@@ -71,7 +75,8 @@ void validate(const LodChain& chain, const PickOptions& options);
 
 /// The coarsest level whose error is at most `error`, or the level of the smallest error whose cost
 /// is at most `budget`. The base has the error 0, so it is picked if no other level is accurate
-/// enough. Errors and the pick by `error` are the same for any number of threads.
+/// enough. A faulty level is never picked. Errors and the pick by `error` are the same for any
+/// number of threads.
 ///
 /// Without `measure`, the errors are predicted (predict_errors); this needs a certificate for each
 /// level with springs. Throws InputError where `validate` does and for a level without a

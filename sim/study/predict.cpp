@@ -143,8 +143,10 @@ class Predicting {
 
   void run_reference(ProbeRun& reference) {
     const auto never = [] { return false; };
-    const Trajectory trajectory = run_probe(reference, never, options_.error_window);
+    Trajectory trajectory = run_probe(reference, never, options_.error_window);
     result_.first_contact = trajectory.first_contact;
+    trajectory.frames = reference.frames;
+    result_.no_contact = no_contact(trajectory, scenario_);
     result_.end = scenario_.duration;
     if (trajectory.first_contact)
       result_.end = std::min(result_.end, *trajectory.first_contact + options_.error_window);

@@ -8,6 +8,7 @@
 #include "model/chain.hpp"
 #include "sim/run.hpp"
 #include "sim/scenario.hpp"
+#include "sim/study/no_contact.hpp"
 
 namespace springlod::sim {
 
@@ -31,6 +32,7 @@ struct PredictedError {
 struct Prediction {
   std::vector<PredictedError> levels;   ///< one for each level of the chain; all 0 for the base
   std::optional<double> first_contact;  ///< of the coarsest level, at the surface of the base [s]
+  std::optional<NoContact> no_contact;  ///< of the same run
   double end = 0;                       ///< of the window in which errors are averaged [s]
   std::uint64_t spring_updates = 0;     ///< cost of all runs
   std::uint32_t probe = 0;              ///< the level that was run; 0: none has springs
