@@ -43,7 +43,7 @@ TEST_CASE("each format writes a main file with its ending, twice the same, and i
   const MassSpringModel model = soft_block(0.4);
   const ExportDraft draft = draft_of(format, model);
   REQUIRE_FALSE(draft.files.empty());
-  CHECK(draft.files.front().ending == choice_of(format).ending);
+  CHECK(draft.files.front().ending.front() == '.');  // so that -o may give it
   for (std::size_t f = 0; f < draft.files.size(); ++f) {
     CHECK(draft.files[f].content.size() > 100);
     CHECK(draft_of(format, model).files[f].content == draft.files[f].content);
