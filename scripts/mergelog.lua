@@ -195,7 +195,11 @@ local function draw_errors(levels)
   })
 end
 
--- Cumulative error of the merges of a level, costliest first, for at most five levels.
+-- Costs are contributions to the mean |ln| of the ratios of frequencies, which large errors of
+-- f1..10 differ from, so people see them as shares of their sum [%].
+local function share(entry, merge) return 100 * merge.frequencies / entry.step.frequency_error end
+
+-- Cumulative share of the merges of a level in its error, costliest first, for at most five levels.
 local function draw_merges(levels)
   local series, most = {}, 5
   local stride = math.max(1, math.ceil(#levels / most))
@@ -203,35 +207,49 @@ local function draw_merges(levels)
     local entry, sum = levels[i], 0
     local points, count = {{0, 0}}, #entry.merged
     for rank, merge in ipairs(entry.merged) do
-      sum = sum + 100 * merge.frequencies
+      sum = sum + share(entry, merge)
       -- About twenty points, so that the symbols stay apart.
       if rank == count or rank * 20 // count > (rank - 1) * 20 // count then
         points[#points + 1] = {100 * rank / count, sum}
       end
     end
     series[#series + 1] = {
-      name = ("%.0f %% kept, %d merges"):format(100 * entry.kept, #entry.merged), points = points,
+      name = ("%.0f %% kept, %d merges, error %s"):format(100 * entry.kept, #entry.merged,
+        percent(entry.certificate.f1_10_error)),
+      points = points,
     }
   end
   draw("costs", series, {
-    title = "What the merges of a step add to the error of f1..10, costliest first",
-    x_label = "merges (% of all merges of the step)", y_label = "sum of their costs (%)",
+    title = "What the merges of a step add to its error of f1..10, costliest first",
+    x_label = "merges (% of all merges of the step)",
+    y_label = "sum of their shares (% of the step's error)",
   })
 end
 
--- The body, with each node coloured by the error of its merge.
+local share_label = "share of the merge in the error of f1..10 (%)"
+
+-- The body, with each node coloured by the share of its merge in the error.
 local function draw_where(chain, entry)
   local cost, of_node = {}, {}
-  for _, merge in ipairs(entry.step.merges) do of_node[merge.node] = merge.frequencies end
-  for i, node in ipairs(chain:group_map(entry.level)) do cost[i] = 100 * of_node[node] end
+  for _, merge in ipairs(entry.step.merges) do of_node[merge.node] = share(entry, merge) end
+  for i, node in ipairs(chain:group_map(entry.level)) do cost[i] = of_node[node] end
   s.render(args.out .. "/where.png", {chain[0], {chain[0], cut = {0, 1, 0,
     chain[0].center[2]}}}, {
-    node_values = cost, value_label = "contribution of the merge to the error of f1..10 (%)",
+    node_values = cost, value_label = share_label,
     surface = false, nodes = true, titles = {"outside", "cut open"},
     title = ("%d nodes -> %d"):format(chain[0].node_count, entry.nodes), width = 480, height = 400,
   })
   return cost
 end
+
+-- Whether a level is more accurate without its costliest merges.
+local function helps(entry)
+  return entry.without.certificate.f1_10_error < entry.certificate.f1_10_error
+end
+
+local cancelling = [[
+Where that error is not smaller, merges that make the body softer and merges that make it stiffer
+cancel each other; without the costliest ones, the others no longer cancel.]]
 
 local function show(levels)
   local rows = {}
@@ -255,10 +273,20 @@ local function show(levels)
   }
   if builds_without then columns[11] = ("f1..10 without %g %%"):format(100 * args.leave_out) end
   print(split_table.format(rows, columns, 2))
-  print([[
+  local meanings = {[[
 kept: nodes over those of the base. f1..10, f11..20: errors of natural frequencies; loads: errors of
-compliance, worst local: the largest of them. omega_max: highest frequency; cost: spring updates.]])
-  return {title = "Errors of the levels", rows = rows, columns = columns}
+compliance, worst local: the largest of them. omega_max: highest frequency; cost: spring updates.]]}
+  if builds_without then
+    meanings[2] = ([[
+f1..10 without %g %%: the same level without the costliest %g %% of its merges.]]):format(
+      100 * args.leave_out, 100 * args.leave_out)
+  end
+  for _, entry in ipairs(levels) do
+    if entry.without and not helps(entry) then meanings[3] = cancelling end
+  end
+  print(table.concat(meanings, "\n"))
+  return {title = "Errors of the levels", rows = rows, columns = columns,
+          note = (table.concat(meanings, " "):gsub("\n", " "))}
 end
 
 -- The last level before the tolerance is first exceeded, and the level that exceeds it.
@@ -271,7 +299,7 @@ local function find_stop(levels)
   return stop, nil
 end
 
--- Prints where to stop and why, and returns the lines.
+-- Prints where to stop and why, and returns the lines for readers of the page.
 local function advise(stop, beyond)
   local lines = {}
   local function tell(line)
@@ -301,16 +329,16 @@ local function advise(stop, beyond)
   end
   tell((stop and "next level: " or "finest level: ") .. described(beyond))
   say_errors(beyond)
-  tell(("  costliest merge, adding %s to f1..10: %s"):format(
-    percent(beyond.merged[1].frequencies), where(beyond.merged[1])))
+  tell(("  costliest merge, %.2g %% of the error of f1..10: %s"):format(
+    share(beyond, beyond.merged[1]), where(beyond.merged[1])))
   local without = beyond.without
   if without then
-    tell(("  without its %d costliest merges (%d nodes): %s (f1..10), cost %.2g"):format(
+    tell(("  without its %d costliest merges (%d nodes): %s (f1..10)%s, cost %.2g"):format(
       without.count, without.nodes, percent(without.certificate.f1_10_error),
-      without.certificate.cost_ratio))
+      helps(beyond) and "" or ", no better", without.certificate.cost_ratio))
   end
   if not args.calibrate and not args.as_made then
-    tell("--calibrate runs the same analysis on calibrated levels")
+    print("--calibrate runs the same analysis on calibrated levels")
   end
   return lines
 end
@@ -349,8 +377,7 @@ local function write_page(chain, advice, shown, cost)
   page.write(args.out .. "/index.html", {
     command = "mergelog", title = "Where to stop merging " .. command.base_name(args.asset),
     verdict = sentences_of(advice), view = s.view(chain), charts = charts, tables = {shown},
-    values = {label = "contribution of the merge to the error of f1..10 (%)",
-              of = {base = cost}},
+    values = {label = share_label, of = {base = cost}},
     pictures = {{path = args.out .. "/where.png", caption = "What each merge adds to the error"}},
     line = command.line(), provenance = page.provenance(chain, {
       {"asset", ("%s (hash %s)"):format(args.asset, s.hash{file = args.asset})},

@@ -2,12 +2,14 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/support/paths.hpp"
 #include "tests/support/program.hpp"
 
 using Catch::Matchers::Contains;
 using springlod::test::make_bar_asset;
 using springlod::test::Ran;
 using springlod::test::slurp;
+using springlod::test::source_folder;
 using springlod::test::springlod_run;
 using springlod::test::TemporaryFolder;
 
@@ -28,7 +30,12 @@ TEST_CASE("mergelog reports where to stop and writes tables, charts and a pictur
   for (const char* file : {"errors.svg", "errors.png", "costs.svg", "costs.png", "where.png",
                            "answers.csv", "index.html"})
     CHECK(std::filesystem::exists(scratch / "first" / file));
-  CHECK_THAT(slurp(scratch / "first/levels.csv"), Contains("left_out_f1_10_error"));
+  // Costs are shares of the error of a level: those of all its merges are 100 %.
+  const std::string costs = slurp(scratch / "first/costs.csv");
+  const std::size_t last = costs.rfind("%\",100,");
+  REQUIRE(last != std::string::npos);
+  CHECK(std::stod(costs.substr(last + 7)) == Approx(100).margin(1));
+  CHECK_THAT(slurp(scratch / "first/index.html"), !Contains("--calibrate runs"));
   CHECK_THAT(slurp(scratch / "first/merges.csv"), Contains("base_nodes") && Contains("default"));
 
   REQUIRE(run("second", {"--threads", "2"}).exit_code == 0);
@@ -41,6 +48,25 @@ TEST_CASE("mergelog reports where to stop and writes tables, charts and a pictur
   const Ran fitted = run("fitted", {"--calibrate", "--steps", "1", "--least", "0.5"});
   CHECK(fitted.exit_code == 0);
   CHECK_THAT(fitted.out, Contains("f1..10 within 0.5 %"));
+}
+
+TEST_CASE("mergelog explains a level whose costliest merges cancel the errors of others") {
+  const TemporaryFolder scratch;
+  const std::string ball = (scratch / "ball.glb").string();
+  const std::string samples = (source_folder() / "samples").string();
+  REQUIRE(springlod_run({"convert", samples + "/ball.obj", "-o", ball, "--unit", "dm", "--cell",
+                         "10cm", "--fast", "--levels", "1", "--materials",
+                         samples + "/ball_materials.lua", "-q"})
+              .exit_code == 0);
+  const auto told = [&](const std::string& least) {
+    const Ran ran = springlod_run({"mergelog", ball, "--steps", "1", "--least", least, "--out",
+                                   (scratch / least).string(), "-q"});
+    CAPTURE(ran.err);
+    REQUIRE(ran.exit_code == 0);
+    return ran.out;
+  };
+  CHECK_THAT(told("0.1"), Contains("cancel each other") && Contains("(f1..10), no better"));
+  CHECK_THAT(told("0.5"), !Contains("cancel each other") && !Contains("no better"));
 }
 
 TEST_CASE("mergelog reports invalid requests") {
