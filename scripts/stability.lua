@@ -2,7 +2,9 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local run_estimate = require "lib.run_estimate"
 local show = require "lib.show"
+local stability_estimate = require "lib.stability_estimate"
 
 local parser = command.parser("stability", "Run every level of an asset under every integrator "
   .. "over a grid of time steps and stiffness ratios, and compare each run with a reference run "
@@ -38,16 +40,43 @@ parser:option("--anchored", "Lua file that returns the anchors of s.stability, n
 parser:flag("--damping", "keep the damping of the springs (default: undamped)")
 parser:flag("--fixed-levels", "apply the ratio to the base only and keep the levels as they are; "
   .. "shows the error of a level at ratios it was not built for")
-parser:flag("--quick", "use fewer ratios and steps, for a first look")
+parser:flag("--quick", "use fewer ratios and steps and a quarter of the duration, for a first "
+  .. "look")
 local args = parser:parse()
 
+-- A quarter of a period is the way from rest to the largest displacement.
 local quick = args.quick and {
-  ratios = {1, 100, 1e4}, steps = {0.9, 1.1, 2}, implicit_steps = {0.01, 0.03, 0.1},
-  sweep_steps = {0.001, 0.01},
+  ratios = {1, 100}, steps = {0.9, 1.1, 2}, implicit_steps = {0.01, 0.03, 0.1},
+  sweep_steps = {0.001, 0.01}, periods = 0.25,
 } or {}
 
+-- What s.stability takes where nothing is given (sim/study/stability_map.hpp), for the estimate.
+local defaults = {
+  ratios = {1, 10, 100, 1e3, 1e4, 1e5}, steps = {0.5, 0.9, 1.1, 2, 5, 20},
+  implicit_steps = {0.003, 0.01, 0.03, 0.1}, sweep_steps = {0.0003, 0.001, 0.003, 0.01, 0.03},
+  periods = 1, iterations = {0}, integrators = s.choices.integrator,
+}
+
+local function announce(asset)
+  if args.absolute_steps or args.anchored then return end -- other steps, other modes
+  local options = {duration = args.duration, levels = args.levels}
+  for name, value in pairs(defaults) do options[name] = args[name] or quick[name] or value end
+  if not options.levels then
+    options.levels = {}
+    for level = 0, asset.coarsest do options.levels[#options.levels + 1] = level end
+  end
+  for _, level in ipairs(options.levels) do
+    if not asset[level] then return end -- s.stability reports it
+  end
+  local hint = args.quick and "--levels, --ratios and --periods shorten it"
+    or "--quick, --levels, --ratios and --periods shorten it"
+  run_estimate.announce("the map", stability_estimate(asset, options), hint)
+end
+
 local function stability()
-  local map = s.stability(s.load(args.asset), {
+  local asset = s.load(args.asset)
+  announce(asset)
+  local map = s.stability(asset, {
     levels = args.levels, ratios = args.ratios or quick.ratios, integrators = args.integrators,
     iterations = args.iterations, steps = args.steps or quick.steps,
     implicit_steps = args.implicit_steps or quick.implicit_steps,

@@ -142,9 +142,13 @@ end
 -- which it grows with the number of nodes (docs/convert.md).
 local fit_seconds, fit_nodes, fit_growth = 6.5, 5000, 1.35
 
+function conversion.fit_time(base)
+  return fit_seconds * (base.node_count / fit_nodes) ^ fit_growth
+end
+
 -- Says beforehand how long the fit takes, if it takes long.
 function conversion.announce_fit(base)
-  local seconds = fit_seconds * (base.node_count / fit_nodes) ^ fit_growth
+  local seconds = conversion.fit_time(base)
   if seconds < 5 then return end
   s.say(("fitting the levels of a base of %d nodes takes about %s on two idle cores "
     .. "(--fast merges only)"):format(

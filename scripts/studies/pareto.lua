@@ -2,14 +2,17 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local conversion = require "lib.conversion"
 local page = require "lib.page"
 local pareto_chains = require "studies.pareto.chains"
 local pareto_charts = require "studies.pareto.charts"
+local pareto_estimate = require "studies.pareto.estimate"
 local pareto_ensembles = require "studies.pareto.ensembles"
 local pareto_surfaces = require "studies.pareto.surfaces"
 local pareto_tables = require "studies.pareto.tables"
 local pareto_times = require "studies.pareto.times"
 local pareto_variants = require "studies.pareto.variants"
+local run_estimate = require "lib.run_estimate"
 local run_store = require "lib.run_store"
 local progress = require "lib.progress"
 
@@ -248,6 +251,8 @@ local function pareto()
     store = run_store.open(args.out .. "/runs", store_settings(settings, scene)),
   }
   s.save_text(args.out .. "/command.txt", command.line() .. "\n")
+  run_estimate.announce("all of it", pareto_estimate(study, axes, wanted, conversion.fit_time),
+    (args.quick and "" or "--quick, ") .. "fewer --errors, --starts and variants shorten it")
   local measures, left_out = measures_of(study), {}
   report(study, asset, measure_all(study, measures, left_out), left_out)
 end
