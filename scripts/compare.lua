@@ -165,12 +165,12 @@ local function verdict_of(rows, starts, untouched)
   return sentences
 end
 
-local function write_page(chain, scene, compared, names, rows, starts)
+local function write_page(chain, scene_name, compared, names, rows, starts)
   -- Bodies with different bases have no view in common: then it is that of the first asset.
   local together, view = command.try(s.view, compared)
   if not together then view = s.view(compared[1]) end
   page.write(args.out .. "/index.html", {
-    command = "compare", title = ("%s: %s"):format(command.stem(assets[1]), scene.name),
+    command = "compare", title = ("%s: %s"):format(command.stem(assets[1]), scene_name),
     verdict = verdict_of(rows, starts, untouched_of(compared)), line = command.line(),
     film = args.frames > 0 and args.video:find("%.mp4$")
       and {path = args.out .. "/" .. args.video, panels = panels_of(compared)} or nil,
@@ -184,6 +184,7 @@ local function compare()
   local scene = command.load_table(args.scenario)
   local anchored = scene.anchored
   scene.anchored = nil
+  local name = scene.name or command.stem(args.scenario)
   scene = s.scenario(scene)
   local compared, names, chain = {}, variants(), nil
   for i = 1, #assets do
@@ -201,14 +202,14 @@ local function compare()
   save_rows("timings.csv", compared, names, function(runs) return runs:timings() end)
   command.chart(args.out .. "/chart", compared)
   if args.frames > 0 then animate(compared, rows) end
-  write_page(chain, scene, compared, names, rows, starts)
+  write_page(chain, name, compared, names, rows, starts)
   for i = 1, #assets do fit_store.remove(fit_folder .. (#assets == 1 and "" or "/" .. i)) end
   if #assets > 1 then os.remove(fit_folder) end
-  return {rows = rows, untouched = untouched_of(compared)}
+  return {rows = rows, untouched = untouched_of(compared), size = chain[0].bounds.diagonal}
 end
 
 local ok, done = command.try_in(args.out, compare, fits)
 if not ok then command.fail("cannot compare %s: %s", table.concat(assets, ", "), done) end
-comparison_table.print(done.rows, args.starts)
+comparison_table.print(done.rows, args.starts, done.size)
 if done.untouched then print(done.untouched) end
 s.say("wrote " .. args.out .. "/index.html and what it shows")

@@ -106,7 +106,7 @@ local function run_levels(chains)
   s.csv(folder .. "/table.csv", rows, {columns = columns})
   s.csv(folder .. "/timings.csv", timings, {columns = timing_columns})
   print()
-  comparison_table.print(rows, starts)
+  comparison_table.print(rows, starts, chains[variants[1].name][0].bounds.diagonal)
   return {rows = rows, timings = timings, series = series, compared = compared}
 end
 

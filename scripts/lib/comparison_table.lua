@@ -9,14 +9,18 @@ local columns = {"level", "nodes", "springs", "step", "limited by", "cost ratio"
                  "shape error", "distance", "spread"}
 
 -- `rows`: those of Comparison:table, of one or more comparisons; means over `starts` starts.
-function comparison_table.print(rows, starts)
+-- `size`: of the body [m]; what is below a millionth of it comes from rounding and is shown as 0.
+function comparison_table.print(rows, starts, size)
+  local function length(value, digits)
+    return show.measured(math.abs(value) < 1e-6 * size and 0 or value, "length", digits)
+  end
   local lines = {}
   for i, row in ipairs(rows) do
     lines[i] = {
       row.label, row.nodes, row.springs, show.measured(row.step, "time"), row.limited_by,
       show.full(row.cost_ratio), show.percent(row.surface_error_percent / 100),
-      show.percent(row.shape_error_percent / 100), show.measured(row.distance, "length"),
-      starts > 1 and show.measured(row.distance_spread, "length", 2) or "-",
+      show.percent(row.shape_error_percent / 100), length(row.distance),
+      starts > 1 and length(row.distance_spread, 2) or "-",
     }
   end
   print(s.format_table(lines, {columns = columns}))

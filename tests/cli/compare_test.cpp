@@ -164,3 +164,16 @@ TEST_CASE("a diverging simulation fails with node and time") {
   CAPTURE(ran.err);
   CHECK(ran.out == "false\tunstable\tinteger\ttrue\ttrue\n");
 }
+
+TEST_CASE("compare shows rounding errors as 0 and names its page by the file of the scene") {
+  const TemporaryFolder scratch;
+  make_bar_asset(scratch / "bar.glb", 3, {"--cell", "0.5", "--lattice", "centers"});
+  spit(scratch / "space.lua", "return {duration = 0.02, gravity = {0, 0, 0}}");
+  const Ran ran = springlod_run({"compare", (scratch / "bar.glb").string(), "--scenario",
+                                 (scratch / "space.lua").string(), "--out",
+                                 (scratch / "out").string(), "--starts", "2", "--frames", "0"});
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  CHECK_THAT(ran.out, Contains(" 0 m ") && !Contains(" nm") && !Contains("e-"));
+  CHECK_THAT(slurp(scratch / "out/index.html"), Contains("<title>bar: space</title>"));
+}
