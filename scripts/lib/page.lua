@@ -65,7 +65,7 @@ end
 
 local function is_number(cell)
   return type(cell) == "number"
-    or type(cell) == "string" and cell:find("^[%+%-]?%d[%d%.e%+%-]*[ %%]*$")
+    or type(cell) == "string" and cell:find("^[<>]? ?[%+%-]?%d[%d%.e%+%-]*[ %%]*$")
 end
 
 local function table_section(one)
@@ -75,7 +75,9 @@ local function table_section(one)
     for c, column in ipairs(one.columns) do
       local cell = row[c]
       if cell == nil then cell = row[column] end
-      if i == 1 then numeric[c] = is_number(cell) end
+      if numeric[c] == nil and cell ~= nil and cell ~= "" then
+        numeric[c] = is_number(cell) and true or false
+      end
       cells[c] = ("<td%s%s>%s</td>"):format(numeric[c] and ' class="number"' or "",
         c == 1 and (' data-label="%s"'):format(escaped(cell_text(cell))) or "",
         escaped(cell_text(cell)))

@@ -92,7 +92,16 @@ deviation over the starts. difference: of the means, from the base's; paper's: t
 Wasserstein distance from the ends of the base; floor: what other starts of the base reach; inside:
 simplifications below it. same: whether the means are equivalent. turned: share of turned bodies.]]
 
--- Writes a table to the terminal, to tables.md and, with all digits, to a CSV file.
+-- For people, of lengths and ratios: less is nothing that a reader can tell from 0.
+local least = 1e-4
+
+local function number_of(value)
+  local size = math.abs(value)
+  if size == 0 or size >= least then return show.number(value) end
+  return value > 0 and "< 0.0001" or "> -0.0001"
+end
+
+-- Writes a table to the terminal and the page, to tables.md and, with all digits, to a CSV file.
 local function publish(name, title, rows, columns, shown, shown_columns)
   s.csv(("%s/%s.csv"):format(args.out, name), rows, {columns = columns})
   shown, shown_columns = shown or rows, shown_columns or columns
@@ -112,13 +121,14 @@ local function publish(name, title, rows, columns, shown, shown_columns)
     short[number] = {}
     for i, cell in ipairs(row) do
       local value = math.tointeger(cell) == nil and tonumber(cell)
-      short[number][i] = value and shown == rows and show.number(value) or cell
+      short[number][i] = value and shown == rows and number_of(value) or cell
     end
   end
   print("\n" .. title .. "\n")
   print(split_table.format(short, names, 1))
   if shown ~= rows then print(meanings) end
-  tables[#tables + 1] = {title = title, rows = texts, columns = shown_columns}
+  tables[#tables + 1] = {title = title, rows = short, columns = names,
+                         note = shown ~= rows and meanings:gsub("\n", " ") or nil}
   write_line(("\n## %s\n\n%s"):format(title, markdown.table(texts, shown_columns)))
 end
 
@@ -145,7 +155,12 @@ end
 
 local function table_2(rods)
   local all, means = {}, {}
-  local beside = 0.08 -- offset between models in units of speed, so that intervals do not overlap
+  -- Models stand beside each other at each speed, so that intervals do not overlap; at a single
+  -- speed they are numbered.
+  local single = #rods == 1
+  local low, high = math.huge, 0
+  for _, one in ipairs(rods) do low, high = math.min(low, one.speed), math.max(high, one.speed) end
+  local beside = single and 1 or 0.0025 * (high - low)
   for _, one in ipairs(rods) do
     local rows = paper_tables.rows(one, settings)
     for i, row in ipairs(rows) do
@@ -155,8 +170,8 @@ local function table_2(rods)
         means[#means + 1] = means[row.model]
       end
       table.insert(means[row.model].points, {
-        one.speed + beside * (i - 1), row.distance, low = row.distance_low,
-        high = row.distance_high,
+        (single and 1 or one.speed) + beside * (i - 1), row.distance, low = row.distance_low,
+        high = row.distance_high, label = single and row.model or nil,
       })
     end
     publish("table-2-speed-" .. one.speed, ("Table 2: final distance from the wall, speed %g")
@@ -167,9 +182,15 @@ local function table_2(rods)
     paper_tables.over_speeds(rods, all))
   draw("table-2-chart", means, {
     title = "Table 2: final distance from the wall, means and their 95 % intervals",
-    x_label = "speed (the paper's units)", y_label = "distance [m]",
+    x_label = single and ("models in the order of the table, all at speed %g"):format(low)
+      or "speed (the paper's units)",
+    y_label = "distance [m]",
   })
 end
+
+-- Of --quick.
+local untrustworthy = "A quick run with few starts: a test of the command. Its differences and "
+  .. "intervals have no statistical significance."
 
 local function write_page(summary, figures)
   local pictures = {}
@@ -178,7 +199,8 @@ local function write_page(summary, figures)
   end
   page.write(args.out .. "/index.html", {
     command = "paper", title = "The tables and figures of the paper, reproduced",
-    verdict = {summary}, charts = charts, tables = tables, pictures = pictures,
+    verdict = args.quick and {untrustworthy, summary} or {summary}, charts = charts,
+    tables = tables, pictures = pictures,
     line = command.line(), provenance = page.provenance(nil, {
       {"paper", "Kot, Nagahashi and Gracki, Simplification of mass spring models, WorldComp CGV "
         .. "2012"}}),
@@ -198,6 +220,7 @@ local function paper()
     settings.starts, settings.simplifications, settings.jitter, settings.friction,
     settings.speed_scale, settings.seed, settings.margin,
     settings.volumes and "that end with inverted corners" or "in which springs inverted")
+  if args.quick then write_line(untrustworthy .. "\n") end
   write_line(summary)
   table_1(cases.ball)
   table_2(cases.rods)

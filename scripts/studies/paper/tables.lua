@@ -159,7 +159,9 @@ function paper_tables.readable(rows)
   for i, row in ipairs(rows) do
     local function interval(name)
       if not row[name] then return "" end
-      return ("%.2f (%.2f .. %.2f)"):format(row[name], row[name .. "_low"], row[name .. "_high"])
+      local value, low, high = row[name], row[name .. "_low"], row[name .. "_high"]
+      if low ~= low or high ~= high then return ("%.2f (no interval)"):format(value) end -- NaN
+      return ("%.2f (%.2f .. %.2f)"):format(value, low, high)
     end
     local function difference(value) return value and ("%+.1f"):format(value) or "" end
     short[i] = {
