@@ -1,6 +1,8 @@
 #include "report/filmed_run.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -58,8 +60,18 @@ std::vector<std::string> cost_captions(double updates) {
   return {count_text(updates) + " spring updates"};
 }
 
+/// The error of the first start, with the time until which it is averaged: bodies that roll or
+/// topple later are farther apart in the film.
+std::string error_caption(double error, std::optional<double> end) {
+  const std::string rounded =
+      format_quantity(std::stod(fmt::format("{:.2g}", error)), Dimension::length);
+  return end ? fmt::format("error {} until t = {:.2f} s", rounded, *end) : "mean error " + rounded;
+}
+
 /// Cost and error of a level, relative to the base.
-std::vector<std::string> captions_of(const sim::LevelRuns& runs, const sim::LevelRuns& base) {
+std::vector<std::string> captions_of(const sim::LevelRuns& runs,
+                                     const sim::Comparison& comparison) {
+  const sim::LevelRuns& base = comparison.levels.front();
   const auto updates = static_cast<double>(runs.first.spring_updates);
   if (&runs == &base) return cost_captions(updates);
   std::vector<std::string> captions;
@@ -69,9 +81,7 @@ std::vector<std::string> captions_of(const sim::LevelRuns& runs, const sim::Leve
   else if (updates > 0 && of_base > 0)
     captions.push_back(fmt::format("{:.1f}x more spring updates", updates / of_base));
   if (!runs.starts.empty() && runs.starts[0].surface_error > 0)
-    captions.push_back("mean error " + format_quantity(std::stod(fmt::format(
-                                                           "{:.2g}", runs.starts[0].surface_error)),
-                                                       Dimension::length));
+    captions.push_back(error_caption(runs.starts[0].surface_error, sim::error_end(comparison)));
   return captions;
 }
 
@@ -96,7 +106,7 @@ FilmedRun filmed_level(const ComparedChain& chain, const sim::LevelRuns& runs) {
   const MassSpringModel& model = asset.chain.levels[runs.level].model;
   FilmedRun run{.label = runs.label,
                 .title = title_of(runs.label, model),
-                .captions = captions_of(runs, comparison.levels.front()),
+                .captions = captions_of(runs, comparison),
                 .scenario = comparison.scenario,
                 .model = model,
                 .frames = runs.first.frames,

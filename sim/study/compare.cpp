@@ -95,6 +95,7 @@ class Comparing {
   Comparing(const LodChain& chain, const Scenario& scenario, const CompareOptions& options)
       : chain_(chain), options_(options), slots_(options.starts) {
     result_.scenario = scenario;
+    result_.error_window = options.error_window;
     for (StartSlot& slot : slots_) slot.users = static_cast<std::uint32_t>(chain.levels.size());
     for (std::uint32_t level = 0; level < chain.levels.size(); ++level) {
       bindings_.push_back(lod::base_from_level(chain, level));
@@ -211,6 +212,14 @@ class Comparing {
 };
 
 }  // namespace
+
+std::optional<double> error_end(const Comparison& comparison) {
+  const Trajectory& base = comparison.levels.front().first;
+  if (!base.first_contact || base.frames.empty()) return {};
+  const double end = *base.first_contact + comparison.error_window;
+  if (end >= base.frames.back().time) return {};
+  return end;
+}
 
 Comparison compare(const LodChain& chain, const Scenario& scenario, const CompareOptions& options) {
   validate(chain, options);

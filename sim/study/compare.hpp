@@ -72,7 +72,12 @@ struct LevelRuns {
 struct Comparison {
   Scenario scenario;
   std::vector<LevelRuns> levels;
+  double error_window = 0;  ///< that of the options [s]
 };
+
+/// Time until which the surface errors of the first start are averaged [s]; empty if that is the
+/// whole run.
+std::optional<double> error_end(const Comparison& comparison);
 
 /// Runs every level of the chain from the same starts, spread over threads; the result does not
 /// depend on their number. Only the frames of the first start are kept. With frame_rate 0 there are

@@ -114,6 +114,21 @@ TEST_CASE("several chains share the base of the first one, and levels can be cho
   CHECK_THROWS_WITH(panels({7}), Catch::Contains("levels has none of the levels of the runs"));
 }
 
+TEST_CASE("a caption names the time until which its error is the mean, unless that is the end") {
+  Film film;
+  sim::Comparison& comparison = film.comparison;
+  const auto caption = [&] {
+    return filmed_runs({{film.asset, comparison}}, {})[1].captions.back();
+  };
+  comparison.error_window = 0.25;
+  CHECK(caption() == "mean error 12 mm");  // without contact, of the whole run
+  comparison.levels[0].first.first_contact = 0.17;
+  CHECK(caption() == "error 12 mm until t = 0.42 s");
+  comparison.error_window = 0.4;
+  CHECK_FALSE(sim::error_end(comparison));
+  CHECK(caption() == "mean error 12 mm");
+}
+
 TEST_CASE("a frame of an animation matches its golden image") {
   const TemporaryFolder folder;
   const Film film;
