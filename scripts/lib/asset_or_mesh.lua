@@ -18,6 +18,6 @@ return function(path, args)
     if imported then return nil, mesh end
     chain = chain or mesh
   end
-  local said = chain:find("^cannot read ") and chain or ("cannot read %s: %s"):format(path, chain)
-  command.fail("%s", said)
+  local named = chain:find("^cannot read ") or chain:find(path, 1, true) == 1
+  command.fail("%s", named and chain or ("cannot read %s: %s"):format(path, chain))
 end

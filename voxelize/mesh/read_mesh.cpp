@@ -295,6 +295,21 @@ class MeshBuilder {
   std::unordered_map<std::array<double, 3>, std::uint32_t, PositionHash> welded_;
 };
 
+// The reason that assimp states, as part of a sentence: without a stop at its end, and without the
+// two spaces around an empty name.
+std::string reason_of(const Assimp::Importer& importer) {
+  std::string reason;
+  for (const char* c = importer.GetErrorString(); *c != '\0'; ++c) {
+    const bool space = std::isspace(static_cast<unsigned char>(*c)) != 0;
+    if (!space)
+      reason += *c;
+    else if (!reason.empty() && reason.back() != ' ')
+      reason += ' ';
+  }
+  while (!reason.empty() && (reason.back() == '.' || reason.back() == ' ')) reason.pop_back();
+  return reason.empty() ? "its reader states no reason" : reason;
+}
+
 const aiScene& read_scene(Assimp::Importer& importer, const fs::path& path) {
   // The up axis is rotated here: the caller may override that of the file.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
@@ -305,7 +320,7 @@ const aiScene& read_scene(Assimp::Importer& importer, const fs::path& path) {
     throw IoError(
         fmt::format("cannot read {} as a mesh: {}; check that the file is complete and of one of "
                     "the formats {}",
-                    path.string(), importer.GetErrorString(), known_formats()));
+                    path.string(), reason_of(importer), known_formats()));
   return *scene;
 }
 

@@ -262,6 +262,9 @@ TEST_CASE("A file that is not a mesh is rejected with the list of formats") {
   for (const char* ending : {"obj", "stl", "ply", "glb", "gltf", "fbx", "off", "dae"})
     refused(write(folder, std::string("letter.") + ending, text), "cannot read");
   refused(write(folder, "picture.obj", "\x89PNG\r\n\x1a\n1234"), "cannot read");
+  // The reader's reasons end in stops, and name objects that may have no name.
+  refused(write(folder, "small.obj", "v 0 0 0\n"),
+          "small.obj as a mesh: OBJ-file is too small; check");
 }
 
 TEST_CASE("Vertices that are not finite and meshes without faces are rejected") {
