@@ -160,10 +160,10 @@ void require_coarser(const Level& finer, const Groups& groups, const SimplifyOpt
         "fraction or fewer levels",
         wanted, level, level - 1, before));
   throw InputError(fmt::format(
-      "simplify: level {} is the coarsest possible one, because no two of its {} nodes can merge; "
-      "use levels = {}{}",
-      level - 1, groups.count, level - 1,
-      options.grouping.border == BorderRule::strong ? " or border = \"weak\"" : ""));
+      "simplify: level {} is the coarsest possible one, because {}; use levels = {}{}", level - 1,
+      groups.count == 1 ? "it has 1 node"
+                        : fmt::format("no two of its {} nodes can merge", groups.count),
+      level - 1, options.grouping.border == BorderRule::strong ? " or border = \"weak\"" : ""));
 }
 
 std::string regrouped_remark(std::uint32_t nodes) {

@@ -109,7 +109,8 @@ int grid_binding(Call& call) {
   const voxelize::CellIndex size = read_size(reader);
   reader.read("origin", grid.origin);
   const int materials = reader.raw("materials");
-  if (materials == 0) reader.refuse("materials", "given: a table name = Material");
+  if (materials == 0)
+    reader.refuse("materials", "given, as in materials = {a = {young = \"1 MPa\"}}");
   MaterialNumbers numbers;
   std::vector<MaterialInput> inputs;
   for (const auto& [name, input] : read_materials(call, materials, "grid")) {
@@ -218,7 +219,7 @@ void describe_grid(Api& api) {
             .dimension = Dimension::length,
             .fallback = "{0, 0, 0}",
             .help = "lowest corner of the first cell"},
-           {.name = "materials", .type = "table part = Material", .help = "materials by name"},
+           {.name = "materials", .type = "table of Material by name", .help = "materials by name"},
            {.name = "fill",
             .type = "function(x, y, z) -> name",
             .help = "called for each cell with its centre [m]; returns the name of one of the "

@@ -292,7 +292,7 @@ void describe_voxelize_function(Api& api) {
             .fallback = "longest side / 32",
             .help = "edge of a cell"},
            {.name = "materials",
-            .type = "table part = Material",
+            .type = "table of Material by part",
             .fallback = "fallback for all parts",
             .help = "materials by the name of a part or by its material name in the file"},
            {.name = "fallback",

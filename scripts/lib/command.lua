@@ -263,7 +263,8 @@ function command.load_table(path)
   if not chunk then error(message, 0) end
   local value = chunk()
   if type(value) ~= "table" then
-    error(("%s must return a table, got a %s"):format(path, type(value)), 0)
+    error(("%s must return a table, got %s"):format(path,
+      value == nil and "nothing" or "a " .. type(value)), 0)
   end
   return value
 end

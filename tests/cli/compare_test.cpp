@@ -134,7 +134,8 @@ TEST_CASE("compare reports errors of asset and scenario in one line") {
   refused("return {obstacles = {{plane = {0, 0, 1}}}}", "obstacles[1].plane");
   refused("return {obstacles = {{plane = {0, 0, 1, 0}, fiction = 1}}}", "did you mean 'friction'?");
   refused("return {measure_from = 'wall'}", "wall");
-  refused("return 3", "must return a table");
+  refused("return 3", "must return a table, got a number");
+  refused("x = 1", "must return a table, got nothing");
   refused("return {", "drop.lua");
 }
 

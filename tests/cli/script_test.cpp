@@ -20,6 +20,21 @@ Ran run_lua(const std::string& code, const std::vector<std::string>& arguments =
 
 }  // namespace
 
+TEST_CASE("errors of one node and of missing materials read as sentences") {
+  const auto refused = [](const std::string& code, const std::string& reason) {
+    const Ran ran = springlod_run({"-e", "local s = require 'springlod' " + code});
+    CAPTURE(ran.err);
+    CHECK(ran.exit_code == 1);
+    CHECK_THAT(ran.err, Contains(reason));
+  };
+  refused("s.simplify(s.model{nodes = {{0, 0, 0, mass = 1}}}, {levels = 1})",
+          "level 0 is the coarsest possible one, because it has 1 node");
+  refused("s.grid{cell = 1, size = {1, 1, 1}}",
+          "materials must be given, as in materials = {a = {young = \"1 MPa\"}}");
+  refused("s.grid{cell = 1, size = {1, 1, 1}, materials = 3}",
+          "a table of materials by name, as in {rod = {young = \"1 MPa\"}}, got a number");
+}
+
 TEST_CASE("the script of the architecture page runs, and so does every function of the API") {
   const TemporaryFolder scratch;
   spit(scratch / "dumbbell.obj",

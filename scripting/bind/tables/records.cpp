@@ -43,7 +43,8 @@ std::map<std::string, MaterialInput> read_materials(Call& call, int table,
   lua_State* L = call.lua();
   if (!lua_istable(L, table))
     throw InputError(
-        fmt::format("{}: materials must be a table name = {{young = ..., density = ...}}, got {}",
+        fmt::format("{}: materials must be a table of materials by name, as in {{rod = {{young = "
+                    "\"1 MPa\"}}}}, got {}",
                     owner, describe_type_at(L, table)));
   lua_pushnil(L);
   while (lua_next(L, table) != 0) {
