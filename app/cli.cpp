@@ -1,7 +1,10 @@
 #include "app/cli.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -37,25 +40,66 @@ struct Switches {
   bool quiet = false;
   bool verbose = false;
   bool unsafe = false;
+  std::string seed;
+  std::string threads;
   std::string time_limit;
+  std::string memory_limit;
 };
 
-void add_settings(CLI::App& app, scripting::Settings& settings, Switches& switches) {
-  app.add_option("--seed", settings.seed, "seed of all random numbers (default: 1)");
-  app.add_option("--threads", settings.threads, "maximum number of threads; 0: all cores");
+// What the flags with a value take, as in --help.
+constexpr std::pair<std::string_view, std::string_view> kValues[] = {
+    {"-e", "CODE"},        {"--seed", "N"},         {"--threads", "N"},
+    {"--time-limit", "T"}, {"--memory-limit", "N"},
+};
+
+void add_settings(CLI::App& app, Switches& switches) {
+  app.add_option("--seed", switches.seed, "seed of all random numbers (default: 1)");
+  app.add_option("--threads", switches.threads, "maximum number of threads; 0: all cores");
   app.add_flag("-q,--quiet", switches.quiet, "print only errors to stderr");
   app.add_flag("--unsafe", switches.unsafe, "let scripts use all files and start programs");
   app.add_option("--time-limit", switches.time_limit, "stop the script after this time");
-  app.add_option("--memory-limit", settings.script_memory, "memory of the script's values")
-      ->transform(CLI::AsSizeValue(false));
+  app.add_option("--memory-limit", switches.memory_limit, "memory of the script's values");
   app.add_flag("-v,--verbose", switches.verbose,
                "print more, such as each step of a calibration; tracebacks");
+}
+
+// An integer from 0 on; an empty text leaves `into` as it is.
+template <class Integer>
+void read_integer(const char* flag, const std::string& text, Integer& into) {
+  if (text.empty()) return;
+  Integer value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data(), end, value);
+  if (failure != std::errc() || stop != end)
+    throw InputError(fmt::format("{}: '{}' must be an integer of 0 to {}", flag, printable(text),
+                                 std::numeric_limits<Integer>::max()));
+  into = value;
+}
+
+// Converts "500MB" to a number of bytes; returns false if the text is none.
+bool to_bytes(std::string& text) {
+  try {
+    return CLI::AsSizeValue(false)(text).empty();
+  } catch (const CLI::ValidationError&) {
+    return false;  // an unknown unit
+  }
+}
+
+void read_size(const char* flag, const std::string& text, std::uint64_t& into) {
+  std::string bytes = text;
+  if (!text.empty() && !to_bytes(bytes))
+    throw InputError(fmt::format("{}: '{}' must be a number of bytes, such as 500MB or 4GB", flag,
+                                 printable(text)));
+  read_integer(flag, bytes, into);
 }
 
 void settle(const Switches& switches, scripting::Settings& settings) {
   if (switches.quiet) settings.verbosity = scripting::Verbosity::quiet;
   if (switches.verbose) settings.verbosity = scripting::Verbosity::verbose;
   if (switches.unsafe) settings.sandbox = false;
+  read_integer("--seed", switches.seed, settings.seed);
+  read_integer("--threads", switches.threads, settings.threads);
+  read_size("--memory-limit", switches.memory_limit, settings.script_memory);
   if (!switches.time_limit.empty())
     settings.time_limit = parse_quantity(switches.time_limit, Dimension::time, "--time-limit");
   if (!(settings.time_limit >= 0)) throw InputError("--time-limit must be at least 0");
@@ -117,8 +161,13 @@ Leave unknown_command(const std::string& name,
         fmt::format("unknown command '{0}'; did you mean: springlod {1} {0}?", printed, command));
   };
   if (name.ends_with(".lua")) return perhaps("run");
-  if (std::error_code ignored; std::filesystem::is_regular_file(name, ignored))
-    return perhaps("info");
+  // No command has a dot, and files have one.
+  if (std::error_code ignored;
+      name.find('.') != std::string::npos || std::filesystem::is_regular_file(name, ignored))
+    return wrong_use(
+        fmt::format("unknown command '{0}'; for a mesh or an asset: springlod info {0}, or "
+                    "springlod render {0}",
+                    printed));
   std::vector<std::string> names{"run"};
   for (const scripting::StockCommand& command : commands) names.push_back(command.name);
   std::string question = scripting::did_you_mean(name, names);
@@ -129,6 +178,17 @@ Leave unknown_command(const std::string& name,
                   question.empty() ? "; commands are: " + scripting::comma_list(names) : question));
 }
 
+// In the words of our other messages: "--seed needs a value: --seed N".
+std::string reason_of(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  for (const auto& [flag, value] : kValues)
+    if (text.starts_with(std::string(flag) + ":"))
+      return text.find("missing") != std::string::npos
+                 ? fmt::format("{0} needs a value: {0} {1}", flag, value)
+                 : fmt::format("give {} once", flag);
+  return text;
+}
+
 // Parses arguments with the flags of add_settings.
 std::optional<Leave> parse_settings(CLI::App& app, std::vector<std::string> arguments,
                                     const Switches& switches, scripting::Settings& settings) {
@@ -136,7 +196,7 @@ std::optional<Leave> parse_settings(CLI::App& app, std::vector<std::string> argu
     app.parse(reversed(std::move(arguments)));
     settle(switches, settings);
   } catch (const CLI::ParseError& error) {
-    return wrong_use(error.what());
+    return wrong_use(reason_of(error));
   } catch (const InputError& error) {
     return wrong_use(error.what());
   }
@@ -157,7 +217,7 @@ std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
   app.add_flag("--version", show_version);
   app.add_option("-e", line.code);
   app.add_flag("-i", line.prompt_after);
-  add_settings(app, line.settings, switches);
+  add_settings(app, switches);
   if (auto leave = parse_settings(app, arguments, switches, line.settings)) return leave;
   rest = app.remaining();
   if (help) return Leave{0, usage_text(commands)};
@@ -175,7 +235,7 @@ std::optional<Leave> parse_back(const std::vector<std::string>& arguments, bool 
   Switches switches;
   app.set_help_flag("");
   app.allow_extras();
-  add_settings(app, line.settings, switches);
+  add_settings(app, switches);
   if (own_script) app.add_flag("-i", line.prompt_after);
   if (auto leave = parse_settings(app, {arguments.begin(), separator}, switches, line.settings))
     return leave;

@@ -39,12 +39,23 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
     wrong({near, "x.obj"}, "did you mean 'convert'?");
   wrong({"rnedr", "x.obj"}, "did you mean 'render'?");
   wrong({"simulate", "x.glb"}, "did you mean 'compare'?");
-  wrong({"samples/dumbbell.obj"}, "did you mean: springlod info samples/dumbbell.obj?");
+  wrong({"samples/dumbbell.obj"},
+        "for a mesh or an asset: springlod info samples/dumbbell.obj, or "
+        "springlod render samples/dumbbell.obj\n");
+  wrong({"none.glb"}, "springlod info none.glb, or springlod render none.glb\n");
   wrong({"frobnicate"}, "commands are: run, compare, convert");
   wrong({"thing.lua"}, "springlod run thing.lua");
   wrong({"--sede", "3"}, "did you mean '--seed'?");
-  wrong({"--seed", "many", "-e", "x = 1"}, "--seed");
-  wrong({"--threads"}, "--threads");
+  wrong({"--seed", "many", "-e", "x = 1"}, "springlod: --seed: 'many' must be an integer of 0 to");
+  wrong({"--seed", "-1", "-e", "x = 1"}, "--seed: '-1' must be an integer of 0 to");
+  wrong({"--threads", "x"}, "springlod: --threads: 'x' must be an integer of 0 to 4294967295\n");
+  wrong({"info", "a.glb", "--threads", "1.5"}, "--threads: '1.5' must be an integer");
+  wrong({"--memory-limit", "4 cats"}, "--memory-limit: '4 cats' must be a number of bytes");
+  wrong({"--threads"}, "springlod: --threads needs a value: --threads N\n");
+  wrong({"info", "a.glb", "--seed"}, "springlod: --seed needs a value: --seed N\n");
+  wrong({"--time-limit"}, "springlod: --time-limit needs a value: --time-limit T\n");
+  wrong({"-e"}, "springlod: -e needs a value: -e CODE\n");
+  wrong({"--seed", "1", "--seed", "2", "-e", "x = 1"}, "springlod: give --seed once\n");
   wrong({"run"}, "run needs a script");
   wrong({"info"}, "missing argument 'file'");
   wrong({"poisson_ways", "--csv", "a.csv"}, "--csv is now --out");
@@ -168,7 +179,7 @@ TEST_CASE("global flags stand before the command or after it") {
   CHECK(springlod_run({"--seed", "8", "run", script}).out == "8\t0\t0\n");
 }
 
-TEST_CASE("a failing script exits 1 with its line and a traceback") {
+TEST_CASE("a failing script exits 1 with its line, and with a traceback under -v") {
   const TemporaryFolder scratch;
   spit(scratch / "bad.lua",
        "local s = require 'springlod'\n"
