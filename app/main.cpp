@@ -69,8 +69,7 @@ int run(const std::vector<std::string>& arguments) {
   if (outcome.interrupted)
     fmt::print(stderr, "springlod: {}\n", scripting::stop_text(stop));
   else if (!outcome.done)
-    fmt::print(stderr, "springlod: {}\n{}{}", outcome.message, outcome.traceback,
-               outcome.traceback.empty() ? "" : "\n");
+    fmt::print(stderr, "springlod: {}\n", scripting::failure_text(state, outcome));
   const bool asked = line.action == CommandLine::Action::prompt || line.prompt_after;
   if (asked && stop != scripting::StopCause::termination) {
     const scripting::StopCause end = scripting::run_prompt(state);

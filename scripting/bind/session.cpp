@@ -257,7 +257,8 @@ void describe_session(Api& api) {
       .name = "help",
       .group = kGroup,
       .summary =
-          "Prints help on a function, a value type or a table. Also available as the global help.",
+          "Prints help on a function, a value type, a table or a constant; help() lists all. Also "
+          "available as the global help.",
       .arguments = {{.name = "topic",
                      .type = "function, value or string",
                      .fallback = "an overview",

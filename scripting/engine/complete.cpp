@@ -70,14 +70,18 @@ void add_keys(lua_State* L, int table, Names& names) {
   }
 }
 
-Names members(lua_State* L, const Names& path, const Api& api) {
+// `separator`: before the last word of the path; values have fields after a dot, and methods after
+// a colon.
+Names members(lua_State* L, const Names& path, char separator, const Api& api) {
   Names names;
   const int bottom = lua_gettop(L);
   if (push_owner(L, path)) {
     if (lua_istable(L, -1)) add_keys(L, lua_gettop(L), names);
     if (const TypeEntry* type = type_at(L, -1, api)) {
-      for (const FieldEntry& field : type->fields) names.push_back(field.parameter.name);
-      for (const FunctionEntry& method : type->methods) names.push_back(method.name);
+      if (separator == '.')
+        for (const FieldEntry& field : type->fields) names.push_back(field.parameter.name);
+      else
+        for (const FunctionEntry& method : type->methods) names.push_back(method.name);
     }
   }
   lua_settop(L, bottom);
@@ -110,7 +114,7 @@ const Parameter* find(const std::vector<Parameter>& parameters, const std::strin
   return nullptr;
 }
 
-// The record that a type such as "list of Obstacle" or "table part = Material" is made of.
+// The record that a type such as "list of Obstacle" or "table of Material by part" is made of.
 const RecordEntry* record_in(const std::string& type, const Api& api) {
   for (const RecordEntry& record : api.records()) {
     const std::size_t at = type.find(record.name);
@@ -256,7 +260,18 @@ Completions completions(ScriptState& state, std::string_view before_cursor) {
     if (!found.names.empty()) return found;
   }
   const Names words = path_of(path);
-  return tidy({words.back(), members(L, words, state.api()), ""});
+  const std::size_t separator = path.find_last_of(".:");
+  const char sign = separator == std::string_view::npos ? ' ' : path[separator];
+  const auto found = [&](char after) {
+    return tidy({words.back(), members(L, words, after, state.api()), ""});
+  };
+  Completions members = found(sign);
+  // A method that is typed with a dot.
+  if (members.names.empty() && sign == '.') {
+    members = found(':');
+    members.colon = !members.names.empty();
+  }
+  return members;
 }
 
 }  // namespace springlod::scripting

@@ -129,6 +129,23 @@ std::string markdown(const TypeEntry& type) {
   return text;
 }
 
+// Whether the value at `index` is the table of a path from the module, such as {"choices", "unit"}.
+bool is_table_of_module(lua_State* L, int index, const std::vector<std::string>& path) {
+  const int value = lua_absindex(L, index);
+  const int bottom = lua_gettop(L);
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
+  lua_pushliteral(L, "springlod");
+  lua_rawget(L, -2);
+  for (const std::string& name : path) {
+    if (!lua_istable(L, -1)) break;
+    push(L, name);
+    lua_rawget(L, -2);
+  }
+  const bool same = lua_rawequal(L, value, -1) != 0;
+  lua_settop(L, bottom);
+  return same;
+}
+
 /// "  simplify      Builds a chain ..."
 std::string overview_line(const std::string& name, const std::string& summary, std::size_t width) {
   constexpr std::size_t kNameColumn = 16;
@@ -224,6 +241,13 @@ std::string help_for(const RecordEntry& record, std::size_t width) {
   return text;
 }
 
+std::string help_for(const ConstantEntry& constant, std::size_t width) {
+  std::string text = fmt::format("s.{}: {}\n\n", constant.parameter.name, constant.parameter.type) +
+                     wrapped(constant.parameter.help, 2, width);
+  text.pop_back();
+  return text;
+}
+
 std::string help_for(const Api& api, const std::string& name, std::size_t width) {
   if (name.starts_with("s.")) return help_for(api, name.substr(2), width);
   if (const FunctionEntry* entry = api.find_function(name)) return help_for(*entry, width);
@@ -234,6 +258,8 @@ std::string help_for(const Api& api, const std::string& name, std::size_t width)
     for (const FunctionEntry& method : type.methods)
       if (name == type.name + ":" + method.name || name == type.name + "." + method.name)
         return help_for(method, width);
+  for (const ConstantEntry& constant : api.constants())
+    if (name == constant.parameter.name) return help_for(constant, width);
   for (const auto& [table, words] : api.choices())
     if (name == table || name == "choices." + table) return help_for(words, width);
   for (const StockCommand& command : stock_commands())
@@ -249,6 +275,12 @@ std::string help_at(lua_State* L, int index, const Api& api, std::size_t width) 
   if (const FunctionEntry* entry = entry_of_function(L, index)) return help_for(*entry, width);
   for (const TypeEntry& type : api.types())
     if (boxed_at(L, index, type.tag)) return help_for(type, width);
+  if (lua_istable(L, index)) {
+    for (const ConstantEntry& constant : api.constants())
+      if (is_table_of_module(L, index, {constant.parameter.name})) return help_for(constant, width);
+    for (const auto& [name, words] : api.choices())
+      if (is_table_of_module(L, index, {"choices", name})) return help_for(words, width);
+  }
   throw InputError(
       fmt::format("there is no help on {}; pass a function (help(s.simplify)), a value, or a name "
                   "(help(\"Mesh\"))",
@@ -262,6 +294,7 @@ std::vector<std::string> help_topics(const Api& api) {
   for (const RecordEntry& record : api.records()) names.push_back(record.name);
   for (const TypeEntry& type : api.types())
     for (const FunctionEntry& method : type.methods) names.push_back(type.name + ":" + method.name);
+  for (const ConstantEntry& constant : api.constants()) names.push_back(constant.parameter.name);
   for (const auto& [table, words] : api.choices()) names.push_back("choices." + table);
   return names;
 }

@@ -23,6 +23,7 @@ std::string help_for(const TypeEntry& type, std::size_t width = kHelpWidth);
 std::string help_for(const RecordEntry& record, std::size_t width = kHelpWidth);
 /// The words of one table of choices.
 std::string help_for(const Words& words, std::size_t width = kHelpWidth);
+std::string help_for(const ConstantEntry& constant, std::size_t width = kHelpWidth);
 /// Documentation by name, such as "simplify", "Mesh", "Model:node", "Material". Throws InputError
 /// with similar names if there is none.
 std::string help_for(const Api& api, const std::string& name, std::size_t width = kHelpWidth);

@@ -9,7 +9,10 @@
 #include <lua.hpp>
 
 #include "base/message.hpp"
+#include "scripting/engine/cursor.hpp"
+#include "scripting/engine/help.hpp"
 #include "scripting/engine/paths.hpp"
+#include "scripting/engine/suggest.hpp"
 
 namespace springlod::scripting {
 
@@ -93,6 +96,35 @@ std::string in_lua(const Api& api, const std::string& name,
   return "";
 }
 
+// The name at the start of the text; "" if there is none.
+std::string_view leading_name(std::string_view text) {
+  std::size_t end = 0;
+  while (end < text.size() && is_name_letter(text[end])) ++end;
+  const bool number = end > 0 && std::isdigit(static_cast<unsigned char>(text[0])) != 0;
+  return text.substr(0, number ? 0 : end);
+}
+
+bool is_path_letter(char c) {
+  return is_name_letter(c) || c == '.' || c == ':';
+}
+
+// Drops `start` and the white space after it; returns false if the text begins otherwise.
+bool skip(std::string_view& text, std::string_view start) {
+  if (!text.starts_with(start)) return false;
+  text = trimmed(text.substr(start.size()));
+  return true;
+}
+
+// "base.nodes" of the line `help(base.nodes)`; "" for any other line.
+std::string_view help_argument(lua_State* L, std::string_view line) {
+  std::string_view rest = trimmed(line);
+  if (type_of_global(L, "help") != LUA_TFUNCTION || !skip(rest, "help") || !skip(rest, "(") ||
+      !rest.ends_with(')'))
+    return "";
+  rest = trimmed(rest.substr(0, rest.size() - 1));
+  return std::all_of(rest.begin(), rest.end(), is_path_letter) ? rest : "";
+}
+
 }  // namespace
 
 bool asks_to_leave(ScriptState& state, std::string_view line) {
@@ -105,16 +137,17 @@ bool asks_to_leave(ScriptState& state, std::string_view line) {
 }
 
 std::string chunk_of(ScriptState& state, std::string_view line) {
+  // The value of a constant such as s.seed is a plain number or text.
+  const std::string_view argument = help_argument(state.lua(), line);
+  for (const ConstantEntry& constant : state.api().constants())
+    if (argument == "s." + constant.parameter.name) return fmt::format("help(\"{}\")", argument);
   const std::vector<std::string> words = words_of(line);
   const bool is_help = !words.empty() && words.size() <= 2 && words.front() == "help" &&
                        type_of_global(state.lua(), "help") == LUA_TFUNCTION;
   if (!is_help) return std::string(line);
   if (words.size() == 1) return "help()";
   const std::string& topic = words[1];
-  const auto is_part_of_name = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == ':';
-  };
-  if (!std::all_of(topic.begin(), topic.end(), is_part_of_name)) return std::string(line);
+  if (!std::all_of(topic.begin(), topic.end(), is_path_letter)) return std::string(line);
   return fmt::format("help(\"{}\")", topic);
 }
 
@@ -138,6 +171,40 @@ std::string shell_command_answer(ScriptState& state, std::string_view line) {
   const std::string lua = words.empty() ? "" : in_lua(state.api(), name, words);
   if (!lua.empty()) answer += "\nhere, in Lua: " + lua;
   return answer;
+}
+
+std::string unknown_topic_answer(ScriptState& state, std::string_view line) {
+  const std::string name(help_argument(state.lua(), line));
+  if (name.empty() || leading_name(name) != name) return "";
+  const bool keyword = std::find(kKeywords.begin(), kKeywords.end(), name) != kKeywords.end();
+  if (keyword || !is_unused(state.lua(), name)) return "";
+  const std::string near = nearest_name(name, help_topics(state.api()));
+  return fmt::format("{} is nil: there is no such variable; {}", name,
+                     near.empty() ? "help() lists all functions and values"
+                                  : fmt::format("did you mean help(\"{}\")?", near));
+}
+
+std::string lost_local_hint(ScriptState& state, std::string_view chunk) {
+  std::string_view rest = trimmed(chunk);
+  if (leading_name(rest) != "local") return "";
+  skip(rest, "local");
+  const bool function = leading_name(rest) == "function";
+  if (function) skip(rest, "function");
+  std::vector<std::string> names;
+  do {
+    names.emplace_back(leading_name(rest));
+    skip(rest, names.back());
+    if (rest.starts_with('<'))
+      rest = trimmed(rest.substr(std::min(rest.find('>'), rest.size() - 1) + 1));
+  } while (skip(rest, ","));
+  if (!function && !skip(rest, "=") && !rest.empty() && rest != ";") return "";
+  // The values, and nothing else, can be returned.
+  const std::string values = (function ? "function" : "") + std::string(rest);
+  if (!is_lua(state.lua(), "return " + values) || names == std::vector<std::string>{"s"}) return "";
+  return fmt::format(
+      "note: at the prompt a local variable lasts for its line only; leave out \"local\" to use {} "
+      "in later lines",
+      fmt::join(names, ", "));
 }
 
 std::string missing_table_hint(ScriptState& state, std::string_view error) {

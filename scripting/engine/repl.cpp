@@ -108,13 +108,18 @@ class LineEditor {
     const Completions found =
         completions(self(edit).state_, self(edit).earlier_ + "\n" + std::string(before));
     if (found.names.empty()) return CC_REFRESH_BEEP;
+    if (found.colon) {
+      const auto typed = static_cast<int>(found.typed.size());
+      el_deletestr(edit, typed + 1);
+      el_insertstr(edit, (":" + found.typed).c_str());
+    }
     std::string rest = common_start(found.names).substr(found.typed.size());
     if (found.names.size() == 1) rest += found.ending;
     if (!rest.empty()) {
       el_insertstr(edit, rest.c_str());
       return CC_REFRESH;
     }
-    if (found.names.size() == 1) return CC_REFRESH;
+    if (found.names.size() == 1 || found.colon) return CC_REFRESH;
     fmt::print("\n{}\n", fmt::join(found.names, "  "));
     std::fflush(stdout);
     return CC_REDISPLAY;
@@ -162,7 +167,9 @@ class Prompt {
     }
     if (chunk_.empty()) {
       if (asks_to_leave(state_, line)) return false;
-      if (const std::string answer = shell_command_answer(state_, line); !answer.empty()) {
+      std::string answer = shell_command_answer(state_, line);
+      if (answer.empty()) answer = unknown_topic_answer(state_, line);
+      if (!answer.empty()) {
         if (editor_) editor_->remember(line);
         fmt::print(stderr, "{}\n", answer);
         return true;
@@ -180,6 +187,7 @@ class Prompt {
     if (!reply.error.empty()) fmt::print(stderr, "{}\n", reply.error);
     if (const std::string hint = missing_table_hint(state_, reply.error); !hint.empty())
       fmt::print(stderr, "{}\n", hint);
+    if (reply.error.empty()) warn_of_lost_local();
     chunk_.clear();
     return !interrupt_requested();
   }
@@ -190,9 +198,19 @@ class Prompt {
     return std::getline(std::cin, line) ? Input::line : Input::closed;
   }
 
+  // Once in a session: who knows it does not need it again.
+  void warn_of_lost_local() {
+    if (warned_of_local_) return;
+    const std::string hint = lost_local_hint(state_, chunk_);
+    if (hint.empty()) return;
+    fmt::print(stderr, "{}\n", hint);
+    warned_of_local_ = true;
+  }
+
   ScriptState& state_;
   std::optional<LineEditor> editor_;
   std::string chunk_;
+  bool warned_of_local_ = false;
 };
 
 }  // namespace

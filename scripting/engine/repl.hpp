@@ -20,7 +20,7 @@ bool needs_more_lines(ScriptState& state, const std::string& input);
 
 /// Result of evaluating one input.
 struct Reply {
-  std::string error;  ///< message with traceback; empty on success
+  std::string error;  ///< message, under --verbose with its traceback; empty on success
 };
 /// Evaluates a chunk as the prompt does; prints the values of an expression to stdout.
 Reply evaluate(ScriptState& state, const std::string& input);
@@ -30,10 +30,11 @@ struct Completions {
   std::string typed{};               ///< the word before the cursor, with which each name begins
   std::vector<std::string> names{};  ///< sorted
   std::string ending{};  ///< to insert after the name if there is only one: a quote, " = "
+  bool colon = false;    ///< the names are methods, which need a colon in place of the dot typed
 };
 /// Completions of the text before the cursor, by what is expected there: keys and values of the
 /// options of a call, file names and words in strings, else names (`s.vox` -> `voxelize`) from
-/// globals, fields, methods and keywords.
+/// globals, keywords, fields and, after a colon, methods.
 Completions completions(ScriptState& state, std::string_view before_cursor);
 
 }  // namespace springlod::scripting

@@ -15,19 +15,15 @@
 
 namespace springlod::scripting {
 
-namespace {
-
-// The Lua line of the call; frames of bindings have no line.
 std::string call_site(lua_State* L) {
   lua_Debug frame{};
   for (int level = 0; lua_getstack(L, level, &frame) != 0; ++level) {
     lua_getinfo(L, "Sl", &frame);
+    // Frames of bindings have no line.
     if (frame.currentline > 0) return fmt::format("{}:{}: ", frame.short_src, frame.currentline);
   }
   return "";
 }
-
-}  // namespace
 
 void describe_errors(Api& api) {
   TypeBuilder<ErrorValue> type(

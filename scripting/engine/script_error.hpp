@@ -25,6 +25,9 @@ inline constexpr const char* kValueName<ErrorValue> = "Error";
 /// Describes the type Error.
 void describe_errors(Api& api);
 
+/// The innermost line of Lua that runs, "script.lua:12: "; "" if there is none.
+std::string call_site(lua_State* L);
+
 /// Converts the current C++ exception into an ErrorValue.
 std::shared_ptr<const ErrorValue> current_error(lua_State* L);
 

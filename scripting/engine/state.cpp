@@ -28,10 +28,13 @@ void interrupt_hook(lua_State* L, lua_Debug* /*where*/) {
   raise_interrupted(L);
 }
 
-// Message handler of every call: returns the error value and stores the traceback.
+// Message handler of every call: returns the error value and stores the traceback and its place.
 constexpr const char* kTraceback = "springlod.traceback";
+constexpr const char* kPlace = "springlod.place";
 
 int keep_traceback(lua_State* L) {
+  push(L, call_site(L));
+  lua_setfield(L, LUA_REGISTRYINDEX, kPlace);
   luaL_traceback(L, L, nullptr, 1);
   lua_setfield(L, LUA_REGISTRYINDEX, kTraceback);
   return 1;
@@ -88,6 +91,12 @@ Outcome failed(lua_State* L, int status, bool with_traceback) {
       std::static_pointer_cast<const ErrorValue>(boxed_at(L, -1, &kValueName<ErrorValue>));
   outcome.interrupted = error && error->kind == "interrupted";
   outcome.message = text_of_error(L);
+  // Texts and the errors of springlod have their place; tables and other values have none.
+  if (with_traceback && !error && lua_type(L, -1) != LUA_TSTRING) {
+    lua_getfield(L, LUA_REGISTRYINDEX, kPlace);
+    if (lua_isstring(L, -1) != 0) outcome.message = lua_tostring(L, -1) + outcome.message;
+    lua_pop(L, 1);
+  }
   if (status == LUA_ERRMEM)
     outcome.message += ": the script's own values need more than --memory-limit allows";
   lua_pop(L, 1);
@@ -100,6 +109,12 @@ Outcome failed(lua_State* L, int status, bool with_traceback) {
 }
 
 }  // namespace
+
+std::string failure_text(ScriptState& state, const Outcome& outcome) {
+  const bool verbose = state.session().settings().verbosity == Verbosity::verbose;
+  return verbose && !outcome.traceback.empty() ? outcome.message + "\n" + outcome.traceback
+                                               : outcome.message;
+}
 
 Session& session_of(lua_State* L) {
   return **static_cast<Session**>(lua_getextraspace(L));

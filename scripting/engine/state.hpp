@@ -22,6 +22,11 @@ struct Outcome {
   std::string traceback;  ///< "stack traceback: ..." if not done
 };
 
+class ScriptState;
+
+/// The message of a failed outcome; under --verbose its traceback too.
+std::string failure_text(ScriptState& state, const Outcome& outcome);
+
 /// A Lua state with the standard libraries, `require "springlod"`, the global `help`, and a hook
 /// that stops a running script after Ctrl-C. Not thread-safe.
 class ScriptState {

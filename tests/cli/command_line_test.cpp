@@ -187,13 +187,21 @@ TEST_CASE("a failing script exits 1 with its line, and with a traceback under -v
        "  return s.simplify(s.model{nodes = {{0, 0, 0, mass = 1}}}, {level = 2})\n"
        "end\n"
        "build()\n");
-  const Ran ran = springlod_run({"run", (scratch / "bad.lua").string()});
-  CHECK(ran.exit_code == 1);
-  CHECK(ran.out.empty());
-  CHECK_THAT(ran.err, Contains("bad.lua:3: unknown option 'level'; did you mean 'levels'? simplify "
-                               "takes: levels, keep, grouping, border, seed, grading, straight"));
-  CHECK_THAT(ran.err, Contains("stack traceback:"));
-  CHECK_THAT(ran.err, Contains("bad.lua:5: in main chunk"));
+  const std::string script = (scratch / "bad.lua").string();
+  for (const bool verbose : {false, true}) {
+    const Ran ran = verbose ? springlod_run({"-v", "run", script}) : springlod_run({"run", script});
+    CAPTURE(verbose, ran.err);
+    CHECK(ran.exit_code == 1);
+    CHECK(ran.out.empty());
+    CHECK_THAT(ran.err,
+               Contains("bad.lua:3: unknown option 'level'; did you mean 'levels'? simplify "
+                        "takes: levels, keep, grouping, border, seed, grading, straight"));
+    for (const char* part : {"stack traceback:", "bad.lua:5: in main chunk"})
+      CHECK((ran.err.find(part) != std::string::npos) == verbose);
+  }
+  // An error value that is no text has no line of its own.
+  CHECK_THAT(springlod_run({"-e", "\nerror{}"}).err, StartsWith("springlod: -e:2: table: "));
+  CHECK(springlod_run({"-e", "\nerror('broken')"}).err == "springlod: -e:2: broken\n");
 
   CHECK(springlod_run({"-e", "x = = 1"}).exit_code == 1);
   CHECK(springlod_run({"-e", "error{}"}).exit_code == 1);

@@ -91,6 +91,8 @@ TEST_CASE("Tab completes names of the API, of values and of globals") {
   REQUIRE(terminal.shows("> "));
   terminal.type("m.node_c\t\n");
   CHECK(terminal.shows("\n1"));
+  terminal.type("10 * #m.nodes\t()\n");
+  CHECK(terminal.shows("\n10"));
   terminal.type("s.st\t\t");
   CHECK(terminal.shows("stable_step  static_loads  statistics  stretch"));
 }
@@ -310,6 +312,56 @@ $ springlod demo -q
   const Ran own = springlod_run({"-i"}, "info = 5\ninfo\ninfo - 2\nrun = print\nrun('x')\n");
   CHECK(own.out == "5\n3\nx\n");
   CHECK_THAT(own.err, !Contains("shell"));
+}
+
+TEST_CASE("help on a variable that does not exist says so") {
+  const Ran ran = springlod_run({"-i"}, "help(mesh)\nhelp( blorbs )\n");
+  CHECK(ran.out.empty());
+  CHECK(ran.err ==
+        "mesh is nil: there is no such variable; did you mean help(\"Mesh\")?\n"
+        "blorbs is nil: there is no such variable; help() lists all functions and values\n");
+  const Ran known = springlod_run({"-i"}, "x = s.simplify\nhelp(x)\nhelp(s.seed)\n");
+  CHECK(known.err.empty());
+  CHECK_THAT(known.out, Contains("s.simplify(") && Contains("s.seed: integer"));
+}
+
+TEST_CASE("a lost local variable is explained once") {
+  const auto hints = [](const std::string& lines) {
+    const Ran ran = springlod_run({"-i"}, lines);
+    CAPTURE(lines, ran.err);
+    CHECK(ran.exit_code == 0);
+    return ran.err;
+  };
+  const std::string hint =
+      "note: at the prompt a local variable lasts for its line only; leave out \"local\" to use ";
+  CHECK(hints("local q = 1\nq\nlocal r = 2\n") == hint + "q in later lines\n");
+  CHECK(hints("  local a <const>, b = 1, {2}; \n") == hint + "a, b in later lines\n");
+  CHECK(hints("local a;\n") == hint + "a in later lines\n");
+  CHECK(hints("local function f(x)\nreturn x\nend\n") == hint + "f in later lines\n");
+  // Lines that do something with the variable, and the line that scripts begin with.
+  CHECK(hints("local q = 1 print(q)\nlocal q = 1; print(q)\nlocal q q = 2\nlocal q print()\n"
+              "localq = 1\nlocal function f() end f()\nlocal s = require 'springlod'\n")
+            .empty());
+}
+
+TEST_CASE("a mistake at the prompt is one line") {
+  const Ran ran = springlod_run({"-i"}, "s.simplify()\nlocal x = y.z\nerror('own', 0)\n");
+  CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 3);
+  CHECK_THAT(ran.err, Contains("input:1: bad argument 1 (model) of simplify") &&
+                          Contains("\ninput:1: attempt to index a nil value (global 'y')\nown\n"));
+  CHECK_THAT(springlod_run({"-v", "-i"}, "s.simplify()\n").err, Contains("stack traceback:"));
+}
+
+TEST_CASE("a method or a function without its call says how to call it") {
+  const Ran ran = springlod_run({"-i"},
+                                "base = s.model{nodes = {{0, 0, 0, mass = 1}}}\n"
+                                "base.nodes\nf = base.nodes\nf\ns.simplify\nprint\n");
+  CHECK(ran.err.empty());
+  CHECK_THAT(ran.out,
+             Contains("a method: call base:nodes() -> list") &&
+                 Contains("help(\"Model:nodes\") explains it\na method: call model:nodes()"));
+  CHECK_THAT(ran.out, Contains("\na function: s.simplify(") &&
+                          Contains("; help(s.simplify) explains it\nfunction: "));
 }
 
 TEST_CASE("a function of the API that is called without s is named with it") {

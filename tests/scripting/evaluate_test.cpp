@@ -60,7 +60,8 @@ TEST_CASE("A failed chunk reports the line of the error, and the next one runs")
   ScriptState state({}, make_api());
   const int height = lua_gettop(state.lua());
   const Reply reply = evaluate(state, "found = 1 error('broken')");
-  CHECK_THAT(reply.error, Contains("input:1: broken") && Contains("traceback"));
+  CHECK(reply.error == "input:1: broken");
+  CHECK(evaluate(state, "\nerror(nil)").error == "input:2: nil");
   const Reply unprintable =
       evaluate(state, "setmetatable({}, {__tostring = function() error('mute') end})");
   CHECK_THAT(unprintable.error, Contains("mute"));
@@ -70,6 +71,12 @@ TEST_CASE("A failed chunk reports the line of the error, and the next one runs")
   CHECK(lua_gettop(state.lua()) == height);
   CHECK(evaluate(state, "found = found + 1").error.empty());
   CHECK(found(state) == "2");
+}
+
+TEST_CASE("Under verbose, a failed chunk has a traceback") {
+  ScriptState state({.verbosity = Verbosity::verbose}, make_api());
+  CHECK_THAT(evaluate(state, "error('broken')").error,
+             Contains("input:1: broken\nstack traceback:") && Contains("in main chunk"));
 }
 
 TEST_CASE("Ctrl-C stops a chunk, also inside pcall, and is cleared afterwards") {

@@ -3,6 +3,7 @@
 #include "scripting/engine/help.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <sstream>
 #include <string>
 
@@ -89,6 +90,20 @@ TEST_CASE("Help by name finds functions and records, errors suggest similar name
   CHECK_THROWS_AS(help_for(api, "Stone:weight"), InputError);
 }
 
+TEST_CASE("All that the overview lists has help") {
+  const std::unique_ptr<Api> api = make_api();
+  std::istringstream lines(overview(*api));
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("  ") || line[2] == ' ') continue;
+    const std::string name = line.substr(2, line.find(' ', 2) - 2);
+    CAPTURE(name);
+    CHECK_NOTHROW(help_for(*api, name));
+    ++count;
+  }
+  CHECK(count > 60);
+}
+
 TEST_CASE("Overview and Markdown list everything") {
   const Api api = sample_api();
   CHECK_THAT(overview(api), Contains("Materials") && Contains("soften"));
@@ -110,6 +125,13 @@ TEST_CASE("Help on a Lua value is the help of its function, type or name") {
   CHECK(help_on("'voxelize'") == help_on("s.voxelize"));
   CHECK(help_on("s.model{nodes = {{0, 0, 0, mass = 1}}}") ==
         help_for(*state.api().find_type("Model")));
+  CHECK(help_on("s.material_presets") == help_on("'s.material_presets'"));
+  CHECK_THAT(help_on("s.material_presets"),
+             Contains("s.material_presets: list of tables\n\n  mat"));
+  CHECK_THAT(help_on("s.choices"), Contains("s.choices: table"));
+  CHECK(help_on("s.choices.border") == help_on("'choices.border'"));
+  CHECK_THAT(help_on("'seed'"), Contains("s.seed: integer"));
+  CHECK_THROWS_WITH(help_on("{}"), Contains("there is no help on a table"));
 }
 
 TEST_CASE("The check of descriptions reports missing entries") {

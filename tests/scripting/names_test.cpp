@@ -63,9 +63,17 @@ TEST_CASE("A word is completed from globals and keywords, a path from the member
   CHECK(completions(state, "mine.").names == Names{"inner"});
   CHECK(has(completions(state, "x = whi").names, "while"));
   CHECK(completions(state, "s.vox").names == Names{"voxelize"});
-  CHECK(completions(state, "m:node_").names.empty() == false);
+  CHECK(has(completions(state, "m:node").names, "node"));
   CHECK(has(completions(state, "m:").names, "springs"));
   CHECK(has(completions(state, "m.node_").names, "node_count"));
+  // After a dot fields, after a colon methods; a method after a dot turns the dot into a colon.
+  CHECK_FALSE(has(completions(state, "m.").names, "springs"));
+  CHECK_FALSE(has(completions(state, "m:").names, "node_count"));
+  CHECK_FALSE(completions(state, "m.node_").colon);
+  const Completions method = completions(state, "m.springs");
+  CHECK((method.colon && has(method.names, "springs")));
+  CHECK(completions(state, "m.nothing").names.empty());
+  CHECK_FALSE(completions(state, "m.nothing").colon);
   CHECK(has(completions(state, "").names, "s"));
 }
 
