@@ -44,7 +44,7 @@ TEST_CASE("new takes a mesh of the user, with its parts, unit and size") {
   CHECK(fs::exists(scratch / "car/body.obj"));
   const std::string main = slurp(scratch / "car/main.lua");
   CHECK_THAT(main, Contains("s.import(\"body.obj\", {unit = \"cm\", up = \"y\"})"));
-  CHECK_THAT(main, Contains("cell = \"1.7 mm\"") && !Contains("{mesh}"));
+  CHECK_THAT(main, Contains("cell = \"1.2 mm\"") && !Contains("{mesh}"));
   const std::string materials = slurp(scratch / "car/materials.lua");
   CHECK_THAT(materials, Contains("[\"left-wheel\"] = {") && Contains("  hull = {"));
   CHECK_THAT(slurp(scratch / "car/scene.lua"), Contains("\"8 cm\""));
@@ -104,7 +104,7 @@ TEST_CASE("a manifest gives each mesh its options, and a failed one does not sto
     return springlod_run({"convert", "--manifest", "wrong.lua"}, "", scratch.path());
   };
   CHECK_THAT(wrong("return {mesh = 'bar.obj'}").err,
-             Contains("wrong.lua lists no meshes") && Contains("{{mesh = \"bar.obj\"}, ...}"));
+             Contains("wrong.lua lists no meshes") && Contains("{{mesh = \"bear.obj\"}, ...}"));
   CHECK_THAT(wrong("return {{'bar.obj'}}").out, Contains("entry 1: must be a table with a mesh"));
   CHECK_THAT(wrong("return {{mesh = 'none.obj'}}").out, Contains("none.obj"));
   CHECK_THAT(wrong("return {{mesh = 'bar.obj', cel = '5 mm'}}").out,
