@@ -83,15 +83,20 @@ local function run_levels(chains)
   local scene = s.scenario(dofile(samples .. "/throw_at_wall.lua"))
   local rows, columns, timings, timing_columns = {}, nil, {}, nil
   local series, compared = {}, {}
+  local list, names = {}, {}
   for i, variant in ipairs(variants) do
-    local runs = s.compare(chains[variant.name], scene,
-      {starts = starts, jitter = 0.02, seed = s.seed, variant = method_name(variant)})
+    list[i], names[i] = chains[variant.name], method_name(variant)
+  end
+  local all = s.compare(list, scene,
+    {starts = starts, jitter = 0.02, seed = s.seed, variants = names})
+  for i, variant in ipairs(variants) do
+    local runs = all[i]
     compared[variant.name] = runs
     local table_rows
     table_rows, columns = runs:table()
     local points = {}
     for _, row in ipairs(table_rows) do
-      -- The base is the same in every comparison.
+      -- The base has run once for all of them.
       if row.level > 0 or i == 1 then rows[#rows + 1] = row end
       points[#points + 1] = {
         1 / row.cost_ratio, row.surface_error_percent, label = row.level > 0 and row.label or nil,
@@ -101,7 +106,9 @@ local function run_levels(chains)
     series[#series + 1] = {name = method_name(variant), points = points}
     local measured
     measured, timing_columns = runs:timings()
-    for _, row in ipairs(measured) do timings[#timings + 1] = row end
+    for _, row in ipairs(measured) do
+      if row.level > 0 or i == 1 then timings[#timings + 1] = row end
+    end
   end
   s.csv(folder .. "/table.csv", rows, {columns = columns})
   s.csv(folder .. "/timings.csv", timings, {columns = timing_columns})

@@ -19,6 +19,7 @@
 #include "scripting/bind/tables/run_options.hpp"
 #include "scripting/bind/tables/scenario_table.hpp"
 #include "scripting/bind/tables/start_overlap.hpp"
+#include "scripting/bind/tables/value_list.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -87,33 +88,64 @@ std::optional<std::string> no_contact_of(const ComparisonValue& value) {
   return report::no_contact_text(*found);
 }
 
+constexpr const char* kVariants = "variants";
+
+/// The starts of the labels of each chain.
+std::vector<std::string> read_variants(TableReader& reader, bool of_list,
+                                       const sim::CompareOptions& options) {
+  if (!of_list) {
+    if (reader.has(kVariants)) reader.refuse(kVariants, "given for lists of chains only");
+    return {options.variant};
+  }
+  if (!options.variant.empty())
+    reader.refuse("variant", "given for one chain only: a list has variants = {\"a\", \"b\"}");
+  std::vector<std::string> variants;
+  reader.read(kVariants, variants);
+  return variants;
+}
+
+/// What a user should know of runs that completed; the base is the same in all comparisons.
+void say_what_happened(Session& session,
+                       const std::vector<std::shared_ptr<const ComparisonValue>>& values,
+                       const sim::RunOptions& options) {
+  const MassSpringModel& base = values.front()->chain->chain.levels.front().model;
+  if (const auto untouched = no_contact_of(*values.front()))
+    session.console().say("compare: " + *untouched);
+  std::vector<sim::RunSummary> all;
+  for (const auto& value : values)
+    for (const sim::LevelRuns& level : value->comparison.levels)
+      if (level.level > 0 || value == values.front())
+        all.insert(all.end(), level.starts.begin(), level.starts.end());
+  warn(session.console(), all, sim::corners_resist(base, options));
+  for (const auto& value : values) hint_at_damping(session, base, value->comparison.levels);
+}
+
 int compare_binding(Call& call) {
-  auto value = std::make_shared<ComparisonValue>();
-  value->chain = call.value<ChainValue>(1);
+  const bool of_list = call.try_value<ChainValue>(1) == nullptr;
+  const auto chains = values_at<ChainValue>(call, 1, "a LodChain, or a list of them");
   const auto scenario = scenario_argument(call, 2);
   sim::CompareOptions options;
   options.seed = call.session().settings().seed;
   options.threads = call.session().settings().threads;
   options.progress = call.progress();
+  const MassSpringModel& base = chains.front()->chain.levels.front().model;
   TableReader reader = call.options(3);
   read_options(call, reader, options);
+  const std::vector<std::string> variants = read_variants(reader, of_list, options);
   options.contact = read_contact(reader);
-  options.run.anchors = read_anchors(call, reader, value->chain->chain.levels.front().model);
+  options.run.anchors = read_anchors(call, reader, base);
   reader.finish();
-  if (const auto text =
-          overlap_warning("compare", value->chain->chain.levels.front().model, *scenario))
+  if (const auto text = overlap_warning("compare", base, *scenario))
     call.session().console().say(*text);
-  value->comparison = sim::compare(value->chain->chain, *scenario, options);
-  const std::optional<std::string> untouched = no_contact_of(*value);
-  if (untouched) call.session().console().say("compare: " + *untouched);
-  std::vector<sim::RunSummary> all;
-  for (const sim::LevelRuns& level : value->comparison.levels)
-    all.insert(all.end(), level.starts.begin(), level.starts.end());
-  warn(call.session().console(), all,
-       sim::corners_resist(value->chain->chain.levels.front().model, options.run));
-  hint_at_damping(call.session(), value->chain->chain.levels.front().model,
-                  value->comparison.levels);
-  return call.give(std::shared_ptr<const ComparisonValue>(value));
+  std::vector<const LodChain*> compared;
+  for (const auto& chain : chains) compared.push_back(&chain->chain);
+  std::vector<sim::Comparison> comparisons = sim::compare(compared, *scenario, options, variants);
+  std::vector<std::shared_ptr<const ComparisonValue>> values;
+  for (std::size_t c = 0; c < chains.size(); ++c)
+    values.push_back(std::make_shared<const ComparisonValue>(
+        ComparisonValue{std::move(comparisons[c]), chains[c]}));
+  say_what_happened(call.session(), values, options.run);
+  return of_list ? call.give(values) : call.give(values.front());
 }
 
 int ensemble_binding(Call& call) {
@@ -223,6 +255,10 @@ void describe_comparison(Api& api) {
 
 std::vector<Parameter> compare_parameters() {
   std::vector<Parameter> parameters = session_parameters<sim::CompareOptions>();
+  parameters.push_back({.name = kVariants,
+                        .type = "list of strings",
+                        .fallback = "none",
+                        .help = "of a list of chains: start of the labels of each"});
   parameters.push_back(contact_parameter());
   parameters.push_back(anchors_parameter());
   return parameters;
@@ -249,12 +285,15 @@ void describe_compare(Api& api) {
   api.add(FunctionEntry{
       .name = "compare",
       .group = kGroup,
-      .summary = "Runs every level of a chain from the same starts and measures cost and error.",
-      .arguments = {{.name = "chain", .type = "LodChain", .help = "levels to compare"},
+      .summary = "Runs every level of a chain from the same starts and measures cost and error. "
+                 "The base of several chains runs once for all of them.",
+      .arguments = {{.name = "chain",
+                     .type = "LodChain",
+                     .help = "levels to compare; or a list of chains of one base"},
                     scenario_parameter()},
       .options = compare_parameters(),
-      .returns = "Comparison",
-      .errors = "As for run.",
+      .returns = "Comparison; a list of them for a list",
+      .errors = "As for run. Chains of a list that have different bases.",
       .example = "local runs = s.compare(chain, scene, {starts = 24, jitter = 0.02})\n"
                  "print(s.inspect(runs:table()))",
       .call = compare_binding});

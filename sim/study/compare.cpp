@@ -25,8 +25,26 @@ constexpr std::chrono::milliseconds kPatience{10};
 // Tolerance by which a frame at the end of the window may seem to be later [s].
 constexpr double kRounding = 1e-9;
 
-void validate(const LodChain& chain, const CompareOptions& options) {
-  if (chain.levels.empty()) throw InputError("compare: the chain has no levels");
+bool same_base(const MassSpringModel& p, const MassSpringModel& q) {
+  return p.rest == q.rest && p.mass == q.mass && p.a == q.a && p.b == q.b &&
+         p.rest_length == q.rest_length && p.stiffness == q.stiffness && p.damping == q.damping &&
+         p.contact_area == q.contact_area && p.corners.size() == q.corners.size() &&
+         p.dilatation.modulus == q.dilatation.modulus && p.surface.area == q.surface.area;
+}
+
+void validate(const std::vector<const LodChain*>& chains, const CompareOptions& options,
+              const std::vector<std::string>& variants) {
+  if (chains.empty()) throw InputError("compare: there are no chains");
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    if (chains[c]->levels.empty()) throw InputError("compare: the chain has no levels");
+    if (!same_base(chains[c]->levels[0].model, chains[0]->levels[0].model))
+      throw InputError(fmt::format(
+          "compare: chain {} has another base than the first; compare it by a call of its own",
+          c + 1));
+  }
+  if (!variants.empty() && variants.size() != chains.size())
+    throw InputError(
+        fmt::format("compare: {} variants do not name {} chains", variants.size(), chains.size()));
   if (options.starts == 0) throw InputError("compare: starts = 0 must be 1 or more");
   if (!(options.jitter >= 0 && options.jitter < 1))
     throw InputError(fmt::format("compare: jitter = {} must lie in [0, 1)", options.jitter));
@@ -92,54 +110,77 @@ double energy_difference(const std::vector<LedgerEntry>& ledger,
 /// One call of `compare`.
 class Comparing {
  public:
-  Comparing(const LodChain& chain, const Scenario& scenario, const CompareOptions& options)
-      : chain_(chain), options_(options), slots_(options.starts) {
-    result_.scenario = scenario;
-    result_.error_window = options.error_window;
-    for (StartSlot& slot : slots_) slot.users = static_cast<std::uint32_t>(chain.levels.size());
-    for (std::uint32_t level = 0; level < chain.levels.size(); ++level) {
-      bindings_.push_back(lod::base_from_level(chain, level));
-      RunOptions& run = run_options_.emplace_back(options.run);
-      run.anchors = mapped(options.run.anchors, chain.levels[level].of_base);
-      if (options.contact.value_or(chain.contact) == ContactAt::surface && level > 0)
-        run.skin = std::make_shared<ContactSkin>(contact_skin(chain, level));
-      plans_.push_back(plan_runs(chain.levels[level].model, scenario, run));
-      LevelRuns& runs = result_.levels.emplace_back();
-      runs.level = level;
-      runs.label = label_of(level, options.variant);
-      runs.starts.resize(options.starts);
+  Comparing(const std::vector<const LodChain*>& chains, const Scenario& scenario,
+            const CompareOptions& options, const std::vector<std::string>& variants)
+      : options_(options),
+        base_(chains.front()->levels.front().model),
+        base_center_(center_of_mass(base_, base_.rest)),
+        slots_(options.starts),
+        results_(chains.size()) {
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      Comparison& result = results_[c];
+      result.scenario = scenario;
+      result.error_window = options.error_window;
+      result.levels.resize(chains[c]->levels.size());
+      for (std::uint32_t level = 0; level < result.levels.size(); ++level) {
+        result.levels[level].level = level;
+        result.levels[level].label = label_of(level, variants.empty() ? "" : variants[c]);
+        result.levels[level].starts.resize(options.starts);
+        if (c == 0 || level > 0) add_runner(*chains[c], level, result.levels[level]);
+      }
     }
-    const MassSpringModel& base = chain.levels[0].model;
-    base_center_ = center_of_mass(base, base.rest);
+    for (StartSlot& slot : slots_) slot.users = static_cast<std::uint32_t>(runners_.size());
   }
 
-  Comparison run_all() {
-    const std::uint64_t jobs = std::uint64_t{options_.starts} * chain_.levels.size();
+  std::vector<Comparison> run_all() {
+    const std::uint64_t jobs = std::uint64_t{options_.starts} * runners_.size();
     Task task(options_.progress, "compare", jobs * RunProgress::kUnits);
     // Ordered by start, the base first: when a level waits for its base, the base's run has already
     // begun.
     run_jobs(jobs, options_.threads, [&](std::uint64_t job, const std::function<bool()>& stopped) {
-      const auto start = static_cast<std::uint32_t>(job / chain_.levels.size());
-      const auto level = static_cast<std::uint32_t>(job % chain_.levels.size());
-      if (level == 0)
-        run_base(start, stopped);
+      const auto start = static_cast<std::uint32_t>(job / runners_.size());
+      const Runner& runner = runners_[job % runners_.size()];
+      if (runner.runs.level == 0)
+        run_base(runner, start, stopped);
       else
-        run_coarser(level, start, stopped);
+        run_coarser(runner, start, stopped);
     });
-    return std::move(result_);
+    for (std::size_t c = 1; c < results_.size(); ++c)
+      results_[c].levels.front() = results_.front().levels.front();
+    return std::move(results_);
   }
 
  private:
-  void run_base(std::uint32_t start, const std::function<bool()>& stopped) {
+  /// What the runs of one level share.
+  struct Runner {
+    const MassSpringModel& model;
+    Binding base_of_level;
+    RunOptions options;
+    RunPlan plan;
+    LevelRuns& runs;  // their results
+  };
+
+  void add_runner(const LodChain& chain, std::uint32_t level, LevelRuns& runs) {
+    RunOptions run = options_.run;
+    run.anchors = mapped(options_.run.anchors, chain.levels[level].of_base);
+    if (options_.contact.value_or(chain.contact) == ContactAt::surface && level > 0)
+      run.skin = std::make_shared<ContactSkin>(contact_skin(chain, level));
+    const MassSpringModel& model = chain.levels[level].model;
+    RunPlan plan = plan_runs(model, results_.front().scenario, run);
+    runners_.push_back(
+        {model, lod::base_from_level(chain, level), std::move(run), std::move(plan), runs});
+  }
+
+  void run_base(const Runner& runner, std::uint32_t start, const std::function<bool()>& stopped) {
     auto base = std::make_shared<BaseRun>();
     try {
-      Trajectory trajectory = run_level(0, start, stopped);
+      Trajectory trajectory = run_level(runner, start, stopped);
       base->frames = start == 0 ? trajectory.frames : std::move(trajectory.frames);
       base->ledger = start == 0 ? trajectory.ledger : std::move(trajectory.ledger);
       base->first_contact = trajectory.first_contact;
       if (start == 0) {
-        result_.levels[0].base_frames = trajectory.frames;
-        result_.levels[0].first = std::move(trajectory);
+        runner.runs.base_frames = trajectory.frames;
+        runner.runs.first = std::move(trajectory);
       }
     } catch (...) {
       slots_[start].promise.set_exception(std::current_exception());
@@ -149,24 +190,24 @@ class Comparing {
     leave(start, *base);
   }
 
-  void run_coarser(std::uint32_t level, std::uint32_t start, const std::function<bool()>& stopped) {
-    Trajectory trajectory = run_level(level, start, stopped);
-    std::vector<Frame> base_frames = bring_back(level, trajectory.frames);
+  void run_coarser(const Runner& runner, std::uint32_t start,
+                   const std::function<bool()>& stopped) {
+    Trajectory trajectory = run_level(runner, start, stopped);
+    std::vector<Frame> base_frames = bring_back(runner.base_of_level, trajectory.frames);
     const auto base_run = slots_[start].base;  // a copy: several threads must not share one future
     // If another run failed, the base's may never start.
     while (base_run.wait_for(kPatience) != std::future_status::ready)
       if (stopped()) throw InterruptedError();
     const std::shared_ptr<BaseRun>& base = base_run.get();
-    const Errors errors =
-        mean_errors(base_frames, *base, chain_.levels[0].model.mass, options_.error_window);
-    StartResult& result = result_.levels[level].starts[start];
+    const Errors errors = mean_errors(base_frames, *base, base_.mass, options_.error_window);
+    StartResult& result = runner.runs.starts[start];
     result.surface_error = errors.surface;
     result.shape_error = errors.shape;
     result.energy_difference = energy_difference(trajectory.ledger, base->ledger);
     leave(start, *base);
     if (start == 0) {
-      result_.levels[level].first = std::move(trajectory);
-      result_.levels[level].base_frames = std::move(base_frames);
+      runner.runs.first = std::move(trajectory);
+      runner.runs.base_frames = std::move(base_frames);
     }
   }
 
@@ -177,38 +218,35 @@ class Comparing {
   }
 
   /// Runs one level and keeps the results of its own trajectory.
-  Trajectory run_level(std::uint32_t level, std::uint32_t start,
+  Trajectory run_level(const Runner& runner, std::uint32_t start,
                        const std::function<bool()>& stopped) {
-    const MassSpringModel& model = chain_.levels[level].model;
-    Scenario scenario = result_.scenario;
+    Scenario scenario = results_.front().scenario;
     scenario.start = jittered(scenario.start, base_center_, options_.jitter, options_.seed, start);
     RunProgress progress(options_.progress, stopped);
-    RunOptions run_options = run_options_[level];
+    RunOptions run_options = runner.options;
     run_options.progress = &progress;
-    LevelRuns& runs = result_.levels[level];
-    Trajectory trajectory =
-        run_start(model, scenario, base_center_, run_options, plans_[level],
-                  fmt::format("{}, start {}", runs.label, start + 1), runs.starts[start]);
+    Trajectory trajectory = run_start(
+        runner.model, scenario, base_center_, run_options, runner.plan,
+        fmt::format("{}, start {}", runner.runs.label, start + 1), runner.runs.starts[start]);
     progress.finish();
     return trajectory;
   }
 
-  std::vector<Frame> bring_back(std::uint32_t level, const std::vector<Frame>& frames) const {
+  static std::vector<Frame> bring_back(const Binding& base_of_level,
+                                       const std::vector<Frame>& frames) {
     std::vector<Frame> base_frames;
     base_frames.reserve(frames.size());
     for (const Frame& frame : frames)
-      base_frames.push_back({frame.time, interpolate(bindings_[level], frame.x)});
+      base_frames.push_back({frame.time, interpolate(base_of_level, frame.x)});
     return base_frames;
   }
 
-  const LodChain& chain_;
   const CompareOptions& options_;
-  std::vector<StartSlot> slots_;
-  std::vector<Binding> bindings_;        // level 0 from each level
-  std::vector<RunOptions> run_options_;  // by level
-  std::vector<RunPlan> plans_;           // by level
+  const MassSpringModel& base_;
   Vec3 base_center_;
-  Comparison result_;
+  std::vector<StartSlot> slots_;
+  std::vector<Comparison> results_;  // by chain
+  std::vector<Runner> runners_;      // the base, then the levels of each chain
 };
 
 }  // namespace
@@ -221,10 +259,16 @@ std::optional<double> error_end(const Comparison& comparison) {
   return end;
 }
 
-Comparison compare(const LodChain& chain, const Scenario& scenario, const CompareOptions& options) {
-  validate(chain, options);
+std::vector<Comparison> compare(const std::vector<const LodChain*>& chains,
+                                const Scenario& scenario, const CompareOptions& options,
+                                const std::vector<std::string>& variants) {
+  validate(chains, options, variants);
   validate(scenario);
-  return Comparing(chain, scenario, options).run_all();
+  return Comparing(chains, scenario, options, variants).run_all();
+}
+
+Comparison compare(const LodChain& chain, const Scenario& scenario, const CompareOptions& options) {
+  return std::move(compare({&chain}, scenario, options, {options.variant}).front());
 }
 
 }  // namespace springlod::sim

@@ -87,4 +87,11 @@ std::optional<double> error_end(const Comparison& comparison);
 Comparison compare(const LodChain& chain, const Scenario& scenario,
                    const CompareOptions& options = {});
 
+/// Several chains of one base, which runs once for all of them: the same as a comparison of each.
+/// `variants`: start of the labels of each, as CompareOptions::variant, which is not used; or
+/// empty. Throws InputError also for chains of different bases.
+std::vector<Comparison> compare(const std::vector<const LodChain*>& chains,
+                                const Scenario& scenario, const CompareOptions& options,
+                                const std::vector<std::string>& variants);
+
 }  // namespace springlod::sim

@@ -70,6 +70,39 @@ TEST_CASE("One and two threads give the same bits", "[threaded]") {
   CHECK(one.levels[2].label == "hb level 2");
 }
 
+TEST_CASE("Chains of one base give the results of a comparison of each", "[threaded]") {
+  const LodChain longer = test::small_chain();
+  LodChain shorter = longer;
+  shorter.levels.pop_back();
+  CompareOptions options;
+  options.starts = 3;
+  const auto both = compare({&longer, &shorter}, small_scene(), options, {"a", "b"});
+  REQUIRE(both.size() == 2);
+  for (const std::size_t c : {0, 1}) {
+    const LodChain& chain = c == 0 ? longer : shorter;
+    const auto alone = compare(chain, small_scene(), options);
+    REQUIRE(both[c].levels.size() == chain.levels.size());
+    for (std::size_t l = 0; l < chain.levels.size(); ++l) {
+      const LevelRuns& runs = both[c].levels[l];
+      CHECK(runs.label ==
+            (l == 0 ? "base" : (c == 0 ? "a level " : "b level ") + std::to_string(l)));
+      for (std::size_t s = 0; s < options.starts; ++s)
+        check_same_bits(runs.starts[s], alone.levels[l].starts[s]);
+      CHECK(runs.first.frames.back().x == alone.levels[l].first.frames.back().x);
+      CHECK(runs.base_frames.size() == alone.levels[l].base_frames.size());
+    }
+  }
+
+  LodChain other = shorter;
+  other.levels[0].model.mass[0] *= 2;
+  using Catch::Matchers::Contains;
+  CHECK_THROWS_WITH(compare({&longer, &other}, small_scene(), options, {}),
+                    Contains("chain 2 has another base"));
+  CHECK_THROWS_WITH(compare({&longer, &shorter}, small_scene(), options, {"a"}),
+                    Contains("1 variants do not name 2 chains"));
+  CHECK_THROWS_AS(compare({}, small_scene(), options, {}), InputError);
+}
+
 TEST_CASE("Every level starts from the same jittered throw") {
   CompareOptions options;
   options.starts = 4;
