@@ -70,42 +70,35 @@ Groups raw_groups(const Level& finer, const SpringRows& springs, const SimplifyO
   return groups;
 }
 
-struct Step {
-  Groups groups;
-  Relinking links;
-  std::uint32_t regrouped = 0;  ///< nodes, see without_mechanisms
-};
-
 GuardOptions guard_of(const SimplifyOptions& options) {
   GuardOptions guard = options.guard;
   guard.border = options.grouping.border;
   return guard;
 }
 
-Step guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
-                  const SimplifyOptions& options) {
+GuardedGroups guarded_step(const Level& finer, const SpringRows& springs, Groups groups,
+                           const SimplifyOptions& options) {
   if (!options.guards) {
     Relinking links = relink(springs, groups);
     return {std::move(groups), std::move(links)};
   }
-  GuardedGroups sound = guard_groups(finer.model, springs, groups, guard_of(options));
-  return {std::move(sound.groups), std::move(sound.links)};
+  return guard_groups(finer.model, springs, groups, guard_of(options));
 }
 
 /// The number of groups after the guards that is nearest to `wanted`, of some attempts; usually
 /// `wanted` itself. If the guards fuse n groups, the next attempt requests n more; surplus groups
 /// are then fused, the smallest first.
-Step step_near(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
-               std::uint32_t level, std::uint32_t wanted) {
+GuardedGroups step_near(const Level& finer, const SpringRows& springs,
+                        const SimplifyOptions& options, std::uint32_t level, std::uint32_t wanted) {
   constexpr int kTries = 20;
-  const auto miss = [wanted](const Step& step) {
+  const auto miss = [wanted](const GuardedGroups& step) {
     return step.groups.count > wanted ? step.groups.count - wanted : wanted - step.groups.count;
   };
   std::uint32_t requested = wanted;
-  std::optional<Step> nearest;
+  std::optional<GuardedGroups> nearest;
   for (int i = 0; i < kTries; ++i) {
-    Step step = guarded_step(finer, springs, raw_groups(finer, springs, options, level, requested),
-                             options);
+    GuardedGroups step = guarded_step(
+        finer, springs, raw_groups(finer, springs, options, level, requested), options);
     if (step.groups.count > wanted) {
       fuse_to_count(finer.model, options.grouping.border, wanted, step.groups);
       step = guarded_step(finer, springs, std::move(step.groups), options);
@@ -120,26 +113,25 @@ Step step_near(const Level& finer, const SpringRows& springs, const SimplifyOpti
   return std::move(*nearest);
 }
 
-/// `step` without mechanisms; groups of a script stay as they are.
-Step sound_step(const Level& finer, const SpringRows& springs, const SimplifyOptions& options,
-                std::uint32_t before, Step step) {
-  if (!options.guards || options.groups) return step;
-  RegroupedStep sound =
-      without_mechanisms(finer.model, springs, {std::move(step.groups), std::move(step.links)},
-                         before, guard_of(options));
-  return {std::move(sound.step.groups), std::move(sound.step.links), sound.regrouped};
+/// Merges by `step`, without mechanisms; groups of a script stay as they are.
+RegroupedStep sound_step(const Level& finer, const SpringRows& springs,
+                         const SimplifyOptions& options, std::uint32_t before, GuardedGroups step) {
+  if (options.guards && !options.groups)
+    return without_mechanisms(finer.model, springs, std::move(step), before, guard_of(options));
+  MassSpringModel merged = merge_springs(finer.model, step.groups, std::move(step.links));
+  return {std::move(step.groups), std::move(merged)};
 }
 
 /// `before`: number of nodes of the level before.
-Step next_step(const Level& finer, const SimplifyOptions& options, std::uint32_t level,
-               std::uint32_t wanted, std::uint32_t before) {
+RegroupedStep next_step(const Level& finer, const SimplifyOptions& options, std::uint32_t level,
+                        std::uint32_t wanted, std::uint32_t before) {
   const SpringRows springs(finer.model);
   if (wanted == 0)
     return sound_step(
         finer, springs, options, before,
         guarded_step(finer, springs, raw_groups(finer, springs, options, level, 0), options));
-  Step step = sound_step(finer, springs, options, before,
-                         step_near(finer, springs, options, level, wanted));
+  RegroupedStep step = sound_step(finer, springs, options, before,
+                                  step_near(finer, springs, options, level, wanted));
   // Without `keep`, the number is only the usual one.
   if (!options.keep.empty() && step.groups.count != wanted)
     throw InputError(
@@ -173,10 +165,10 @@ std::string regrouped_remark(std::uint32_t nodes) {
 Level next_level(const LodChain& chain, const SimplifyOptions& options, std::uint32_t level) {
   const Level& finer = straight_from_base(options) ? chain.levels.front() : chain.levels.back();
   const std::uint32_t wanted = wanted_nodes(chain, options, level);
-  Step step = next_step(finer, options, level, wanted, chain.levels.back().model.node_count());
+  RegroupedStep step =
+      next_step(finer, options, level, wanted, chain.levels.back().model.node_count());
   require_coarser(chain.levels.back(), step.groups, options, level, wanted);
-  Level coarse{merge_springs(finer.model, step.groups, std::move(step.links)),
-               compose(finer.of_base, step.groups),
+  Level coarse{std::move(step.merged), compose(finer.of_base, step.groups),
                (options.made_by.empty() ? summary_of(options) : options.made_by) +
                    regrouped_remark(step.regrouped) + choice_of(options.calibrate).remark};
   coarse.model.corners = merge_corners(finer.model.corners, step.groups, coarse.model.rest);

@@ -211,11 +211,11 @@ RegroupedStep without_mechanisms(const MassSpringModel& fine, const SpringRows& 
   GuardedGroups tried = step;
   std::vector<bool> regrouped(fine.node_count(), false);
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    const MassSpringModel merged = merge_springs(fine, tried.groups, tried.links);
+    MassSpringModel merged = merge_springs(fine, tried.groups, std::move(tried.links));
     const std::vector<std::uint32_t> folding = folding_nodes(fine, merged, tried.groups);
     if (folding.empty()) {
       if (tried.groups.count >= below) break;
-      return {std::move(tried),
+      return {std::move(tried.groups), std::move(merged),
               static_cast<std::uint32_t>(std::count(regrouped.begin(), regrouped.end(), true))};
     }
     const std::vector<bool> chosen = chosen_groups(merged, folding, attempt);
@@ -229,7 +229,8 @@ RegroupedStep without_mechanisms(const MassSpringModel& fine, const SpringRows& 
     Relinking links = relink(springs, groups);
     tried = {std::move(groups), std::move(links)};
   }
-  return {std::move(step), 0};
+  MassSpringModel merged = merge_springs(fine, step.groups, std::move(step.links));
+  return {std::move(step.groups), std::move(merged), 0};
 }
 
 }  // namespace springlod::lod

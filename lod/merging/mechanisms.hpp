@@ -11,9 +11,10 @@
 namespace springlod::lod {
 
 struct RegroupedStep {
-  GuardedGroups step;
+  Groups groups;
+  MassSpringModel merged;  ///< `fine`, merged by them
   std::uint32_t regrouped =
-      0;  ///< fine nodes of groups that were taken apart; 0: `step` is as it was
+      0;  ///< fine nodes of groups that were taken apart; 0: `groups` are as they were
 };
 
 /// Regroups where merging by `step` would make mechanisms that `fine` does not have, such as a

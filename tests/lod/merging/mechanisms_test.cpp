@@ -117,7 +117,7 @@ TEST_CASE("A sound step and a rope are left as they are") {
   const RegroupedStep kept =
       without_mechanisms(solid, rows, guard_groups(solid, rows, all, {}), 1000, {});
   CHECK(kept.regrouped == 0);
-  CHECK(kept.step.groups.count == solid.node_count());
+  CHECK(kept.groups.count == solid.node_count());
 
   const MassSpringModel rope = test::chain_of_nodes(12);
   const SpringRows rope_rows(rope);
@@ -127,7 +127,7 @@ TEST_CASE("A sound step and a rope are left as they are") {
   const RegroupedStep coarse =
       without_mechanisms(rope, rope_rows, {pairs, relink(rope_rows, pairs)}, 12, {});
   CHECK(coarse.regrouped == 0);
-  CHECK(coarse.step.groups.of == pairs.of);
+  CHECK(coarse.groups.of == pairs.of);
 }
 
 TEST_CASE("A step that cannot be mended below the wanted number is returned as it was") {
@@ -140,10 +140,10 @@ TEST_CASE("A step that cannot be mended below the wanted number is returned as i
   three.count = 3;
   const RegroupedStep same = without_mechanisms(base, rows, {three, relink(rows, three)}, 4, {});
   CHECK(same.regrouped == 0);
-  CHECK(same.step.groups.of == three.of);
+  CHECK(same.groups.of == three.of);
   const RegroupedStep more = without_mechanisms(base, rows, {three, relink(rows, three)}, 28, {});
   CHECK(more.regrouped == base.node_count());
-  CHECK(more.step.groups.count > 3);
+  CHECK(more.groups.count > 3);
 }
 
 TEST_CASE("Stars: those of a solid are rigid, those of a hinge are not, and undo restores them") {
