@@ -79,4 +79,8 @@ std::string printable(std::string_view message) {
   return without_middle(result, kLongestMessage);
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 }  // namespace springlod::inline base

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,9 @@ namespace springlod::inline base {
 /// paths) and messages of more than kLongestMessage bytes with "..." in place of their middle. The
 /// middle, because a message begins with what is wrong and ends with what to do.
 std::string printable(std::string_view message);
+
+/// "1 run", "3 runs".
+std::string counted(std::uint64_t count, std::string_view noun);
 
 inline constexpr std::size_t kLongestWord = 300;      ///< [bytes]
 inline constexpr std::size_t kLongestMessage = 2000;  ///< [bytes]

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "base/units.hpp"
 #include "model/drawn_colour.hpp"
 #include "report/part_materials.hpp"
@@ -48,9 +49,6 @@ std::string count_text(double count) {
 }
 
 std::string title_of(const std::string& label, const MassSpringModel& model) {
-  const auto counted = [](std::size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-  };
   return fmt::format("{}{}{}, {}", label, label.empty() ? "" : ": ",
                      counted(model.node_count(), "node"), counted(model.spring_count(), "spring"));
 }

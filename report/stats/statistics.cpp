@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "report/stats.hpp"
 
 namespace springlod::report {
@@ -40,9 +41,9 @@ double integral_between(std::vector<double> base, std::vector<double> other, Wei
 void require_sample(const std::vector<double>& sample, std::size_t least, std::string_view what) {
   if (sample.size() < least)
     throw InputError(
-        fmt::format("statistics: the sample '{}' has {} value{}, but at least {} are "
+        fmt::format("statistics: the sample '{}' has {}, but at least {} are "
                     "needed; run more starts",
-                    what, sample.size(), sample.size() == 1 ? "" : "s", least));
+                    what, counted(sample.size(), "value"), least));
   for (std::size_t i = 0; i < sample.size(); ++i)
     if (!std::isfinite(sample[i]))
       throw InputError(

@@ -8,12 +8,14 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "lod/transfer.hpp"
 #include "model/drawn_colour.hpp"
 #include "render/scene.hpp"
 #include "report/part_materials.hpp"
 #include "report/playback.hpp"
 #include "report/view/coarse_surface.hpp"
+#include "sim/study/compare.hpp"
 
 namespace springlod::report {
 namespace {
@@ -182,7 +184,7 @@ double list_springs(View& view, const std::vector<Candidate>& candidates,
   }
   if (without > 0)
     view.left_out.push_back(
-        fmt::format("The springs of {} level{} are left out.", without, without == 1 ? "" : "s"));
+        fmt::format("The springs of {} are left out.", counted(without, "level")));
   return taken;
 }
 
@@ -246,7 +248,7 @@ View view_of(const LodAsset& asset, const ViewOptions& options) {
   View view = view_for(asset, options);
   std::vector<Candidate> candidates;
   for (std::uint32_t n = 0; n < asset.chain.levels.size(); ++n)
-    candidates.push_back({&asset, nullptr, n == 0 ? "base" : fmt::format("level {}", n), 0, n});
+    candidates.push_back({&asset, nullptr, sim::level_label(n), 0, n});
   add_bodies(view, candidates, 0, options);
   return view;
 }

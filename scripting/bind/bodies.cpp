@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/message.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -39,9 +40,8 @@ void say_left_out(Call& call, const voxelize::SeparateBodies& found, const GridV
         100 * static_cast<double>(kept) / static_cast<double>(whole.grid.cells.size())));
   }
   if (found.stray_triangles > 0)
-    call.session().console().say(
-        fmt::format("left out {} triangle{} more than a cell from all bodies",
-                    found.stray_triangles, found.stray_triangles == 1 ? "" : "s"));
+    call.session().console().say(fmt::format("left out {} more than a cell from all bodies",
+                                             counted(found.stray_triangles, "triangle")));
 }
 
 int bodies_binding(Call& call) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "base/message.hpp"
 #include "base/units.hpp"
 #include "report/no_contact_text.hpp"
 #include "report/tables.hpp"
@@ -49,15 +50,15 @@ void warn(Console& console, const std::vector<sim::RunSummary>& runs, bool resis
   }
   if (unconverged > 0)
     console.say(
-        fmt::format("compare: in {} of {} run{} the solver did not reach its tolerance in some "
+        fmt::format("compare: in {} of {} the solver did not reach its tolerance in some "
                     "steps; use more iterations, a greater tolerance or a smaller step",
-                    unconverged, runs.size(), runs.size() == 1 ? "" : "s"));
+                    unconverged, counted(runs.size(), "run")));
   if (inverted > 0)
     console.say(
-        fmt::format("compare: in {} of {} run{} the body was inside out somewhere, the first "
+        fmt::format("compare: in {} of {} the body was inside out somewhere, the first "
                     "at t = {}, and in {} until the end; {}",
-                    inverted, runs.size(), runs.size() == 1 ? "" : "s",
-                    format_quantity(first, Dimension::time), at_end, inversion_hint(resisted)));
+                    inverted, counted(runs.size(), "run"), format_quantity(first, Dimension::time),
+                    at_end, inversion_hint(resisted)));
 }
 
 /// Prints a hint if damping limits the step of a level.
@@ -74,9 +75,9 @@ void hint_at_damping(Session& session, const MassSpringModel& base,
     if (worst == nullptr || fraction(level) < fraction(*worst)) worst = &level;
   }
   if (worst != nullptr && first_hint_at_damping(session, base))
-    session.console().say(fmt::format(
-        "compare: damping shortens the steps of {} of {} level{}, that of {} {}", limited,
-        levels.size(), levels.size() == 1 ? "" : "s", worst->label, damping_hint(worst->first)));
+    session.console().say(
+        fmt::format("compare: damping shortens the steps of {} of {}, that of {} {}", limited,
+                    counted(levels.size(), "level"), worst->label, damping_hint(worst->first)));
 }
 
 /// That the body touches nothing; held bodies without obstacles are not meant to.
@@ -213,8 +214,8 @@ std::string comparison_text(const ComparisonValue& value) {
   for (const sim::LevelRuns& level : value.comparison.levels) labels.push_back(level.label);
   const std::size_t starts =
       value.comparison.levels.empty() ? 0 : value.comparison.levels.front().starts.size();
-  return fmt::format("Comparison of {} in {}, {} start{}", fmt::join(labels, ", "),
-                     value.comparison.scenario.name, starts, starts == 1 ? "" : "s");
+  return fmt::format("Comparison of {} in {}, {}", fmt::join(labels, ", "),
+                     value.comparison.scenario.name, counted(starts, "start"));
 }
 
 void describe_comparison(Api& api) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "base/message.hpp"
 #include "base/units.hpp"
 #include "elastic/moduli.hpp"
 #include "elastic/stable_step.hpp"
@@ -157,12 +158,9 @@ std::string model_text(const ModelValue& value) {
   const MassProperties properties = mass_properties(model);
   std::string text = "Model: ";
   if (value.chain) text = fmt::format("Model, level {}: ", value.level);
-  text += fmt::format("{} node{} ({} border), {}", model.node_count(),
-                      model.node_count() == 1 ? "" : "s", border_count(model),
-                      spring_text(model.spring_count()));
-  if (model.corner_count() > 0)
-    text +=
-        fmt::format(", {} corner{}", model.corner_count(), model.corner_count() == 1 ? "" : "s");
+  text += fmt::format("{} ({} border), {}", counted(model.node_count(), "node"),
+                      border_count(model), counted(model.spring_count(), "spring"));
+  if (model.corner_count() > 0) text += ", " + counted(model.corner_count(), "corner");
   return text + ", " + format_quantity(properties.mass, Dimension::mass) + damping_text(model);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "base/message.hpp"
 #include "base/script_number.hpp"
 #include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/options.hpp"
@@ -33,9 +34,9 @@ void warn(Session& session, const ModelValue& model, const sim::Trajectory& run,
     console.say("run: damping shortens the step " + damping_hint(run));
   if (run.unconverged_steps > 0)
     console.say(
-        fmt::format("run: in {} of {} step{} the solver did not reach its tolerance; use more "
+        fmt::format("run: in {} of {} the solver did not reach its tolerance; use more "
                     "iterations, a greater tolerance or a smaller step",
-                    run.unconverged_steps, run.steps, run.steps == 1 ? "" : "s"));
+                    run.unconverged_steps, counted(run.steps, "step")));
   if (run.first_crossing)
     console.say(fmt::format(
         "run: the spring of nodes {} and {} was inverted by t = {:.4g} s (its nodes crossed); {}",
@@ -44,10 +45,10 @@ void warn(Session& session, const ModelValue& model, const sim::Trajectory& run,
   if (const auto& first = run.inversions.first)
     console.say(fmt::format(
         "run: the body was inside out at t = {:.4g} s, at ({:.4g}, {:.4g}, {:.4g}) m (corner {}); "
-        "at most {} corner{} at one time, {} at the end; {}",
+        "at most {} at one time, {} at the end; {}",
         first->time, first->place.x(), first->place.y(), first->place.z(),
-        script_number(first->corner), run.inversions.most, run.inversions.most == 1 ? "" : "s",
-        run.inverted_at_end, inversion_hint(resisted)));
+        script_number(first->corner), counted(run.inversions.most, "corner"), run.inverted_at_end,
+        inversion_hint(resisted)));
 }
 
 int run_binding(Call& call) {
@@ -151,9 +152,8 @@ void describe_trajectory(Api& api) {
       "One run of one model; trajectory[i] is frame i, #trajectory their number.",
       [](const TrajectoryValue& value) {
         const sim::Trajectory& t = value.trajectory;
-        return fmt::format("Trajectory: {:.4g} s in {} step{} of {:.4g} s, {} frame{}", t.simulated,
-                           t.steps, t.steps == 1 ? "" : "s", t.step, t.frames.size(),
-                           t.frames.size() == 1 ? "" : "s");
+        return fmt::format("Trajectory: {:.4g} s in {} of {:.4g} s, {}", t.simulated,
+                           counted(t.steps, "step"), t.step, counted(t.frames.size(), "frame"));
       });
   const auto number = [&](const char* name, const char* help, auto get) {
     type.field(name, "number", help,

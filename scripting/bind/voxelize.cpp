@@ -6,6 +6,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "base/units.hpp"
 #include "scripting/bind/tables/options.hpp"
 #include "scripting/bind/tables/records.hpp"
@@ -140,15 +141,14 @@ void say_hinges(Call& call, const voxelize::LatticeModel& lattice, voxelize::Hin
   if (lattice.hinges.empty()) return;
   const Vec3& at = lattice.hinges.front().position;
   const std::string what = fmt::format(
-      "{} hinge{} where cells touch only along an edge or at a corner, the first at "
+      "{} where cells touch only along an edge or at a corner, the first at "
       "({:.4g}, {:.4g}, {:.4g}) m",
-      lattice.hinges.size(), lattice.hinges.size() == 1 ? "" : "s", at.x(), at.y(), at.z());
+      counted(lattice.hinges.size(), "hinge"), at.x(), at.y(), at.z());
   if (policy == voxelize::HingePolicy::report)
     call.session().console().say(what + "; hinges = \"fill\" or \"separate\" removes them");
   if (policy == voxelize::HingePolicy::fill)
-    call.session().console().say(fmt::format("{}: mended by {} more cell{}", what,
-                                             lattice.filled_cells,
-                                             lattice.filled_cells == 1 ? "" : "s"));
+    call.session().console().say(
+        fmt::format("{}: mended by {}", what, counted(lattice.filled_cells, "more cell")));
   if (policy == voxelize::HingePolicy::separate)
     call.session().console().say(
         fmt::format("{}: the cells were taken apart, {} parts", what, lattice.components));
@@ -188,9 +188,8 @@ Words length_units() {
 void describe_mesh(Api& api) {
   TypeBuilder<MeshValue> type(
       "A surface of triangles in metres, z up, in named parts.", [](const MeshValue& value) {
-        return fmt::format("Mesh: {} vertices, {} triangles, {} part{}, {}",
-                           value.mesh.positions.size(), value.mesh.triangles.size(),
-                           value.mesh.parts.size(), value.mesh.parts.size() == 1 ? "" : "s",
+        return fmt::format("Mesh: {} vertices, {} triangles, {}, {}", value.mesh.positions.size(),
+                           value.mesh.triangles.size(), counted(value.mesh.parts.size(), "part"),
                            box_text(bounds(value.mesh)));
       });
   type.field("vertex_count", "integer", "number of vertices",

@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "scripting/engine/quantity.hpp"
 #include "scripting/engine/script_error.hpp"
 
@@ -30,8 +31,8 @@ Call::Call(lua_State* L, const FunctionEntry& entry)
   luaL_checkstack(L, 64, "a call of springlod");
   const int most = static_cast<int>(entry.arguments.size()) + (entry.options.empty() ? 0 : 1);
   if (count_ > most)
-    throw InputError(fmt::format("{} takes {} argument{}, got {}; try help(\"{}\")", display_name(),
-                                 most, most == 1 ? "" : "s", count_, display_name()));
+    throw InputError(fmt::format("{} takes {}, got {}; try help(\"{}\")", display_name(),
+                                 counted(most, "argument"), count_, display_name()));
   lua_settop(L, index(most));  // fills omitted arguments with nil, before a binding pushes values
 }
 

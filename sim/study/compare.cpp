@@ -53,11 +53,6 @@ void validate(const std::vector<const LodChain*>& chains, const CompareOptions& 
         fmt::format("compare: error_window = {} must be 0 or more seconds", options.error_window));
 }
 
-std::string label_of(std::uint32_t level, const std::string& variant) {
-  if (level == 0) return "base";
-  return fmt::format("{}{}level {}", variant, variant.empty() ? "" : " ", level);
-}
-
 /// Data of the base's run that the levels of one start need.
 struct BaseRun {
   std::vector<Frame> frames;
@@ -124,7 +119,7 @@ class Comparing {
       result.levels.resize(chains[c]->levels.size());
       for (std::uint32_t level = 0; level < result.levels.size(); ++level) {
         result.levels[level].level = level;
-        result.levels[level].label = label_of(level, variants.empty() ? "" : variants[c]);
+        result.levels[level].label = level_label(level, variants.empty() ? "" : variants[c]);
         result.levels[level].starts.resize(options.starts);
         if (c == 0 || level > 0) add_runner(*chains[c], level, result.levels[level]);
       }
@@ -250,6 +245,11 @@ class Comparing {
 };
 
 }  // namespace
+
+std::string level_label(std::uint32_t level, const std::string& variant) {
+  if (level == 0) return "base";
+  return fmt::format("{}{}level {}", variant, variant.empty() ? "" : " ", level);
+}
 
 std::optional<double> error_end(const Comparison& comparison) {
   const Trajectory& base = comparison.levels.front().first;

@@ -75,6 +75,9 @@ struct Comparison {
   double error_window = 0;  ///< that of the options [s]
 };
 
+/// How users know a level: "base", "level 1", with a variant "hb level 1".
+std::string level_label(std::uint32_t level, const std::string& variant = {});
+
 /// Time until which the surface errors of the first start are averaged [s]; empty if that is the
 /// whole run.
 std::optional<double> error_end(const Comparison& comparison);

@@ -6,6 +6,7 @@
 
 using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
+using springlod::counted;
 using springlod::kLongestMessage;
 using springlod::kLongestWord;
 using springlod::printable;
@@ -49,4 +50,10 @@ TEST_CASE("A cut keeps characters whole") {
     CHECK(cut.size() <= kLongestWord);
     CHECK(cut == printable(cut));  // no half character that would be escaped
   }
+}
+
+TEST_CASE("Counts of one are singular") {
+  CHECK(counted(0, "run") == "0 runs");
+  CHECK(counted(1, "run") == "1 run");
+  CHECK(counted(3, "more cell") == "3 more cells");
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/disjoint_sets.hpp"
+#include "base/message.hpp"
 #include "voxelize/mesh/thickness.hpp"
 #include "voxelize/mesh/weld.hpp"
 
@@ -267,19 +268,16 @@ std::vector<std::string> describe(const SolidRepair& repair) {
   const auto say = [&](const std::string& text) {
     lines.push_back(fmt::format("part \"{}\": {}", repair.part, text));
   };
-  const auto number = [](std::uint64_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-  };
   if (repair.without_area) say("its triangles have no area; left out");
   if (repair.inside_out) say("all triangles faced inwards; turned");
   if (repair.turned > 0)
-    say(number(repair.turned, "triangle") + " faced against their neighbours; turned");
-  if (repair.doubled > 0) say(number(repair.doubled, "doubled triangle") + " removed");
+    say(counted(repair.turned, "triangle") + " faced against their neighbours; turned");
+  if (repair.doubled > 0) say(counted(repair.doubled, "doubled triangle") + " removed");
   if (repair.crossing_edges > 0)
-    say(number(repair.crossing_edges, "edge") + " with more than two triangles; check the result");
+    say(counted(repair.crossing_edges, "edge") + " with more than two triangles; check the result");
   if (repair.holes > 0)
-    say(fmt::format("{} ({}, {:.3g} cm2) closed", number(repair.holes, "hole"),
-                    number(repair.open_edges, "open edge"), 1e4 * repair.hole_area));
+    say(fmt::format("{} ({}, {:.3g} cm2) closed", counted(repair.holes, "hole"),
+                    counted(repair.open_edges, "open edge"), 1e4 * repair.hole_area));
   return lines;
 }
 

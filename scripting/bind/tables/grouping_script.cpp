@@ -6,6 +6,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "lod/grouping/grouping.hpp"
 #include "scripting/bind/tables/model_table.hpp"
 
@@ -108,8 +109,8 @@ void read_hand_groups(TableReader& reader, int list, lod::SimplifyOptions& optio
   }
   const auto levels = static_cast<std::uint32_t>(by_level.size());
   if (reader.has("levels") && options.levels != levels)
-    reader.refuse("levels", fmt::format("left out or {}: grouping names the groups of {} level{}",
-                                        levels, levels, levels == 1 ? "" : "s"));
+    reader.refuse("levels", fmt::format("left out or {}: grouping names the groups of {}", levels,
+                                        counted(levels, "level")));
   options.levels = levels;
   options.groups = [by_level](const MassSpringModel& fine, const Groups& /*of_base*/,
                               std::uint32_t level) {

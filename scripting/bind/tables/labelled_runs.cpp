@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "base/message.hpp"
+#include "sim/study/compare.hpp"
+
 namespace springlod::scripting {
 
 namespace {
@@ -17,7 +20,7 @@ std::vector<std::string> usual_labels(const RunValues& runs) {
   for (const auto& run : runs) {
     const std::uint32_t level = run->model->level;
     if (run->model->chain && run->model->chain == runs.front()->model->chain) levels.insert(level);
-    names.push_back(level == 0 ? "base" : fmt::format("level {}", level));
+    names.push_back(sim::level_label(level));
     numbers.push_back(fmt::format("run {}", names.size()));
   }
   return levels.size() == runs.size() ? names : numbers;
@@ -28,9 +31,8 @@ std::vector<std::string> labels_of(const RunValues& runs, TableReader& reader) {
   std::vector<std::string> labels;
   reader.read("labels", labels);
   if (labels.size() != runs.size())
-    reader.refuse("labels",
-                  fmt::format("a list with one label for each run: {} labels for {} run{}",
-                              labels.size(), runs.size(), runs.size() == 1 ? "" : "s"));
+    reader.refuse("labels", fmt::format("a list with one label for each run: {} labels for {}",
+                                        labels.size(), counted(runs.size(), "run")));
   for (const std::string& label : labels)
     if (label.find('\n') != std::string::npos) reader.refuse("labels", "texts of one line each");
   return labels;

@@ -6,6 +6,7 @@
 #include <lua.hpp>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/engine/quantity.hpp"
 
@@ -265,12 +266,12 @@ Parameter scenario_parameter() {
 void describe_scenario(Api& api) {
   describe_obstacles(api);
   describe_throw(api);
-  TypeBuilder<sim::Scenario> type(
-      "Conditions of a run: gravity, obstacles, throw and duration.",
-      [](const sim::Scenario& scenario) {
-        return fmt::format("Scenario {}: {} s, {} obstacle{}", scenario.name, scenario.duration,
-                           scenario.obstacles.size(), scenario.obstacles.size() == 1 ? "" : "s");
-      });
+  TypeBuilder<sim::Scenario> type("Conditions of a run: gravity, obstacles, throw and duration.",
+                                  [](const sim::Scenario& scenario) {
+                                    return fmt::format(
+                                        "Scenario {}: {} s, {}", scenario.name, scenario.duration,
+                                        counted(scenario.obstacles.size(), "obstacle"));
+                                  });
   type.field("name", "string", "name of the scenario",
              [](const sim::Scenario& value) { return value.name; });
   type.field("duration", "number", "maximum simulated time [s]",

@@ -44,8 +44,4 @@ Binding surface_binding(const ModelValue& model) {
   return compose(*model.surface_of_base, lod::base_from_level(model.chain->chain, model.level));
 }
 
-std::string spring_text(std::uint32_t springs) {
-  return fmt::format("{} spring{}", springs, springs == 1 ? "" : "s");
-}
-
 }  // namespace springlod::scripting

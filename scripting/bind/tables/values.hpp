@@ -107,7 +107,4 @@ std::shared_ptr<const ModelValue> level_value(const std::shared_ptr<const ChainV
 /// Surface vertices from the nodes of the model; empty if it has no surface.
 Binding surface_binding(const ModelValue& model);
 
-/// "2374 springs, 4748 ends": the paper counts each spring at both ends.
-std::string spring_text(std::uint32_t springs);
-
 }  // namespace springlod::scripting
