@@ -165,13 +165,13 @@ local function verdict_of(rows, starts, untouched)
   return sentences
 end
 
-local function write_page(chain, scene_name, compared, names, rows, starts)
+local function write_page(chain, scene_name, compared, names, rows, starts, untouched)
   -- Bodies with different bases have no view in common: then it is that of the first asset.
   local together, view = command.try(s.view, compared)
   if not together then view = s.view(compared[1]) end
   page.write(args.out .. "/index.html", {
     command = "compare", title = ("%s: %s"):format(command.stem(assets[1]), scene_name),
-    verdict = verdict_of(rows, starts, untouched_of(compared)), line = command.line(),
+    verdict = verdict_of(rows, starts, untouched), line = command.line(),
     film = args.frames > 0 and args.video:find("%.mp4$")
       and {path = args.out .. "/" .. args.video, panels = panels_of(compared)} or nil,
     view = view, chains = together and #assets > 1 and names or nil, facts = page.facts(rows),
@@ -202,10 +202,11 @@ local function compare()
   save_rows("timings.csv", compared, names, function(runs) return runs:timings() end)
   command.chart(args.out .. "/chart", compared)
   if args.frames > 0 then animate(compared, rows) end
-  write_page(chain, name, compared, names, rows, starts)
+  local untouched = untouched_of(compared)
+  write_page(chain, name, compared, names, rows, starts, untouched)
   for i = 1, #assets do fit_store.remove(fit_folder .. (#assets == 1 and "" or "/" .. i)) end
   if #assets > 1 then os.remove(fit_folder) end
-  return {rows = rows, untouched = untouched_of(compared), size = chain[0].bounds.diagonal}
+  return {rows = rows, untouched = untouched, size = chain[0].bounds.diagonal}
 end
 
 local ok, done = command.try_in(args.out, compare, fits)

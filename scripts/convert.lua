@@ -255,8 +255,6 @@ local function convert_batch(jobs)
     if failed_count(bodies) > 0 then failed = failed + 1 end
     for _, body in ipairs(bodies) do
       if body.chain then certificates.warn_of_faults(body.chain, body.asset) end
-    end
-    for _, body in ipairs(bodies) do
       rows[#rows + 1] = {job.mesh, body.chain and "converted" or "failed",
                          body.chain and node_counts(body.chain) or "", body.reason or body.asset}
     end

@@ -107,8 +107,9 @@ local function panels()
       list[#list + 1] = panel_of_mesh(mesh, command.base_name(path))
       meshes[#meshes + 1] = list[#list]
     else
-      certificates.warn_of_faults(chain, path, levels_of(chain))
-      for _, level in ipairs(levels_of(chain)) do
+      local levels = levels_of(chain)
+      certificates.warn_of_faults(chain, path, levels)
+      for _, level in ipairs(levels) do
         list[#list + 1] = panel_of_model(chain[level],
           prefix .. (level == 0 and "base" or "level " .. level))
       end

@@ -50,17 +50,21 @@ local quick = args.quick and {
   sweep_steps = {0.001, 0.01}, periods = 0.25,
 } or {}
 
--- What s.stability takes where nothing is given (sim/study/stability_map.hpp), for the estimate.
-local defaults = {
-  ratios = {1, 10, 100, 1e3, 1e4, 1e5}, steps = {0.5, 0.9, 1.1, 2, 5, 20},
-  implicit_steps = {0.003, 0.01, 0.03, 0.1}, sweep_steps = {0.0003, 0.001, 0.003, 0.01, 0.03},
-  periods = 1, iterations = {0}, integrators = s.choices.integrator,
-}
+-- What s.stability takes where nothing is given, for the estimate.
+local function defaults()
+  local values = {iterations = {0}, integrators = s.choices.integrator}
+  local stated = {ratios = true, steps = true, implicit_steps = true, sweep_steps = true,
+                  periods = true}
+  for _, option in ipairs(s.options_of("stability")) do
+    if stated[option.name] then values[option.name] = load("return " .. option.default)() end
+  end
+  return values
+end
 
 local function announce(asset)
   if args.absolute_steps or args.anchored then return end -- other steps, other modes
   local options = {duration = args.duration, levels = args.levels}
-  for name, value in pairs(defaults) do options[name] = args[name] or quick[name] or value end
+  for name, value in pairs(defaults()) do options[name] = args[name] or quick[name] or value end
   if not options.levels then
     options.levels = {}
     for level = 0, asset.coarsest do options.levels[#options.levels + 1] = level end
