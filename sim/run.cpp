@@ -40,6 +40,16 @@ void validate(const RunOptions& options) {
                                  options.frame_rate));
 }
 
+void require_known_precision(const RunOptions& options) {
+  if (options.precision == Precision::double_precision || choice_of(options.integrator).traits.fast)
+    return;
+  throw InputError(fmt::format(
+      "run: integrator = \"{}\" computes in double precision only; leave out precision = \"{}\", "
+      "or use integrator = \"{}\"",
+      to_string(options.integrator), to_string(options.precision),
+      to_string(Integrator::symplectic_euler)));
+}
+
 void require_known_forces(const MassSpringModel& model, Integrator integrator) {
   if (model.dilatation.empty() || knows_terms(integrator)) return;
   throw InputError(fmt::format(
@@ -109,6 +119,7 @@ RunPlan plan_runs(const MassSpringModel& model, const Scenario& scenario,
   validate(scenario);
   validate(options);
   validate(options.anchors, model);
+  require_known_precision(options);
   require_known_forces(model, options.integrator);
   RunPlan plan{.limit = std::make_shared<const StepLimit>(step_limit(model, options.integrator))};
   if (choice_of(options.integrator).traits.fast)

@@ -66,7 +66,9 @@ constexpr auto option_rows(const RunOptions*) {
           .by_default("safety times the predicted stable step; 1 ms for the implicit schemes"),
       option("safety", &RunOptions::safety, "step as a fraction of the predicted stable step")
           .within(1e-6, 1),
-      option("precision", &RunOptions::precision, "floating-point precision of symplectic_euler"),
+      option("precision", &RunOptions::precision,
+             "floating-point precision; only symplectic_euler supports \"single\", and other "
+             "integrators refuse it"),
       option("layout", &RunOptions::layout, "memory layout of the springs for symplectic_euler"),
       option("sleep", &RunOptions::sleep,
              "a body in contact sleeps, at no cost, once the mean speed of its nodes stays below "

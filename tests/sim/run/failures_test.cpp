@@ -211,3 +211,23 @@ TEST_CASE("Conjugate gradients that run out of iterations are reported, not take
   options.integrator = Integrator::backward_euler_direct;
   CHECK(run(uneven, scene, options).unconverged_steps == 0);
 }
+
+TEST_CASE("Single precision is refused by every integrator that has no such kernel") {
+  const MassSpringModel model = cube();
+  const Scenario scene = test::weightless(0.01);
+  for (const Integrator integrator : all_choices<Integrator>()) {
+    CAPTURE(to_string(integrator));
+    const RunOptions options{.integrator = integrator,
+                             .step = 1e-3,
+                             .frame_rate = 0,
+                             .precision = Precision::single_precision};
+    if (integrator == Integrator::symplectic_euler)
+      CHECK_NOTHROW(run(model, scene, options));
+    else
+      CHECK_THROWS_WITH(run(model, scene, options),
+                        Catch::Contains("integrator = \"" + std::string(to_string(integrator)) +
+                                        "\" computes in double precision only") &&
+                            Catch::Contains("leave out precision = \"single\", or use") &&
+                            Catch::Contains("\"symplectic_euler\""));
+  }
+}
