@@ -1,5 +1,7 @@
 #include "scripting/engine/call.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <lua.hpp>
 
@@ -7,16 +9,56 @@
 #include "base/message.hpp"
 #include "scripting/engine/quantity.hpp"
 #include "scripting/engine/script_error.hpp"
+#include "scripting/engine/suggest.hpp"
+#include "scripting/engine/unknown_option.hpp"
 
 namespace springlod::scripting {
 
 namespace {
 
+bool has_option(const FunctionEntry& entry, const std::string& option) {
+  return std::any_of(entry.options.begin(), entry.options.end(),
+                     [&](const Parameter& each) { return each.name == option; });
+}
+
+/// The functions that take what `made_by` returns, and the option.
+std::vector<const FunctionEntry*> takers(const Api& api, const FunctionEntry& made_by,
+                                         const std::string& option) {
+  std::vector<const FunctionEntry*> found;
+  for (const FunctionEntry& entry : api.functions())
+    if (has_option(entry, option) &&
+        std::any_of(entry.arguments.begin(), entry.arguments.end(),
+                    [&](const Parameter& argument) { return argument.type == made_by.returns; }))
+      found.push_back(&entry);
+  return found;
+}
+
+/// "; it is an option of compare: s.compare(chain, scenario, {anchored = ...})" for an option in
+/// the table of a scenario. `called`: the function that reads the table.
+std::string place_of_option(const Api& api, const FunctionEntry& called,
+                            const std::string& option) {
+  const std::vector<const FunctionEntry*> owners =
+      has_option(called, option) ? std::vector{&called} : takers(api, called, option);
+  if (owners.empty()) return "";
+  std::vector<std::string> names;
+  for (const FunctionEntry* owner : owners) names.push_back(owner->name);
+  std::string words;
+  for (const Parameter& argument : owners.front()->arguments) words += argument.name + ", ";
+  return fmt::format("; it is an option of {}: s.{}({}{{{} = ...}})", comma_list(names),
+                     names.front(), words, option);
+}
+
 int dispatch(lua_State* L) {
   return protect(L, [L] {
     const auto* entry = static_cast<const FunctionEntry*>(lua_touserdata(L, lua_upvalueindex(1)));
     Call call(L, *entry);
-    return entry->call(call);
+    try {
+      return entry->call(call);
+    } catch (const UnknownOption& error) {
+      const std::string place = place_of_option(call.session().api(), *entry, error.option());
+      if (place.empty()) throw;
+      throw InputError(fmt::format("unknown option '{}'{}", error.option(), place));
+    }
   });
 }
 

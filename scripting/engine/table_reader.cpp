@@ -13,6 +13,7 @@
 #include "scripting/engine/quantity.hpp"
 #include "scripting/engine/session.hpp"
 #include "scripting/engine/suggest.hpp"
+#include "scripting/engine/unknown_option.hpp"
 
 namespace springlod::scripting {
 
@@ -60,8 +61,8 @@ void TableReader::check_keys() {
                                    shown(lua_, -1), owner_, comma_list(names)));
     const std::string key = lua_tostring(lua_, -1);
     if (std::find(names.begin(), names.end(), key) == names.end())
-      throw InputError(
-          fmt::format("unknown option '{}'{}", key, name_hint(key, names, owner_ + " takes")));
+      throw UnknownOption(
+          key, fmt::format("unknown option '{}'{}", key, name_hint(key, names, owner_ + " takes")));
   }
 }
 

@@ -17,6 +17,7 @@
 using namespace springlod;
 using namespace springlod::scripting;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 
 namespace {
 
@@ -153,6 +154,34 @@ TEST_CASE("Unknown keys and entries without a key are errors") {
   CHECK_THROWS_WITH(Options(listed, "{3}"), Contains("options need names, but 1 has none"));
   CHECK_THROWS_WITH(Options(listed, "3"), Contains("expected a table of options such as {size ="));
   CHECK_NOTHROW(Options(listed, "nil"));
+}
+
+TEST_CASE("An unknown option that another function of the call takes is named with that function") {
+  ScriptState state({}, make_api());
+  const auto refused = [&](const std::string& call) {
+    const Outcome outcome = state.run_text(
+        "local s = require 'springlod'\n"
+        "local base = s.model{nodes = {{0, 0, 0, mass = 1}}}\n" +
+            call,
+        "test", {});
+    CHECK_FALSE(outcome.done);
+    return outcome.message;
+  };
+  // The call takes it, beside the table.
+  CHECK_THAT(refused("s.run(base, {anchored = {1}})"),
+             EndsWith("unknown option 'anchored'; it is an option of run: "
+                      "s.run(model, scenario, {anchored = ...})"));
+  CHECK_THAT(refused("s.run(base, {throw = {frame_rate = 1}})"),
+             EndsWith("; it is an option of run: s.run(model, scenario, {frame_rate = ...})"));
+  // Functions take it that take the result of the call.
+  CHECK_THAT(refused("s.scenario{anchored = {1}}"),
+             Contains("unknown option 'anchored'; it is an option of run, ") &&
+                 Contains("compare") && EndsWith(": s.run(model, scenario, {anchored = ...})"));
+  // No function of the call takes these.
+  CHECK_THAT(refused("s.scenario{gravty = {0, 0, 0}}"),
+             Contains("unknown option 'gravty'; did you mean 'gravity'? scenario takes: name, "));
+  CHECK_THAT(refused("s.run(base, {cell = 1})"),
+             Contains("unknown option 'cell'; scenario takes: name, "));
 }
 
 TEST_CASE(
