@@ -24,6 +24,7 @@
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
+#include "scripting/engine/inspect.hpp"
 #include "sim/study/ensemble.hpp"
 #include "sim/study/no_contact.hpp"
 
@@ -146,7 +147,10 @@ int compare_binding(Call& call) {
     values.push_back(std::make_shared<const ComparisonValue>(
         ComparisonValue{std::move(comparisons[c]), chains[c]}));
   say_what_happened(call.session(), values, options.run);
-  return of_list ? call.give(values) : call.give(values.front());
+  if (!of_list) return call.give(values.front());
+  call.give(values);
+  print_inspected(call.lua());
+  return 1;
 }
 
 int ensemble_binding(Call& call) {

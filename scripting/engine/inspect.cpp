@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 #include <lua.hpp>
 
+#include "scripting/engine/script_error.hpp"
+#include "scripting/engine/value.hpp"
+
 namespace springlod::scripting {
 
 namespace {
@@ -30,6 +33,14 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
+// __tostring of the tables of print_inspected.
+int inspected(lua_State* L) {
+  return protect(L, [L] {
+    push(L, inspect(L, 1));
+    return 1;
+  });
+}
+
 class Inspector {
  public:
   Inspector(lua_State* L, const InspectOptions& options) : lua_(L), options_(options) {}
@@ -40,16 +51,21 @@ class Inspector {
       const std::string text = lua_tostring(lua_, index);
       return nested ? quoted(text) : text;
     }
-    const bool plain_table =
-        lua_istable(lua_, index) && luaL_getmetafield(lua_, index, "__tostring") == LUA_TNIL;
-    if (plain_table) return table(index, depth);
-    if (lua_istable(lua_, index)) lua_pop(lua_, 1);
+    if (lua_istable(lua_, index) && !has_text(index)) return table(index, depth);
     std::string text = luaL_tolstring(lua_, index, nullptr);
     lua_pop(lua_, 1);
     return text;
   }
 
  private:
+  // Whether a table has a text of its own, by which tostring shows it.
+  bool has_text(int index) {
+    if (luaL_getmetafield(lua_, index, "__tostring") == LUA_TNIL) return false;
+    const bool own = lua_tocfunction(lua_, -1) != inspected;
+    lua_pop(lua_, 1);
+    return own;
+  }
+
   struct Entry {
     bool by_number = false;
     double number = 0;
@@ -142,6 +158,14 @@ class Inspector {
 
 std::string inspect(lua_State* L, int index, const InspectOptions& options) {
   return Inspector(L, options).show(index, 0, false);
+}
+
+void print_inspected(lua_State* L) {
+  if (luaL_newmetatable(L, "springlod.inspected") != 0) {
+    lua_pushcfunction(L, inspected);
+    lua_setfield(L, -2, "__tostring");
+  }
+  lua_setmetatable(L, -2);
 }
 
 }  // namespace springlod::scripting

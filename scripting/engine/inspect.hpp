@@ -16,4 +16,7 @@ struct InspectOptions {
 /// limits of `options`; other values by tostring.
 std::string inspect(lua_State* L, int index, const InspectOptions& options = {});
 
+/// Lets tostring and print show the table on top of the stack as inspect does.
+void print_inspected(lua_State* L);
+
 }  // namespace springlod::scripting

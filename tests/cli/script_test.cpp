@@ -102,6 +102,8 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.estimate(base).young > 0)
     assert(s.grid{cell = 0.1, size = {2, 1, 1}, materials = {bar = {young = 1e6}},
                   fill = function() return "bar" end}.cell_count == 2)
+    assert(tostring(s.compare({chain, chain}, {duration = 0.01}, {variants = {"a", "b"}}))
+      :find("Comparison of base, a level 1.*Comparison of base, b level 1"))
     assert(#s.bodies(grid) == 1 and grid.body_count == 1)
     assert(#s.ensemble(chain[2], scene, {starts = 2, integrator = "xpbd"}) == 2)
     assert(s.stability(chain, {levels = {2}, ratios = {1}, steps = {1.2},

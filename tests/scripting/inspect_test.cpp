@@ -2,11 +2,15 @@
 
 #include "scripting/engine/inspect.hpp"
 
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <lua.hpp>
 
+#include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/state.hpp"
 
@@ -69,4 +73,29 @@ TEST_CASE("A user's __tostring is called, and may fail") {
       "test", {});
   CHECK_FALSE(outcome.done);
   CHECK_THAT(outcome.message, Catch::Contains("broken"));
+}
+
+TEST_CASE("print_inspected lets tostring show a table as inspect does") {
+  ScriptState state({}, make_api());
+  lua_State* L = state.lua();
+  const auto scenario = [](const char* name) {
+    auto made = std::make_shared<sim::Scenario>();
+    made->name = name;
+    return std::shared_ptr<const sim::Scenario>(std::move(made));
+  };
+  push(L, std::vector{scenario("drop"), scenario("throw")});
+  print_inspected(L);
+  const std::string text = inspect(L, -1);
+  CHECK(text == "{Scenario drop: 1 s, 0 obstacles, Scenario throw: 1 s, 0 obstacles}");
+  CHECK(luaL_tolstring(L, -1, nullptr) == text);
+  lua_pop(L, 1);
+  lua_pushinteger(L, 3);
+  lua_setfield(L, -2, "more");
+  const std::string with_field = inspect(L, -1);
+  CHECK(luaL_tolstring(L, -1, nullptr) == with_field);
+  lua_pop(L, 1);
+  // Of other tables, the text is that which they have.
+  CHECK(shown("setmetatable({1}, {__tostring = function() return 'one' end})") == "one");
+  push(L, std::vector{1, 2});
+  CHECK_THAT(luaL_tolstring(L, -1, nullptr), Catch::StartsWith("table: "));
 }
