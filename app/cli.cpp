@@ -52,6 +52,10 @@ constexpr std::pair<std::string_view, std::string_view> kValues[] = {
     {"--time-limit", "T"}, {"--memory-limit", "N"},
 };
 
+// CLI11 would take "-q=3" for -q and an unknown flag -=3.
+constexpr std::string_view kSwitches[] = {"-q", "--quiet",   "-v", "--verbose", "--unsafe",
+                                          "-i", "--version", "-h", "--help"};
+
 void add_settings(CLI::App& app, Switches& switches) {
   app.add_option("--seed", switches.seed, "seed of all random numbers (default: 1)");
   app.add_option("--threads", switches.threads, "maximum number of threads; 0: all cores");
@@ -189,6 +193,29 @@ std::string reason_of(const CLI::ParseError& error) {
   return text;
 }
 
+// An error if a flag that takes no value has one: -q=3.
+std::optional<Leave> refuse_values(const std::vector<std::string>& arguments) {
+  for (const std::string& word : arguments) {
+    const std::string_view flag = std::string_view(word).substr(0, word.find('='));
+    if (flag.size() < word.size() && std::ranges::count(kSwitches, flag) > 0)
+      return wrong_use(fmt::format("{} takes no value", flag));
+  }
+  return std::nullopt;
+}
+
+// The flags before the command, with their values.
+std::vector<std::string> front_of(const std::vector<std::string>& arguments) {
+  std::vector<std::string> front;
+  bool value = false;  // of the flag before
+  for (const std::string& word : arguments) {
+    if (!value && (word == "--" || !word.starts_with("-"))) break;
+    value =
+        !value && std::ranges::any_of(kValues, [&](const auto& row) { return row.first == word; });
+    front.push_back(word);
+  }
+  return front;
+}
+
 // Parses arguments with the flags of add_settings.
 std::optional<Leave> parse_settings(CLI::App& app, std::vector<std::string> arguments,
                                     const Switches& switches, scripting::Settings& settings) {
@@ -218,6 +245,7 @@ std::optional<Leave> parse_front(const std::vector<std::string>& arguments,
   app.add_option("-e", line.code);
   app.add_flag("-i", line.prompt_after);
   add_settings(app, switches);
+  if (auto leave = refuse_values(front_of(arguments))) return leave;
   if (auto leave = parse_settings(app, arguments, switches, line.settings)) return leave;
   rest = app.remaining();
   if (help) return Leave{0, usage_text(commands)};
@@ -237,8 +265,9 @@ std::optional<Leave> parse_back(const std::vector<std::string>& arguments, bool 
   app.allow_extras();
   add_settings(app, switches);
   if (own_script) app.add_flag("-i", line.prompt_after);
-  if (auto leave = parse_settings(app, {arguments.begin(), separator}, switches, line.settings))
-    return leave;
+  const std::vector<std::string> own(arguments.begin(), separator);
+  if (auto leave = refuse_values(own)) return leave;
+  if (auto leave = parse_settings(app, own, switches, line.settings)) return leave;
   line.arguments = app.remaining();
   if (separator != arguments.end())
     line.arguments.insert(line.arguments.end(), separator + (own_script ? 1 : 0), arguments.end());

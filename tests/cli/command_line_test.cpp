@@ -56,6 +56,10 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
   wrong({"--time-limit"}, "springlod: --time-limit needs a value: --time-limit T\n");
   wrong({"-e"}, "springlod: -e needs a value: -e CODE\n");
   wrong({"--seed", "1", "--seed", "2", "-e", "x = 1"}, "springlod: give --seed once\n");
+  for (const char* flag : {"-q", "--quiet", "-v", "--unsafe", "-i", "--version", "-h"})
+    wrong({flag + std::string("=3"), "-e", "x = 1"}, flag + std::string(" takes no value\n"));
+  wrong({"--seed", "1", "-q=3", "-e", "x = 1"}, "springlod: -q takes no value\n");
+  wrong({"info", "a.glb", "-q=3"}, "springlod: -q takes no value\n");
   wrong({"run"}, "run needs a script");
   wrong({"info"}, "missing argument 'file'");
   wrong({"poisson_ways", "--csv", "a.csv"}, "--csv is now --out");
