@@ -10,6 +10,7 @@
 #include <tbb/task_group.h>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "base/units.hpp"
 #include "voxelize/bodies.hpp"
 #include "voxelize/cells/cell_materials.hpp"
@@ -315,8 +316,9 @@ class Voxelizer {
     std::vector<std::size_t> cells(bodies_.count, 0);
     for (const std::uint32_t number : bodies_.of) ++cells[number];
     const auto [least, most] = std::minmax_element(cells.begin(), cells.end());
-    warn(fmt::format("the cells form {} bodies that do not touch, of {} to {} cells", bodies_.count,
-                     *least, *most));
+    const std::string sizes = *least == *most ? counted(*most, "cell") + " each"
+                                              : fmt::format("{} to {} cells", *least, *most);
+    warn(fmt::format("the cells form {} bodies that do not touch, of {}", bodies_.count, sizes));
   }
 
   void paint() {

@@ -8,6 +8,7 @@
 
 using namespace springlod;
 using namespace springlod::voxelize;
+using Catch::Matchers::EndsWith;
 
 namespace {
 
@@ -62,6 +63,20 @@ TEST_CASE("Each body has its cells, materials and triangles, the largest first")
   CHECK(crumb.mesh.parts[0].material == "rock");
   CHECK(ball.mesh.positions.size() == 2 + 47 * 96);
   CHECK(signed_volume(ball.mesh, ball.mesh.parts[0]) == signed_volume(mesh, mesh.parts[1]));
+}
+
+TEST_CASE("The warning of several bodies has their range of sizes, or the one size of all") {
+  TriangleMesh mesh;
+  test::add_box(mesh, "left", {0, 0, 0}, {2, 2, 2});
+  test::add_box(mesh, "right", {5, 0, 0}, {7, 2, 2});
+  const auto warning = [&] {
+    for (const std::string& text : cells_of(mesh).report.warnings)
+      if (text.find("bodies") != std::string::npos) return text;
+    return std::string();
+  };
+  CHECK_THAT(warning(), EndsWith("2 bodies that do not touch, of 8 cells each"));
+  test::add_box(mesh, "crumb", {9, 0, 0}, {10, 1, 1});
+  CHECK_THAT(warning(), EndsWith("3 bodies that do not touch, of 1 to 8 cells"));
 }
 
 TEST_CASE("A damping ratio is that of the body, a damping time stays") {
