@@ -133,10 +133,10 @@ enum class NodeMasses {
 
 inline constexpr Choice<NodeMasses> kNodeMasses[] = {
     {NodeMasses::group, "group",
-     "each node keeps the mass of its group, so that blows give the velocities of the base"},
+     "each node keeps the mass of its group, so that impacts give the velocities of the base"},
     {NodeMasses::free, "free",
-     "masses are fitted as stiffnesses are: lower errors of frequencies, larger ones after a "
-     "blow"}};
+     "masses are fitted as stiffnesses are: lower errors of frequencies, larger ones after "
+     "an impact"}};
 constexpr ChoiceTable<Choice<NodeMasses>> choices(NodeMasses) {
   return {"masses", kNodeMasses};
 }
@@ -251,7 +251,7 @@ struct FitOptions {
   /// The fit lowers omega_max to this fraction of omega0_max (N / N0)^(1/3), that of a lattice with
   /// as many nodes (docs/method.md, eq. 45) [1]. A lower omega_max increases the errors.
   double least_frequency = 0.87;
-  /// With fixed masses, blows are as accurate as the groups are, and mass cannot move to where it
+  /// With fixed masses, impacts are as accurate as the groups are, and mass cannot move to where it
   /// lengthens the step.
   NodeMasses masses = NodeMasses::group;
   /// Has an effect only if masses are free. With KeptMoments::pieces stiff regions cannot take mass

@@ -289,7 +289,7 @@ natural frequencies; MAC: agreement of mode shapes, 1 is best. loads: errors of 
 smooth loads, under loads that no fit sees, and under those on small patches. modulus: over the
 base's, of the material that is farthest off. area / mass: the largest contact area over mass of a
 node, over the base's. gain: spring updates of the base over those of the level. impulse, period:
-errors of the free body's motion right after a blow, in the first and in later periods. landing:
+errors of the free body's motion right after an impact, in the first and in later periods. landing:
 rms distance of the surface after the first contact. seconds: of the fit of both levels.]]
 
 local function print_means(list)
