@@ -75,7 +75,9 @@ constexpr IntegratorChoice kIntegrators[] = {
     {{Integrator::projective_dynamics, "projective_dynamics",
       "implicit; projective dynamics (Bouaziz, Martin, Liu, Kavan, Pauly 2014)"},
      make<ProjectiveDynamics>,
-     {.iterations = kLocalGlobalIterations, .swept = true, .heading = {"projective dyn.", "turn"}}},
+     {.iterations = kLocalGlobalIterations,
+      .swept = true,
+      .heading = {"projective dyn.", "iteration"}}},
 };
 
 }  // namespace

@@ -58,6 +58,7 @@ TEST_CASE(
   CHECK(std::count(map.begin(), map.end(), '\n') == 1 + 2 * 2 * (3 * 2 + 4));
   CHECK_THAT(map, Contains(",diverged,") && !Contains("wall") && !Contains("nan"));
   CHECK_THAT(slurp(scratch / "one/timings.csv"), Contains("wall_seconds"));
+  CHECK_THAT(slurp(scratch / "one/map.gp"), Contains("'1 sweep'") && Contains("'10 iterations'"));
   for (const char* picture : {"map.svg", "map.png"})
     CHECK((fs::exists(scratch / "one" / picture) || ran.err.find("gnuplot") != std::string::npos));
 

@@ -30,9 +30,9 @@ HWY_INLINE Real* force_at(NodeVector<Real>* forces, std::size_t index) {
 }
 
 // A pair passes three stages: its lengths are measured, its forces follow from them, and are added
-// to the nodes. Each turn does one stage of three pairs that are this far apart [pairs]: the stages
-// of a turn do not wait for each other, so the processor overlaps the root and the division of one
-// pair with the loads and stores of the others.
+// to the nodes. Each iteration does one stage of three pairs that are this far apart [pairs]: the
+// stages of an iteration do not wait for each other, so the processor overlaps the root and the
+// division of one pair with the loads and stores of the others.
 constexpr std::size_t kApart = 2;
 constexpr std::size_t kSlots = 8;  // more than 2 kApart, a power of two
 // Prefetch distance: these pairs take longer than an access to main memory. [pairs]

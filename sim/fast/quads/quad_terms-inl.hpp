@@ -101,8 +101,8 @@ HWY_INLINE void add_stress(const typename QuadTerms<Real>::Entry* entries, std::
   }
 }
 
-// As for springs, a term passes three stages, each in another turn: a stage does not wait for the
-// results of the one before. More slots than stages, a power of two.
+// As for springs, a term passes three stages, each in another iteration: a stage does not wait for
+// the results of the one before. More slots than stages, a power of two.
 constexpr std::size_t kTermSlots = 4;
 
 template <bool with_damping, class Real>
