@@ -13,6 +13,11 @@ namespace {
 
 // Relative error of a solid's volume in cells above which it is a fault.
 constexpr double kVolumeTolerance = 0.1;
+// Ratio of the volumes of cells and mesh above which an error in percent is hard to read [1].
+constexpr double kFarOff = 10;
+// Fraction of the cells' volume below which that of the mesh is rounding: the surface lacks
+// triangles, or is folded onto itself.
+constexpr double kNoVolume = 1e-6;
 // Cells across a part of which it consists well enough.
 constexpr double kThin = 3;
 // Fraction of a solid's cells in slivers below which they are tips and burrs of its surface.
@@ -56,10 +61,17 @@ std::optional<std::string> volume_fault(const TriangleMesh& mesh, const SolidRep
   if (cells == 0)
     return fmt::format("part \"{}\" is lost: no cell of {} has its centre inside; {}", solid.part,
                        format_quantity(cell, Dimension::length), advice);
-  return fmt::format(
-      "part \"{}\": the volume of its cells has an error of {:+.0f} % ({} against {} in the "
-      "mesh); {}",
-      solid.part, 100 * (filled / volume - 1), volume_text(filled), volume_text(volume), advice);
+  if (!(volume > kNoVolume * filled))
+    return fmt::format(
+        "part \"{}\": its surface encloses no volume, and yet {} of cells lie inside; check the "
+        "mesh for missing or folded triangles",
+        solid.part, volume_text(filled));
+  const double ratio = filled / volume;
+  const std::string error = ratio < kFarOff
+                                ? fmt::format("has an error of {:+.0f} %", 100 * (ratio - 1))
+                                : fmt::format("is {:.3g} times as large as it should be", ratio);
+  return fmt::format("part \"{}\": the volume of its cells {} ({} against {} in the mesh); {}",
+                     solid.part, error, volume_text(filled), volume_text(volume), advice);
 }
 
 std::optional<std::string> sliver_fault(const SolidReport& solid, const Sliver& sliver,
