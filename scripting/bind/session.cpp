@@ -38,6 +38,8 @@ constexpr int kJsonDepth = 64;
 constexpr std::size_t kJsonValues = 2'000'000;
 
 int help(Call& call) {
+  if (call.gives(1) && !call.has(1))
+    throw InputError("help: the value is nil, perhaps of a misspelt name; help() lists all names");
   const Api& api = call.session().api();
   // Narrower than this, the names in the left column leave no room for a text.
   constexpr std::size_t kNarrowest = 40;

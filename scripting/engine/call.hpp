@@ -24,6 +24,8 @@ class Call {
   Progress* progress() const { return session_.progress(); }
 
   bool has(int number) const;
+  /// Whether the script gives argument `number`, be it nil.
+  bool gives(int number) const { return number <= count_; }
   /// Stack index of argument `number`, counted from 1.
   int index(int number) const;
 

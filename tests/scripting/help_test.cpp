@@ -134,6 +134,13 @@ TEST_CASE("Help on a Lua value is the help of its function, type or name") {
   CHECK_THROWS_WITH(help_on("{}"), Contains("there is no help on a table"));
 }
 
+TEST_CASE("Help on nil is an error, not the list of all names") {
+  ScriptState state({}, make_api());
+  const Outcome outcome = state.run_text("local t = {} help(t.blorbs)", "test", {});
+  CHECK_FALSE(outcome.done);
+  CHECK_THAT(outcome.message, Contains("help: the value is nil") && Contains("help() lists"));
+}
+
 TEST_CASE("The check of descriptions reports missing entries") {
   Api api;
   api.add(FunctionEntry{.name = "mute", .options = {{.name = "x", .type = "number"}}});
