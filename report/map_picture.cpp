@@ -93,9 +93,10 @@ class Sheet {
     fill(r, fmt::format("fc rgb '#A3AAB3' fs transparent pattern {} noborder", pattern));
   }
   void frame(const Rect& r) { fill(r, fmt::format("fs empty border rgb '{}' lw 1", kSoftInk)); }
+  /// Above what is filled, below what is written.
   void line(double x0, double y0, double x1, double y1, const char* colour, double width) {
     text_ += fmt::format(
-        "set arrow {} from {:.1f},{:.1f} to {:.1f},{:.1f} nohead front lw {} lc rgb '{}'\n",
+        "set arrow {} from {:.1f},{:.1f} to {:.1f},{:.1f} nohead back lw {} lc rgb '{}'\n",
         ++arrows_, x0, y0, x1, y1, width, colour);
   }
   void write(double x, double y, const std::string& text, const char* anchor, double size,
@@ -162,7 +163,7 @@ class Picture {
   double width() const {
     const auto columns = static_cast<double>(schemes_.size());
     // The legend needs a minimum width.
-    constexpr double kLeast = 860;
+    constexpr double kLeast = 930;
     return std::max(kLeast, kLeft + columns * panel_width_ + (columns - 1) * kGapAcross + kRight);
   }
   double height() const {
@@ -342,12 +343,12 @@ class Picture {
     sheet_.hatch({x, top + next_row, x + kBox, top + next_row + kHigh}, kMechanismPattern);
     sheet_.write(x + kBox + text, top + next_row + kHigh / 2, "mechanism, not run", "left",
                  kFont * 0.85);
+    sheet_.write(x, top + 2 * next_row + kHigh / 2,
+                 "~ energy drift   o off design   ! not converged   x springs inverted", "left",
+                 kFont * 0.85);
     x += 268;
     sheet_.line(x, top + kHigh / 2, x + kBox, top + kHigh / 2, kLimitInk, 2.2);
     sheet_.write(x + kBox + text, top + kHigh / 2, "predicted explicit limit", "left",
-                 kFont * 0.85);
-    sheet_.write(x, top + next_row + kHigh / 2,
-                 "~ energy drift   o off design   ! not converged   x springs inverted", "left",
                  kFont * 0.85);
   }
 
