@@ -273,8 +273,9 @@ std::vector<ChartSeries> with_edge_labels(std::vector<ChartSeries> series,
   for (ChartSeries& s : series) {
     if (s.symbol == ChartSymbol::none) continue;
     for (ChartPoint& p : s.points) {
-      if (options.log_y && !(p.y > options.y_from)) p.label += fmt::format(" (y = {:.2g})", p.y);
-      if (options.log_x && !(p.x > 0)) p.label += fmt::format(" (x = {:g})", p.x);
+      if (options.log_y && !(p.y > options.y_from))
+        p.label += fmt::format(" (y = {})", power_text(p.y));
+      if (options.log_x && !(p.x > 0)) p.label += fmt::format(" (x = {})", power_text(p.x));
     }
   }
   return series;

@@ -29,7 +29,7 @@ double round_step(double wanted) {
   return power;
 }
 
-std::vector<Tick> linear_ticks(double low, double high) {
+std::vector<Tick> linear_ticks(double low, double high, std::string (*text)(double)) {
   constexpr double kWanted = 6;
   const double step = round_step((high - low) / kWanted * 1.5);
   std::vector<Tick> ticks;
@@ -38,7 +38,7 @@ std::vector<Tick> linear_ticks(double low, double high) {
   const auto last = static_cast<long long>(std::floor(high / step + kSlack));
   for (long long i = first; i <= last; ++i) {
     const double value = static_cast<double>(i) * step;
-    ticks.push_back({value, tick_text(value)});
+    ticks.push_back({value, text(value)});
   }
   return ticks;
 }
@@ -48,7 +48,7 @@ std::vector<Tick> log_ticks(double low, double high) {
   // Ticks of a log axis: linear steps for less than half a decade, every digit up to one decade,
   // 1, 2 and 5 up to three, and at most about 8 whole decades beyond.
   constexpr double kHalfDecade = 0.5;
-  if (decades < kHalfDecade) return linear_ticks(low, high);
+  if (decades < kHalfDecade) return linear_ticks(low, high, power_text);
   constexpr double kOneDecade = 1;
   constexpr double kNarrow = 3;
   const int stride = std::max(1, static_cast<int>(std::ceil(decades / 8)));
@@ -60,7 +60,7 @@ std::vector<Tick> log_ticks(double low, double high) {
                           : digit == 2 || digit == 5 ? decades <= kNarrow
                                                      : decades <= kOneDecade;
       if (wanted && value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9))
-        ticks.push_back({value, tick_text(value)});
+        ticks.push_back({value, power_text(value)});
     }
   }
   return ticks;
@@ -161,7 +161,7 @@ std::string tick_text(double value) {
 
 std::string power_text(double value) {
   const double size = std::abs(value);
-  if (size >= 0.1 && size < 1e3) return fmt::format("{:.3g}", value);
+  if (size >= 0.01 && size < 1e3) return fmt::format("{:.3g}", value);
   if (size == 0) return "0";
   const int exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9));
   const std::string mantissa = fmt::format("{:.3g}", value / std::pow(10., exponent));
@@ -201,7 +201,7 @@ Axis make_axis(const std::vector<double>& values, bool log) {
   const double size = high > low ? high - low : std::max(std::abs(high), 1.);
   axis.low = low == 0 ? 0 : low - kRoom * size;
   axis.high = high + kRoom * size;
-  axis.ticks = linear_ticks(axis.low, axis.high);
+  axis.ticks = linear_ticks(axis.low, axis.high, tick_text);
   return axis;
 }
 

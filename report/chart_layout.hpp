@@ -37,10 +37,10 @@ struct Axis {
 /// not above 0.
 Axis make_axis(const std::vector<double>& values, bool log);
 
-/// "0.05", "2·10⁹"
+/// Text of a tick of a linear axis: "0.05", "20000", "2·10⁹".
 std::string tick_text(double value);
 
-/// "1", "10", "10³", "2·10⁴": powers of ten in short form.
+/// Text of a tick of a log axis, in all charts: "0.01", "1", "500", beyond these "10⁻³", "2·10⁴".
 std::string power_text(double value);
 
 enum class TextAnchor { left, center, right };

@@ -9,17 +9,18 @@ const chartView = (() => {
 
   // ---- Axes -------------------------------------------------------------------------------------
 
-  function format(value) {
-    if (value === 0) return "0";
+  // Plain from `low` to below `high`, with a power of ten beyond.
+  function format(value, low = 1e-3, high = 1e5) {
     const size = Math.abs(value);
-    if (size >= 1e5 || size < 1e-3) {
-      const power = Math.floor(Math.log10(size) + 1e-9);
-      const digits = String(power).replace("-", "⁻").replace(/\d/g, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]);
-      const mantissa = Number((value / 10 ** power).toPrecision(3));
-      return (mantissa === 1 ? "" : mantissa + "·") + "10" + digits;
-    }
-    return String(Number(value.toPrecision(4)));
+    if (size === 0 || (size >= low && size < high)) return String(Number(value.toPrecision(4)));
+    const power = Math.floor(Math.log10(size) + 1e-9);
+    const digits = String(power).replace("-", "⁻").replace(/\d/g, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]);
+    const mantissa = Number((value / 10 ** power).toPrecision(3));
+    return (mantissa === 1 ? "" : mantissa + "·") + "10" + digits;
   }
+
+  // Log axes are as in the charts of s.chart: power_text in report/chart_layout.cpp.
+  const tickText = (value, log) => log ? format(value, 0.01, 1e3) : format(value);
 
   // Whole multiples of 1, 2 or 5 times a power of ten.
   function linearTicks(low, high, most) {
@@ -225,7 +226,8 @@ const chartView = (() => {
     const all = chart.series.flatMap((one) => one.points);
     const y = axis(ranges(all, "y", "low", "high"), {log: chart.log_y, from: chart.y_from,
                                                     most: Math.max(3, height / (4.5 * size))});
-    const margin = {left: size * (0.8 + 0.6 * Math.max(...y.ticks.map((v) => format(v).length), 1)),
+    const longest = Math.max(...y.ticks.map((v) => tickText(v, y.log).length), 1);
+    const margin = {left: size * (0.8 + 0.6 * longest),
                     right: size, top: 0.8 * size, bottom: 2.1 * size};
     const w = width - margin.left - margin.right, h = height - margin.top - margin.bottom;
     const x = axis(ranges(all, "x", "x_low", "x_high"), {log: chart.log_x,
@@ -237,11 +239,13 @@ const chartView = (() => {
     const area = svg("g", {transform: `translate(${margin.left} ${margin.top})`}, root);
     for (const v of y.ticks) {
       svg("path", {d: `M0 ${py(v).toFixed(1)}H${w}`, class: "grid"}, area);
-      svg("text", {x: -0.6 * size, y: py(v) + 0.35 * size, "text-anchor": "end", class: "tick"}, area, format(v));
+      svg("text", {x: -0.6 * size, y: py(v) + 0.35 * size, "text-anchor": "end", class: "tick"}, area,
+          tickText(v, y.log));
     }
     for (const v of x.ticks) {
       svg("path", {d: `M${px(v).toFixed(1)} 0V${h}`, class: "grid"}, area);
-      svg("text", {x: px(v), y: h + 1.45 * size, "text-anchor": "middle", class: "tick"}, area, format(v));
+      svg("text", {x: px(v), y: h + 1.45 * size, "text-anchor": "middle", class: "tick"}, area,
+          tickText(v, x.log));
     }
     svg("path", {d: `M0 0V${h}H${w}`, class: "axes"}, area);
     const shown = (p) => Number.isFinite(p.x) && Number.isFinite(p.y) &&
@@ -313,5 +317,5 @@ const chartView = (() => {
     });
   }
 
-  return {draw, axis, format, linearTicks, logTicks, placeLabels};
+  return {draw, axis, format, linearTicks, logTicks, placeLabels, tickText};
 })();

@@ -181,6 +181,27 @@ TEST_CASE("ticks have short labels") {
   CHECK(tick_text(-5e7) == "-5·10⁷");
 }
 
+TEST_CASE("log axes have powers of ten, whatever their length") {
+  const auto texts = [](const std::vector<double>& values, bool log) {
+    std::vector<std::string> all;
+    for (const Tick& tick : make_axis(values, log).ticks) all.push_back(tick.text);
+    return all;
+  };
+  const auto has = [&](const std::vector<std::string>& all, const char* text) {
+    return std::find(all.begin(), all.end(), text) != all.end();
+  };
+  for (const std::vector<double>& values :
+       {std::vector{1e-7, 1.}, {1e-4, 1e-2}, {8e-4, 4e-3}, {9e-4, 1.1e-3}}) {
+    const std::vector<std::string> all = texts(values, true);
+    CAPTURE(all);
+    CHECK(has(all, "10⁻³"));
+    CHECK_FALSE(has(all, "0.001"));
+  }
+  CHECK(has(texts({1e-4, 1e-2}, true), "2·10⁻³"));
+  CHECK(has(texts({1, 1e5}, true), "10⁴"));
+  CHECK(has(texts({0, 0.004}, false), "0.001"));  // a linear axis
+}
+
 TEST_CASE("labels of neighbouring points do not overlap") {
   std::vector<ChartSeries> series{{"a", {}, false}};
   for (const double x : {1., 1.02, 1.04, 1.5})

@@ -200,7 +200,7 @@ function summary.chart(stem, rows)
   command.chart(stem, shown, {
     title = "Random throws: error of the energy ledger", log_x = true, log_y = true,
     x_label = "speed / slowest wave speed",
-    y_label = "ledger error / largest kinetic energy (at least 1e-6)",
+    y_label = "ledger error / largest kinetic energy (at least 10⁻⁶)",
   })
 end
 

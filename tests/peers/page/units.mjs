@@ -47,6 +47,10 @@ assert.deepEqual(chart.logTicks(1e-6, 1, 4), [1e-6, 1e-4, 1e-2, 1]);
 assert.equal(chart.format(0.30000000000000004), "0.3");
 assert.equal(chart.format(1e-6), "10⁻⁶");
 assert.equal(chart.format(250000), "2.5·10⁵");
+assert.equal(chart.tickText(0.002, true), "2·10⁻³");
+assert.equal(chart.tickText(5000, true), "5·10³");
+assert.deepEqual([0.02, 1, 100].map((v) => chart.tickText(v, true)), ["0.02", "1", "100"]);
+assert.equal(chart.tickText(0.002, false), "0.002");
 for (const values of [[1], [0], [], [5, 5], [-2, -1], [NaN, 1]])
   for (const log of [false, true]) {
     const axis = chart.axis(values, {log, most: 5});
