@@ -141,6 +141,54 @@ Box label_box(double x, double y, double width, double height, const std::array<
   return {x0, y0, x0 + width, y0 + height};
 }
 
+struct Place {
+  double x, y;  // [px]
+};
+
+double distance(const Place& a, const Place& b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+/// The places of the points that have labels, in the order of series and points.
+std::vector<Place> labelled_places(const std::vector<ChartSeries>& series, const Axis& x_axis,
+                                   const Axis& y_axis, const ChartFrame& frame) {
+  std::vector<Place> places;
+  for (const ChartSeries& s : series)
+    for (const ChartPoint& p : s.points)
+      if (!p.label.empty())
+        places.push_back({frame.left + x_axis.place(p.x) * (frame.right - frame.left),
+                          frame.bottom - y_axis.place(p.y) * (frame.bottom - frame.top)});
+  return places;
+}
+
+/// Where the text of a label begins, seen from its point.
+Place near_end(const Box& box, const std::array<int, 2>& to) {
+  return {to[0] > 0 ? box.x0 : to[0] < 0 ? box.x1 : (box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2};
+}
+
+double distance(const Box& box, const Place& p) {
+  return std::hypot(std::max({box.x0 - p.x, p.x - box.x1, 0.}),
+                    std::max({box.y0 - p.y, p.y - box.y1, 0.}));
+}
+
+/// The distance from `from`, a place or a box, to the nearest other place than number `own`.
+template <class From>
+double nearest_other(const From& from, const std::vector<Place>& places, std::size_t own) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (i != own) least = std::min(least, distance(from, places[i]));
+  return least;
+}
+
+/// Cost of a label near another labelled point than its own: readers take it for that of the
+/// nearer one. The full cost moves a label away, but is not worth hiding another one.
+double cost_of_mistake(const Box& box, const std::vector<Place>& places, std::size_t own) {
+  constexpr double kMistaken = 1500;  // [px^2]
+  constexpr double kClear = 8;        // nothing if its own point is nearer by this [px]
+  const double nearer = nearest_other(box, places, own) - distance(box, places[own]);
+  return kMistaken * std::clamp(1 - nearer / kClear, 0., 1.);
+}
+
 double cost_of(const Box& box, const std::vector<Box>& taken, const ChartFrame& frame) {
   constexpr double kOutside = 20;  // cost factor outside the plot box
   const double area = (box.x1 - box.x0) * (box.y1 - box.y0);
@@ -218,42 +266,45 @@ std::vector<PlacedLabel> place_labels(const std::vector<ChartSeries>& series, co
   const double plot_width = frame.right - frame.left;
   const double plot_height = frame.bottom - frame.top;
   constexpr double kHiddenLabel = 5;
+  // Points this close have symbols that overlap [px]: only lines show which label is whose.
+  constexpr double kCoincident = 12;
   std::vector<Box> taken = obstacles(series, x_axis, y_axis, frame);
+  const std::vector<Place> places = labelled_places(series, x_axis, y_axis, frame);
   std::vector<PlacedLabel> labels;
   for (std::size_t s = 0; s < series.size(); ++s)
     for (const ChartPoint& point : series[s].points) {
       if (point.label.empty()) continue;
-      const double x = frame.left + x_axis.place(point.x) * plot_width;
-      const double y = frame.bottom - y_axis.place(point.y) * plot_height;
+      const std::size_t number = labels.size();
+      const auto& [x, y] = places[number];
+      const bool coincident = nearest_other(places[number], places, number) < kCoincident;
       const double width = text_width(point.label, frame.font * kLabelFont);
       const double height = frame.font * 1.1;
       Box best{};
       std::array<int, 2> direction{};
       double offset = 0;
       double least = std::numeric_limits<double>::infinity();
-      for (const double candidate : kOffsets)
+      for (const double candidate : kOffsets) {
+        if (candidate == 0 && coincident) continue;
         for (std::size_t d = 0; d < kDirections.size(); ++d) {
           const Box box = label_box(x, y, width, height, kDirections[d], candidate);
-          const double cost =
-              cost_of(box, taken, frame) + static_cast<double>(d) + kCostOfOffset * candidate;
+          const double cost = cost_of(box, taken, frame) + cost_of_mistake(box, places, number) +
+                              static_cast<double>(d) + kCostOfOffset * candidate;
           if (cost >= least) continue;
           least = cost;
           best = box;
           direction = kDirections[d];
           offset = candidate;
         }
+      }
       best.weight = kHiddenLabel;
       taken.push_back(best);
       const TextAnchor anchor = direction[0] > 0   ? TextAnchor::left
                                 : direction[0] < 0 ? TextAnchor::right
                                                    : TextAnchor::center;
-      const double at = anchor == TextAnchor::left    ? best.x0
-                        : anchor == TextAnchor::right ? best.x1
-                                                      : (best.x0 + best.x1) / 2;
-      labels.push_back({point.label, (at - frame.left) / plot_width,
-                        (frame.bottom - (best.y0 + best.y1) / 2) / plot_height, anchor, s,
-                        offset > 0, (x - frame.left) / plot_width,
-                        (frame.bottom - y) / plot_height});
+      const Place at = near_end(best, direction);
+      labels.push_back({point.label, (at.x - frame.left) / plot_width,
+                        (frame.bottom - at.y) / plot_height, anchor, s, offset > 0,
+                        (x - frame.left) / plot_width, (frame.bottom - y) / plot_height});
     }
   return labels;
 }

@@ -92,12 +92,14 @@ const chartView = (() => {
     return from <= to;
   }
 
-  // A place beside each point for its label such that no label covers a point or another label, and
-  // as few lines as possible; none if there is no such place. marks: [{x, y, label}], lines:
-  // [[x1, y1, x2, y2]]; returns [{x, y, w, h} or null].
+  // A place beside each point for its label such that no label covers a point or another label or
+  // is nearer to another labelled point, and as few lines as possible are covered; none if there
+  // is no such place. marks: [{x, y, label}], lines: [[x1, y1, x2, y2]]; returns [{x, y, w, h} or
+  // null].
   function placeLabels(marks, lines, {width, height, size}) {
     const r = radius * size / 12;
     const taken = marks.map(({x, y}) => ({x: x - r, y: y - r, w: 2 * r, h: 2 * r}));
+    const labelled = marks.filter(({label}) => label);
     return marks.map(({x, y, label}) => {
       if (!label) return null;
       const w = 0.56 * size * label.length, h = size, gap = r + 3;
@@ -108,6 +110,10 @@ const chartView = (() => {
         const box = {x: x + dx, y: y + dy, w, h};
         const inside = box.x >= 0 && box.y >= 0 && box.x + w <= width && box.y + h <= height;
         if (!inside || taken.some((other) => overlaps(box, other))) continue;
+        const [own, ...others] = [{x, y}, ...labelled].map((p) =>
+          Math.hypot(Math.max(box.x - p.x, p.x - box.x - w, 0),
+                     Math.max(box.y - p.y, p.y - box.y - h, 0)));
+        if (Math.min(...others) < own) continue;
         const crossed = lines.filter((line) => crosses(box, line)).length;
         if (crossed >= least) continue;
         best = box;

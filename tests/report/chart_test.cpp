@@ -13,6 +13,7 @@
 #include "report/chart_layout.hpp"
 #include "tests/render/golden.hpp"
 #include "tests/report/programs.hpp"
+#include "tests/support/meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace springlod;
@@ -217,6 +218,36 @@ TEST_CASE("labels of neighbouring points do not overlap") {
       const double dy = std::abs(labels[i].y - labels[j].y) * (frame.bottom - frame.top);
       const bool beside = labels[i].anchor != labels[j].anchor;
       CHECK((beside || dy >= frame.font || dx >= text_width(labels[i].text, frame.font * 0.9)));
+    }
+}
+
+TEST_CASE("each of two labels is nearer to its own point") {
+  const ChartFrame frame;
+  const Axis axis = make_axis({0, 10}, false);
+  const double width = frame.right - frame.left;
+  const double height = frame.bottom - frame.top;
+  for (const double apart : {4., 9., 16., 24.})  // [px]
+    for (int angle = 0; angle < 360; angle += 30) {
+      const double dx = apart * std::cos(angle * kPi / 180) / width * (axis.high - axis.low);
+      const double dy = apart * std::sin(angle * kPi / 180) / height * (axis.high - axis.low);
+      const std::vector<ChartSeries> series{{"a", {{5, 5, "level 1"}}},
+                                            {"b", {{5 + dx, 5 + dy, "level 2"}}}};
+      const auto labels = place_labels(series, axis, axis, frame);
+      const auto distance = [&](const PlacedLabel& from, const PlacedLabel& to) {
+        const double wide = text_width(from.text, frame.font * kLabelFont);
+        const double x = (from.x - to.point_x) * width;  // of the anchor of the text
+        const double left = from.anchor == TextAnchor::left    ? x
+                            : from.anchor == TextAnchor::right ? x - wide
+                                                               : x - wide / 2;
+        const double y = std::abs(from.y - to.point_y) * height - frame.font / 2;
+        return std::hypot(std::max({left, -left - wide, 0.}), std::max(y, 0.));
+      };
+      CAPTURE(apart, angle);
+      CHECK(distance(labels[0], labels[0]) <= distance(labels[0], labels[1]));
+      CHECK(distance(labels[1], labels[1]) <= distance(labels[1], labels[0]));
+      // Of symbols that overlap, only lines show whose labels they are.
+      CHECK(labels[0].led == (apart < 12));
+      CHECK(labels[1].led == (apart < 12));
     }
 }
 

@@ -70,6 +70,20 @@ placed.forEach((a, i) => {
     assert(a.x >= b.x + b.w || b.x >= a.x + a.w || a.y >= b.y + b.h || b.y >= a.y + a.h);
 });
 
+// Of points close together, no label is nearer to another point.
+for (const apart of [4, 7, 12])
+  for (let angle = 0; angle < 6.2; angle += 0.5) {
+    const points = [-1, 0, 1].map((i) => ({x: 100 + i * apart * Math.cos(angle),
+                                           y: 80 + i * apart * Math.sin(angle), label: "8"}));
+    chart.placeLabels(points, [], room).forEach((box, i) => {
+      if (!box) return;
+      const distances = points.map((p) => Math.hypot(
+        p.x - Math.min(Math.max(p.x, box.x), box.x + box.w),
+        p.y - Math.min(Math.max(p.y, box.y), box.y + box.h)));
+      assert(distances[i] <= Math.min(...distances), `${apart} px apart, angle ${angle}`);
+    });
+  }
+
 // A label goes where no line is: the usual place is to the right.
 const lone = [{x: 100, y: 80, label: "LOD-1"}];
 assert(chart.placeLabels(lone, [], room)[0].x > 100);
