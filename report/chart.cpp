@@ -39,13 +39,18 @@ struct Look {
 Look look_of(const std::vector<ChartSeries>& series, std::size_t number) {
   constexpr double kSize = 1.2;  // symbol size in gnuplot units
   constexpr double kRingSize = 2.4;
+  constexpr double kSmallSize = 0.6;         // of a cloud,
+  constexpr std::size_t kCloudPoints = 400;  // a series of more points than this
   const ChartSeries& s = series[number];
   const std::size_t colour = s.colour ? static_cast<std::size_t>(*s.colour) : number % kOwnColours;
   const std::size_t symbol = s.symbol ? static_cast<std::size_t>(*s.symbol) : number % kOwnShapes;
   const bool none = s.symbol == ChartSymbol::none;
   const bool ring = s.symbol == ChartSymbol::ring;
   const int shape = none ? 0 : kShapes[symbol];
-  return {kColours[colour], shape, ring ? shape : shape - 1, ring ? kRingSize : kSize};
+  return {kColours[colour], shape, ring ? shape : shape - 1,
+          ring                             ? kRingSize
+          : s.points.size() > kCloudPoints ? kSmallSize
+                                           : kSize};
 }
 
 void require_drawable(const std::vector<ChartSeries>& series, const fs::path& path) {

@@ -118,6 +118,17 @@ TEST_CASE("points have intervals in x and y, and series have their own styles") 
   has("point pt 12 ps 1.2 lc rgb '#14171B'");
 }
 
+TEST_CASE("a series of very many points has small symbols") {
+  const TemporaryFolder folder;
+  const PathIs nothing("");  // gnuplot is not found: the test reads the script
+  std::vector<ChartSeries> series{{"cloud", {}, false}, {"few", {{1, 1, ""}}, false}};
+  for (int i = 0; i <= 400; ++i) series[0].points.push_back({1 + 0.01 * i, 2, ""});
+  const std::string script =
+      read_file(draw_chart(series, kOptions, folder.path() / "cloud.svg").script);
+  CHECK(script.find("pt 7 ps 0.6 lw 2 lc rgb '#0072B2' title 'cloud'") != std::string::npos);
+  CHECK(script.find("pt 5 ps 1.2 lw 2 lc rgb '#D55E00' title 'few'") != std::string::npos);
+}
+
 TEST_CASE("without gnuplot a chart keeps script, data and the command") {
   const TemporaryFolder folder;
   const PathIs nothing("");

@@ -36,7 +36,7 @@ function trade_off.chart(path, mean_of)
     s.chart(path .. ending, series, {
       title = "What smaller levels cost in accuracy",
       x_label = "base cost / cost of a simulated second (springs over stable step)",
-      y_label = "off by [%]",
+      y_label = "error [%]",
       log_x = true,
       log_y = true,
       y_from = 0.1,
