@@ -46,11 +46,6 @@ Colour material_colour(const MassSpringModel& model, std::uint32_t node) {
   return drawn_colour(model.materials, model.material[node]);
 }
 
-bool is_cut_away(const DrawnBody& body, std::uint32_t node) {
-  const auto& cut = body.style.cut;
-  return cut && cut->normal.dot(body.model->rest[node]) < cut->offset;
-}
-
 Colour mix(const Colour& a, const Colour& b, float t) {
   return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
 }
@@ -65,6 +60,11 @@ double drawn_length(const MassSpringModel& model) {
 }
 
 }  // namespace
+
+bool is_cut_away(const DrawnBody& body, std::uint32_t node) {
+  const auto& cut = body.style.cut;
+  return cut && cut->normal.dot(body.model->rest[node]) < cut->offset;
+}
 
 Colour part_colour(const DrawnBody& body, std::uint32_t part) {
   return part < body.part_colours.size() ? body.part_colours[part] : palette_colour(part);
@@ -214,6 +214,10 @@ void validate(const DrawnBody& body) {
       throw InputError(fmt::format("drawing: {} positions for a model of {} nodes", x.size(),
                                    body.model->rest.size()));
     require_finite(x, "node");
+    for (const std::uint32_t node : body.anchored)
+      if (node >= x.size())
+        throw InputError(fmt::format("drawing: anchored node {} for a model of {} nodes",
+                                     script_number(node), x.size()));
     if (!body.node_colours.empty() && body.node_colours.size() != x.size())
       throw InputError(fmt::format("drawing: {} node colours for a model of {} nodes",
                                    body.node_colours.size(), x.size()));

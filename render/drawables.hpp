@@ -27,6 +27,9 @@ struct NodeInstance {
   float radius;
 };
 
+/// True if the cut of the style hides the node.
+bool is_cut_away(const DrawnBody& body, std::uint32_t node);
+
 /// Colour of a part of the surface.
 Colour part_colour(const DrawnBody& body, std::uint32_t part);
 

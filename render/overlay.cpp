@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "render/anchor_marks.hpp"
+
 namespace springlod::render {
 namespace {
 
@@ -154,11 +156,24 @@ void Overlay::draw_panel(Image& image, const PixelRect& panel, const PanelLabels
   int bottom = panel.y + panel.height - whole(sizes.margin);
   for (const ColourScale& scale : labels.scales)
     bottom = draw_scale(image, panel, scale, bottom) - whole(sizes.margin / 2);
+  const double left = panel.x + sizes.margin + sizes.pad;
+  double base = panel.y + panel.height - sizes.margin - 0.4 * sizes.pad;
   if (labels.grid_spacing) {
     const std::string text = "grid " + length_text(*labels.grid_spacing);
-    text_.draw(image, panel, panel.x + sizes.margin + sizes.pad,
-               panel.y + panel.height - sizes.margin - 0.4 * sizes.pad, text, sizes.small,
-               kPaleInk);
+    text_.draw(image, panel, left, base, text, sizes.small, kPaleInk);
+    base -= sizes.line(sizes.small);
+  }
+  if (labels.anchors) {
+    constexpr const char* kAnchored = "anchored";
+    constexpr double kMiddle = 0.3;  // of small letters above the baseline / font size
+    const double radius = anchor_mark_radius(panel);
+    const double width = 2 * radius + sizes.pad + text_.width(kAnchored, sizes.small);
+    fill_rounded(image,
+                 {whole(left - sizes.pad / 2), whole(base - kAscent * sizes.small - sizes.pad / 4),
+                  whole(width + sizes.pad), whole(sizes.line(sizes.small))},
+                 sizes.pad / 2, kPlate, kPlateAlpha);
+    draw_anchor_mark(image, panel, left + radius, base - kMiddle * sizes.small, radius);
+    text_.draw(image, panel, left + 2 * radius + sizes.pad, base, kAnchored, sizes.small, kPaleInk);
   }
 }
 

@@ -28,6 +28,7 @@ struct PanelLabels {
   std::vector<std::string> captions;
   std::vector<ColourScale> scales;     ///< bottom right, stacked upwards
   std::optional<double> grid_spacing;  ///< scale of the floor [m], written small
+  bool anchors = false;                ///< explains the mark of anchored nodes
 };
 
 /// Fraction of a panel's height taken by its title and `captions` lines below it.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "render/anchor_marks.hpp"
 #include "render/camera.hpp"
 #include "render/drawables.hpp"
 #include "render/node_values.hpp"
@@ -57,7 +58,7 @@ ColourScale colour_scale(const ValueScale& scale) {
 }
 
 PanelLabels labels_of(const Panel& panel, const std::optional<ValueScale>& values) {
-  PanelLabels labels{panel.title, panel.captions, {}, {}};
+  PanelLabels labels{panel.title, panel.captions, {}, {}, marks_anchors(panel)};
   if (values) labels.scales.push_back(colour_scale(*values));
   for (const DrawnBody& body : panel.bodies)
     if (body.style.springs && body.style.spring_colour == SpringColour::strain) {
@@ -69,13 +70,19 @@ PanelLabels labels_of(const Panel& panel, const std::optional<ValueScale>& value
 }
 
 /// Shared scales are written once, in the outer corners, where the footer cannot cover them: the
-/// grid scale on the first panel, colour scales on the last panel that uses them.
+/// grid scale on the first panel, the anchor mark on the first that has marks, colour scales on the
+/// last panel that uses them.
 std::vector<PanelLabels> labels_of(const std::vector<Panel>& panels,
                                    const std::vector<std::optional<ValueScale>>& values) {
   std::vector<PanelLabels> labels;
   for (std::size_t i = 0; i < panels.size(); ++i) labels.push_back(labels_of(panels[i], values[i]));
   for (std::size_t i = 1; i < labels.size(); ++i)
     if (labels[i].grid_spacing == labels.front().grid_spacing) labels[i].grid_spacing.reset();
+  bool explained = false;
+  for (PanelLabels& of_panel : labels) {
+    of_panel.anchors = of_panel.anchors && !explained;
+    explained = explained || of_panel.anchors;
+  }
   for (std::size_t i = 0; i < labels.size(); ++i)
     std::erase_if(labels[i].scales, [&](const ColourScale& scale) {
       return std::any_of(labels.begin() + static_cast<std::ptrdiff_t>(i) + 1, labels.end(),
@@ -188,6 +195,7 @@ Image Renderer::draw(std::vector<Panel> panels, const PictureText& text) {
     const PixelRect place = layout.place(i);
     im.pipeline.draw(panels[i]);
     copy_into(picture, im.context.finish(), place);
+    mark_anchors(picture, place, panels[i]);
     im.overlay.draw_panel(picture, place, labels[i]);
   }
   if (layout.top > 0) im.overlay.draw_title(picture, text.title, panel_height);

@@ -126,6 +126,7 @@ struct DrawStyle {
   double strain_range = 0.1;      ///< strain drawn in full red (stretch) or blue (compression)
   double node_radius = 0;         ///< [m]; 0: a fraction of the mean spring length
   double surface_opacity = 1;     ///< below 1 shows the springs inside
+  bool anchors = true;            ///< marks the anchored nodes
   bool bold_inner_nodes = false;  ///< nodes off the border in bold red (the paper's figure 4)
   /// Hides what has normal . x < offset at rest: nodes, springs and the surface, whose cut face is
   /// hatched if it is closed and opaque and no nodes or springs are drawn.
@@ -159,6 +160,8 @@ constexpr auto option_rows(const DrawStyle*) {
       option("surface_opacity", &DrawStyle::surface_opacity,
              "opacity of the surface; below 1 the springs inside are visible")
           .within(0, 1),
+      option("anchors", &DrawStyle::anchors,
+             "mark the anchored nodes of a run with dark dots, also those inside the surface"),
       option("bold_inner_nodes", &DrawStyle::bold_inner_nodes,
              "draw nodes that are not border nodes in bold red"));
 }
@@ -173,6 +176,7 @@ struct DrawnBody {
   std::vector<Colour> part_colours;
   /// Values that the nodes show instead of style.node_colour, one per node; null: none.
   const std::vector<double>* node_values = nullptr;
+  std::vector<std::uint32_t> anchored;  ///< nodes that anchors hold or pull
   /// Colour of each node; empty: by the style. Renderer sets it if values are shown.
   std::vector<Colour> node_colours;
   DrawStyle style;

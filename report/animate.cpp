@@ -103,6 +103,7 @@ class PanelPlayer {
       : run_(run), apart_(apart), panel_(empty_panel(run)), cameras_(std::move(cameras)) {
     body_.style = style_for(run, style);
     body_.model = &run.model;
+    body_.anchored = run.anchored;
     if (!body_.style.surface) return;
     body_.surface = run.surface;
     body_.part_colours = run.part_colours;

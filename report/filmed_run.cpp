@@ -108,6 +108,7 @@ FilmedRun filmed_level(const ComparedChain& chain, const sim::LevelRuns& runs) {
                 .scenario = comparison.scenario,
                 .model = model,
                 .frames = runs.first.frames,
+                .anchored = runs.first.anchored,
                 .body = asset.chain.levels.front().model,
                 .body_frames = runs.base_frames};
   cover(run, asset.surface, asset.surface_of_base);
@@ -143,6 +144,7 @@ std::vector<FilmedRun> filmed_runs(const std::vector<LabelledRun>& runs) {
                       .scenario = run.scenario,
                       .model = run.model,
                       .frames = frames,
+                      .anchored = run.trajectory.anchored,
                       .body = run.model,
                       .body_frames = frames});
     if (run.surface != nullptr) cover(filmed.back(), *run.surface, run.surface_of_nodes);

@@ -26,6 +26,7 @@ struct FilmedRun {
   const sim::Scenario& scenario;
   const MassSpringModel& model;  ///< whose nodes and springs are drawn
   const std::vector<sim::Frame>& frames;
+  const std::vector<std::uint32_t>& anchored;  ///< nodes of `model`
   /// What the camera frames and the surface is bound to: the model itself or, of a level in a
   /// comparison, its base, to which the motion is mapped.
   const MassSpringModel& body;

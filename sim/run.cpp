@@ -153,6 +153,7 @@ Trajectory run(const MassSpringModel& model, const Scenario& scenario, const Sta
   const ChosenStep chosen = choose_step(options, *plan.limit, scenario.duration);
   trajectory.step = chosen.step;
   trajectory.limited_by = chosen.limited_by;
+  trajectory.anchored = nodes_of(options.anchors);
   require_step_count(scenario.duration, trajectory.step);
   require_few_frames(scenario.duration, options.frame_rate, model.node_count());
   const double processor_begin = processor_seconds();

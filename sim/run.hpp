@@ -124,12 +124,13 @@ struct Trajectory {
   std::uint64_t spring_updates = 0;
   /// Steps in which the solver of backward Euler did not reach its tolerance.
   std::uint64_t unconverged_steps = 0;
-  double simulated = 0;             ///< [s]; below the duration if a stop rule ended the run
-  double wall_seconds = 0;          ///< measured; never part of a result that must repeat
-  double planning_seconds = 0;      ///< of these, the time before the first step (plan_runs)
-  double processor_seconds = 0;     ///< of the calling thread from the first step on; measured
-  std::vector<Frame> frames;        ///< at the frame times, first and last included
-  std::vector<LedgerEntry> ledger;  ///< one per frame; empty if not requested
+  double simulated = 0;                 ///< [s]; below the duration if a stop rule ended the run
+  double wall_seconds = 0;              ///< measured; never part of a result that must repeat
+  double planning_seconds = 0;          ///< of these, the time before the first step (plan_runs)
+  double processor_seconds = 0;         ///< of the calling thread from the first step on; measured
+  std::vector<Frame> frames;            ///< at the frame times, first and last included
+  std::vector<std::uint32_t> anchored;  ///< nodes that anchors hold or pull
+  std::vector<LedgerEntry> ledger;      ///< one per frame; empty if not requested
   /// By frame, then by anchor; those of the first frame are 0. Empty without anchors.
   std::vector<std::vector<AnchorLoad>> anchor_loads;
   std::optional<double> first_contact;  ///< [s]

@@ -76,6 +76,28 @@ TEST_CASE("runs stand side by side or in rows, each with its label, cost and sur
   CHECK(rows.height == 2 * 150);
 }
 
+TEST_CASE("the anchored nodes of a run are marked in all its pictures, unless the style says no") {
+  const Flight free;
+  Flight held = free;
+  held.trajectory.anchored = {0};
+  const auto differing = [&](bool anchors, std::uint32_t frame) {
+    const TemporaryFolder folder;
+    AnimateOptions options = small();
+    options.style.anchors = anchors;
+    animate(filmed_runs({free.as("A"), held.as("A")}), folder.path(), options);
+    const render::Image image = render::load_png(render::frame_path(folder.path(), frame));
+    std::size_t pixels = 0;
+    for (std::size_t y = 40; y < 120; ++y)  // without the divider and the words in the corners
+      for (std::size_t x = 2; x < 198; ++x) {
+        const std::size_t p = 3 * (y * 400 + x);
+        pixels += std::equal(&image.rgb[p], &image.rgb[p] + 3, &image.rgb[p] + 600) ? 0 : 1;
+      }
+    return pixels;
+  };
+  CHECK(differing(false, 0) == 0);
+  for (const std::uint32_t frame : {0U, 10U}) CHECK(differing(true, frame) > 20);
+}
+
 TEST_CASE("the panel of a run that ended before others holds its last frame and says so") {
   const Flight whole;
   const Flight early(0.04, 5);  // ends at 0.2 s

@@ -123,6 +123,7 @@ void Picture::set_instant(const TrajectoryValue& run) {
     time = frame.time;
     set_model(run.model, &frame.x);
   }
+  anchored_ = run.trajectory.anchored;
   add_obstacles(*run.scenario);
   instant_ = fmt::format("t = {:.3f} s", time);
 }
@@ -187,6 +188,7 @@ render::Panel Picture::panel(const render::Camera& camera) const {
   } else {
     body.model = model_->model.get();
     body.node_positions = &positions_;
+    body.anchored = anchored_;
     if (!options_.node_values.empty()) body.node_values = &options_.node_values;
     if (model_->surface) {
       body.surface = model_->surface.get();

@@ -50,6 +50,7 @@ class Picture {
   std::shared_ptr<const MeshValue> mesh_;
   std::shared_ptr<const ModelValue> model_;
   std::vector<Vec3> positions_;
+  std::vector<std::uint32_t> anchored_;  // nodes
   std::vector<Vec3> surface_positions_;
   std::vector<render::DrawnPlane> planes_;
   std::vector<render::DrawnBox> boxes_;
