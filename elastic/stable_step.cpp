@@ -25,15 +25,24 @@ constexpr Eigen::Index kMaxRestarts = 200;
 /// relative error of the eigenvalue is at most this, and that of the frequency half of it.
 constexpr double kResidualTolerance = 1e-4;
 
-/// The operator x -> M^-1/2 K M^-1/2 x in the form that Spectra needs.
+/// Whether each node is held.
+std::vector<bool> marked(std::uint32_t node_count, std::span<const std::uint32_t> held) {
+  std::vector<bool> is_held(node_count, false);
+  for (const std::uint32_t node : held) is_held[node] = true;
+  return is_held;
+}
+
+/// The operator x -> M^-1/2 K M^-1/2 x in the form that Spectra needs. Held nodes count as infinite
+/// masses, which adds zero eigenvalues to those of the system without them.
 class MassWeightedStiffness {
  public:
   using Scalar = double;
 
-  explicit MassWeightedStiffness(const MassSpringModel& model)
+  MassWeightedStiffness(const MassSpringModel& model, const std::vector<bool>& is_held)
       : node_count_(model.node_count()), a_(model.a), b_(model.b), terms_(model.dilatation) {
     std::vector<double> weight(node_count_);
-    for (std::uint32_t i = 0; i < node_count_; ++i) weight[i] = 1 / std::sqrt(model.mass[i]);
+    for (std::uint32_t i = 0; i < node_count_; ++i)
+      weight[i] = is_held[i] ? 0 : 1 / std::sqrt(model.mass[i]);
     end_a_.reserve(a_.size());
     end_b_.reserve(a_.size());
     for (std::uint32_t s = 0; s < model.spring_count(); ++s) {
@@ -166,11 +175,13 @@ std::vector<Mat3> spring_sums(const MassSpringModel& model) {
   });
 }
 
-/// omega^2 <= max_i 2 lambda_max(A_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2.
-double squared_bound(const MassSpringModel& model) {
+/// omega^2 <= max_i 2 lambda_max(A_i) / m_i, for (x_i - x_j)^2 <= 2 x_i^2 + 2 x_j^2, over the nodes
+/// that are not held.
+double squared_bound(const MassSpringModel& model, const std::vector<bool>& is_held) {
   const std::vector<Mat3> stiffness = bounding_node_stiffness(model);
   double bound = 0;
   for (std::size_t i = 0; i < stiffness.size(); ++i) {
+    if (is_held[i]) continue;
     const double top = Eigen::SelfAdjointEigenSolver<Mat3>(stiffness[i], Eigen::EigenvaluesOnly)
                            .eigenvalues()
                            .maxCoeff();
@@ -188,9 +199,11 @@ double eigenvalue_bound(const Mat3& symmetric) {
 
 }  // namespace
 
-double largest_frequency(const MassSpringModel& model, std::uint64_t seed) {
-  const MassWeightedStiffness op(model);
-  const double bound = squared_bound(model);
+double largest_frequency(const MassSpringModel& model, std::uint64_t seed,
+                         std::span<const std::uint32_t> held) {
+  const std::vector<bool> is_held = marked(model.node_count(), held);
+  const MassWeightedStiffness op(model, is_held);
+  const double bound = squared_bound(model, is_held);
   if (bound == 0) return 0;
   const double squared = op.rows() <= kDenseUnknowns ? largest_eigenvalue_dense(op)
                                                      : largest_eigenvalue_lanczos(op, seed);
@@ -198,7 +211,7 @@ double largest_frequency(const MassSpringModel& model, std::uint64_t seed) {
 }
 
 double frequency_bound(const MassSpringModel& model) {
-  return std::sqrt(squared_bound(model));
+  return std::sqrt(squared_bound(model, marked(model.node_count(), {})));
 }
 
 std::vector<Mat3> node_stiffness(const MassSpringModel& model) {

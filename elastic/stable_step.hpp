@@ -12,8 +12,10 @@ namespace springlod::elastic {
 /// residual, an upper bound that is at most 1e-4 too large. Lanczos iteration (Spectra) on M^-1/2 K
 /// M^-1/2 without assembling it; a dense solver for small models. It never exceeds
 /// `frequency_bound`, which is returned if Lanczos does not converge. 0 for a model without
-/// springs. `seed`: of the start vector.
-double largest_frequency(const MassSpringModel& model, std::uint64_t seed = 1);
+/// springs. `seed`: of the start vector. `held`: nodes that do not move; holding more never raises
+/// the frequency.
+double largest_frequency(const MassSpringModel& model, std::uint64_t seed = 1,
+                         std::span<const std::uint32_t> held = {});
 
 /// Upper bound of the largest angular frequency without iterating [rad/s]: omega^2 <= 2 max_i
 /// lambda_max(A_i) / m_i, with the bounding stiffness A_i of each node (docs/method.md, eq. 15).

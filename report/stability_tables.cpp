@@ -4,8 +4,9 @@
 namespace springlod::report {
 std::string stability_columns_help() {
   return "level, nodes, springs, integrator, iterations (at most; 0: explicit), ratio (of Young's "
-         "moduli, stiff over soft), step [s], limit (predicted for the integrator; of symplectic "
-         "Euler for implicit ones) [s], step_over_limit, stable (1: the run was completed with "
+         "moduli, stiff over soft), step [s], limit (predicted for the integrator, of the nodes "
+         "that are not held; of symplectic Euler for implicit ones) [s], step_over_limit, stable "
+         "(1: the run was completed with "
          "less than twice its initial energy), verdict, diverged_at [s], node (that diverged or "
          "moves in a mechanism; from 1), energy_drift (of the scheme, over the energy at the "
          "start and that from moving anchors), error (rms distance from the reference run over its "

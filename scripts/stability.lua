@@ -174,8 +174,9 @@ print(s.format_table(cheapest_rows(rows, bodies), {columns = {
   "level", "ratio", "limit", "limited by", "frequency error", "integrator", "step", "error",
   "cost"}}))
 print([[
-ratio: of Young's moduli, stiff to soft. limit: predicted stable step, and what limits it.
-frequency error: mean of the six lowest, against the base. error: of the run with that step.]])
+ratio: of Young's moduli, stiff to soft. limit: predicted stable step of symplectic
+Euler, for the nodes that are not held, and what limits it. frequency error: mean of the six
+lowest, against the base. error: of the run with that step.]])
 local counts = {}
 for verdict, count in pairs(map.verdicts) do counts[#counts + 1] = count .. " " .. verdict end
 table.sort(counts)

@@ -15,10 +15,11 @@ StepBound stable_step_bound(double step, double undamped) {
   return step < kDampingPart * undamped ? StepBound::damping : StepBound::springs;
 }
 
-StepLimit step_limit(const MassSpringModel& model, Integrator integrator) {
+StepLimit step_limit(const MassSpringModel& model, Integrator integrator,
+                     std::span<const std::uint32_t> held) {
   const auto limit = choice_of(integrator).traits.stable_step;
   if (limit == nullptr) return {};
-  const double omega = elastic::largest_frequency(model);
+  const double omega = elastic::largest_frequency(model, 1, held);
   if (!(omega > 0)) return {};
   const double damping_time = elastic::largest_damping_time(model);
   return {.step = limit(omega, damping_time),
@@ -27,8 +28,9 @@ StepLimit step_limit(const MassSpringModel& model, Integrator integrator) {
           .damping_time = damping_time};
 }
 
-double predicted_step(const MassSpringModel& model, Integrator integrator) {
-  return step_limit(model, integrator).step;
+double predicted_step(const MassSpringModel& model, Integrator integrator,
+                      std::span<const std::uint32_t> held) {
+  return step_limit(model, integrator, held).step;
 }
 
 }  // namespace springlod::sim

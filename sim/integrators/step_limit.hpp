@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <span>
 
 #include "model/mass_spring.hpp"
 #include "sim/integrators/integrator.hpp"
@@ -22,12 +24,15 @@ struct StepLimit {
 
 /// Follows from the highest frequency of the model and the largest damping time of its springs: see
 /// stable_step. Velocity Verlet counts damping twice (see Leapfrog), Runge-Kutta has its own limit.
-/// Contacts and corners do not bound the step: see StepCorrection.
+/// Contacts and corners do not bound the step: see StepCorrection. `held`: nodes that do not move
+/// by themselves; the limit with them is that of the free model or longer.
 StepLimit step_limit(const MassSpringModel& model,
-                     Integrator integrator = Integrator::symplectic_euler);
+                     Integrator integrator = Integrator::symplectic_euler,
+                     std::span<const std::uint32_t> held = {});
 
 /// step_limit(...).step [s].
 double predicted_step(const MassSpringModel& model,
-                      Integrator integrator = Integrator::symplectic_euler);
+                      Integrator integrator = Integrator::symplectic_euler,
+                      std::span<const std::uint32_t> held = {});
 
 }  // namespace springlod::sim

@@ -108,6 +108,7 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
   Specimen specimen;
   specimen.at_ratio = at_ratio;
   specimen.anchors = mapped(options.anchors, at_ratio->chain.levels[body.level].of_base);
+  specimen.held = support_of(specimen.anchors, model).nodes;
   specimen.start = probe_state(model, at_ratio->motion, nodes_of(specimen.anchors));
   specimen.scene.name = "probe";
   specimen.scene.gravity = Vec3::Zero();
@@ -117,7 +118,7 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
   body.springs = model.spring_count();
   body.period = at_ratio->period;
   body.duration = specimen.scene.duration;
-  const StepLimit limit = step_limit(model);
+  const StepLimit limit = step_limit(model, Integrator::symplectic_euler, specimen.held);
   body.limit = limit.step;
   body.limited_by = limit.limited_by();
   if (!body.mechanism_nodes.empty()) return specimen;
@@ -125,8 +126,9 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
     body.frequency_error = mean_error(
         lowest_frequencies(at_ratio->chain.levels[body.level], options), at_ratio->frequencies);
 
-  const double step = std::min(kReferencePart * predicted_step(model, Integrator::velocity_verlet),
-                               specimen.scene.duration / kSamples);
+  const double step =
+      std::min(kReferencePart * predicted_step(model, Integrator::velocity_verlet, specimen.held),
+               specimen.scene.duration / kSamples);
   specimen.reference = fine_run(model, specimen, step, progress[0]);
   specimen.reference_displacement = std::sqrt(squared_distance(
       model, specimen.reference,

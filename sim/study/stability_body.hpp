@@ -27,6 +27,7 @@ struct Specimen {
   State start;
   Scenario scene;  ///< neither gravity nor obstacles
   std::vector<Anchor> anchors;
+  std::vector<std::uint32_t> held;  ///< nodes that they hold, without those on springs
   std::vector<Frame> reference;
   double reference_displacement = 0;  ///< RMS displacement of its nodes from the start [m]
   /// Error of frames against the reference: see StabilityPoint::error.

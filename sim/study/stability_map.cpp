@@ -180,7 +180,8 @@ class Mapping {
   void add_steps(StabilityPoint point) {
     const StabilityBody& body = map_.bodies[point.body];
     point.limit = is_implicit(point.integrator) ? body.limit
-                                                : predicted_step(model_of(point), point.integrator);
+                                                : predicted_step(model_of(point), point.integrator,
+                                                                 specimens_[point.body].held);
     for (const double step : steps_of(point, body, options_)) {
       point.step = step;
       map_.points.push_back(point);

@@ -140,7 +140,8 @@ struct StabilityBody {
   std::uint32_t springs = 0;
   double period = 0;    ///< period of the slowest mode of the base [s]
   double duration = 0;  ///< of each run [s]
-  /// Stability limit of symplectic Euler [s]: the map shows it as the predicted limit.
+  /// Stability limit of symplectic Euler, of the nodes that are not held [s]: the map shows it as
+  /// the predicted limit.
   double limit = 0;
   StepBound limited_by = StepBound::springs;
   /// Mean relative error of the lowest frequencies against those of the base at the same ratio [1].

@@ -59,6 +59,26 @@ TEST_CASE("Lanczos agrees with a dense eigenvalue solver on an uneven lattice") 
   CHECK(largest_frequency(m, seed) == found);
 }
 
+TEST_CASE("Held nodes are left out of the largest frequency") {
+  // N - 2 masses between walls.
+  const std::uint32_t n = GENERATE(20U, 400U);
+  const MassSpringModel chain = chain_of_nodes(n, 50);
+  const double free_ends = largest_frequency(chain);
+  const double exact = 2 * std::sqrt(50.0) * std::sin(M_PI * (n - 2) / (2.0 * (n - 1)));
+  const std::vector<std::uint32_t> ends{0, n - 1};
+  const double found = largest_frequency(chain, 1, ends);
+  CHECK(found >= exact * (1 - 1e-12));
+  CHECK(found <= exact * (1 + 1e-4));
+  CHECK(found <= free_ends);
+  // One mass on two springs, and then none.
+  std::vector<std::uint32_t> held;
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (i != 7) held.push_back(i);
+  CHECK(largest_frequency(chain, 1, held) == Approx(std::sqrt(100.0)).epsilon(1e-4));
+  held.push_back(7);
+  CHECK(largest_frequency(chain, 1, held) == 0);
+}
+
 TEST_CASE("frequency_bound is nearly attained in a lattice") {
   // Infinite lattice: omega^2 = 12 k/m (6 k in each direction at a node, twice).
   const MassSpringModel m = box_lattice(10, 10, 10);

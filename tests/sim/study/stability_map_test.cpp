@@ -179,6 +179,30 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("The limit of a held body is that of its free nodes") {
+  const MassSpringModel base = two_halves(voxelize::LatticeStyle::corners);
+  StabilityOptions options;
+  options.ratios = {1000};
+  options.integrators = {Integrator::symplectic_euler, Integrator::runge_kutta_4};
+  options.steps = {0.9, 1.15};
+  const double free_limit = stability_map(chain_of(base), options).bodies.front().limit;
+  Anchor vice{.name = "vice", .nodes = {}};
+  for (std::uint32_t i = 0; i < base.node_count(); ++i)
+    if (base.rest[i].z() < 0.3 + 1e-9) vice.nodes.push_back(i);  // all of the rod
+  options.anchors = {vice};
+  const StabilityMap map = stability_map(chain_of(base), options);
+  CHECK(map.bodies.front().limit > 5 * free_limit);
+  REQUIRE(map.points.size() == 4);
+  for (const StabilityPoint& point : map.points) {
+    CAPTURE(to_string(point.integrator), point.step / point.limit);
+    CHECK((point.verdict == Verdict::diverged) == (point.step > point.limit));
+  }
+  // Springs hold no node.
+  options.anchors.front().spring = AnchorSpring{.stiffness = 10};
+  options.steps = {0.9};
+  CHECK(stability_map(chain_of(base), options).bodies.front().limit == free_limit);
+}
+
 TEST_CASE("A chain with dilatation terms is mapped by the integrators that know them") {
   Material rubber = test::material("rubber", 1e5, 1000, 0.0005);
   rubber.poisson = 0.45;
