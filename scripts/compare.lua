@@ -23,7 +23,8 @@ parser:option("--scenario", "Lua file that returns a table for s.scenario; it ma
   .. "anchored: what holds nodes of the base, as for s.compare")
   :argname("<file.lua>"):count(1)
 command.add_out(parser, "out/compare")
-parser:option("--starts", "number of starts; every level uses the same ones")
+parser:option("--starts", "number of starts; every level uses the same ones; a body "
+  .. "without speed and obstacles is run from one")
   :convert(command.whole("--starts", 1)):default("8")
 parser:option("--jitter", "relative variation of speed and height between starts (default: 0.02)")
   :convert(command.number("--jitter", 0, true))
@@ -132,14 +133,14 @@ local function panels_of(compared)
   return panels
 end
 
-local function origin_of(chain)
+local function origin_of(chain, count)
   local entries = {}
   for _, path in ipairs(assets) do
     entries[#entries + 1] = {"asset", ("%s (hash %s)"):format(path, s.hash{file = path})}
   end
   entries[#entries + 1] = {"scenario", ("%s (hash %s)"):format(args.scenario,
     s.hash{file = args.scenario})}
-  entries[#entries + 1] = {"starts", ("%d, jitter %g"):format(args.starts, args.jitter or 0.02)}
+  entries[#entries + 1] = {"starts", ("%d, jitter %g"):format(count, args.jitter or 0.02)}
   return page.provenance(chain, entries)
 end
 
@@ -176,7 +177,7 @@ local function write_page(chain, scene_name, compared, names, rows, starts, unto
       and {path = args.out .. "/" .. args.video, panels = panels_of(compared)} or nil,
     view = view, chains = together and #assets > 1 and names or nil, facts = page.facts(rows),
     charts = {page.cost_error(rows)}, tables = {page.comparison_table(rows)},
-    provenance = origin_of(chain),
+    provenance = origin_of(chain, starts[#starts].start),
   })
 end
 
@@ -206,11 +207,12 @@ local function compare()
   write_page(chain, name, compared, names, rows, starts, untouched)
   for i = 1, #assets do fit_store.remove(fit_folder .. (#assets == 1 and "" or "/" .. i)) end
   if #assets > 1 then os.remove(fit_folder) end
-  return {rows = rows, untouched = untouched, size = chain[0].bounds.diagonal}
+  return {rows = rows, starts = starts[#starts].start, untouched = untouched,
+          size = chain[0].bounds.diagonal}
 end
 
 local ok, done = command.try_in(args.out, compare, fits)
 if not ok then command.fail("cannot compare %s: %s", table.concat(assets, ", "), done) end
-comparison_table.print(done.rows, args.starts, done.size)
+comparison_table.print(done.rows, done.starts, done.size)
 if done.untouched then print(done.untouched) end
 s.say("wrote " .. args.out .. "/index.html and what it shows")

@@ -109,8 +109,14 @@ std::vector<std::string> read_variants(TableReader& reader, bool of_list,
 /// What a user should know of runs that completed; the base is the same in all comparisons.
 void say_what_happened(Session& session,
                        const std::vector<std::shared_ptr<const ComparisonValue>>& values,
-                       const sim::RunOptions& options) {
+                       const sim::CompareOptions& options) {
   const MassSpringModel& base = values.front()->chain->chain.levels.front().model;
+  const std::size_t starts = values.front()->comparison.levels.front().starts.size();
+  if (starts < options.starts)
+    session.console().say(fmt::format(
+        "compare: ran one start instead of {}, which would all be the same: {}", options.starts,
+        options.jitter == 0 ? "the jitter is 0"
+                            : "the body has no speed, and its height makes no difference"));
   if (const auto untouched = no_contact_of(*values.front()))
     session.console().say("compare: " + *untouched);
   std::vector<sim::RunSummary> all;
@@ -118,7 +124,7 @@ void say_what_happened(Session& session,
     for (const sim::LevelRuns& level : value->comparison.levels)
       if (level.level > 0 || value == values.front())
         all.insert(all.end(), level.starts.begin(), level.starts.end());
-  warn(session.console(), all, sim::corners_resist(base, options));
+  warn(session.console(), all, sim::corners_resist(base, options.run));
   for (const auto& value : values) hint_at_damping(session, base, value->comparison.levels);
 }
 
@@ -146,7 +152,7 @@ int compare_binding(Call& call) {
   for (std::size_t c = 0; c < chains.size(); ++c)
     values.push_back(std::make_shared<const ComparisonValue>(
         ComparisonValue{std::move(comparisons[c]), chains[c]}));
-  say_what_happened(call.session(), values, options.run);
+  say_what_happened(call.session(), values, options);
   if (!of_list) return call.give(values.front());
   call.give(values);
   print_inspected(call.lua());

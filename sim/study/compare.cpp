@@ -110,7 +110,10 @@ class Comparing {
       : options_(options),
         base_(chains.front()->levels.front().model),
         base_center_(center_of_mass(base_, base_.rest)),
-        slots_(options.starts),
+        starts_(starts_differ(scenario, base_center_, options.jitter, options.run.anchors)
+                    ? options.starts
+                    : 1),
+        slots_(starts_),
         results_(chains.size()) {
     for (std::size_t c = 0; c < chains.size(); ++c) {
       Comparison& result = results_[c];
@@ -120,7 +123,7 @@ class Comparing {
       for (std::uint32_t level = 0; level < result.levels.size(); ++level) {
         result.levels[level].level = level;
         result.levels[level].label = level_label(level, variants.empty() ? "" : variants[c]);
-        result.levels[level].starts.resize(options.starts);
+        result.levels[level].starts.resize(starts_);
         if (c == 0 || level > 0) add_runner(*chains[c], level, result.levels[level]);
       }
     }
@@ -128,7 +131,7 @@ class Comparing {
   }
 
   std::vector<Comparison> run_all() {
-    const std::uint64_t jobs = std::uint64_t{options_.starts} * runners_.size();
+    const std::uint64_t jobs = std::uint64_t{starts_} * runners_.size();
     Task task(options_.progress, "compare", jobs * RunProgress::kUnits);
     // Ordered by start, the base first: when a level waits for its base, the base's run has already
     // begun.
@@ -239,6 +242,7 @@ class Comparing {
   const CompareOptions& options_;
   const MassSpringModel& base_;
   Vec3 base_center_;
+  std::uint32_t starts_;  // that are run
   std::vector<StartSlot> slots_;
   std::vector<Comparison> results_;  // by chain
   std::vector<Runner> runners_;      // the base, then the levels of each chain

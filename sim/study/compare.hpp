@@ -14,7 +14,9 @@
 namespace springlod::sim {
 
 struct CompareOptions {
-  std::uint32_t starts = 1;  ///< paired starts: the same jitter for every level
+  /// Paired starts: the same jitter for every level. If they do not differ (starts_differ), only
+  /// the first one is run.
+  std::uint32_t starts = 1;
   double jitter = 0.02;  ///< relative, uniform, on speed and start height; the first start has none
   std::uint64_t seed = 1;
   std::uint32_t threads =
@@ -31,7 +33,8 @@ struct CompareOptions {
 };
 constexpr auto option_rows(const CompareOptions*) {
   return std::tuple(
-      option("starts", &CompareOptions::starts, "number of starts, the same for every level")
+      option("starts", &CompareOptions::starts,
+             "number of starts, the same for every level; 1 is run if they would not differ")
           .within(1, 1e6),
       option("jitter", &CompareOptions::jitter,
              "relative random change of speed and height of each start after the first")

@@ -18,6 +18,12 @@ namespace springlod::sim {
 Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint64_t seed,
                std::uint32_t index);
 
+/// Whether the starts of `jittered` lead to different motions. They do not without a jitter, nor
+/// without a velocity if the height does not matter either: there is nothing that the body could
+/// touch, and no anchor turns about a fixed point.
+bool starts_differ(const Scenario& scenario, const Vec3& center, double jitter,
+                   const std::vector<Anchor>& anchors);
+
 /// Results of one run of an ensemble.
 struct RunSummary {
   double distance = 0;   ///< Scenario::measure_from at the end [m]

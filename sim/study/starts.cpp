@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <random>
 
 #include <fmt/format.h>
@@ -23,6 +24,18 @@ Throw jittered(const Throw& start, const Vec3& center, double jitter, std::uint6
   changed.velocity *= factor();
   changed.position.z() *= factor();
   return changed;
+}
+
+bool starts_differ(const Scenario& scenario, const Vec3& center, double jitter,
+                   const std::vector<Anchor>& anchors) {
+  if (jitter == 0) return false;
+  if (scenario.start.velocity != Vec3::Zero()) return true;
+  const Vec3& position = scenario.start.placed ? scenario.start.position : center;
+  if (position.z() == 0) return false;
+  const bool turns = std::any_of(anchors.begin(), anchors.end(), [](const Anchor& anchor) {
+    return anchor.pivot.has_value() && !anchor.path.empty();
+  });
+  return turns || !scenario.obstacles.empty();
 }
 
 Trajectory run_start(const MassSpringModel& model, const Scenario& scenario, const Vec3& center,

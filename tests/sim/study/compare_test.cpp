@@ -118,6 +118,34 @@ TEST_CASE("Every level starts from the same jittered throw") {
   CHECK(result.levels[0].starts[1].distance != Approx(1.2).epsilon(1e-6));
 }
 
+TEST_CASE("Starts that would not differ are run once") {
+  const auto starts_of = [](const Scenario& scene, double jitter, const Anchor& anchor) {
+    CompareOptions options;
+    options.starts = 3;
+    options.jitter = jitter;
+    options.run.anchors = {anchor};
+    const auto result = compare(test::small_chain(), scene, options);
+    CHECK(result.levels[1].starts.size() == result.levels[0].starts.size());
+    return result.levels[0].starts.size();
+  };
+  Scenario thrown = small_scene();
+  thrown.duration = 0.01;
+  Scenario lifted = thrown;  // over the floor
+  lifted.start.velocity = Vec3::Zero();
+  Scenario alone = lifted;
+  alone.obstacles.clear();
+  Anchor anchor{.name = "vice", .nodes = {0}};
+  CHECK(starts_of(thrown, 0.1, anchor) == 3);
+  CHECK(starts_of(thrown, 0, anchor) == 1);
+  CHECK(starts_of(lifted, 0.1, anchor) == 3);
+  CHECK(starts_of(alone, 0.1, anchor) == 1);
+  // About a fixed pivot, the body turns with another arm.
+  anchor.path = {{.time = 0.01, .turn = {0.1, 0, 0}}};
+  CHECK(starts_of(alone, 0.1, anchor) == 1);
+  anchor.pivot = Vec3::Zero();
+  CHECK(starts_of(alone, 0.1, anchor) == 3);
+}
+
 TEST_CASE("Jitter scales speed and height within its range and depends on seed and index alone") {
   const Throw start = small_scene().start;
   const Vec3 center(7, 8, 9);
