@@ -26,10 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 
 void require_sane(const AnimateOptions& options) {
-  if (!(options.frame_rate > 0) || !std::isfinite(options.frame_rate) || !(options.slow > 0) ||
+  const double frame_rate = options.frame_rate.value_or(kUsualFrameRate);
+  if (!(frame_rate > 0) || !std::isfinite(frame_rate) || !(options.slow > 0) ||
       !std::isfinite(options.slow))
     throw InputError(fmt::format("animation: frame_rate = {} and slow = {} must be above 0",
-                                 options.frame_rate, options.slow));
+                                 frame_rate, options.slow));
 }
 
 /// A straight line from the first frame to the last is no motion.
@@ -46,16 +47,30 @@ void require_motion(const FilmedRun& run, const std::vector<double>& times) {
         run.label));
 }
 
+double end_of(const std::vector<FilmedRun>& runs) {
+  double end = 0;
+  for (const FilmedRun& run : runs) end = std::max(end, run.end());
+  return end;
+}
+
+/// The frame rate that was asked for; else the usual one, or a lower one at which the first of the
+/// frames shows the start of the runs and the last their end.
+double frame_rate_of(const std::vector<FilmedRun>& runs, const AnimateOptions& options) {
+  if (options.frame_rate) return *options.frame_rate;
+  const double seconds = end_of(runs) * options.slow;
+  if (options.frames < 2 || !(seconds > 0)) return kUsualFrameRate;
+  return std::clamp((options.frames - 1) / seconds, kLeastFrameRate, kUsualFrameRate);
+}
+
 /// Simulated time between two pictures [s].
 double time_apart(const AnimateOptions& options) {
-  return 1 / (options.frame_rate * options.slow);
+  return 1 / (*options.frame_rate * options.slow);
 }
 
 /// The times of the frames [s].
 std::vector<double> picture_times(const std::vector<FilmedRun>& runs,
                                   const AnimateOptions& options) {
-  double end = 0;
-  for (const FilmedRun& run : runs) end = std::max(end, run.end());
+  const double end = end_of(runs);
   const double apart = time_apart(options);
   // Rounding errors in the sum of time steps must not lose the last frame.
   constexpr double kSlack = 1e-6;
@@ -66,7 +81,7 @@ std::vector<double> picture_times(const std::vector<FilmedRun>& runs,
         fmt::format("animation: {:g} s at {:g} frames per second make {:g} frames; set a lower "
                     "frame_rate or "
                     "frames",
-                    end * options.slow, options.frame_rate, count));
+                    end * options.slow, *options.frame_rate, count));
   std::vector<double> times(static_cast<std::size_t>(
       options.frames == 0 ? count : std::min<double>(count, options.frames)));
   for (std::size_t k = 0; k < times.size(); ++k) times[k] = static_cast<double>(k) * apart;
@@ -158,9 +173,11 @@ void remove_stale_frames(const fs::path& folder, std::size_t count) {
 }  // namespace
 
 Animation animate(const std::vector<FilmedRun>& runs, const fs::path& folder,
-                  const AnimateOptions& options) {
+                  const AnimateOptions& given) {
   if (runs.empty()) throw InputError("animation: there are no runs to draw");
-  require_sane(options);
+  require_sane(given);
+  AnimateOptions options = given;
+  options.frame_rate = frame_rate_of(runs, given);
   const std::vector<double> times = picture_times(runs, options);
   for (const FilmedRun& run : runs) require_motion(run, times);
   const std::vector<std::vector<render::Camera>> cameras = film_cameras(runs, times, options);
@@ -198,7 +215,7 @@ Animation animate(const std::vector<FilmedRun>& runs, const fs::path& folder,
   writer.finish();
   remove_stale_temporaries(folder);
   remove_stale_frames(folder, times.size());
-  return {static_cast<std::uint32_t>(times.size()), folder};
+  return {static_cast<std::uint32_t>(times.size()), *options.frame_rate, folder};
 }
 
 Animation animate(const std::vector<ComparedChain>& chains, const fs::path& folder,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "base/choice.hpp"
@@ -22,13 +23,21 @@ constexpr ChoiceTable<Choice<CameraMode>> choices(CameraMode) {
   return {"camera", kCameraModes};
 }
 
+/// Of a film, unless `frames` ask for less [1/s].
+inline constexpr double kUsualFrameRate = 30;
+/// Less must be a typing error [1/s].
+inline constexpr double kLeastFrameRate = 0.01;
+
 struct AnimateOptions {
   std::uint32_t width = 640;  ///< of one panel [px]
   std::uint32_t height = 480;
   std::uint32_t columns = 0;  ///< panels in a row; 0: all of them
-  double frame_rate = 30;     ///< [1/s]; frames are 1 / (frame_rate * slow) simulated seconds apart
-  double slow = 1;            ///< slow motion: 4 plays four times slower than real time
-  std::uint32_t frames = 0;   ///< maximum number of frames; 0: no limit
+  /// [1/s]; frames are 1 / (frame_rate * slow) simulated seconds apart. Empty: kUsualFrameRate, or
+  /// less so that `frames` show all of the runs.
+  std::optional<double> frame_rate = {};
+  double slow = 1;  ///< slow motion: 4 plays four times slower than real time
+  /// Maximum number of frames; with a frame_rate, the film ends after them. 0: no limit.
+  std::uint32_t frames = 0;
   /// fixed: one view of the whole motion, or one for each run of bodies that differ in size;
   /// follow: each panel keeps its body in the middle.
   CameraMode camera = CameraMode::fixed;
@@ -50,10 +59,12 @@ constexpr auto option_rows(const AnimateOptions*) {
           .within(1, 1000)
           .by_default("all in one row"),
       option("frame_rate", &Options::frame_rate, "frames per second of the video")
-          .within(0.01, 1000),
+          .within(kLeastFrameRate, 1000)
+          .by_default("30, or less so that `frames` show all of the runs"),
       option("slow", &Options::slow, "slow motion; 4: four times slower than real time")
           .within(0.001, 1e6),
-      option("frames", &Options::frames, "maximum number of frames")
+      option("frames", &Options::frames,
+             "maximum number of frames; if frame_rate is given, the film ends after them")
           .within(1, 1e6)
           .by_default("all"),
       option(
@@ -74,6 +85,7 @@ constexpr auto option_rows(const AnimateOptions*) {
 
 struct Animation {
   std::uint32_t frames = 0;
+  double frame_rate = kUsualFrameRate;  ///< at which it has the speed that was asked for [1/s]
   std::filesystem::path folder;
 };
 

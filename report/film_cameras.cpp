@@ -151,7 +151,8 @@ std::vector<render::Camera> following_cameras(const FilmedRun& run,
   const std::vector<Vec3> centers = path;
   // Three box filters are close to a Gaussian one: no kink where the body bounces.
   for (int pass = 0; pass < 3; ++pass)
-    path = smoothed(path, static_cast<std::uint32_t>(kSmooth * options.frame_rate));
+    path = smoothed(
+        path, static_cast<std::uint32_t>(kSmooth * options.frame_rate.value_or(kUsualFrameRate)));
   // A ball that contains the body in every orientation, and stretched by an impact.
   const Vec3 center = center_of_mass(run.body, run.body.rest);
   double radius = 0;

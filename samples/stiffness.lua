@@ -22,5 +22,6 @@ end
 
 -- One chart and one film of all runs.
 s.chart(folder .. "/height.svg", runs, {labels = labels})
-s.animate(folder .. "/frames", runs, {labels = labels, width = 400, height = 320, frames = 30})
-s.video(folder .. "/stiffness.mp4", folder .. "/frames")
+local _, frame_rate = s.animate(folder .. "/frames", runs,
+  {labels = labels, width = 400, height = 320, frames = 30})
+s.video(folder .. "/stiffness.mp4", folder .. "/frames", {frame_rate = frame_rate})

@@ -9,7 +9,7 @@ local fit_store = require "lib.fit_store"
 local page = require "lib.page"
 local simplify_options = require "lib.simplify_options"
 
-local film = {frames = 100, frame_rate = 30, least_frame_rate = 10}
+local film = {frames = 100, frame_rate = 30}
 
 local parser = command.parser("compare", "Run every level of an asset under one scenario. "
   .. "Writes index.html (a page with all of it), table.csv, starts.csv, chart.svg, chart.png, "
@@ -32,8 +32,8 @@ parser:option("--variant", "name used in labels: hb gives \"hb level 1\" (defaul
   .. "several assets, their names)")
 parser:option("--frames", "maximum number of frames; 0 draws none")
   :convert(command.whole("--frames", 0)):default(tostring(film.frames))
-parser:option("--frame-rate", ("frames per second of the video (default: %d; down to %d for a run "
-  .. "that is too long for --frames)"):format(film.frame_rate, film.least_frame_rate))
+parser:option("--frame-rate", ("frames per second of the video, which ends after --frames "
+  .. "(default: %d, or less so that --frames show all of the run)"):format(film.frame_rate))
   :convert(command.number("--frame-rate", 0))
 parser:option("--slow", "slow motion: 4 plays four times slower than real time")
   :convert(command.number("--slow", 0)):default("1")
@@ -86,21 +86,11 @@ local function variants()
   return names
 end
 
--- The usual frame rate of a video, or one at which --frames show all of the run [1/s].
-local function rate_of_film(rows)
-  if args.frame_rate then return args.frame_rate end
-  local seconds = 0
-  for _, row in ipairs(rows) do seconds = math.max(seconds, row.simulated * args.slow) end
-  -- the first frame is at 0 s
-  local fitting = seconds > 0 and (args.frames - 1) / seconds or film.frame_rate
-  return math.min(film.frame_rate, math.max(film.least_frame_rate, fitting))
-end
-
-local function animate(compared, rows)
-  local folder, frame_rate = args.out .. "/frames", rate_of_film(rows)
-  s.animate(folder, compared, {
+local function animate(compared)
+  local folder = args.out .. "/frames"
+  local _, frame_rate = s.animate(folder, compared, {
     width = args.width, height = args.height, frames = args.frames,
-    frame_rate = frame_rate, slow = args.slow, camera = args.camera,
+    frame_rate = args.frame_rate, slow = args.slow, camera = args.camera,
     springs = args.springs, surface_opacity = args.springs and 0.35 or nil,
   })
   s.video(args.out .. "/" .. args.video, folder, {frame_rate = frame_rate})
@@ -202,7 +192,7 @@ local function compare()
   local starts = save_rows("starts.csv", compared, names, function(runs) return runs:starts() end)
   save_rows("timings.csv", compared, names, function(runs) return runs:timings() end)
   command.chart(args.out .. "/chart", compared)
-  if args.frames > 0 then animate(compared, rows) end
+  if args.frames > 0 then animate(compared) end
   local untouched = untouched_of(compared)
   write_page(chain, name, compared, names, rows, starts, untouched)
   for i = 1, #assets do fit_store.remove(fit_folder .. (#assets == 1 and "" or "/" .. i)) end

@@ -127,9 +127,9 @@ local chart = {
 
 -- 5. The video: the base, level 2 of LOD-hb and the fitted level 2, synchronized.
 local function make_video(compared)
-  local frames = s.animate(folder .. "/frames", {compared.hb, compared.fit},
+  local frames, frame_rate = s.animate(folder .. "/frames", {compared.hb, compared.fit},
     {frames = frame_count, camera = "follow", levels = {0, 2}, height = 600})
-  s.video(folder .. "/comparison.mp4", folder .. "/frames")
+  s.video(folder .. "/comparison.mp4", folder .. "/frames", {frame_rate = frame_rate})
   s.say(("%d frames, table.csv, counts.csv, chart.svg, comparison.mp4 and %d assets are in %s")
     :format(frames, #variants, folder))
 end

@@ -31,6 +31,10 @@ constexpr const char* kGroup = "Pictures and reports";
 constexpr const char* kComparisons = "a Comparison, or a list of Comparisons";
 constexpr const char* kRuns = "a Trajectory, or a list of Trajectories";
 
+int give_film(Call& call, const report::Animation& film) {
+  return call.give(film.frames, film.frame_rate);
+}
+
 int animate_binding(Call& call) {
   report::AnimateOptions options;
   TableReader reader = call.options(3);
@@ -43,17 +47,17 @@ int animate_binding(Call& call) {
       reader.refuse("levels", "given for comparisons only: a run is that of one level");
     const auto runs = labelled_runs(values, reader);
     reader.finish();
-    return call.give(report::animate(report::filmed_runs(runs), call.writable(1), options).frames);
+    return give_film(call, report::animate(report::filmed_runs(runs), call.writable(1), options));
   }
   const auto comparisons =
       values_at<ComparisonValue>(call, 2, "a Comparison, a Trajectory, or a list of either");
   refuse_labels(reader, "the option variant of compare is part of the labels of levels");
   reader.finish();
-  return call.give(report::animate(compared_chains(comparisons), call.writable(1), options).frames);
+  return give_film(call, report::animate(compared_chains(comparisons), call.writable(1), options));
 }
 
 int video_binding(Call& call) {
-  double frame_rate = report::AnimateOptions{}.frame_rate;
+  double frame_rate = report::kUsualFrameRate;
   TableReader reader = call.options(3);
   reader.read("frame_rate", frame_rate);
   reader.finish();
@@ -151,10 +155,11 @@ void describe_film(Api& api) {
                          "first one; or of run, of any bodies and scenarios: a run that ends "
                          "before others keeps its last frame"}},
       .options = animate_parameters(),
-      .returns = "integer: number of frames",
+      .returns = "integer, number: number of frames, and frame rate at which s.video plays them at "
+                 "the right speed [1/s]",
       .errors = "A size beyond the largest picture; a file cannot be written; labels that do not "
                 "match in number; a run with no frames but the first and the last.",
-      .example = "s.animate(\"out/frames\", comparison, {frames = 60})\n"
+      .example = "local frames, rate = s.animate(\"out/frames\", comparison, {frames = 60})\n"
                  "s.animate(\"out/both\", {merged, fitted}, {levels = {0, 2}})\n"
                  "s.animate(\"out/runs\", {soft, hard}, {labels = {\"soft\", \"hard\"}})",
       .call = animate_binding});
@@ -170,11 +175,12 @@ void describe_film(Api& api) {
       .options = {{.name = "frame_rate",
                    .type = "number",
                    .range = Range{0.01, 1000},
-                   .fallback = fmt::format("{}", report::AnimateOptions{}.frame_rate),
+                   .fallback = fmt::format("{}", report::kUsualFrameRate),
                    .help = "frames per second"}},
       .returns = "boolean, string: whether the video was made, and the command that makes it",
       .errors = "ffmpeg fails; another ending than .mp4 or .gif.",
-      .example = "s.video(\"out/comparison.mp4\", \"out/frames\")",
+      .example = "local frames, rate = s.animate(\"out/frames\", comparison, {frames = 60})\n"
+                 "s.video(\"out/comparison.mp4\", \"out/frames\", {frame_rate = rate})",
       .call = video_binding});
 }
 

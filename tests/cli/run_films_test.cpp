@@ -51,7 +51,8 @@ TEST_CASE("several runs are drawn in one film and on one chart") {
     local labels = {"soft", "hard"}
     print(s.animate(folder .. "/film", {soft, hard},
       {labels = labels, width = 120, height = 90, frame_rate = 10}))
-    print(s.animate(folder .. "/one", soft, {width = 120, height = 90, frames = 1}))
+    print(s.animate(folder .. "/three", soft, {width = 120, height = 90, frames = 3}))
+    print((s.animate(folder .. "/one", soft, {width = 120, height = 90, frames = 1})))
     s.animate(folder .. "/rows", {soft, hard, soft},
       {columns = 2, width = 120, height = 90, frames = 1, springs = true, camera = "follow"})
     s.chart(folder .. "/height.svg", {soft, hard}, {labels = labels})
@@ -69,10 +70,16 @@ TEST_CASE("several runs are drawn in one film and on one chart") {
   REQUIRE(ran.exit_code == 0);
   std::istringstream printed(ran.out);
   int frames = 0;
+  double rate = 0;
+  int frames_of_three = 0;
+  double rate_of_three = 0;
   int frames_of_one = 0;
   double final_height = 0;
-  printed >> frames >> frames_of_one >> final_height;
+  printed >> frames >> rate >> frames_of_three >> rate_of_three >> frames_of_one >> final_height;
   CHECK(frames == 6);  // 0.5 s, the longer run
+  CHECK(rate == 10);
+  CHECK(frames_of_three == 3);
+  CHECK(rate_of_three == Approx(2 / 0.5));
   CHECK(frames_of_one == 1);
   const auto size = [&](const std::string& folder) {
     const auto picture = springlod::render::load_png(scratch / (folder + "/frame_0000.png"));

@@ -156,6 +156,39 @@ TEST_CASE("slow motion makes more frames, a limit fewer, and surplus old frames 
   CHECK_FALSE(std::filesystem::exists(render::frame_path(folder.path(), 5)));
 }
 
+TEST_CASE("a limit of frames spreads them over the run, unless a frame rate is given") {
+  const TemporaryFolder folder;
+  const Film film;  // 0.5 s
+  AnimateOptions options = small();
+  options.width = 32;
+  options.height = 24;
+  const auto drawn = [&](const char* name) {
+    return animate({{film.asset, film.comparison}}, folder.path() / name, options);
+  };
+  const Animation whole = drawn("whole");
+  CHECK(whole.frame_rate == kUsualFrameRate);
+  options.frames = 100;  // more than the film has
+  CHECK(drawn("whole").frame_rate == kUsualFrameRate);
+  CHECK(drawn("whole").frames == 16);
+  options.frames = 4;
+  const Animation spread = drawn("spread");
+  CHECK(spread.frames == 4);
+  CHECK(spread.frame_rate == Approx(3 / 0.5));
+  options.slow = 2;
+  CHECK(drawn("slow").frame_rate == Approx(3 / (2 * 0.5)));
+  options.slow = 1;
+  options.frame_rate = 30;
+  const Animation cut = drawn("cut");
+  CHECK(cut.frames == 4);
+  CHECK(cut.frame_rate == 30);
+  const auto picture = [&](const char* name, std::uint32_t frame) {
+    return render::load_png(render::frame_path(folder.path() / name, frame));
+  };
+  // The last one shows the end.
+  CHECK(render::difference(picture("spread", 3), picture("whole", 15)).share_beyond < 0.01);
+  CHECK(render::difference(picture("cut", 3), picture("whole", 15)).share_beyond > 0.01);
+}
+
 TEST_CASE("a run that ended early holds its last frame") {
   const TemporaryFolder folder;
   Film film;
