@@ -195,7 +195,7 @@ TEST_CASE("compare and stability take anchors from files") {
                                       (scratch / "compared").string(), "--frames", "0"});
   require_success(compared);
   CHECK_THAT(slurp(scratch / "compared/table.csv"), Contains("level 1"));
-  CHECK_THAT(compared.err, Contains("compare: ran one start instead of 8"));
+  CHECK_THAT(compared.err, Contains("ran one start instead of 8"));
   CHECK_THAT(compared.out, Contains("Means over 1 start."));
   const Ran mapped =
       springlod_run({"stability", (scratch / "bar.glb").string(), "--out",
