@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -34,26 +35,35 @@ class FileActions {
   posix_spawn_file_actions_t actions_{};
 };
 
-std::string read_all(int descriptor) {
-  std::string text;
+/// A pipe that is read to its end.
+struct ReadPipe {
+  int descriptor;
+  std::string* text;
+};
+
+/// Reads both as they come: a program that waits for one to be read would otherwise never end.
+void read_all(std::array<ReadPipe, 2> pipes) {
   std::array<char, 4096> buffer{};
-  for (;;) {
-    const ssize_t got = ::read(descriptor, buffer.data(), buffer.size());
-    if (got > 0)
-      text.append(buffer.data(), static_cast<std::size_t>(got));
-    else if (got == 0 || errno != EINTR)
-      return text;
+  std::array<pollfd, 2> waiting{};
+  for (std::size_t i = 0; i < pipes.size(); ++i) waiting[i] = {pipes[i].descriptor, POLLIN, 0};
+  for (std::size_t open = pipes.size(); open > 0;) {
+    if (::poll(waiting.data(), waiting.size(), -1) < 0) continue;  // a signal
+    for (std::size_t i = 0; i < pipes.size(); ++i) {
+      if (waiting[i].revents == 0) continue;
+      const ssize_t got = ::read(pipes[i].descriptor, buffer.data(), buffer.size());
+      if (got > 0) pipes[i].text->append(buffer.data(), static_cast<std::size_t>(got));
+      if (got > 0 || (got < 0 && errno == EINTR)) continue;
+      waiting[i].fd = -1;  // its end
+      --open;
+    }
   }
 }
 
-int wait_for(pid_t child, const fs::path& program) {
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR)
-      throw IoError(fmt::format("cannot wait for {}: {}", program.string(),
-                                std::generic_category().message(errno)));
-  constexpr int kKilledBySignal = 128;  // a shell's convention
-  return WIFEXITED(status) ? WEXITSTATUS(status) : kKilledBySignal + WTERMSIG(status);
+void add_stream(FileActions& actions, int descriptor, int stream, int mode) {
+  if (descriptor < 0)
+    posix_spawn_file_actions_addopen(actions.get(), stream, "/dev/null", mode, 0);
+  else
+    posix_spawn_file_actions_adddup2(actions.get(), descriptor, stream);
 }
 
 }  // namespace
@@ -73,13 +83,14 @@ std::optional<fs::path> find_program(const std::string& name) {
   return std::nullopt;
 }
 
-ProgramResult run_program(const fs::path& program, const std::vector<std::string>& arguments,
-                          const fs::path& folder) {
-  Pipe pipe = make_pipe();
+pid_t start_program(const fs::path& program, const std::vector<std::string>& arguments,
+                    const ProgramStreams& streams, const fs::path& folder) {
   FileActions actions;
-  posix_spawn_file_actions_addopen(actions.get(), STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(actions.get(), STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(actions.get(), pipe.writing.number(), STDERR_FILENO);
+  add_stream(actions, streams.input, STDIN_FILENO, O_RDONLY);
+  add_stream(actions, streams.output, STDOUT_FILENO, O_WRONLY);
+  add_stream(actions, streams.errors, STDERR_FILENO, O_WRONLY);
+  if (streams.extra >= 0)
+    posix_spawn_file_actions_adddup2(actions.get(), streams.extra, kExtraStream);
   if (!folder.empty()) posix_spawn_file_actions_addchdir_np(actions.get(), folder.c_str());
 
   std::string name = program.string();
@@ -87,15 +98,37 @@ ProgramResult run_program(const fs::path& program, const std::vector<std::string
   std::vector<char*> argv{name.data()};
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  pid_t child = 0;
+  pid_t process = 0;
   const int error =
-      posix_spawn(&child, program.c_str(), actions.get(), nullptr, argv.data(), environ);
+      posix_spawn(&process, program.c_str(), actions.get(), nullptr, argv.data(), environ);
   if (error != 0)
     throw IoError(fmt::format("cannot start {}: {}", program.string(), std::strerror(error)));
-  pipe.writing.close();  // otherwise reading the child's stderr would never reach its end
+  return process;
+}
+
+ProcessEnd wait_for_program(pid_t process) {
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0)
+    if (errno != EINTR)
+      throw IoError(fmt::format("cannot wait for process {}: {}", process,
+                                std::generic_category().message(errno)));
+  if (WIFSIGNALED(status)) return {.signal = WTERMSIG(status)};
+  return {.exit_code = WEXITSTATUS(status)};
+}
+
+ProgramResult run_program(const fs::path& program, const std::vector<std::string>& arguments,
+                          const fs::path& folder) {
+  Pipe output = make_pipe(), errors = make_pipe();
+  const pid_t process =
+      start_program(program, arguments,
+                    {.output = output.writing.number(), .errors = errors.writing.number()}, folder);
+  for (Pipe* pipe : {&output, &errors}) pipe->writing.close();  // or reading would never end
   ProgramResult result;
-  result.errors = read_all(pipe.reading.number());
-  result.exit_code = wait_for(child, program);
+  read_all({ReadPipe{output.reading.number(), &result.output},
+            {errors.reading.number(), &result.errors}});
+  const ProcessEnd end = wait_for_program(process);
+  constexpr int kKilledBySignal = 128;  // a shell's convention
+  result.exit_code = end.signal != 0 ? kKilledBySignal + end.signal : end.exit_code;
   return result;
 }
 
