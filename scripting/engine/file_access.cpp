@@ -92,13 +92,16 @@ bool FileAccess::may_write(const fs::path& path) const {
   });
 }
 
-bool FileAccess::may_read(const fs::path& path) const {
+bool FileAccess::may_read(const fs::path& path) {
   const Name full(path);
-  return !restricted_ || std::any_of(rules_.begin(), rules_.end(),
-                                     [&](const Rule& rule) { return covers(rule, full); });
+  const bool allowed =
+      !restricted_ || std::any_of(rules_.begin(), rules_.end(),
+                                  [&](const Rule& rule) { return covers(rule, full); });
+  if (allowed) read_.insert(full.real);
+  return allowed;
 }
 
-void FileAccess::require_readable(const fs::path& path) const {
+void FileAccess::require_readable(const fs::path& path) {
   if (!may_read(path)) refuse(path, "read");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <vector>
 
 namespace springlod::scripting {
@@ -21,11 +22,14 @@ class FileAccess {
   /// A folder of Lua modules of the system, for reading, and what its links lead to.
   void allow_modules(const std::filesystem::path& folder);
 
-  bool may_read(const std::filesystem::path& path) const;
+  bool may_read(const std::filesystem::path& path);
   bool may_write(const std::filesystem::path& path) const;
   /// Throw InputError, which says how to allow the path.
-  void require_readable(const std::filesystem::path& path) const;
+  void require_readable(const std::filesystem::path& path);
   void require_writable(const std::filesystem::path& path) const;
+
+  /// All paths that were allowed to be read so far, without links: what results may depend on.
+  const std::set<std::filesystem::path>& read() const { return read_; }
 
  private:
   struct Rule {
@@ -40,6 +44,7 @@ class FileAccess {
 
   bool restricted_ = false;
   std::vector<Rule> rules_;
+  std::set<std::filesystem::path> read_;
 };
 
 }  // namespace springlod::scripting

@@ -5,6 +5,7 @@
 #include "model/mass_spring.hpp"
 #include "sim/fast/fast_body.hpp"
 #include "sim/fast/layout.hpp"
+#include "sim/fast/vector_target.hpp"
 
 namespace springlod::sim {
 
@@ -26,8 +27,5 @@ class FastModel {
 /// `model` must be valid.
 std::unique_ptr<FastModel> make_fast_model(const MassSpringModel& model, Precision precision,
                                            Layout layout = Layout::fastest);
-
-/// Vector instruction set of the kernels on this processor: "AVX3", "AVX2", ...
-const char* vector_target();
 
 }  // namespace springlod::sim
