@@ -19,6 +19,10 @@ std::unique_ptr<Api> make_api() {
   describe_report(*api);
   describe_export(*api);
   describe_statistics(*api);
+  describe_sweep(*api);
+  describe_sweep_running(*api);
+  describe_sweep_results(*api);
+  describe_sweep_submit(*api);
   describe_errors(*api);
   return api;
 }

@@ -35,5 +35,9 @@ void describe_report(Api& api);
 void describe_export(Api& api);
 void describe_view(Api& api);  // of report too, called by describe_report
 void describe_statistics(Api& api);
+void describe_sweep(Api& api);
+void describe_sweep_running(Api& api);
+void describe_sweep_results(Api& api);
+void describe_sweep_submit(Api& api);
 
 }  // namespace springlod::scripting

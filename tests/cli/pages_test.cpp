@@ -89,7 +89,7 @@ TEST_CASE("every option that a page gives to a stock command is one of its optio
   int options = 0;
   for (const char* name : {"README.md", "docs/convert.md", "docs/simulate.md", "docs/pictures.md",
                            "docs/integrators.md", "docs/pareto.md", "docs/pick.md",
-                           "docs/export.md", "docs/asset-format.md"})
+                           "docs/export.md", "docs/asset-format.md", "docs/sweeps.md"})
     for (const auto& command : commands_of(kSource / name)) {
       if (command.empty()) continue;
       const Ran help = springlod_run({command[0], "--help"});

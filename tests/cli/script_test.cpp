@@ -141,6 +141,18 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.in_flags('give hinges = "fill"') == "give --hinges fill")
     s.help("simplify")
     s.api_markdown()
+    local units = "{count = 2, columns = {'n'}, unit = function(p) return {n = p.index} end}"
+    s.save_text(folder .. "/units.lua", "return require('springlod').sweep" .. units)
+    local sweep = s.sweep(load("return " .. units)())
+    assert(s.plan_sweep(sweep, folder .. "/sweep", {script = folder .. "/units.lua"}).units == 2)
+    assert(s.run_sweep(folder .. "/sweep", {workers = 1}).done == 2)
+    assert(s.sweep_plan(folder .. "/sweep").tasks == 1)
+    assert(s.sweep_status(folder .. "/sweep").done == 2)
+    assert(s.sweep_results(sweep, folder .. "/sweep").rows[2].n == 2)
+    assert(s.forget_failures(folder .. "/sweep") == 0)
+    assert(s.submit_sweep(folder .. "/sweep", {dry_run = true}) == "") -- nothing is left
+    s.merge_sweep(folder .. "/sweep")
+    s.work_on_sweep(sweep, folder .. "/sweep", "logs/none.log") -- nobody asks for units
     for name, value in pairs(s) do
       if type(value) == "function" and not called[name] then print("NEVER CALLED", name) end
     end)",

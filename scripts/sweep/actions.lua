@@ -1,0 +1,154 @@
+-- What springlod sweep does: one function for each action, called with its arguments.
+
+local s = require "springlod"
+local show = require "lib.show"
+local update_rate = require "sweep.update_rate"
+
+local actions = {}
+
+-- The sweep that the script at `path` returns, called with `arguments`.
+local function load_sweep(path, arguments)
+  local folder = path:match("^(.*)/") or "."
+  package.path = folder .. "/?.lua;" .. package.path
+  rawset(_G, "arg", {[0] = path, table.unpack(arguments)})
+  local chunk, message = loadfile(path)
+  if not chunk then error(message, 0) end
+  local sweep = chunk(table.unpack(arguments))
+  if type(sweep) ~= "userdata" or not sweep.stages then
+    error(("%s must return s.sweep{...}"):format(path), 0)
+  end
+  return sweep
+end
+
+local function count_of(number, singular, plural)
+  return ("%d %s"):format(number, number == 1 and singular or plural or singular .. "s")
+end
+
+local function time_of(seconds) return show.measured(seconds, "time") end
+
+function actions.plan(args)
+  local sweep = load_sweep(args.target, args.arguments)
+  local estimated = false
+  for _, stage in ipairs(sweep.stages) do estimated = estimated or stage.estimated end
+  local plan = s.plan_sweep(sweep, args.out, {
+    script = args.target, arguments = args.arguments,
+    seconds_per_cost = estimated and 1 / update_rate() or args.seconds or 1, pilot = estimated,
+  })
+  print(tostring(sweep))
+  print(("%s of about %s each, %s of one core in all"):format(count_of(plan.tasks, "task"),
+    time_of(plan.seconds / plan.tasks), time_of(plan.seconds)))
+  print(("next: springlod sweep run %s"):format(args.out))
+end
+
+local function print_status(folder)
+  local status = s.sweep_status(folder)
+  local parts = {("%d of %s done"):format(status.done, count_of(status.units, "unit"))}
+  for _, name in ipairs{"running", "failed", "lost", "missing"} do
+    if status[name] > 0 then parts[#parts + 1] = ("%d %s"):format(status[name], name) end
+  end
+  if status.seconds_left > 0 then
+    parts[#parts + 1] = ("about %s of one core left"):format(time_of(status.seconds_left))
+  end
+  print(table.concat(parts, ", "))
+  return status
+end
+
+function actions.run(args)
+  s.run_sweep(args.target, {task = args.task, workers = args.workers})
+  local status = print_status(args.target)
+  if status.failed + status.lost > 0 then
+    print(("springlod sweep merge %s lists failed and lost units"):format(args.target))
+  end
+end
+
+-- Gives what is missing to a cluster.
+function actions.submit(args)
+  local engine = args.engine or "slurm"
+  local result = s.submit_sweep(args.target, {
+    engine = engine, hosts = args.hosts, at_once = args.at_once, time = args.time,
+    memory = args.memory, options = args.sbatch, dry_run = args.dry_run or false,
+  })
+  if args.dry_run then
+    io.write(result)
+  elseif result == "" then
+    print_status(args.target)
+  elseif engine == "slurm" then
+    print(("jobs of Slurm: %s (springlod sweep status %s tells how far they are)"):format(result,
+      args.target))
+  else
+    print_status(args.target)
+  end
+end
+
+function actions.status(args) print_status(args.target) end
+
+function actions.resume(args)
+  if args.again then
+    s.say(("%s to be tried again"):format(count_of(s.forget_failures(args.target), "unit")))
+  end
+  return (args.engine and actions.submit or actions.run)(args)
+end
+
+function actions.merge(args) s.merge_sweep(args.target) end
+
+-- The sweep of the script that another process of this program names as the first argument.
+local function named_sweep(args)
+  return load_sweep(table.remove(args.arguments, 1), args.arguments)
+end
+
+-- What s.run_sweep starts.
+function actions.work(args) s.work_on_sweep(named_sweep(args), args.target, args.log) end
+
+-- Axes and columns of a stage, in the order of its tables.
+local function columns_of(stage, after)
+  local columns = {"unit"}
+  for _, list in ipairs{stage.axes, after} do
+    table.move(list, 1, #list, #columns + 1, columns)
+  end
+  return columns
+end
+
+-- The rows of a stage with an empty one for each unit that has none; `missing` says why.
+local function with_gaps(results)
+  local all = table.move(results.rows, 1, #results.rows, 1, {})
+  for _, gap in ipairs(results.gaps) do
+    local row = {missing = ("%s: %s"):format(gap.state, gap.message)}
+    for key, value in pairs(gap) do
+      if key == "unit" or row[key] == nil then row[key] = value end
+    end
+    all[#all + 1] = row
+  end
+  table.sort(all, function(a, b) return a.unit < b.unit end)
+  return all
+end
+
+local function write_stage(folder, stage, results, name)
+  local columns = columns_of(stage, stage.columns)
+  columns[#columns + 1] = "missing"
+  s.csv(("%s/%s.csv"):format(folder, name), with_gaps(results), {columns = columns})
+  return columns_of(stage, {"state", "message", "host", "signal", "log"})
+end
+
+-- What s.merge_sweep starts.
+function actions.gather(args)
+  local folder = args.target
+  local sweep = named_sweep(args)
+  local last
+  for number, stage in ipairs(sweep.stages) do
+    local results = s.sweep_results(sweep, folder, {stage = number})
+    local suffix = #sweep.stages > 1 and "-" .. stage.name:gsub("%W+", "-") or ""
+    local columns = write_stage(folder, stage, results, "results" .. suffix)
+    s.csv(("%s/gaps%s.csv"):format(folder, suffix), results.gaps, {columns = columns})
+    s.csv(("%s/runs%s.csv"):format(folder, suffix), results.runs,
+      {columns = {"unit", "seconds", "memory", "host", "target", "springlod"}})
+    if #results.gaps > 0 then
+      s.say(("%s without a result, see gaps%s.csv; the first is unit %d: %s"):format(
+        count_of(#results.gaps, "unit"), suffix, results.gaps[1].unit, results.gaps[1].message))
+    end
+    last = results
+  end
+  if sweep.report then sweep.report(last, folder) end
+  s.say("wrote " .. folder)
+end
+
+return actions

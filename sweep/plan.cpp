@@ -1,0 +1,199 @@
+#include "sweep/plan.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+
+namespace springlod::sweep {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr int kFormat = 1;
+
+ordered_json to_json(const Plan& plan) {
+  ordered_json files = ordered_json::array(), stages = files, costs = files;
+  for (const SourceFile& file : plan.files)
+    files.push_back({{"path", file.path}, {"hash", file.hash}});
+  for (const Stage& stage : plan.stages)
+    stages.push_back({{"name", stage.name}, {"units", stage.units}, {"columns", stage.columns}});
+  for (const CostRun& run : plan.costs) costs.push_back({run.units, run.cost});
+  return {{"format", kFormat},
+          {"springlod", plan.version},
+          {"program", plan.program},
+          {"script", plan.script},
+          {"arguments", plan.arguments},
+          {"folder", plan.folder},
+          {"seed", plan.seed},
+          {"sandbox", plan.sandbox},
+          {"files", files},
+          {"stages", stages},
+          {"units", plan.unit_count()},
+          {"seconds_per_cost", plan.seconds_per_cost},
+          {"costs", costs},
+          {"tasks", plan.tasks}};
+}
+
+void read_lists(const ordered_json& json, Plan& plan) {
+  for (const ordered_json& file : json.at("files"))
+    plan.files.push_back({file.at("path"), file.at("hash")});
+  for (const ordered_json& stage : json.at("stages"))
+    plan.stages.push_back({stage.at("name"), stage.at("units"), stage.at("columns")});
+  for (const ordered_json& run : json.at("costs"))
+    plan.costs.push_back({run.at(0).get<std::uint64_t>(), run.at(1).get<double>()});
+  json.at("tasks").get_to(plan.tasks);
+}
+
+/// Whether tasks begin with unit 0 and ascend, and costs are those of all units.
+bool is_whole(const Plan& plan) {
+  std::uint64_t costs = 0;
+  for (const CostRun& run : plan.costs) costs += run.units;
+  const auto not_above = [](std::uint64_t a, std::uint64_t b) { return a >= b; };
+  return !plan.stages.empty() && !plan.tasks.empty() && plan.tasks.front() == 0 &&
+         std::adjacent_find(plan.tasks.begin(), plan.tasks.end(), not_above) == plan.tasks.end() &&
+         plan.tasks.back() < plan.unit_count() && costs == plan.unit_count();
+}
+
+Plan from_json(const ordered_json& json) {
+  Plan plan;
+  plan.version = json.at("springlod");
+  plan.program = json.at("program");
+  plan.script = json.at("script");
+  json.at("arguments").get_to(plan.arguments);
+  plan.folder = json.at("folder");
+  plan.seed = json.at("seed");
+  plan.sandbox = json.at("sandbox");
+  plan.seconds_per_cost = json.at("seconds_per_cost");
+  read_lists(json, plan);
+  return plan;
+}
+
+}  // namespace
+
+std::uint64_t Plan::unit_count() const {
+  std::uint64_t count = 0;
+  for (const Stage& stage : stages) count += stage.units;
+  return count;
+}
+
+double Plan::total_cost() const {
+  double sum = 0;
+  for (const CostRun& run : costs) sum += static_cast<double>(run.units) * run.cost;
+  return sum;
+}
+
+std::size_t Plan::stage_of(std::uint64_t unit) const {
+  std::size_t stage = 0;
+  while (stage + 1 < stages.size() && unit >= stages[stage].units) unit -= stages[stage++].units;
+  return stage;
+}
+
+std::uint64_t Plan::first_unit(std::size_t stage) const {
+  std::uint64_t first = 0;
+  for (std::size_t i = 0; i < stage; ++i) first += stages[i].units;
+  return first;
+}
+
+std::uint64_t Plan::end_of_task(std::size_t task) const {
+  return task + 1 < tasks.size() ? tasks[task + 1] : unit_count();
+}
+
+void add_cost(std::vector<CostRun>& costs, double cost) {
+  if (costs.empty() || costs.back().cost != cost)
+    costs.push_back({1, cost});
+  else
+    ++costs.back().units;
+}
+
+void pack_tasks(Plan& plan) {
+  constexpr double kAim = (kShortestTask + kLongestTask) / 2;
+  plan.tasks.clear();
+  std::size_t stage = 0;
+  std::uint64_t unit = 0, end_of_stage = 0;
+  double seconds = 0;
+  for (const CostRun& run : plan.costs) {
+    const double each = run.cost * plan.seconds_per_cost;
+    for (const std::uint64_t end = unit + run.units; unit < end; ++unit) {
+      const bool new_stage = unit == end_of_stage;
+      // The nearer of two ends to what a task should take.
+      const bool full = seconds > 0 && seconds + each / 2 > kAim;
+      if (new_stage) end_of_stage += plan.stages[stage++].units;
+      if (new_stage || full) {
+        plan.tasks.push_back(unit);
+        seconds = 0;
+      }
+      seconds += each;
+    }
+  }
+}
+
+fs::path plan_path(const fs::path& folder) {
+  return folder / "plan.json";
+}
+
+void write_plan(const fs::path& folder, const Plan& plan) {
+  write_text_file(plan_path(folder), to_json(plan).dump(1) + "\n");
+}
+
+Plan read_plan(const fs::path& folder) {
+  const fs::path path = plan_path(folder);
+  std::error_code ignored;
+  if (!fs::exists(path, ignored))
+    throw IoError(
+        fmt::format("{} holds no plan; 'springlod sweep plan FILE.lua --out {}' makes one",
+                    folder.string(), folder.string()));
+  try {
+    const ordered_json json = ordered_json::parse(read_file(path));
+    if (const int format = json.at("format"); format > kFormat)
+      throw InputError(
+          fmt::format("{} is of format {}, which a newer springlod wrote; this one "
+                      "reads {}",
+                      path.string(), format, kFormat));
+    Plan plan = from_json(json);
+    if (is_whole(plan)) return plan;
+  } catch (const nlohmann::json::exception&) {
+    // named below
+  }
+  throw InputError(
+      fmt::format("{} is damaged; make the plan again, with the same --out: results "
+                  "that it already has are kept",
+                  path.string()));
+}
+
+std::vector<SourceFile> hash_files(const std::vector<fs::path>& paths) {
+  std::vector<SourceFile> files;
+  for (const fs::path& path : paths)
+    files.push_back({path.string(), content_hash(read_file(path))});
+  return files;
+}
+
+void require_unchanged(const Plan& plan, const std::string& version, const std::string& program) {
+  constexpr const char* kWhatNow =
+      "results would not fit to those of before. Make a new plan in another folder, or restore "
+      "what has changed";
+  if (plan.version != version)
+    throw InputError(fmt::format("the plan was made with springlod {}, this is {}: {}",
+                                 plan.version, version, kWhatNow));
+  if (plan.program != program)
+    throw InputError(
+        fmt::format("the program or one of its scripts has changed since the plan was "
+                    "made: {}",
+                    kWhatNow));
+  for (const SourceFile& file : plan.files) {
+    std::error_code error;
+    if (!fs::exists(file.path, error))
+      throw IoError(fmt::format("{} is missing, which the plan was made with", file.path));
+    if (content_hash(read_file(file.path)) != file.hash)
+      throw InputError(
+          fmt::format("{} has changed since the plan was made: {}", file.path, kWhatNow));
+  }
+}
+
+}  // namespace springlod::sweep

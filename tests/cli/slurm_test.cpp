@@ -1,0 +1,109 @@
+// springlod sweep on a private Slurm cluster and with GNU parallel, where they are installed.
+
+#include <catch2/catch.hpp>
+#include <unistd.h>
+
+#include "base/subprocess.hpp"
+#include "tests/support/program.hpp"
+
+using Catch::Matchers::Contains;
+using springlod::find_program;
+using springlod::run_program;
+using springlod::test::Ran;
+using springlod::test::slurp;
+using springlod::test::spit;
+using springlod::test::springlod_run;
+using springlod::test::TemporaryFolder;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const kSweep = R"(
+local s = require "springlod"
+return s.sweep{stages = {
+  {name = "make", count = 3, columns = {"size"}, unit = function(point)
+    s.save_text("made-" .. s.seed .. "/" .. point.index .. ".txt", tostring(10 * point.index))
+    return {size = point.index}
+  end},
+  {name = "use", axes = {{"which", {3, 2, 1}}, {"factor", {0.1, 0.3}}}, columns = {"value"},
+   cost = function() return 1e11 end,
+   unit = function(point)
+    local file <close> = assert(io.open("made-" .. s.seed .. "/" .. point.which .. ".txt"))
+    return {value = point.factor * tonumber(file:read("a"))}
+  end},
+}})";
+
+void must(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"-q", "sweep"});
+  const Ran ran = springlod_run(arguments, "", folder.path());
+  CAPTURE(arguments, ran.err, ran.out);
+  REQUIRE(ran.exit_code == 0);
+}
+
+std::string at_home(const TemporaryFolder& folder) {
+  spit(folder / "sweep.lua", kSweep);
+  must(folder, {"plan", "sweep.lua", "--out", "home"});
+  must(folder, {"run", "home"});
+  must(folder, {"merge", "home"});
+  return slurp(folder / "home/results-use.csv");
+}
+
+}  // namespace
+
+TEST_CASE("GNU parallel gives the same results as one machine", "[long]") {
+  if (!find_program("parallel")) {
+    WARN("GNU parallel is not installed (./dev setup sweep): left out");
+    return;
+  }
+  const TemporaryFolder folder;
+  const std::string expected = at_home(folder);
+  must(folder, {"plan", "sweep.lua", "--out", "parallel"});
+  must(folder, {"submit", "parallel", "--engine", "parallel"});
+  must(folder, {"merge", "parallel"});
+  CHECK(slurp(folder / "parallel/results-use.csv") == expected);
+}
+
+TEST_CASE("What is given to Slurm is printed first if asked for") {
+  const TemporaryFolder folder;
+  spit(folder / "sweep.lua", kSweep);
+  must(folder, {"plan", "sweep.lua", "--out", "out"});
+  const Ran ran = springlod_run(
+      {"sweep", "submit", "out", "--dry-run", "--at-once", "5", "--sbatch=--partition=long"}, "",
+      folder.path());
+  CAPTURE(ran.err);
+  REQUIRE(ran.exit_code == 0);
+  // The stages, one after the other, then the merge.
+  CHECK_THAT(ran.out, Contains("job1=$(sbatch --parsable --requeue") && Contains("--array=0-0%5") &&
+                          Contains("--partition=long") &&
+                          Contains("\"--dependency=afterany:${job1%%;*}\"") &&
+                          Contains("--signal=B:TERM@60") && Contains("sweep merge"));
+}
+
+TEST_CASE("Without Slurm, submit says what to do") {
+  if (find_program("sbatch")) return;
+  const TemporaryFolder folder;
+  spit(folder / "sweep.lua", kSweep);
+  must(folder, {"plan", "sweep.lua", "--out", "out"});
+  const Ran ran = springlod_run({"sweep", "submit", "out"}, "", folder.path());
+  CHECK(ran.exit_code == 1);
+  CHECK_THAT(ran.err, Contains("sbatch is not installed here") && Contains("--engine parallel"));
+}
+
+TEST_CASE("Killed tasks of Slurm change no result", "[long]") {
+  if (!find_program("slurmctld") || !find_program("munged") || ::geteuid() != 0) {
+    WARN("Slurm is not installed (./dev setup sweep), or this is not root: left out");
+    return;
+  }
+  const TemporaryFolder folder;
+  // munged runs as a user of its own, who must get there.
+  fs::permissions(folder.path(), fs::perms::others_exec | fs::perms::others_read,
+                  fs::perm_options::add);
+  const springlod::ProgramResult result =
+      run_program(springlod::test::source_folder() / "tests/sweep/kills",
+                  {(springlod::test::build_folder() / "app/springlod").string(),
+                   (folder / "kills").string(), "5", "1", "task", "worker"});
+  CAPTURE(result.output, result.errors);
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.output, Contains("the same results as at home"));
+}

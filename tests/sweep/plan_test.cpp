@@ -1,0 +1,131 @@
+#include "sweep/plan.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/random.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace springlod::sweep {
+namespace {
+
+using Catch::Matchers::Contains;
+using test::TemporaryFolder;
+
+/// Units of one stage with the given costs in seconds.
+Plan plan_of(const std::vector<double>& seconds) {
+  Plan plan{.version = "1", .program = "p", .script = "/s.lua", .folder = "/"};
+  plan.stages = {{"units", seconds.size(), {"x"}}};
+  plan.seconds_per_cost = 1;
+  for (const double cost : seconds) add_cost(plan.costs, cost);
+  pack_tasks(plan);
+  return plan;
+}
+
+std::vector<double> task_seconds(const Plan& plan, const std::vector<double>& seconds) {
+  std::vector<double> sums;
+  for (std::size_t task = 0; task < plan.tasks.size(); ++task) {
+    sums.push_back(0);
+    for (std::uint64_t unit = plan.tasks[task]; unit < plan.end_of_task(task); ++unit)
+      sums.back() += seconds[unit];
+  }
+  return sums;
+}
+
+TEST_CASE("Equal neighbouring costs are kept as one run") {
+  const Plan plan = plan_of({1, 1, 2, 1});
+  REQUIRE(plan.costs.size() == 3);
+  CHECK(plan.costs[0].units == 2);
+  CHECK(plan.total_cost() == 5);
+}
+
+TEST_CASE("Tasks of short units take 30 to 60 s") {
+  RandomStream random(7);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<double> seconds(2000);
+    for (double& one : seconds) one = 15 * random.unit();
+    const Plan plan = plan_of(seconds);
+    std::vector<double> sums = task_seconds(plan, seconds);
+    sums.pop_back();  // what is left
+    for (const double sum : sums) {
+      CHECK(sum >= kShortestTask);
+      CHECK(sum <= kLongestTask);
+    }
+  }
+}
+
+TEST_CASE("A unit longer than a task is a task of its own") {
+  const Plan plan = plan_of({500, 1, 1, 500, 500});
+  CHECK(plan.tasks == std::vector<std::uint64_t>{0, 1, 3, 4});
+}
+
+TEST_CASE("A task ends with its stage") {
+  Plan plan = plan_of({1, 1, 1, 1});
+  plan.stages = {{"first", 3, {}}, {"second", 1, {}}};
+  pack_tasks(plan);
+  CHECK(plan.tasks == std::vector<std::uint64_t>{0, 3});
+  CHECK(plan.end_of_task(0) == 3);
+  CHECK(plan.end_of_task(1) == 4);
+  CHECK(plan.stage_of(2) == 0);
+  CHECK(plan.stage_of(3) == 1);
+  CHECK(plan.first_unit(1) == 3);
+}
+
+TEST_CASE("Units without cost are packed too") {
+  const Plan plan = plan_of(std::vector<double>(100, 0));
+  CHECK(plan.tasks == std::vector<std::uint64_t>{0});
+}
+
+TEST_CASE("A plan is read as it was written") {
+  const TemporaryFolder folder;
+  Plan plan = plan_of({1, 100, 0.1});
+  plan.arguments = {"--quick", "a b"};
+  plan.files = {{"/a", "1"}};
+  plan.seed = 12345678901234567890U;
+  plan.sandbox = false;
+  write_plan(folder.path(), plan);
+  const Plan read = read_plan(folder.path());
+  CHECK(read.arguments == plan.arguments);
+  CHECK(read.seed == plan.seed);
+  CHECK(read.sandbox == plan.sandbox);
+  CHECK(read.tasks == plan.tasks);
+  CHECK(read.total_cost() == plan.total_cost());
+  CHECK(read.stages.at(0).columns == plan.stages[0].columns);
+  REQUIRE_NOTHROW(require_unchanged(plan_of({1}), "1", "p"));
+}
+
+TEST_CASE("Damaged, newer and missing plans are named") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(read_plan(folder.path()), Contains("holds no plan") && Contains("sweep plan"));
+  write_text_file(plan_path(folder.path()), "{\"format\": 1}");
+  CHECK_THROWS_WITH(read_plan(folder.path()), Contains("damaged"));
+  write_text_file(plan_path(folder.path()), "{\"format\": 99}");
+  CHECK_THROWS_WITH(read_plan(folder.path()), Contains("newer springlod"));
+  write_plan(folder.path(), plan_of({100, 100}));
+  nlohmann::json json = nlohmann::json::parse(read_file(plan_path(folder.path())));
+  for (const nlohmann::json& tasks :
+       {nlohmann::json{0, 0}, nlohmann::json{0, 9}, nlohmann::json{1}}) {
+    json["tasks"] = tasks;
+    write_text_file(plan_path(folder.path()), json.dump());
+    CHECK_THROWS_WITH(read_plan(folder.path()), Contains("damaged"));
+  }
+}
+
+TEST_CASE("A plan whose program or files changed is refused") {
+  const TemporaryFolder folder;
+  write_text_file(folder / "mesh.obj", "v 0 0 0");
+  Plan plan = plan_of({1});
+  plan.files = hash_files({folder / "mesh.obj"});
+  CHECK_NOTHROW(require_unchanged(plan, "1", "p"));
+  CHECK_THROWS_WITH(require_unchanged(plan, "2", "p"), Contains("springlod 1"));
+  CHECK_THROWS_WITH(require_unchanged(plan, "1", "q"), Contains("program"));
+  write_text_file(folder / "mesh.obj", "v 0 0 1");
+  CHECK_THROWS_WITH(require_unchanged(plan, "1", "p"), Contains("mesh.obj has changed"));
+  std::filesystem::remove(folder / "mesh.obj");
+  CHECK_THROWS_WITH(require_unchanged(plan, "1", "p"), Contains("mesh.obj is missing"));
+}
+
+}  // namespace
+}  // namespace springlod::sweep
