@@ -86,6 +86,10 @@ values.Error = select(2, pcall(s.import, "missing.obj"))
 s.save("chain.glb", values.LodChain)
 s.save_vdb("grid.vdb", values.Grid)
 
+local units = [[{count = 3, columns = {"n"}, unit = function(point) return {n = point.index} end}]]
+s.save_text("units.lua", "return require('springlod').sweep" .. units)
+values.Sweep = s.sweep(load("return " .. units)())
+
 -- Options that keep a valid call short.
 local short = {
   stability = {levels = {0}, ratios = {1}, steps = {0.5}, integrators = {"symplectic_euler"}},
@@ -105,6 +109,8 @@ local short = {
   render = {width = 64, height = 48}, animate = {width = 64, height = 48, frames = 2},
   chart = {width = 300, height = 300},
   deflect = {force = {[27] = {0, 0, 1}}, anchored = {1, 2, 3, 4}},
+  sweep = load("return " .. units)(), plan_sweep = {script = "units.lua"},
+  submit_sweep = {dry_run = true},
 }
 
 local texts = {
@@ -153,6 +159,7 @@ function valid(parameter, owner)
   end
   if type:find("^one of") then return one_of(words) end
   if type:find('^list of "') then return {one_of(words)} end
+  if name == "folder" and owner:find("sweep") or owner == "forget_failures" then return "units" end
   if type:find("^string") then return texts[owner .. "." .. name] or "word" end
   if type:find("^list of strings") then return {"word"} end
   if type:find("^list of tables") then return {{a = 1, b = "x"}, {a = 2, b = "y"}} end
