@@ -39,7 +39,7 @@ parser:option("--log"):hidden(true)
 local args = parser:parse()
 
 local options_of = {
-  plan = {seconds = true, arguments = true, out = true}, run = {task = true, workers = true},
+  plan = {seconds = true, arguments = true}, run = {task = true, workers = true},
   submit = {engine = true, hosts = true, at_once = true, time = true, memory = true,
             sbatch = true, dry_run = true},
   status = {}, resume = {workers = true, again = true, engine = true}, merge = {},
@@ -49,15 +49,14 @@ local allowed = options_of[args.action]
 if not allowed then
   parser:error(("'%s' must be plan, run, submit, status, resume or merge"):format(args.action))
 end
-for _, name in ipairs{"task", "workers", "seconds", "again", "log", "engine", "hosts", "at_once",
-                      "time", "memory", "sbatch", "dry_run"} do
-  local given = args[name]
-  if given and not allowed[name] and not (name == "sbatch" and #given == 0) then
-    parser:error(("--%s does not belong to %s"):format(name:gsub("_", "-"), args.action))
+for _, options in pairs(options_of) do
+  for name in pairs(options) do
+    local given = args[name]
+    if given and not allowed[name] and not (type(given) == "table" and #given == 0) then
+      parser:error(name == "arguments" and ("%s takes one folder"):format(args.action)
+        or ("--%s does not belong to %s"):format(name:gsub("_", "-"), args.action))
+    end
   end
-end
-if #args.arguments > 0 and not allowed.arguments then
-  parser:error(("%s takes one folder"):format(args.action))
 end
 
 local ok, reason = command.try(sweep_actions[args.action], args)

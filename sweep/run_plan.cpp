@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <deque>
 #include <fstream>
 #include <memory>
-#include <system_error>
-#include <thread>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -57,7 +55,7 @@ class Queue {
     const std::vector<UnitNotes> notes = files.list(first, end);
     for (std::uint64_t unit = first; unit < end; ++unit) {
       const UnitState state = files.state(unit, notes[unit - first]);
-      if (state == UnitState::missing || state == UnitState::waiting) append(unit);
+      if (needs_run(state)) append(unit);
       if (state == UnitState::running) elsewhere_.push_back(unit);
     }
     for (const Range& range : ranges_) left_ += range.end - range.first;
@@ -84,7 +82,7 @@ class Queue {
   void look_at_others() {
     std::erase_if(elsewhere_, [&](std::uint64_t unit) {
       const UnitState state = files_.state(unit, files_.notes(unit));
-      if (state == UnitState::missing || state == UnitState::waiting) put_back({unit, unit + 1});
+      if (needs_run(state)) put_back({unit, unit + 1});
       return state != UnitState::running;
     });
   }
@@ -114,7 +112,7 @@ class StageRun {
 
   void run() {
     if (queue_.empty() && !queue_.waits_for_others()) return;
-    Task task(options_.progress, task_name(), queue_.left());
+    Task task(options_.progress, options_.task ? "units of the task" : "units", queue_.left());
     while (!queue_.empty() || is_busy() || queue_.waits_for_others()) {
       task.advance(0);  // throws if the user stops it
       fill();
@@ -145,11 +143,9 @@ class StageRun {
     return sum * plan.seconds_per_cost / static_cast<double>(units.end - units.first);
   }
 
-  std::string task_name() const { return options_.task ? "units of the task" : "units"; }
-
   bool is_busy() const {
     return std::any_of(places_.begin(), places_.end(),
-                       [](const Place& place) { return place.worker != nullptr && !place.ready; });
+                       [](const Place& place) { return !place.ready; });
   }
 
   std::uint64_t order_size() const {
@@ -166,8 +162,8 @@ class StageRun {
   }
 
   void start() {
-    const fs::path log = fs::path("logs") /
-                         fmt::format("{}-{}-{}.log", this_runner("").host, ::getpid(), started_++);
+    const fs::path log =
+        fs::path("logs") / fmt::format("{}-{}-{}.log", host_name(), ::getpid(), started_++);
     places_.push_back(
         {.worker = std::make_unique<Worker>(options_.program, options_.arguments(log.string()),
                                             files_.folder() / log, plan_.folder)});
@@ -247,7 +243,7 @@ class StageRun {
       UnitResult failure{.unit = in_work.unit,
                          .failure = fmt::format("crashed by signal {}", signal),
                          .version = plan_.version,
-                         .host = this_runner("").host,
+                         .host = host_name(),
                          .log = fs::relative(place.worker->log(), files_.folder()).string(),
                          .signal = signal};
       files_.finish(failure);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 /// The limit of a task over its estimated time: other nodes are slower, and share their memory with
 /// other jobs. At least ten minutes, so that a bad estimate of short units does no harm.
 constexpr double kTimeMargin = 4, kLeastTime = 600;
-/// A task is told this long before its limit to end in an orderly way [s].
+/// A task gets the signal to end this long before its time limit [s].
 constexpr int kNotice = 60;
 
 double longest_task(const Plan& plan) {

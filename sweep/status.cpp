@@ -49,8 +49,7 @@ std::vector<std::size_t> unfinished_tasks(const Plan& plan, const UnitFiles& fil
   std::size_t task = 0;
   for_each_unit(plan, files, [&](std::uint64_t unit, UnitState state, double) {
     while (unit >= plan.end_of_task(task)) ++task;
-    const bool unfinished = state == UnitState::missing || state == UnitState::waiting;
-    if (unfinished && (tasks.empty() || tasks.back() != task)) tasks.push_back(task);
+    if (needs_run(state) && (tasks.empty() || tasks.back() != task)) tasks.push_back(task);
   });
   return tasks;
 }

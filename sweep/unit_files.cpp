@@ -28,11 +28,6 @@ using nlohmann::ordered_json;
 // Files of one folder: file systems get slow with very many.
 constexpr std::uint64_t kUnitsOfFolder = 1000;
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
-}
-
 /// When a process of this host was started [ticks since the host was]; 0 if there is none.
 std::uint64_t start_of_process(std::int64_t process) {
   std::ifstream file(fmt::format("/proc/{}/stat", process));
@@ -91,6 +86,11 @@ void note(UnitNotes& notes, std::string_view rest) {
 }
 
 }  // namespace
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
 
 Runner this_runner(std::string log) {
   const char* job = std::getenv("SLURM_JOB_ID");
@@ -154,8 +154,7 @@ UnitState UnitFiles::state(std::uint64_t unit, const UnitNotes& notes) const {
 
 std::optional<int> UnitFiles::begin(std::uint64_t unit, const Runner& runner) const {
   const UnitNotes before = notes(unit);
-  const UnitState now = state(unit, before);
-  if (now != UnitState::missing && now != UnitState::waiting) return std::nullopt;
+  if (!needs_run(state(unit, before))) return std::nullopt;
   const int number = before.tries + 1;
   const fs::path path = try_path(unit, number);
   std::error_code error;

@@ -34,6 +34,11 @@ enum class UnitState {
   waiting  ///< lost, and to be tried again
 };
 
+/// Whether a unit in this state is to be run.
+constexpr bool needs_run(UnitState state) {
+  return state == UnitState::missing || state == UnitState::waiting;
+}
+
 /// The files of one unit, as a listing of its folder tells them.
 struct UnitNotes {
   bool done = false;
@@ -50,6 +55,8 @@ struct Runner {
   std::string log{};          ///< below the folder of the plan
   int signal = 0;             ///< that ended it, if somebody has seen it
 };
+
+std::string host_name();
 
 /// This process. `log`: path below the folder of the plan.
 Runner this_runner(std::string log);

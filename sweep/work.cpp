@@ -50,7 +50,7 @@ class Heart {
   std::thread thread_;  // last: it uses the others
 };
 
-// Linux keeps the largest memory of a process until it is told to begin anew; see proc(5).
+// Linux keeps the largest memory of a process until it is reset; see proc(5).
 void forget_largest_memory() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }

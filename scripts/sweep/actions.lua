@@ -108,24 +108,31 @@ local function columns_of(stage, after)
   return columns
 end
 
--- The rows of a stage with an empty one for each unit that has none; `missing` says why.
-local function with_gaps(results)
-  local all = table.move(results.rows, 1, #results.rows, 1, {})
-  for _, gap in ipairs(results.gaps) do
-    local row = {missing = ("%s: %s"):format(gap.state, gap.message)}
-    for key, value in pairs(gap) do
-      if key == "unit" or row[key] == nil then row[key] = value end
+-- The rows of a stage, by unit, with an empty one for each unit that has none; `missing` says why.
+local function with_gaps(stage, results)
+  local all, next_gap = {}, 1
+  local function add_gaps(before)
+    local gap = results.gaps[next_gap]
+    while gap and gap.unit < before do
+      local row = {unit = gap.unit, missing = ("%s: %s"):format(gap.state, gap.message)}
+      for _, axis in ipairs(stage.axes) do row[axis] = gap[axis] end
+      all[#all + 1] = row
+      next_gap = next_gap + 1
+      gap = results.gaps[next_gap]
     end
+  end
+  for _, row in ipairs(results.rows) do
+    add_gaps(row.unit)
     all[#all + 1] = row
   end
-  table.sort(all, function(a, b) return a.unit < b.unit end)
+  add_gaps(math.huge)
   return all
 end
 
 local function write_stage(folder, stage, results, name)
   local columns = columns_of(stage, stage.columns)
   columns[#columns + 1] = "missing"
-  s.csv(("%s/%s.csv"):format(folder, name), with_gaps(results), {columns = columns})
+  s.csv(("%s/%s.csv"):format(folder, name), with_gaps(stage, results), {columns = columns})
   return columns_of(stage, {"state", "message", "host", "signal", "log"})
 end
 

@@ -147,6 +147,26 @@ TEST_CASE("A unit that fails is recorded, named in the tables and not run again"
   CHECK(slurp(record) != bytes);  // another time
 }
 
+TEST_CASE("Rows of a unit keep their order, and gaps fill no column") {
+  const Scratch scratch(R"(
+local s = require "springlod"
+return s.sweep{count = 4, columns = {"n", "host"}, unit = function(point)
+  if point.index == 2 then error("no") end
+  local rows = {}
+  for n = 1, 20 do rows[n] = {n = n} end
+  return rows
+end})");
+  scratch.plan();
+  scratch.must({"run", "out"});
+  const auto rows = rows_of(scratch.merged());
+  REQUIRE(rows.size() == 61);
+  for (int i = 0; i < 20; ++i) CHECK(rows[i].at("n") == std::to_string(i + 1));
+  CHECK(rows[20].at("unit") == "2");
+  CHECK(rows[20].at("host").empty());
+  CHECK_THAT(rows[20].at("missing"), Contains("no"));
+  CHECK(rows[60].at("n") == "20");
+}
+
 TEST_CASE("Wrong rows of a unit are failures that name the column") {
   const Scratch scratch(with(kWalk, "{place = place,", "{plaice = place,").c_str());
   scratch.plan();

@@ -165,12 +165,8 @@ int run_method(Call& call) {
   const std::uint64_t unit = unit_argument(call, *sweep);
   const std::vector<sweep::Row> rows = run_unit(call.lua(), *sweep, unit);
   const std::vector<std::string>& columns = place_of(*sweep, unit).stage.columns;
-  push_tables(call.lua(), rows, [&](const sweep::Row& row) {
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      push_cell(call.lua(), row[i]);
-      end_field(call.lua(), columns[i].c_str());
-    }
-  });
+  push_tables(call.lua(), rows,
+              [&](const sweep::Row& row) { set_cells(call.lua(), columns, row); });
   return 1;
 }
 

@@ -79,12 +79,7 @@ Gap gap_of(const UnitFiles& files, std::uint64_t unit, const sweep::UnitNotes& n
 
 void set_point(lua_State* L, const SweepValue& value, std::uint64_t unit) {
   set_field(L, "unit", unit + 1);
-  const SweepPlace place = place_of(value, unit);
-  const std::vector<sweep::Cell> values = values_at(place);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    push_cell(L, values[i]);
-    end_field(L, place.stage.axes[i].name.c_str());
-  }
+  set_axes(L, place_of(value, unit));
 }
 
 void set_gap(lua_State* L, const Gap& gap) {
@@ -148,10 +143,7 @@ class Merging {
             fmt::format("{} is damaged: remove it and resume", files_.result_path(unit).string()));
       begin_table(lua_);
       set_point(lua_, value_, unit);
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        push_cell(lua_, row[i]);
-        end_field(lua_, columns[i].c_str());
-      }
+      set_cells(lua_, columns, row);
       append(lua_, rows_);
     }
     begin_table(lua_);

@@ -38,6 +38,17 @@ void call_with_point(lua_State* L, FunctionReference function, const SweepValue&
   call(L, 1);
 }
 
+void push_cell(lua_State* L, const Cell& cell) {
+  std::visit(
+      [L](const auto& value) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>)
+          lua_pushnil(L);
+        else
+          push(L, value);
+      },
+      cell);
+}
+
 /// The value on top, which it pops.
 Cell pop_cell(lua_State* L, const std::string& column) {
   Cell cell;
@@ -106,37 +117,28 @@ SweepPlace place_of(const SweepValue& sweep, std::uint64_t unit) {
   return {sweep.stages[stage], unit};
 }
 
-std::vector<Cell> values_at(const SweepPlace& place) {
+void set_axes(lua_State* L, const SweepPlace& place) {
   const std::vector<SweepAxis>& axes = place.stage.axes;
-  std::vector<Cell> values(axes.size());
   std::uint64_t rest = place.number;
   for (std::size_t i = axes.size(); i-- > 0;) {
     const std::uint64_t count = axes[i].values.size();
-    values[i] = axes[i].values[rest % count];
+    push_cell(L, axes[i].values[rest % count]);
+    end_field(L, axes[i].name.c_str());
     rest /= count;
   }
-  return values;
 }
 
-void push_cell(lua_State* L, const Cell& cell) {
-  std::visit(
-      [L](const auto& value) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>)
-          lua_pushnil(L);
-        else
-          push(L, value);
-      },
-      cell);
+void set_cells(lua_State* L, const std::vector<std::string>& columns, const Row& row) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    push_cell(L, row[i]);
+    end_field(L, columns[i].c_str());
+  }
 }
 
 void push_point(lua_State* L, const SweepValue& sweep, std::uint64_t unit) {
   const SweepPlace place = place_of(sweep, unit);
-  const std::vector<Cell> values = values_at(place);
   begin_table(L);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    push_cell(L, values[i]);
-    end_field(L, place.stage.axes[i].name.c_str());
-  }
+  set_axes(L, place);
   set_field(L, "index", place.number + 1);
   set_field(L, "seed", session_of(L).settings().seed + place.number);
 }

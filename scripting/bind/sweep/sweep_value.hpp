@@ -47,10 +47,11 @@ struct SweepPlace {
 };
 /// `unit`: of the sweep, counted from 0, less than unit_count().
 SweepPlace place_of(const SweepValue& sweep, std::uint64_t unit);
-/// The value of each axis at a unit.
-std::vector<sweep::Cell> values_at(const SweepPlace& place);
 
-void push_cell(lua_State* L, const sweep::Cell& cell);
+/// Sets the value of each axis at a unit, by name, in the table on top.
+void set_axes(lua_State* L, const SweepPlace& place);
+/// Sets the cells of a row, by column, in the table on top.
+void set_cells(lua_State* L, const std::vector<std::string>& columns, const sweep::Row& row);
 /// Pushes what the functions of a script are called with: the values of the axes by name, `index`
 /// and `seed`.
 void push_point(lua_State* L, const SweepValue& sweep, std::uint64_t unit);
