@@ -19,9 +19,10 @@ std::vector<std::vector<std::string>> parallel_calls(const Plan& plan, const fs:
                                                      const std::vector<std::size_t>& tasks,
                                                      const ParallelOptions& options) {
   std::vector<std::vector<std::string>> calls;
-  for (const StageTasks& some : by_stage(plan, tasks, tasks.size())) {
+  for (const PhaseTasks& some : by_phase(plan, tasks, tasks.size())) {
     const fs::path list = write_task_list(folder, some.tasks);
     std::vector<std::string> call{"--plain", "--will-cite"};
+    if (some.alone) call.insert(call.end(), {"--jobs", "1"});
     if (!options.hosts.empty())
       call.insert(call.end(), {"--sshloginfile", fs::absolute(options.hosts).string()});
     call.insert(call.end(),

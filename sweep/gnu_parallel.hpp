@@ -16,7 +16,7 @@ struct ParallelOptions {
   std::filesystem::path hosts{};    ///< a file of ssh logins, a line each; empty: this machine
 };
 
-/// The arguments of one call of parallel for each stage that has some of the tasks.
+/// The arguments of one call of parallel for each phase that has some of the tasks.
 std::vector<std::vector<std::string>> parallel_calls(const Plan& plan,
                                                      const std::filesystem::path& folder,
                                                      const std::vector<std::size_t>& tasks,

@@ -23,7 +23,11 @@ ordered_json to_json(const Plan& plan) {
   for (const SourceFile& file : plan.files)
     files.push_back({{"path", file.path}, {"hash", file.hash}});
   for (const Stage& stage : plan.stages)
-    stages.push_back({{"name", stage.name}, {"units", stage.units}, {"columns", stage.columns}});
+    stages.push_back({{"name", stage.name},
+                      {"units", stage.units},
+                      {"columns", stage.columns},
+                      {"waits", stage.waits},
+                      {"alone", stage.alone}});
   for (const CostRun& run : plan.costs) costs.push_back({run.units, run.cost});
   return {{"format", kFormat},
           {"springlod", plan.version},
@@ -45,7 +49,8 @@ void read_lists(const ordered_json& json, Plan& plan) {
   for (const ordered_json& file : json.at("files"))
     plan.files.push_back({file.at("path"), file.at("hash")});
   for (const ordered_json& stage : json.at("stages"))
-    plan.stages.push_back({stage.at("name"), stage.at("units"), stage.at("columns")});
+    plan.stages.push_back({stage.at("name"), stage.at("units"), stage.at("columns"),
+                           stage.at("waits"), stage.at("alone")});
   for (const ordered_json& run : json.at("costs"))
     plan.costs.push_back({run.at(0).get<std::uint64_t>(), run.at(1).get<double>()});
   json.at("tasks").get_to(plan.tasks);
@@ -99,6 +104,15 @@ std::uint64_t Plan::first_unit(std::size_t stage) const {
   std::uint64_t first = 0;
   for (std::size_t i = 0; i < stage; ++i) first += stages[i].units;
   return first;
+}
+
+std::vector<Phase> Plan::phases() const {
+  std::vector<Phase> all;
+  for (std::size_t stage = 0; stage < stages.size(); ++stage) {
+    if (all.empty() || stages[stage].waits) all.push_back({stage, stage, stages[stage].alone});
+    all.back().end = stage + 1;
+  }
+  return all;
 }
 
 std::uint64_t Plan::end_of_task(std::size_t task) const {

@@ -23,11 +23,21 @@ struct CostRun {
   double cost = 0;  ///< of each [spring updates]
 };
 
-/// Units that may run in any order. The units of a stage may read the results of earlier stages.
+/// Units that may run in any order.
 struct Stage {
   std::string name{};
   std::uint64_t units = 0;             ///< at least 1
   std::vector<std::string> columns{};  ///< of the rows of its results
+  /// Whether it begins when those before it have ended, so that its units may read what they have
+  /// written; false: it begins with the one before it.
+  bool waits = true;
+  bool alone = false;  ///< its units are timed: each has a machine to itself. The next stage waits
+};
+
+/// Stages that run at the same time.
+struct Phase {
+  std::size_t first = 0, end = 0;  ///< the stages [first, end)
+  bool alone = false;
 };
 
 struct Plan {
@@ -50,6 +60,8 @@ struct Plan {
   /// Number of the stage of a unit, and the first unit of a stage; both counted from 0.
   std::size_t stage_of(std::uint64_t unit) const;
   std::uint64_t first_unit(std::size_t stage) const;
+  /// In order; at least one.
+  std::vector<Phase> phases() const;
   /// One past the last unit of a task.
   std::uint64_t end_of_task(std::size_t task) const;
 };

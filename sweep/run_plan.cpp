@@ -48,7 +48,7 @@ std::string last_line_of(const fs::path& log) {
 /// Neighbouring units that are to be run.
 using Range = Order;
 
-/// The units of a stage that are to be run, and those that others are running.
+/// The units of a phase that are to be run, and those that others are running.
 class Queue {
  public:
   Queue(const UnitFiles& files, std::uint64_t first, std::uint64_t end) : files_(files) {
@@ -99,9 +99,9 @@ class Queue {
   std::vector<std::uint64_t> elsewhere_;
 };
 
-class StageRun {
+class PhaseRun {
  public:
-  StageRun(const Plan& plan, const UnitFiles& files, const RunOptions& options, Range units,
+  PhaseRun(const Plan& plan, const UnitFiles& files, const RunOptions& options, Range units,
            RunCounts& counts)
       : plan_(plan),
         files_(files),
@@ -274,12 +274,15 @@ RunCounts run_plan(const Plan& plan, const UnitFiles& files, const RunOptions& o
   RunCounts counts;
   if (options.task) {
     const Range units{plan.tasks.at(*options.task), plan.end_of_task(*options.task)};
-    StageRun(plan, files, options, units, counts).run();
+    PhaseRun(plan, files, options, units, counts).run();
     return counts;
   }
-  for (std::size_t stage = 0; stage < plan.stages.size(); ++stage) {
-    const std::uint64_t first = plan.first_unit(stage);
-    StageRun(plan, files, options, {first, first + plan.stages[stage].units}, counts).run();
+  for (const Phase& phase : plan.phases()) {
+    RunOptions of_phase = options;
+    if (phase.alone) of_phase.workers = 1;
+    PhaseRun(plan, files, of_phase, {plan.first_unit(phase.first), plan.first_unit(phase.end)},
+             counts)
+        .run();
   }
   return counts;
 }

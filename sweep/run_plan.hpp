@@ -18,7 +18,7 @@ struct RunOptions {
   /// the file that it prints to, below the folder of the plan.
   std::filesystem::path program{};
   std::function<std::vector<std::string>(const std::string& log)> arguments{};
-  std::uint32_t workers = 1;          ///< processes at a time
+  std::uint32_t workers = 1;          ///< processes at a time; 1 for units that run alone
   std::optional<std::size_t> task{};  ///< runs this one only, counted from 0
   Progress* progress = nullptr;       ///< may be null
 };
@@ -30,7 +30,7 @@ struct RunCounts {
   std::uint64_t lost = 0;    ///< given up after kMostTries
 };
 
-/// Runs the units of a plan that need it, stage by stage, in processes of their own: a unit that
+/// Runs the units of a plan that need it, phase by phase, in processes of their own: a unit that
 /// takes its process down does no harm to others. It is tried again if the process was killed, and
 /// has failed if it crashed. Waits for units that others are running. What the processes print
 /// goes to files in the folder logs. Throws IoError with the message of a process that cannot work

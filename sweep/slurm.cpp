@@ -87,10 +87,10 @@ std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-/// Of the jobs of each stage: the numbers that come after "afterany:".
+/// Of the jobs of each phase: the numbers that come after "afterany:".
 std::string dependency(const std::map<std::size_t, std::vector<std::string>>& numbers,
-                       std::size_t stage) {
-  const auto before = numbers.lower_bound(stage);
+                       std::size_t phase) {
+  const auto before = numbers.lower_bound(phase);
   if (before == numbers.begin()) return "";
   return fmt::format("--dependency=afterany:{}", fmt::join(std::prev(before)->second, ":"));
 }
@@ -106,10 +106,11 @@ std::vector<SlurmJob> slurm_jobs(const Plan& plan, const fs::path& folder,
   std::error_code ignored;
   fs::create_directories(folder / "logs", ignored);  // Slurm makes none
   std::vector<SlurmJob> jobs;
-  for (const StageTasks& some : by_stage(plan, tasks, largest_array)) {
-    SlurmJob job{.arguments = common_arguments(plan, seconds, options), .stage = some.stage};
+  for (const PhaseTasks& some : by_phase(plan, tasks, largest_array)) {
+    SlurmJob job{.arguments = common_arguments(plan, seconds, options), .phase = some.phase};
     const std::string at_once = options.at_once > 0 ? fmt::format("%{}", options.at_once) : "";
     job.arguments.push_back(fmt::format("--array=0-{}{}", some.tasks.size() - 1, at_once));
+    if (some.alone) job.arguments.push_back("--exclusive");
     job.arguments.push_back(fmt::format("--signal=B:TERM@{}", kNotice));
     job.arguments.push_back("--output=" + (folder / "logs/slurm-%A-%a.log").string());
     job.arguments.push_back("--job-name=" + folder.filename().string());
@@ -118,7 +119,7 @@ std::vector<SlurmJob> slurm_jobs(const Plan& plan, const fs::path& folder,
     jobs.push_back(std::move(job));
   }
   SlurmJob merge{.arguments = common_arguments(plan, seconds, options),
-                 .stage = plan.stages.size()};
+                 .phase = plan.stages.size()};
   merge.arguments.push_back("--output=" + (folder / "logs/slurm-merge-%j.log").string());
   merge.arguments.push_back("--job-name=" + folder.filename().string() + "-merge");
   merge.arguments.push_back(
@@ -133,10 +134,10 @@ std::string slurm_script(const std::vector<SlurmJob>& jobs) {
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const std::string variable = fmt::format("job{}", i + 1);
     std::string words = shell_line("sbatch", jobs[i].arguments);
-    const std::string after = dependency(numbers, jobs[i].stage);
+    const std::string after = dependency(numbers, jobs[i].phase);
     if (!after.empty()) words.insert(std::string("sbatch").size(), " \"" + after + "\"");
     script += fmt::format("{}=$({})\n", variable, words);
-    numbers[jobs[i].stage].push_back("${" + variable + "%%;*}");
+    numbers[jobs[i].phase].push_back("${" + variable + "%%;*}");
   }
   return script;
 }
@@ -147,7 +148,7 @@ std::vector<std::string> submit_to_slurm(const std::vector<SlurmJob>& jobs) {
   std::vector<std::string> all;
   for (const SlurmJob& job : jobs) {
     std::vector<std::string> arguments = job.arguments;
-    const std::string after = dependency(numbers, job.stage);
+    const std::string after = dependency(numbers, job.phase);
     if (!after.empty()) arguments.insert(arguments.begin(), after);
     const ProgramResult result = run_program(program, arguments);
     if (result.exit_code != 0) {
@@ -157,7 +158,7 @@ std::vector<std::string> submit_to_slurm(const std::vector<SlurmJob>& jobs) {
     }
     // "1234" or "1234;cluster"
     all.push_back(result.output.substr(0, result.output.find_first_of(";\n")));
-    numbers[job.stage].push_back(all.back());
+    numbers[job.phase].push_back(all.back());
   }
   return all;
 }

@@ -22,11 +22,11 @@ struct SlurmOptions {
 /// One call of sbatch.
 struct SlurmJob {
   std::vector<std::string> arguments{};  ///< of sbatch, without its dependency
-  std::size_t stage = 0;
+  std::size_t phase = 0;
 };
 
-/// Array jobs for the given tasks, a stage after the other, each with at most `largest_array`
-/// tasks; then one that merges. An array begins when those of the stage before have ended, however
+/// Array jobs for the given tasks, a phase after the other, each with at most `largest_array`
+/// tasks; then one that merges. An array begins when those of the phase before have ended, however
 /// they ended.
 std::vector<SlurmJob> slurm_jobs(const Plan& plan, const std::filesystem::path& folder,
                                  const std::vector<std::size_t>& tasks, std::uint64_t largest_array,

@@ -11,13 +11,15 @@ namespace springlod::sweep {
 
 namespace fs = std::filesystem;
 
-std::vector<StageTasks> by_stage(const Plan& plan, const std::vector<std::size_t>& tasks,
+std::vector<PhaseTasks> by_phase(const Plan& plan, const std::vector<std::size_t>& tasks,
                                  std::size_t most) {
-  std::vector<StageTasks> lists;
+  const std::vector<Phase> phases = plan.phases();
+  std::vector<PhaseTasks> lists;
+  std::size_t phase = 0;
   for (const std::size_t task : tasks) {
-    const std::size_t stage = plan.stage_of(plan.tasks[task]);
-    if (lists.empty() || lists.back().stage != stage || lists.back().tasks.size() == most)
-      lists.push_back({stage, {}});
+    while (plan.stage_of(plan.tasks[task]) >= phases[phase].end) ++phase;
+    if (lists.empty() || lists.back().phase != phase || lists.back().tasks.size() == most)
+      lists.push_back({phase, phases[phase].alone, {}});
     lists.back().tasks.push_back(task);
   }
   return lists;

@@ -9,13 +9,14 @@
 namespace springlod::sweep {
 
 /// Tasks that may run at the same time.
-struct StageTasks {
-  std::size_t stage = 0;
+struct PhaseTasks {
+  std::size_t phase = 0;
+  bool alone = false;  ///< one at a time on a machine, see Stage
   std::vector<std::size_t> tasks{};
 };
 
-/// The tasks, which ascend, in lists of one stage and of at most `most` each.
-std::vector<StageTasks> by_stage(const Plan& plan, const std::vector<std::size_t>& tasks,
+/// The tasks, which ascend, in lists of one phase and of at most `most` each.
+std::vector<PhaseTasks> by_phase(const Plan& plan, const std::vector<std::size_t>& tasks,
                                  std::size_t most);
 
 /// Writes the numbers of tasks, a line each, to a new file in the folder jobs. Throws IoError.

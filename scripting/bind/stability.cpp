@@ -9,6 +9,7 @@
 #include "scripting/bind/tables/anchor_table.hpp"
 #include "scripting/bind/tables/chart_table.hpp"
 #include "scripting/bind/tables/options.hpp"
+#include "scripting/bind/tables/stability_rows.hpp"
 #include "scripting/bind/tables/values.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -82,7 +83,19 @@ void describe_map(Api& api) {
                  return give_table(
                      call, report::stability_timings_table(*call.self<sim::StabilityMap>()));
                }});
+  type.method({.name = "rows",
+               .summary = "All of the map as plain tables, which can be stored and joined.",
+               .returns = "list of StabilityRow",
+               .call = [](Call& call) {
+                 push_stability_rows(call.lua(), *call.self<sim::StabilityMap>());
+                 return 1;
+               }});
   api.add(type.build());
+}
+
+int join_binding(Call& call) {
+  return call.give(std::shared_ptr<const sim::StabilityMap>(
+      std::make_shared<sim::StabilityMap>(read_stability_rows(call, 1))));
 }
 
 std::vector<Parameter> stability_parameters() {
@@ -109,6 +122,19 @@ void describe_stability(Api& api) {
       .example = "local map = s.stability(chain, {levels = {0}, ratios = {1, 1000}})\n"
                  "s.chart(\"out/map.svg\", map)",
       .call = stability_binding});
+  api.add(stability_row_entry());
+  api.add(FunctionEntry{
+      .name = "join_stability",
+      .group = "Simulation",
+      .summary = "Joins parts of a stability map that were computed apart, such as each level in a "
+                 "process of its own.",
+      .arguments = {{.name = "rows",
+                     .type = "list of StabilityRow",
+                     .help = "the rows of all parts, those of the same level and ratio together"}},
+      .returns = "StabilityMap",
+      .errors = "An entry that is no StabilityRow.",
+      .example = "local map = s.join_stability(s.stability(chain, {ratios = {1}}):rows())",
+      .call = join_binding});
 }
 
 }  // namespace springlod::scripting

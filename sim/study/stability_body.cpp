@@ -121,7 +121,7 @@ Specimen make_specimen(const std::shared_ptr<const RescaledChain>& at_ratio,
   const StepLimit limit = step_limit(model, Integrator::symplectic_euler, specimen.held);
   body.limit = limit.step;
   body.limited_by = limit.limited_by();
-  if (!body.mechanism_nodes.empty()) return specimen;
+  if (body.loose_nodes > 0) return specimen;
   if (body.level > 0)
     body.frequency_error = mean_error(
         lowest_frequencies(at_ratio->chain.levels[body.level], options), at_ratio->frequencies);

@@ -142,7 +142,8 @@ class Mapping {
         StabilityBody& body = map_.bodies.emplace_back();
         body.level = level;
         body.ratio = ratio;
-        body.mechanism_nodes = loose;
+        body.loose_nodes = static_cast<std::uint32_t>(loose.size());
+        if (!loose.empty()) body.loosest_node = loose.front();
       }
     }
     specimens_.resize(map_.bodies.size());
@@ -199,9 +200,9 @@ class Mapping {
 
   void probe(StabilityPoint& point, RunProgress& progress) const {
     const StabilityBody& body = map_.bodies[point.body];
-    if (!body.mechanism_nodes.empty()) {
+    if (body.loose_nodes > 0) {
       point.verdict = Verdict::mechanism;
-      point.node = body.mechanism_nodes.front();
+      point.node = body.loosest_node;
       return;
     }
     const Specimen& specimen = specimens_[point.body];

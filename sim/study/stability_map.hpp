@@ -149,7 +149,8 @@ struct StabilityBody {
   /// Estimated error of the reference: its distance from a run with twice the step, divided by 3;
   /// in the unit of the error of a point [1].
   double reference_error = 0;
-  std::vector<std::uint32_t> mechanism_nodes;  ///< nodes in mechanisms, worst first
+  std::uint32_t loose_nodes = 0;   ///< number of nodes in mechanisms
+  std::uint32_t loosest_node = 0;  ///< the worst of them, if there are any
 };
 
 struct StabilityPoint {

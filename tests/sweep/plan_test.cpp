@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/random.hpp"
+#include "sweep/task_list.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace springlod::sweep {
@@ -71,6 +72,31 @@ TEST_CASE("A task ends with its stage") {
   CHECK(plan.stage_of(2) == 0);
   CHECK(plan.stage_of(3) == 1);
   CHECK(plan.first_unit(1) == 3);
+}
+
+TEST_CASE("Stages that do not wait run with the one before them") {
+  Plan plan = plan_of({1, 1, 1, 1, 1});
+  plan.stages = {{.name = "models", .units = 1},
+                 {.name = "falls", .units = 1},
+                 {.name = "throws", .units = 2, .waits = false},
+                 {.name = "times", .units = 1, .alone = true}};
+  pack_tasks(plan);
+  const std::vector<Phase> phases = plan.phases();
+  REQUIRE(phases.size() == 3);
+  CHECK(phases[1].first == 1);
+  CHECK(phases[1].end == 3);
+  CHECK_FALSE(phases[1].alone);
+  CHECK(phases[2].alone);
+  const std::vector<PhaseTasks> lists = by_phase(plan, {0, 1, 2, 3}, 10);
+  REQUIRE(lists.size() == 3);
+  CHECK(lists[1].tasks == std::vector<std::size_t>{1, 2});
+  CHECK(lists[2].alone);
+  CHECK(by_phase(plan, {1, 2}, 1).size() == 2);
+  const TemporaryFolder folder;
+  write_plan(folder.path(), plan);
+  const Plan read = read_plan(folder.path());
+  CHECK_FALSE(read.stages[2].waits);
+  CHECK(read.stages[3].alone);
 }
 
 TEST_CASE("Units without cost are packed too") {

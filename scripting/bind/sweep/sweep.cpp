@@ -21,7 +21,7 @@ namespace {
 constexpr const char* kGroup = "Sweeps";
 /// Units of a sweep: more files than a file system holds with pleasure.
 constexpr std::uint64_t kMostUnits = 10'000'000;
-constexpr const char* kReserved[] = {"index", "seed", "unit", "missing"};
+constexpr const char* kReserved[] = {"index", "seed", "folder", "unit", "missing"};
 
 FunctionReference keep_function(TableReader& reader, const char* name) {
   const int index = reader.raw(name);
@@ -114,6 +114,22 @@ void read_stage(TableReader& reader, SweepStage& stage) {
   stage.unit = keep_function(reader, "unit");
   if (stage.unit == 0) reader.refuse("unit", "a function of a point that returns its row");
   stage.cost = keep_function(reader, "cost");
+  reader.read("timings", stage.timings);
+  for (const std::string& name : stage.timings)
+    if (std::find(stage.columns.begin(), stage.columns.end(), name) == stage.columns.end())
+      reader.refuse("timings", fmt::format("names of columns; '{}' is none", name));
+  reader.read("waits", stage.waits);
+  reader.read("alone", stage.alone);
+}
+
+/// Units of a stage that runs alone have no others beside them.
+void check_phases(TableReader& reader, const std::vector<SweepStage>& stages) {
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    if (i > 0 && !stages[i].waits && (stages[i].alone || stages[i - 1].alone))
+      reader.refuse("stages", fmt::format("stages such that '{}' waits: it or the one before it "
+                                          "runs alone",
+                                          stages[i].name));
+  }
 }
 
 int sweep_binding(Call& call) {
@@ -127,7 +143,7 @@ int sweep_binding(Call& call) {
     reader.finish();
     return call.give(std::shared_ptr<const SweepValue>(std::move(value)));
   }
-  for (const char* name : {"axes", "count", "columns", "unit", "cost"})
+  for (const char* name : {"axes", "count", "columns", "unit", "cost", "timings", "waits", "alone"})
     if (reader.has(name)) reader.refuse(name, "inside the stages, if there are stages");
   lua_State* L = call.lua();
   if (!lua_istable(L, stages)) reader.refuse("stages", "a list of stages");
@@ -144,6 +160,7 @@ int sweep_binding(Call& call) {
     lua_settop(L, stages);
   }
   if (value->stages.empty()) reader.refuse("stages", "a list of at least one stage");
+  check_phases(reader, value->stages);
   reader.finish();
   return call.give(std::shared_ptr<const SweepValue>(std::move(value)));
 }
@@ -156,14 +173,15 @@ std::uint64_t unit_argument(Call& call, const SweepValue& sweep) {
 
 int point_method(Call& call) {
   const auto sweep = call.self<SweepValue>();
-  push_point(call.lua(), *sweep, unit_argument(call, *sweep));
+  push_point(call.lua(), {*sweep, unit_argument(call, *sweep)});
   return 1;
 }
 
 int run_method(Call& call) {
   const auto sweep = call.self<SweepValue>();
   const std::uint64_t unit = unit_argument(call, *sweep);
-  const std::vector<sweep::Row> rows = run_unit(call.lua(), *sweep, unit);
+  const std::string folder = call.has(2) ? call.writable(2).string() : "";
+  const std::vector<sweep::Row> rows = run_unit(call.lua(), {*sweep, unit, folder});
   const std::vector<std::string>& columns = place_of(*sweep, unit).stage.columns;
   push_tables(call.lua(), rows,
               [&](const sweep::Row& row) { set_cells(call.lua(), columns, row); });
@@ -182,6 +200,7 @@ void push_stages(lua_State* L, const SweepValue& sweep) {
     set_field(L, "name", stage.name);
     set_field(L, "units", stage.units);
     set_field(L, "columns", stage.columns);
+    set_field(L, "timings", stage.timings);
     set_field(L, "estimated", stage.cost != 0);
     std::vector<std::string> axes;
     for (const SweepAxis& axis : stage.axes) axes.push_back(axis.name);
@@ -207,21 +226,29 @@ void describe_type(Api& api) {
       description);
   type.field("units", "integer", "number of units of all stages",
              [](const SweepValue& sweep) { return sweep.unit_count(); });
-  type.table_field("stages", "list of tables",
-                   "name, units, axes (their names), columns and estimated (whether it has a cost) "
-                   "of each stage",
-                   push_stages);
+  type.table_field(
+      "stages", "list of tables",
+      "name, units, axes (their names), columns, timings and estimated (whether it has "
+      "a cost) "
+      "of each stage",
+      push_stages);
   type.table_field("report", "function or nil", "of the script, to be called with all results",
                    push_report);
   const Parameter unit{.name = "unit", .type = "integer", .help = "number of a unit, from 1"};
   type.method({.name = "point",
                .summary = "What the functions of the sweep are called with for a unit.",
                .arguments = {unit},
-               .returns = "table: values of the axes by name, index in the stage, seed",
+               .returns = "table: values of the axes by name, index in the stage, seed; in units "
+                          "and costs also folder, that of the plan",
                .call = point_method});
   type.method({.name = "run",
                .summary = "Runs one unit here, to try it.",
-               .arguments = {unit},
+               .arguments = {unit,
+                             {.name = "folder",
+                              .type = "string",
+                              .fallback = "none",
+                              .help = "for units that read or write files in the folder of the "
+                                      "plan"}},
                .returns = "list of rows",
                .call = run_method});
   api.add(type.build());
@@ -253,6 +280,20 @@ std::vector<Parameter> stage_parameters() {
        .fallback = "all alike",
        .help = "cost(point) estimates the spring updates of a unit: springs * duration / stable "
                "step"},
+      {.name = "timings",
+       .type = "list of strings",
+       .fallback = "none",
+       .help = "those of the columns that are measured times: merge writes them to a file of "
+               "their own, as they differ between two runs"},
+      {.name = "waits",
+       .type = "boolean",
+       .fallback = "true",
+       .help = "whether it begins when the stages before have ended, and may use what those have "
+               "written; false: it begins with the stage before"},
+      {.name = "alone",
+       .type = "boolean",
+       .fallback = "false",
+       .help = "whether each unit has a machine to itself, because it measures times"},
   };
 }
 
@@ -265,8 +306,7 @@ void describe_sweep(Api& api) {
       fields.begin(),
       {.name = "name", .type = "string", .fallback = "\"stage N\"", .help = "for messages"});
   api.add(RecordEntry{.name = "SweepStage",
-                      .summary = "Units of a sweep that begin when those of the stages before have "
-                                 "ended, and may use what those have written.",
+                      .summary = "Units of a sweep that may run in any order.",
                       .fields = std::move(fields),
                       .example = "{name = \"drops\", axes = {{\"level\", {0, 1, 2}}},\n"
                                  " columns = {\"height\"}, unit = drop}"});

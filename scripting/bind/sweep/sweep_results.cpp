@@ -197,6 +197,14 @@ int forget_binding(Call& call) {
   return call.give(count);
 }
 
+int remove_binding(Call& call) {
+  const fs::path folder = call.writable(1);
+  sweep::read_plan(folder);  // so that no other folder loses anything
+  for (const char* name : {"results", "logs", "jobs"}) fs::remove_all(folder / name);
+  fs::remove(sweep::plan_path(folder));
+  return 0;
+}
+
 }  // namespace
 
 void describe_sweep_results(Api& api) {
@@ -243,6 +251,15 @@ void describe_sweep_results(Api& api) {
                         .errors = "There is no plan, or it is damaged.",
                         .example = "s.forget_failures(\"out/drops\")",
                         .call = forget_binding});
+  api.add(FunctionEntry{.name = "remove_sweep",
+                        .group = kGroup,
+                        .summary = "Removes the plan, the results of units and the logs of a "
+                                   "sweep. What was merged stays.",
+                        .arguments = {sweep_folder_argument()},
+                        .returns = "nothing",
+                        .errors = "There is no plan, or it is damaged.",
+                        .example = "s.remove_sweep(\"out/drops\")",
+                        .call = remove_binding});
 }
 
 }  // namespace springlod::scripting

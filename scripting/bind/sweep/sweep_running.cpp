@@ -37,7 +37,7 @@ constexpr const char* kGroup = "Sweeps";
 std::vector<sweep::Stage> stages_of(const SweepValue& value) {
   std::vector<sweep::Stage> stages;
   for (const SweepStage& stage : value.stages)
-    stages.push_back({stage.name, stage.units, stage.columns});
+    stages.push_back({stage.name, stage.units, stage.columns, stage.waits, stage.alone});
   return stages;
 }
 
@@ -49,14 +49,35 @@ bool are_same(const std::vector<sweep::Stage>& a, const std::vector<sweep::Stage
                     });
 }
 
-/// Whether results of one plan are results of the other. What it costs does not matter.
-bool have_same_results(const Plan& a, const Plan& b) {
-  const auto same_file = [](const sweep::SourceFile& one, const sweep::SourceFile& other) {
-    return one.path == other.path && one.hash == other.hash;
-  };
-  return a.version == b.version && a.program == b.program && a.script == b.script &&
-         a.arguments == b.arguments && a.seed == b.seed && are_same(a.stages, b.stages) &&
-         std::equal(a.files.begin(), a.files.end(), b.files.begin(), b.files.end(), same_file);
+std::string words_of(const std::vector<std::string>& arguments) {
+  return arguments.empty()
+             ? "none"
+             : shell_line(arguments.front(), {arguments.begin() + 1, arguments.end()});
+}
+
+/// The first file whose content differs, or that only one of the plans was made with; empty: none.
+std::string changed_file(const Plan& kept, const Plan& plan) {
+  for (std::size_t i = 0; i < std::max(kept.files.size(), plan.files.size()); ++i) {
+    if (i >= kept.files.size()) return plan.files[i].path;
+    if (i >= plan.files.size() || kept.files[i].path != plan.files[i].path ||
+        kept.files[i].hash != plan.files[i].hash)
+      return kept.files[i].path;
+  }
+  return "";
+}
+
+/// Of what the results of the plan `kept` are that are no results of `plan`; empty if they are.
+/// What units cost does not matter.
+std::string difference(const Plan& kept, const Plan& plan) {
+  if (kept.script != plan.script) return fmt::format("the script {}", kept.script);
+  if (kept.arguments != plan.arguments)
+    return fmt::format("the arguments {}", words_of(kept.arguments));
+  if (kept.seed != plan.seed) return fmt::format("the seed {}", kept.seed);
+  if (kept.version != plan.version || kept.program != plan.program)
+    return "another version of the program or its scripts";
+  if (const std::string file = changed_file(kept, plan); !file.empty())
+    return fmt::format("another content of {}", file);
+  return are_same(kept.stages, plan.stages) ? "" : "other units";
 }
 
 /// The regular files that the script has read, but for those of the program.
@@ -75,12 +96,12 @@ std::vector<fs::path> files_read(Session& session, const fs::path& folder) {
   return paths;
 }
 
-void estimate_costs(Call& call, const SweepValue& value, Plan& plan) {
+void estimate_costs(Call& call, const SweepValue& value, const std::string& folder, Plan& plan) {
   constexpr std::uint64_t kLook = 1000;  // units between two looks whether the user stops it
   Task task(call.progress(), "estimating costs", value.unit_count());
   for (std::uint64_t unit = 0; unit < value.unit_count(); ++unit) {
     if (unit % kLook == 0) task.advance(unit == 0 ? 0 : kLook);
-    sweep::add_cost(plan.costs, cost_of(call.lua(), value, unit));
+    sweep::add_cost(plan.costs, cost_of(call.lua(), {value, unit, folder}));
   }
 }
 
@@ -99,17 +120,17 @@ std::uint64_t unit_at_share(const Plan& plan, double share) {
 
 /// Runs units that should be short, and makes the estimate of the time fit to what they take: small
 /// bodies take longer than their springs tell. A unit that fails tells nothing.
-void adjust_time(Call& call, const SweepValue& value, Plan& plan) {
+void adjust_time(Call& call, const SweepValue& value, const std::string& folder, Plan& plan) {
   constexpr double kShares[] = {0.0, 0.5, 0.9};
   constexpr double kLongest = 1;  // of a unit to be run [s]
   double seconds = 0, estimated = 0;
   for (const double share : kShares) {
     const std::uint64_t unit = unit_at_share(plan, share);
-    const double cost = cost_of(call.lua(), value, unit);
+    const double cost = cost_of(call.lua(), {value, unit, folder});
     if (cost * plan.seconds_per_cost > kLongest) continue;
     const std::clock_t begun = std::clock();  // of all threads
     try {
-      run_unit(call.lua(), value, unit);
+      run_unit(call.lua(), {value, unit, folder});
     } catch (const InputError& error) {
       call.session().console().say(fmt::format("unit {} fails: {}", unit + 1, error.what()));
       continue;
@@ -127,12 +148,10 @@ void require_no_others(const fs::path& folder, const Plan& plan) {
     throw InputError(
         fmt::format("{} holds results without the plan that they belong to; choose another folder",
                     folder.string()));
-  if (!have_same_results(sweep::read_plan(folder), plan))
-    throw InputError(
-        fmt::format("{} holds results of another plan: the program, the script, its "
-                    "arguments or a file that it reads was another one; choose "
-                    "another folder, or remove this one",
-                    folder.string()));
+  const std::string why = difference(sweep::read_plan(folder), plan);
+  if (!why.empty())
+    throw InputError(fmt::format(
+        "{} holds results of {}; choose another folder, or remove this one", folder.string(), why));
 }
 
 int plan_binding(Call& call) {
@@ -153,8 +172,9 @@ int plan_binding(Call& call) {
   plan.seed = call.session().settings().seed;
   plan.sandbox = call.session().settings().sandbox;
   plan.stages = stages_of(*value);
-  estimate_costs(call, *value, plan);
-  if (pilot) adjust_time(call, *value, plan);
+  const std::string of_points = fs::absolute(folder).string();
+  estimate_costs(call, *value, of_points, plan);
+  if (pilot) adjust_time(call, *value, of_points, plan);
   plan.files = sweep::hash_files(files_read(call.session(), folder));
   sweep::pack_tasks(plan);
   require_no_others(folder, plan);
@@ -236,10 +256,14 @@ int work_binding(Call& call) {
     throw InputError(
         "the script describes other units than when the plan was made: a sweep must "
         "not depend on the time, the machine or files that change");
+  const std::string of_points = fs::absolute(folder).string();
   sweep::serve_units(
       UnitFiles(folder),
       {.version = version(), .target = sim::vector_target(), .log = call.text(3)},
-      [&](std::uint64_t unit) { return run_unit(call.lua(), *value, unit); }, kExtraStream);
+      [&](std::uint64_t unit) {
+        return run_unit(call.lua(), {*value, unit, of_points});
+      },
+      kExtraStream);
   return 0;
 }
 

@@ -31,10 +31,9 @@ void call(lua_State* L, int arguments) {
   throw InputError(message);
 }
 
-void call_with_point(lua_State* L, FunctionReference function, const SweepValue& sweep,
-                     std::uint64_t unit) {
+void call_with_point(lua_State* L, FunctionReference function, const SweepUnit& unit) {
   lua_rawgeti(L, LUA_REGISTRYINDEX, function);
-  push_point(L, sweep, unit);
+  push_point(L, unit);
   call(L, 1);
 }
 
@@ -135,18 +134,19 @@ void set_cells(lua_State* L, const std::vector<std::string>& columns, const Row&
   }
 }
 
-void push_point(lua_State* L, const SweepValue& sweep, std::uint64_t unit) {
-  const SweepPlace place = place_of(sweep, unit);
+void push_point(lua_State* L, const SweepUnit& unit) {
+  const SweepPlace place = place_of(unit.sweep, unit.number);
   begin_table(L);
   set_axes(L, place);
   set_field(L, "index", place.number + 1);
   set_field(L, "seed", session_of(L).settings().seed + place.number);
+  if (!unit.folder.empty()) set_field(L, "folder", unit.folder);
 }
 
-std::vector<Row> run_unit(lua_State* L, const SweepValue& sweep, std::uint64_t unit) {
-  const SweepStage& stage = place_of(sweep, unit).stage;
+std::vector<Row> run_unit(lua_State* L, const SweepUnit& unit) {
+  const SweepStage& stage = place_of(unit.sweep, unit.number).stage;
   const int bottom = lua_gettop(L);
-  call_with_point(L, stage.unit, sweep, unit);
+  call_with_point(L, stage.unit, unit);
   if (!lua_istable(L, -1))
     throw InputError(
         fmt::format("unit: it must return a row, a table with the columns {}, or a "
@@ -169,16 +169,16 @@ std::vector<Row> run_unit(lua_State* L, const SweepValue& sweep, std::uint64_t u
   return rows;
 }
 
-double cost_of(lua_State* L, const SweepValue& sweep, std::uint64_t unit) {
-  const SweepStage& stage = place_of(sweep, unit).stage;
+double cost_of(lua_State* L, const SweepUnit& unit) {
+  const SweepStage& stage = place_of(unit.sweep, unit.number).stage;
   if (stage.cost == 0) return 1;
-  call_with_point(L, stage.cost, sweep, unit);
+  call_with_point(L, stage.cost, unit);
   const double cost = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : -1;
   if (!(cost >= 0) || !std::isfinite(cost))
     throw InputError(
         fmt::format("cost: it must return the spring updates of a unit, a number of "
                     "at least 0; for unit {} it returned {}",
-                    unit + 1, luaL_tolstring(L, -1, nullptr)));
+                    unit.number + 1, luaL_tolstring(L, -1, nullptr)));
   lua_pop(L, 1);
   return cost;
 }

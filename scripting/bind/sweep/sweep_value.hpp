@@ -27,6 +27,8 @@ struct SweepStage {
   std::vector<SweepAxis> axes;
   std::uint64_t units = 0;
   std::vector<std::string> columns;
+  std::vector<std::string> timings;  ///< those of the columns that are measured times
+  bool waits = true, alone = false;  ///< as in sweep::Stage
   FunctionReference unit = 0;
   FunctionReference cost = 0;
 };
@@ -52,14 +54,20 @@ SweepPlace place_of(const SweepValue& sweep, std::uint64_t unit);
 void set_axes(lua_State* L, const SweepPlace& place);
 /// Sets the cells of a row, by column, in the table on top.
 void set_cells(lua_State* L, const std::vector<std::string>& columns, const sweep::Row& row);
-/// Pushes what the functions of a script are called with: the values of the axes by name, `index`
-/// and `seed`.
-void push_point(lua_State* L, const SweepValue& sweep, std::uint64_t unit);
+/// A unit of a sweep, and the folder of its plan; empty: there is none.
+struct SweepUnit {
+  const SweepValue& sweep;
+  std::uint64_t number;
+  std::string folder{};
+};
+/// Pushes what the functions of a script are called with: the values of the axes by name, `index`,
+/// `seed` and `folder`.
+void push_point(lua_State* L, const SweepUnit& unit);
 
 /// Calls the unit's function. Throws InputError with the message of a Lua error, or if the result
 /// has other columns than those of the stage, InterruptedError.
-std::vector<sweep::Row> run_unit(lua_State* L, const SweepValue& sweep, std::uint64_t unit);
+std::vector<sweep::Row> run_unit(lua_State* L, const SweepUnit& unit);
 /// Estimated spring updates of a unit; 1 if the stage does not estimate them. Throws as run_unit.
-double cost_of(lua_State* L, const SweepValue& sweep, std::uint64_t unit);
+double cost_of(lua_State* L, const SweepUnit& unit);
 
 }  // namespace springlod::scripting
