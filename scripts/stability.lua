@@ -2,14 +2,16 @@
 
 local s = require "springlod"
 local command = require "lib.command"
-local run_estimate = require "lib.run_estimate"
 local show = require "lib.show"
 local stability_estimate = require "lib.stability_estimate"
+local study = require "lib.study"
 
 local parser = command.parser("stability", "Run every level of an asset under every integrator "
   .. "over a grid of time steps and stiffness ratios, and compare each run with a reference run "
   .. "of the same model at a small time step. Writes map.csv, bodies.csv, map.svg, map.png "
-  .. "and timings.csv (wall-clock times, the only output that varies between runs).")
+  .. "and timings.csv (wall-clock times, the only output that varies between runs). After an "
+  .. "interruption (Ctrl-C) the same command resumes; springlod sweep plan stability makes a plan "
+  .. "of it for other machines.")
 parser:argument("asset", "a .glb asset, written by convert or s.save")
 command.add_out(parser, "out/stability")
 parser:option("--levels", "levels to run, such as 0,2 (default: all)")
@@ -50,7 +52,7 @@ local quick = args.quick and {
   sweep_steps = {0.001, 0.01}, periods = 0.25,
 } or {}
 
--- What s.stability takes where nothing is given, for the estimate.
+-- What s.stability takes where nothing is given.
 local function defaults()
   local values = {iterations = {0}, integrators = s.choices.integrator}
   local stated = {ratios = true, steps = true, implicit_steps = true, sweep_steps = true,
@@ -61,27 +63,23 @@ local function defaults()
   return values
 end
 
-local function announce(asset)
-  if args.absolute_steps or args.anchored then return end -- other steps, other modes
-  local options = {duration = args.duration, levels = args.levels}
+local unknown_seconds = 20 -- of a level at a ratio, with other steps or other modes
+
+-- Estimated time of a level at a ratio.
+local function seconds_of(asset)
+  local options = {duration = args.duration}
   for name, value in pairs(defaults()) do options[name] = args[name] or quick[name] or value end
-  if not options.levels then
-    options.levels = {}
-    for level = 0, asset.coarsest do options.levels[#options.levels + 1] = level end
+  local estimate
+  return function(level, ratio)
+    if args.absolute_steps or args.anchored or not asset[level] then return unknown_seconds end
+    estimate = estimate or stability_estimate(asset, options)
+    return estimate(level, ratio)
   end
-  for _, level in ipairs(options.levels) do
-    if not asset[level] then return end -- s.stability reports it
-  end
-  local hint = args.quick and "--levels, --ratios and --periods shorten it"
-    or "--quick, --levels, --ratios and --periods shorten it"
-  run_estimate.announce("the map", stability_estimate(asset, options), hint)
 end
 
-local function stability()
-  local asset = s.load(args.asset)
-  announce(asset)
-  local map = s.stability(asset, {
-    levels = args.levels, ratios = args.ratios or quick.ratios, integrators = args.integrators,
+local function map_part(asset, level, ratio)
+  return s.stability(asset, {
+    levels = {level}, ratios = {ratio}, integrators = args.integrators,
     iterations = args.iterations, steps = args.steps or quick.steps,
     implicit_steps = args.implicit_steps or quick.implicit_steps,
     sweep_steps = args.sweep_steps or quick.sweep_steps, damping = args.damping or false,
@@ -90,13 +88,28 @@ local function stability()
     anchored = args.anchored,
     seed = s.seed, threads = s.threads,
   })
-  for _, name in ipairs{"table", "bodies", "timings"} do
-    local rows, columns = map[name](map)
-    local file = name == "table" and "map" or name
-    s.csv(("%s/%s.csv"):format(args.out, file), rows, {columns = columns})
+end
+
+-- A unit is a level at a ratio.
+local function describe()
+  local asset = s.load(args.asset)
+  local levels, ratios = args.levels, args.ratios or quick.ratios or defaults().ratios
+  if not levels then
+    levels = {}
+    for level = 0, asset.coarsest do levels[#levels + 1] = level end
   end
-  command.chart(args.out .. "/map", map, {title = "Stability of " .. command.base_name(args.asset)})
-  return map
+  local seconds, units, columns = seconds_of(asset), {}, {}
+  for _, level in ipairs(levels) do
+    for _, ratio in ipairs(ratios) do
+      units[#units + 1] = {
+        name = ("level %d, ratio %g"):format(level, ratio),
+        seconds = function() return seconds(level, ratio) end,
+        make = function() return map_part(asset, level, ratio):rows() end,
+      }
+    end
+  end
+  for i, field in ipairs(s.options_of("StabilityRow")) do columns[i] = field.name end
+  return {{name = "map", columns = columns, timings = {"wall_seconds"}, units = units}}
 end
 
 local function percent(fraction)
@@ -153,38 +166,72 @@ local function cheapest_rows(rows, bodies)
   return cells
 end
 
-local ok, map = command.try_in(args.out, stability)
-if not ok then command.fail("cannot map %s: %s", args.asset, map) end
-local rows = map:table()
-local bodies = map:bodies()
-local ratios, columns = {}, {"level", "integrator", "iterations"}
-for _, body in ipairs(bodies) do
-  if body.level == bodies[1].level then
-    ratios[#ratios + 1] = body.ratio
-    columns[#columns + 1] = ("%g"):format(body.ratio)
+-- The map of all results, and how many parts of it are missing.
+local function map_of(results)
+  local rows = {}
+  for i, row in ipairs(results:all("map")) do
+    rows[i] = {}
+    for _, column in ipairs(results:columns("map")) do rows[i][column] = row[column] end
   end
+  if #rows == 0 then
+    local _, reason = next(results.gaps.map)
+    error(reason, 0)
+  end
+  return s.join_stability(rows)
 end
-print("stiff part: " .. map.stiff_part)
-print("\nlowest error of any time step, by ratio of Young's moduli:")
-print(s.format_table(best_rows(rows, ratios), {columns = columns}))
-print("\ncheapest run with the verdict \"stable\" (error and change of energy by the integrator "
-  .. "within 10 %), in spring updates per simulated second (backward_euler_direct "
-  .. "is excluded, as spring updates do not count factorizations; timings.csv has all times):")
-print(s.format_table(cheapest_rows(rows, bodies), {columns = {
-  "level", "ratio", "limit", "limited by", "frequency error", "integrator", "step", "error",
-  "cost"}}))
-print([[
+
+local function write(map, folder, note)
+  for _, name in ipairs{"table", "bodies", "timings"} do
+    local rows, columns = map[name](map)
+    local file = name == "table" and "map" or name
+    s.csv(("%s/%s.csv"):format(folder, file), rows, {columns = columns})
+  end
+  command.chart(folder .. "/map", map,
+    {title = "Stability of " .. command.base_name(args.asset) .. note})
+end
+
+local function print_tables(map)
+  local rows = map:table()
+  local bodies = map:bodies()
+  local ratios, columns = {}, {"level", "integrator", "iterations"}
+  for _, body in ipairs(bodies) do
+    if body.level == bodies[1].level then
+      ratios[#ratios + 1] = body.ratio
+      columns[#columns + 1] = ("%g"):format(body.ratio)
+    end
+  end
+  print("stiff part: " .. map.stiff_part)
+  print("\nlowest error of any time step, by ratio of Young's moduli:")
+  print(s.format_table(best_rows(rows, ratios), {columns = columns}))
+  print("\ncheapest run with the verdict \"stable\" (error and change of energy by the integrator "
+    .. "within 10 %), in spring updates per simulated second (backward_euler_direct "
+    .. "is excluded, as spring updates do not count factorizations; timings.csv has all times):")
+  print(s.format_table(cheapest_rows(rows, bodies), {columns = {
+    "level", "ratio", "limit", "limited by", "frequency error", "integrator", "step", "error",
+    "cost"}}))
+  print([[
 ratio: of Young's moduli, stiff to soft. limit: predicted stable step of symplectic
 Euler, for the nodes that are not held, and what limits it. frequency error: mean of the six
 lowest, against the base. error: of the run with that step.]])
-local counts = {}
-for verdict, count in pairs(map.verdicts) do counts[#counts + 1] = count .. " " .. verdict end
-table.sort(counts)
-print(("\n%d points: %s"):format(#rows, table.concat(counts, ", ")))
-s.say("wrote " .. args.out)
-local first = rows[1]
-if (map.verdicts.mechanism or 0) == #rows then
-  command.fail("nothing could be run: level %d has a mechanism at node %d. s.zero_modes lists the "
-    .. "nodes of mechanisms; guards, the corners lattice or smaller cells prevent them",
-    first.level, first.node)
+  local counts = {}
+  for verdict, count in pairs(map.verdicts) do counts[#counts + 1] = count .. " " .. verdict end
+  table.sort(counts)
+  print(("\n%d points: %s"):format(#rows, table.concat(counts, ", ")))
+  local first = rows[1]
+  if (map.verdicts.mechanism or 0) == #rows then
+    error(("nothing could be run: level %d has a mechanism at node %d. s.zero_modes lists the "
+      .. "nodes of mechanisms; guards, the corners lattice or smaller cells prevent them"):format(
+      first.level, first.node), 0)
+  end
 end
+
+local function report(results, folder)
+  local map = map_of(results)
+  write(map, folder, results:note())
+  print_tables(map)
+end
+
+return study.run(args, {
+  describe = describe, report = report, failure = "cannot map " .. args.asset,
+  hint = (args.quick and "" or "--quick, ") .. "--levels, --ratios and --periods shorten it",
+})

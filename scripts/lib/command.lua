@@ -124,6 +124,17 @@ function command.list()
   return all
 end
 
+-- The path of the script of a stock command.
+function command.path_of(name)
+  for _, one in ipairs(command.list()) do
+    if one.name == name then return one.path end
+  end
+end
+
+-- The name of this command, and the path of its script.
+function command.name() return name_of_command end
+function command.script() return command.path_of(name_of_command) end
+
 -- The parser of a stock command, which does not run: for help, manual pages and completion.
 function command.parser_of(path)
   local found
@@ -299,10 +310,22 @@ function command.shell_line(words)
   return table.concat(quoted, " ")
 end
 
--- The command line of this run, to copy.
-function command.line()
+-- The words of the command line without the folder to write to; `args`: what they were read as.
+function command.words_without_out(args)
+  local words, skipped = {}, false
+  for _, word in ipairs(arg) do
+    local drops_next = word == "-o" or word == "--out"
+    local is_out = drops_next or word:find("^%-o.") or word:find("^%-%-out=") or word == args.folder
+    if not (skipped or is_out) then words[#words + 1] = word end
+    skipped = drops_next
+  end
+  return words
+end
+
+-- The command line of this run, to copy; with `args`, without the folder to write to.
+function command.line(args)
   return command.shell_line{"springlod", "--seed", tostring(s.seed), name_of_command,
-                            table.unpack(arg)}
+                            table.unpack(args and command.words_without_out(args) or arg)}
 end
 
 -- Writes s.chart to stem.svg and stem.png.

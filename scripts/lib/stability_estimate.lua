@@ -32,44 +32,42 @@ local function implicit_steps(fractions, periods)
   return count
 end
 
--- Processor time of all runs [s]. `options`: levels, ratios, integrators, iterations, steps,
--- implicit_steps, sweep_steps, periods and duration, as for s.stability; all but duration must be
--- there.
+-- `options`: integrators, iterations, steps, implicit_steps, sweep_steps, periods and duration, as
+-- for s.stability; all but duration must be there. Returns a function of a level and a ratio: the
+-- processor time of its runs [s].
 return function(asset, options)
   local modes = s.modes(asset[0], {count = 1})
-  if #modes == 0 then return 0 end
+  if #modes == 0 then return function() return 0 end end
   local period = 1 / modes[1].frequency
   local duration = options.duration or options.periods * period
   local scene = {gravity = {0, 0, 0}, duration = duration,
                  throw = {velocity = {0, 0, 0}, spin = {0.2 / period, 0.1 / period, 0}}}
-  local total = 0
-  for _, level in ipairs(options.levels) do
-    local model, growth = asset[level], 0
+  local known = {} -- times of steps of a level
+  local function time_of(level, integrator, of_step, iterations)
+    local key = ("%d %s %g %d"):format(level, integrator, of_step, iterations or 0)
+    known[key] = known[key] or (run_estimate.of(asset[level], scene,
+      {integrator = integrator, step = of_step, iterations = iterations}) or 0)
+    return known[key] * of_step -- of one step
+  end
+  return function(level, ratio)
+    local step = s.stable_step(asset[level])
     -- The stable step changes with the square root of the ratio. Softer materials limit it too.
-    for _, ratio in ipairs(options.ratios) do
-      growth = growth + math.sqrt(math.max(ratio, 1) / ratio_of(asset[0]))
-    end
-    local step = s.stable_step(model)
-    local stable = growth * duration / step
-    local function time_of(integrator, of_step, iterations)
-      local seconds = run_estimate.of(model, scene,
-        {integrator = integrator, step = of_step, iterations = iterations})
-      return (seconds or 0) * of_step -- of one step
-    end
-    total = total + references * stable * time_of("velocity_verlet", 0.5 * step)
+    local stable = math.sqrt(math.max(ratio, 1) / ratio_of(asset[0])) * duration / step
+    local total = references * stable * time_of(level, "velocity_verlet", 0.5 * step)
     for _, integrator in ipairs(options.integrators) do
       local traits = s.choices.integrator[integrator]
       if not traits.implicit then
-        total = total + time_of(integrator, 0.5 * step) * explicit_steps(options.steps, stable)
+        total = total
+          + time_of(level, integrator, 0.5 * step) * explicit_steps(options.steps, stable)
       else
         local fractions = traits.swept and options.sweep_steps or options.implicit_steps
-        local count = #options.ratios * implicit_steps(fractions, duration / period)
+        local count = implicit_steps(fractions, duration / period)
         for _, iterations in ipairs(traits.swept and options.iterations or {0}) do
-          total = total + count * time_of(integrator, fractions[#fractions] * period,
+          total = total + count * time_of(level, integrator, fractions[#fractions] * period,
             iterations > 0 and iterations or nil)
         end
       end
     end
+    return total
   end
-  return total
 end

@@ -3,7 +3,6 @@
 
 local s = require "springlod"
 local command = require "lib.command"
-local run_store = require "lib.run_store"
 
 local unit_store = {}
 
@@ -26,7 +25,7 @@ end
 function unit_store.open(folder, settings)
   return setmetatable({
     folder = folder .. "/unfinished",
-    settings = s.version .. " " .. s.seed .. " " .. run_store.as_text(settings),
+    settings = s.version .. " " .. s.seed .. " " .. as_lua(settings),
   }, Store)
 end
 

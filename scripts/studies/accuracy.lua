@@ -3,13 +3,14 @@
 local s = require "springlod"
 local command = require "lib.command"
 local bodies = require "studies.accuracy.bodies"
+local conversion = require "lib.conversion"
 local intervals = require "lib.intervals"
 local lists = require "lib.lists"
 local show = require "lib.show"
 local split_table = require "lib.split_table"
+local study = require "lib.study"
 local timed_run = require "lib.timed_run"
 local trade_off = require "studies.accuracy.trade_off"
-local unit_store = require "lib.unit_store"
 
 local methods = {
   {name = "plain merging", options = {grouping = "standard"}},
@@ -29,7 +30,7 @@ local methods = {
 local parser = command.parser("accuracy", "Measure the accuracy of levels with 45 % and 20 % of "
   .. "the nodes of their base: merged by several groupings, calibrated, and refilled. Writes "
   .. "levels.csv (every level) and methods.csv (means over bodies and seeds, and the worst body), "
-  .. "and prints the latter.")
+  .. "and prints the latter; models/ has the levels as assets.")
 command.add_out(parser, "out/accuracy", "folder", true)
 parser:option("--seeds", "number of seeds for each body and method"):default("5")
   :convert(command.whole("--seeds", 1))
@@ -56,7 +57,6 @@ local function make_chain(body, method, seed)
     for i, share in ipairs(keep) do
       counts[i] = math.floor(share * body.base.node_count + 0.5)
     end
-    if method.refill == "lattice" and seed > 1 then return nil end -- it does not depend on the seed
     return s.certify(s.refill(body.base, body.grid,
       {nodes = counts, style = method.refill, lattice = body.lattice, seed = seed}))
   end
@@ -67,22 +67,9 @@ local function make_chain(body, method, seed)
   return chain
 end
 
--- Speedup over the base in wall-clock time per simulated second, each at its own stable step, timed
--- alternately on a free-floating body. `layout` selects the kernel: "any shape" for both, or the
--- "fastest" for each, which for a lattice is a different one.
-local function speedup(body, model, layout)
-  local turns, least_seconds = 3, 0.02
-  body.seconds = body.seconds or least_seconds / timed_run.once(body.base, {duration = 0.1})
-  local scene, how = {duration = body.seconds}, {layout = layout}
-  local ratios = {}
-  for turn = 1, turns do
-    ratios[turn] = timed_run.long(body.base, scene, how, least_seconds)
-      / timed_run.long(model, scene, how, least_seconds)
-  end
-  return intervals.median(ratios).value
-end
-
--- The columns that describe a level; errors in percent.
+-- The columns that describe a level; errors in percent. Those without a function are measured by
+-- the clock, with a layout of s.run: "any shape" for both models, or the "fastest" for each, which
+-- for a lattice is a different one.
 local measures = {
   {"f1..10", function(c) return 100 * c.f1_10_error end},
   {"f11..20", function(c) return 100 * c.f11_20_error end},
@@ -90,8 +77,8 @@ local measures = {
   {"held-out loads", function(c) return 100 * c.held_out_load_error end},
   {"omega/base", function(c) return c.highest_frequency / c.base_highest_frequency end},
   {"base cost/cost", function(c) return c.base_cost / c.cost end},
-  {"same kernel", function(_, body, model) return speedup(body, model, "any shape") end},
-  {"fastest kernel", function(_, body, model) return speedup(body, model, "fastest") end},
+  {"same kernel", layout = "any shape"},
+  {"fastest kernel", layout = "fastest"},
   {"second moments", function(c) return 100 * c.second_moment_error end},
   {"mechanisms", function(c) return c.zero_modes > c.expected_zero_modes and 1 or 0 end},
 }
@@ -118,29 +105,128 @@ local function sample_of(level, method)
   return samples[key]
 end
 
--- The number, node count and measured values of each level that a method makes with a seed.
-local function measured_levels(body, method, seed)
-  local chain, levels = make_chain(body, method, seed), {}
-  for number, level in ipairs(chain and s.info(chain).levels or {}) do
-    if level.certificate then
-      local values = {}
-      for i, measure in ipairs(measures) do
-        values[i] = measure[2](level.certificate, body, chain[number - 1])
-      end
-      levels[#levels + 1] = {number = number - 1, nodes = level.nodes, values = values}
-    end
+-- What a unit is about; one process measures the units of a body one after another.
+local current = {}
+local function made(body)
+  if current.body ~= body then
+    local base, grid, lattice = body.make()
+    current = {body = body, base = base, grid = grid, lattice = lattice}
   end
-  return levels
+  return current
 end
 
-local function note(body, method, seed, levels)
-  for _, level in ipairs(levels) do
-    local row = {body.name, method.name, seed, level.number, level.nodes, body.base.node_count}
-    table.move(level.values, 1, #level.values, #row + 1, row)
+local function unit_name(body, method, seed)
+  return ("%s, %s, seed %d"):format(body.name, method.name, seed)
+end
+
+local function model_path(folder, name)
+  return ("%s/models/%s.glb"):format(folder, (name:gsub("[ ,]+", "-")))
+end
+
+local level_measures, times = {}, {} -- names
+for _, measure in ipairs(measures) do
+  table.insert(measure.layout and times or level_measures, measure[1])
+end
+
+-- Makes the levels of a method, which it saves, and reads their certificates.
+local function certified_levels(body, method, seed, folder)
+  local found = {}
+  local chain = make_chain(made(body), method, seed)
+  for number, level in ipairs(s.info(chain).levels) do
+    local certificate = level.certificate
+    if certificate then
+      local row = {level = number - 1, nodes = level.nodes, base_nodes = chain[0].node_count}
+      for _, measure in ipairs(measures) do
+        if measure[2] then row[measure[1]] = measure[2](certificate) end
+      end
+      found[#found + 1] = row
+    end
+  end
+  s.save(model_path(folder, unit_name(body, method, seed)), chain)
+  return found
+end
+
+-- Speedup over the base in wall-clock time per simulated second, each at its own stable step, timed
+-- alternately on a free-floating body.
+local function speedup(base, model, layout)
+  local turns, least_seconds = 3, 0.02
+  local seconds = least_seconds / timed_run.once(base, {duration = 0.1})
+  local scene, how = {duration = seconds}, {layout = layout}
+  local ratios = {}
+  for turn = 1, turns do
+    ratios[turn] = timed_run.long(base, scene, how, least_seconds)
+      / timed_run.long(model, scene, how, least_seconds)
+  end
+  return intervals.median(ratios).value
+end
+
+local function timed_levels(name, folder, levels)
+  local found = {}
+  local chain = s.load(model_path(folder, name))
+  for i, level in ipairs(levels) do
+    found[i] = {level = level.level}
+    for _, measure in ipairs(measures) do
+      if measure.layout then
+        found[i][measure[1]] = speedup(chain[0], chain[level.level], measure.layout)
+      end
+    end
+  end
+  return found
+end
+
+local function wanted(list, one)
+  for _, name in ipairs(list) do
+    if name == one.name then return true end
+  end
+  return false
+end
+
+-- Calls visit(body, method, seed, name of the unit) for all that is measured.
+local function each(visit)
+  for _, body in ipairs(bodies) do
+    for _, method in ipairs(methods) do
+      local both = wanted(args.bodies, body) and wanted(args.methods, method)
+      local count = method.refill == "lattice" and 1 or seeds -- it does not depend on the seed
+      for seed = 1, both and count or 0 do
+        visit(body, method, seed, unit_name(body, method, seed))
+      end
+    end
+  end
+end
+
+local timed_seconds = 1.5 -- of the timed runs of a unit: two levels, two layouts
+
+local function describe()
+  local levels, timed = {}, {}
+  each(function(body, method, seed, name)
+    levels[#levels + 1] = {
+      name = name, seconds = function() return conversion.fit_time(made(body).base) end,
+      make = function(folder) return certified_levels(body, method, seed, folder) end,
+    }
+    timed[#timed + 1] = {name = name, seconds = timed_seconds, make = function(folder, earlier)
+      return timed_levels(name, folder, earlier("levels", name))
+    end}
+  end)
+  return {
+    {name = "levels", units = levels,
+     columns = {"level", "nodes", "base_nodes", table.unpack(level_measures)}},
+    {name = "times", units = timed, alone = true, columns = {"level", table.unpack(times)},
+     timings = times},
+  }
+end
+
+local function note(body, method, seed, levels, timed)
+  for i, level in ipairs(levels) do
+    local values = {}
+    for k, measure in ipairs(measures) do
+      values[k] = (measure.layout and timed[i] or level)[measure[1]]
+    end
+    local row = {body.name, method.name, seed, level.level, level.nodes, level.base_nodes}
+    table.move(values, 1, #values, #row + 1, row)
     rows[#rows + 1] = row
-    local of_body = sample_of(level.number, method).by_body
+    local of_body = sample_of(level.level, method).by_body
     of_body[body.name] = of_body[body.name] or {}
-    table.insert(of_body[body.name], level.values)
+    table.insert(of_body[body.name], values)
   end
 end
 
@@ -213,13 +299,6 @@ local function print_means(all)
   print(meanings:format(several and " (worst body in parentheses)" or ""))
 end
 
-local function wanted(list, one)
-  for _, name in ipairs(list) do
-    if name == one.name then return true end
-  end
-  return false
-end
-
 -- The index of a measure by its name.
 local function index_of(name)
   for i, measure in ipairs(measures) do
@@ -227,40 +306,30 @@ local function index_of(name)
   end
 end
 
-local function draw_trade_off()
-  trade_off.chart(args.folder .. "/trade-off", function(level, method, measure)
+-- `note_of_gaps`: after the title.
+local function draw_trade_off(folder, note_of_gaps)
+  trade_off.chart(folder .. "/trade-off", function(level, method, measure)
     local sample = samples[level .. " " .. method]
     return sample and (summary(sample))[index_of(measure)]
-  end)
+  end, note_of_gaps)
 end
 
-local ok, failure = command.try_in(args.folder, function()
-  local store = unit_store.open(args.folder, {keep = keep})
-  for _, body in ipairs(bodies) do
-    if wanted(args.bodies, body) then
-      body.base, body.grid, body.lattice = body.make()
-      for _, method in ipairs(methods) do
-        for seed = 1, wanted(args.methods, method) and seeds or 0 do
-          local unit = ("%s, %s, seed %d"):format(body.name, method.name, seed)
-          local made, levels = command.try(store.value, store, unit, function()
-            return measured_levels(body, method, seed)
-          end)
-          if made then
-            note(body, method, seed, levels)
-          else
-            s.say(("%s: skipped: %s"):format(unit, levels))
-          end
-        end
-      end
-      s.say(("%s: %d nodes measured"):format(body.name, body.base.node_count))
+local function report(results, folder)
+  each(function(body, method, seed, name)
+    local levels, reason = results:rows("levels", name)
+    local timed, untimed = results:rows("times", name)
+    if levels and timed then
+      note(body, method, seed, levels, timed)
+    else
+      s.say(("%s: left out: %s"):format(name, reason or untimed))
     end
-  end
-  s.csv(args.folder .. "/levels.csv", rows, {columns = level_columns})
+  end)
+  s.csv(folder .. "/levels.csv", rows, {columns = level_columns})
   local all = summary_rows()
-  s.csv(args.folder .. "/methods.csv", all, {columns = method_columns})
+  s.csv(folder .. "/methods.csv", all, {columns = method_columns})
   print_means(all)
-  if args.trade_off then draw_trade_off() end
-  store:remove()
-end, true)
-if not ok then command.fail("accuracy: %s", failure) end
-s.say("wrote " .. args.folder)
+  if args.trade_off then draw_trade_off(folder, results:note()) end
+end
+
+return study.run(args, {describe = describe, report = report,
+                        hint = "--quick, --bodies, --methods and --seeds shorten it"})

@@ -10,14 +10,15 @@ local paper_runs = require "studies.paper.runs"
 local paper_studies = require "studies.paper.studies"
 local paper_tables = require "studies.paper.tables"
 local paper_variants = require "studies.paper.variants"
-local run_store = require "lib.run_store"
 local show = require "lib.show"
 local split_table = require "lib.split_table"
+local study = require "lib.study"
 
 local parser = command.parser("paper", "Reproduce the tables and figures of Kot, Nagahashi and "
   .. "Gracki, \"Simplification of mass spring models\", from many runs each. Writes index.html (a "
-  .. "page with all of it), CSV files, charts, tables.md and figure-N.png. After an interruption "
-  .. "(Ctrl-C) the same command resumes.")
+  .. "page with all of it), CSV files, charts, tables.md, figure-N.png and models/ (all levels). "
+  .. "After an interruption (Ctrl-C) the same command resumes; springlod sweep plan paper makes a "
+  .. "plan of it for other machines.")
 command.add_out(parser, "out/paper")
 parser:flag("--quick", "use few runs: a test of the command, without significance")
 parser:option("--starts", "paired starts of each model (default: 48; --quick: 8)")
@@ -44,7 +45,7 @@ parser:flag("--volumes", "give the models corners, which the paper's do not have
   .. "their shape. The tables then count the runs with inverted corners at the end")
 parser:flag("--calibrated", "add calibrated levels with 45 % and 20 % of the nodes: LOD-fit-b (the "
   .. "paper's groups), LOD-fit-compact-b, and LOD-fit-compact-s and -sp, whose contact is on the "
-  .. "surface of the base; the runs of a folder without them are reused")
+  .. "surface of the base")
 parser:option("--variants", "run these variants only")
   :argname("<name>"):args("+"):choices(paper_variants.labels())
 parser:flag("--no-figures", "write tables only")
@@ -62,26 +63,17 @@ local settings = {
   volumes = args.volumes or false,
 }
 
--- Everything that a run depends on.
-local function run_settings()
-  return {
-    springlod = s.version, starts = settings.starts, jitter = settings.jitter,
-    friction = settings.friction, seed = settings.seed, ball_speed = settings.ball_speed,
-    simplifications = settings.simplifications, speed_scale = settings.speed_scale,
-    ball_materials = settings.ball_materials or "samples",
-    rods_materials = settings.rods_materials or "samples",
-    speeds = table.concat(settings.speeds, " "), volumes = settings.volumes,
-  }
-end
-
 local lines = {} -- of tables.md
 
 local function write_line(line) lines[#lines + 1] = line end
 
 local charts, tables = {}, {} -- of the page
+local folder -- to write to
+local note = "" -- after titles of charts: what is missing
 
 local function draw(name, series, options)
-  command.chart(("%s/%s"):format(args.out, name), series, options)
+  options.title = options.title .. note
+  command.chart(("%s/%s"):format(folder, name), series, options)
   charts[#charts + 1] = {series, options}
 end
 
@@ -103,7 +95,7 @@ end
 
 -- Writes a table to the terminal and the page, to tables.md and, with all digits, to a CSV file.
 local function publish(name, title, rows, columns, shown, shown_columns)
-  s.csv(("%s/%s.csv"):format(args.out, name), rows, {columns = columns})
+  s.csv(("%s/%s.csv"):format(folder, name), rows, {columns = columns})
   shown, shown_columns = shown or rows, shown_columns or columns
   local texts = {}
   for number, row in ipairs(shown) do
@@ -132,8 +124,8 @@ local function publish(name, title, rows, columns, shown, shown_columns)
   write_line(("\n## %s\n\n%s"):format(title, markdown.table(texts, shown_columns)))
 end
 
-local function table_1(ball)
-  local rows = paper_tables.rows(ball, settings)
+local function table_1(ball, results)
+  local rows = paper_tables.rows(ball, settings, results)
   publish("table-1", "Table 1: how far the ball rolls", rows, paper_tables.columns,
     paper_tables.readable(rows))
   -- One series per variant.
@@ -142,10 +134,14 @@ local function table_1(ball)
             high = row.distance_high}
   end
   local series = {{name = "base", points = {point(rows[1])}}}
-  for i = 2, #rows, 2 do
-    series[#series + 1] = {
-      name = rows[i].model:gsub("-1$", ""), points = {point(rows[i]), point(rows[i + 1])},
-    }
+  for i = 2, #rows do
+    local name = rows[i].model:gsub("-%d$", "")
+    local of_level_1 = series[#series]
+    if of_level_1.name == name then
+      table.insert(of_level_1.points, point(rows[i]))
+    else
+      series[#series + 1] = {name = name, points = {point(rows[i])}}
+    end
   end
   draw("table-1-chart", series, {
     title = "Table 1: how far the ball rolls, mean of the starts and its 95 % interval",
@@ -153,7 +149,7 @@ local function table_1(ball)
   })
 end
 
-local function table_2(rods)
+local function table_2(rods, results)
   local all, means = {}, {}
   -- Models stand beside each other at each speed, so that intervals do not overlap; at a single
   -- speed they are numbered.
@@ -162,7 +158,7 @@ local function table_2(rods)
   for _, one in ipairs(rods) do low, high = math.min(low, one.speed), math.max(high, one.speed) end
   local beside = single and 1 or 0.0025 * (high - low)
   for _, one in ipairs(rods) do
-    local rows = paper_tables.rows(one, settings)
+    local rows = paper_tables.rows(one, settings, results)
     for i, row in ipairs(rows) do
       all[#all + 1] = row
       if not means[row.model] then
@@ -177,7 +173,7 @@ local function table_2(rods)
     publish("table-2-speed-" .. one.speed, ("Table 2: final distance from the wall, speed %g")
       :format(one.speed), rows, paper_tables.columns, paper_tables.readable(rows))
   end
-  s.csv(args.out .. "/table-2.csv", all, {columns = paper_tables.columns})
+  s.csv(folder .. "/table-2.csv", all, {columns = paper_tables.columns})
   publish("table-2-over-speeds", "Table 2 over the speeds: mean |difference from the base| [m]",
     paper_tables.over_speeds(rods, all))
   draw("table-2-chart", means, {
@@ -195,23 +191,42 @@ local untrustworthy = "A quick run with few starts: a test of the command. Its d
 local function write_page(summary, figures)
   local pictures = {}
   for i, figure in ipairs(figures) do
-    pictures[i] = {path = ("%s/%s"):format(args.out, figure.file), caption = figure.title}
+    pictures[i] = {path = ("%s/%s"):format(folder, figure.file), caption = figure.title}
   end
-  page.write(args.out .. "/index.html", {
+  page.write(folder .. "/index.html", {
     command = "paper", title = "The tables and figures of the paper, reproduced",
     verdict = args.quick and {untrustworthy, summary} or {summary}, charts = charts,
     tables = tables, pictures = pictures,
-    line = command.line(), provenance = page.provenance(nil, {
+    line = command.line(args), provenance = page.provenance(nil, {
       {"paper", "Kot, Nagahashi and Gracki, Simplification of mass spring models, WorldComp CGV "
         .. "2012"}}),
   })
 end
 
-local function paper()
-  local cases = paper_runs.cases(settings) -- before opening the store, as materials may be invalid
-  local store = run_store.open(args.out .. "/runs", run_settings())
+local cases
+
+local function describe()
+  cases = paper_runs.cases(settings)
   local all = {cases.ball, table.unpack(cases.rods)}
-  paper_runs.run(all, settings, store)
+  local ball_and_rods = {cases.ball, cases.rods[1]}
+  local stages = {
+    paper_runs.chain_stage(all, settings), paper_runs.stage(all, settings),
+    paper_studies.early_errors(ball_and_rods, settings),
+    paper_studies.three_runs(cases.rods, settings), paper_studies.energy(ball_and_rods, settings),
+    paper_studies.elasticity(settings), paper_studies.random_models(settings),
+    paper_studies.sensitivity(settings),
+  }
+  for i = 3, #stages do stages[i].waits = false end
+  return stages
+end
+
+-- Publishes the rows of a stage that is a table as it is.
+local function publish_stage(results, name, title)
+  publish(name, title, results:all(name), results:columns(name))
+end
+
+local function report(results, out)
+  folder, note = out, results:note()
   write_line("# The tables of the paper, reproduced\n")
   local summary = ("%d paired starts, %d simplification seeds, jitter %g, friction %g, 1 unit of "
     .. "speed = %g m/s, seed %d. W1: 1-Wasserstein distance to the base; inside: simplification "
@@ -220,28 +235,28 @@ local function paper()
     settings.starts, settings.simplifications, settings.jitter, settings.friction,
     settings.speed_scale, settings.seed, settings.margin,
     settings.volumes and "that end with inverted corners" or "in which springs inverted")
+  summary = summary .. note
   if args.quick then write_line(untrustworthy .. "\n") end
   write_line(summary)
-  table_1(cases.ball)
-  table_2(cases.rods)
+  local balls = paper_runs.read({cases.ball}, settings, results)
+  local rods = paper_runs.read(cases.rods, settings, results)
+  if #balls > 0 then table_1(cases.ball, results) end
+  if #rods > 0 then table_2(rods, results) end
   local figures = args.no_figures and {}
-    or paper_figures.draw(args.out, {seed = settings.seed, quick = args.quick})
-  publish("early-errors", "Early errors: mean distance from the base's nodes [m]",
-    paper_studies.early_errors({cases.ball, cases.rods[1]}, settings, store))
-  publish("three-runs", "The paper's method: three runs with different time steps [m]",
-    paper_studies.three_runs(cases.rods, settings, store))
-  publish("energy", "Largest energy difference / largest kinetic energy of the base",
-    paper_studies.energy({cases.ball, cases.rods[1]}, settings, store))
-  publish("elasticity", "Elasticity: errors of the ten lowest frequencies",
-    paper_studies.elasticity(settings, store))
-  publish("random-models", "Random models: eq. 2 compared with a stretch test",
-    paper_studies.random_models(settings, store))
-  publish("sensitivity", "Sensitivity: growth of a change of 0.1 % in the start",
-    paper_studies.sensitivity(settings, store))
-  s.save_text(args.out .. "/tables.md", table.concat(lines, "\n") .. "\n")
+    or paper_figures.draw(folder, {seed = settings.seed, quick = args.quick})
+  publish_stage(results, "early-errors", "Early errors: mean distance from the base's nodes [m]")
+  publish_stage(results, "three-runs",
+    "The paper's method: three runs with different time steps [m]")
+  publish_stage(results, "energy",
+    "Largest energy difference / largest kinetic energy of the base")
+  publish_stage(results, "elasticity", "Elasticity: errors of the ten lowest frequencies")
+  publish_stage(results, "random-models", "Random models: eq. 2 compared with a stretch test")
+  publish_stage(results, "sensitivity", "Sensitivity: growth of a change of 0.1 % in the start")
+  s.save_text(folder .. "/tables.md", table.concat(lines, "\n") .. "\n")
   write_page(summary, figures)
 end
 
-local ok, reason = command.try_in(args.out, paper, true)
-if not ok then command.fail("paper: %s", reason) end
-s.say("tables.md, CSV files, charts and figures are in " .. args.out)
+return study.run(args, {
+  describe = describe, report = report, keep = true,
+  hint = "--quick, --starts, --simplifications and --variants shorten it",
+})

@@ -2,19 +2,16 @@
 
 local s = require "springlod"
 local command = require "lib.command"
-local conversion = require "lib.conversion"
 local page = require "lib.page"
 local pareto_chains = require "studies.pareto.chains"
 local pareto_charts = require "studies.pareto.charts"
-local pareto_estimate = require "studies.pareto.estimate"
 local pareto_ensembles = require "studies.pareto.ensembles"
 local pareto_surfaces = require "studies.pareto.surfaces"
 local pareto_tables = require "studies.pareto.tables"
 local pareto_times = require "studies.pareto.times"
 local pareto_variants = require "studies.pareto.variants"
 local run_estimate = require "lib.run_estimate"
-local run_store = require "lib.run_store"
-local progress = require "lib.progress"
+local study = require "lib.study"
 
 local all = pareto_variants.axes
 
@@ -26,7 +23,8 @@ local parser = command.parser("pareto", "Simplify the base of an asset with ever
   .. "of it), NAME.svg, NAME.png, NAME.csv "
   .. "and NAME-front.csv for each error, points.csv, timings.csv (only the measured times, and "
   .. "what is drawn from them, vary between runs), left-out.csv, models/ (all levels) and "
-  .. "command.txt. After an interruption (Ctrl-C) the same command resumes.")
+  .. "command.txt. After an interruption (Ctrl-C) the same command resumes; springlod sweep plan "
+  .. "pareto makes a plan of it for other machines.")
 parser:argument("asset", "a .glb asset, written by convert or s.save; only its base is used")
 parser:option("--scenario", "Lua file that returns a table for s.scenario")
   :argname("<file.lua>"):count(1)
@@ -91,108 +89,140 @@ local function settings_of(asset)
   }
 end
 
--- Everything that kept results depend on. The axes and the number of seeds may change between runs.
-local function store_settings(settings, scene)
-  return {
-    springlod = s.version, asset = s.hash{file = args.asset}, scene = scene, keep = settings.keep,
-    starts = settings.starts, jitter = settings.jitter, seed = settings.seed,
-    repeats = settings.repeats, implicit_step = settings.implicit_step,
-    surface_time = settings.surface_time or "first contact",
-  }
+-- Processor time of a run of a variant to the end of the scenario [s]: a run of a level costs about
+-- its share of the nodes. What cannot be run fails at once.
+local function seconds_of(of)
+  local found = {}
+  return function(variant)
+    local stepping = variant.stepping.name
+    if not found[stepping] then
+      found[stepping] = of.scenario.duration
+        * (run_estimate.of(of.base, of.scene, variant.step_options) or 0)
+    end
+    return found[stepping] * (variant.level > 0 and of.settings.keep[variant.level] or 1)
+  end
 end
 
--- The measurements of each variant: {name, object, name of its method}.
-local function measures_of(study)
-  local measures = {}
+-- All levels of all methods with all ways to run them, the base first.
+local function variants_of(methods, settings)
+  local variants = {}
+  for _, making in ipairs(methods) do
+    local steppings = pareto_variants.steppings(axes, making)
+    for level = making.grouping and 1 or 0, making.grouping and #settings.keep or 0 do
+      for _, stepping in ipairs(steppings) do
+        variants[#variants + 1] = pareto_variants.variant(making, level, stepping,
+          settings.implicit_step)
+      end
+    end
+  end
+  if #variants == 0 or variants[1].making.grouping then
+    error("nothing to run: only symplectic_euler supports single precision; add double to "
+      .. "--precisions", 0)
+  end
+  return variants
+end
+
+local asset, current -- what is studied
+
+local function describe()
+  local scene = command.load_table(args.scenario)
+  asset = s.load(args.asset)
+  local settings = settings_of(asset)
+  current = {
+    base = asset[0], size = asset[0].bounds.diagonal, scene = scene, scenario = s.scenario(scene),
+    settings = settings,
+  }
+  current.seconds = seconds_of(current)
+  local methods = pareto_variants.methods(axes)
+  current.variants = variants_of(methods, settings)
+  local stages = {pareto_chains.stage(current, methods)}
+  local function add(stage) stages[#stages + 1] = stage end
   if wanted.surface then
-    study.surfaces = pareto_surfaces.new(study)
-    s.say(("surfaces are compared until %.3g s"):format(study.surfaces.time))
-    measures[#measures + 1] = {"surface", study.surfaces, "error_of"}
+    add(pareto_surfaces.times_stage(current, current.variants[1]))
+    add(pareto_surfaces.stage(current, current.variants))
   end
-  if wanted.ensemble then
-    study.ensembles = pareto_ensembles.new(study)
-    measures[#measures + 1] = {"ensemble", study.ensembles, "error_of"}
+  if wanted.ensemble then add(pareto_ensembles.stage(current, current.variants)) end
+  add(pareto_times.stage(current, current.variants))
+  return stages
+end
+
+-- The measurements of each variant: {name, object, name of its method}. Those that have no base to
+-- compare with are added to `left_out`.
+local function measures_of(results, left_out)
+  local measures = {}
+  local function add(name, method, object, reason)
+    current[name] = object
+    if object then
+      measures[#measures + 1] = {name, object, method}
+    else
+      left_out[#left_out + 1] = {"base", name, reason}
+      s.say(("no %s: %s"):format(name, reason))
+    end
   end
-  study.times = pareto_times.new(study)
-  measures[#measures + 1] = {"cost", study.times, "cost_of"}
+  if wanted.surface then add("surface", "error_of", pareto_surfaces.read(current, results)) end
+  if wanted.ensemble then add("ensemble", "error_of", pareto_ensembles.read(current, results)) end
+  add("cost", "cost_of", pareto_times.read(results))
   return measures
 end
 
--- Errors and cost of a variant by name. Failed measurements are added to `left_out`.
-local function measure(variant, chains, elastic, measures, left_out)
+-- Errors and cost of a variant by name. Missing measurements are added to `left_out`.
+local function measure(variant, elastic, measures, left_out)
   local found = {frequencies = wanted.frequencies and elastic.frequencies or nil,
                  loads = wanted.loads and elastic.loads or nil}
   for _, one in ipairs(measures) do
     local name, object, method = table.unpack(one)
-    local ok, result = command.try(object[method], object, variant, chains)
-    if ok then
-      found[name] = result
-    else
-      left_out[#left_out + 1] = {variant.name, name, result}
-      s.say(("%s: no %s: %s"):format(variant.label, name, result))
+    local reason
+    found[name], reason = object[method](object, variant)
+    if not found[name] then
+      left_out[#left_out + 1] = {variant.name, name, reason}
+      s.say(("%s: no %s: %s"):format(variant.label, name, reason))
     end
   end
   return found
 end
 
-local function measure_all(study, measures, left_out)
-  local methods = pareto_variants.methods(axes)
-  local base, steppings = methods[1], {}
-  for _, making in ipairs(methods) do
-    steppings[making] = pareto_variants.steppings(axes, making)
-  end
-  if #steppings[base] == 0 then
-    error("nothing to run: only symplectic_euler supports single precision; add double to "
-      .. "--precisions", 0)
-  end
-  local settings, variants = study.settings, {}
-  local levels = #settings.keep
-  local total = #steppings[base]
-  for i = 2, #methods do total = total + settings.seeds + levels * #steppings[methods[i]] end
-  local report = progress(total)
-  for _, making in ipairs(methods) do
-    local ok, chains = command.try(pareto_chains.of, study, making, report)
-    if not ok then
-      left_out[#left_out + 1] = {making.name, "levels", chains}
-      s.say(("%s: skipped: %s"):format(making.name, chains))
-    else
-      for level = making.grouping and 1 or 0, making.grouping and levels or 0 do
-        local elastic = pareto_chains.elastic_errors(chains, level)
-        for _, stepping in ipairs(steppings[making]) do
-          local variant = pareto_variants.variant(making, level, stepping, settings.implicit_step)
-          variant.nodes = chains[1][level].node_count
-          variant.springs = chains[1][level].spring_count
-          variant.measured = measure(variant, chains, elastic, measures, left_out)
-          variants[#variants + 1] = variant
-          report(variant.label)
-        end
-      end
+-- The variants whose levels could be made, each with its field `measured`. Others are added to
+-- `left_out`, once for each method.
+local function measure_all(results, measures, left_out)
+  local measured, told = {}, {}
+  for _, variant in ipairs(current.variants) do
+    local making = variant.making
+    local elastic, reason = pareto_chains.read(current, results, making, variant.level)
+    if elastic then
+      variant.nodes, variant.springs = elastic.nodes, elastic.springs
+      variant.measured = measure(variant, elastic, measures, left_out)
+      measured[#measured + 1] = variant
+    elseif not told[making] then
+      told[making] = true
+      left_out[#left_out + 1] = {making.name, "levels", reason}
+      s.say(("%s: skipped: %s"):format(making.name, reason))
     end
   end
-  return variants
+  return measured
 end
 
--- The chart of each error.
-local function charts_of(study)
-  local name, charts = study.scenario.name, {
+-- The chart of each error. `note`: after titles.
+local function charts_of(note)
+  local name, charts = current.scenario.name, {
     {name = "frequencies", title = "Frequencies",
       y_label = "20 lowest frequencies, rms error [%]"},
     {name = "loads", title = "Local loads that no calibration is fitted to",
       y_label = "compliance, mean error [%]"},
   }
-  if wanted.surface then
+  if current.surface then
     charts[#charts + 1] = {name = "surface",
       title = ("Surfaces until shortly after contact (%s, up to %.2f s)"):format(name,
-        study.surfaces.time),
+        current.surface.time),
       y_label = "distance from the base's, rms, mean over time [% of its size]",
-      floor = study.surfaces.floor.value, floor_name = "half the step"}
+      floor = current.surface.floor.value, floor_name = "half the step"}
   end
-  if wanted.ensemble then
+  if current.ensemble then
     charts[#charts + 1] = {name = "ensemble",
-      title = ("Where %d starts end (%s)"):format(study.settings.starts, name),
+      title = ("Where %d starts end (%s)"):format(current.settings.starts, name),
       y_label = "Wasserstein distance from the base's [m]",
-      floor = study.ensembles.floor.level, floor_name = "noise floor"}
+      floor = current.ensemble.floor.level, floor_name = "noise floor"}
   end
+  for _, chart in ipairs(charts) do chart.title = chart.title .. note end
   return charts
 end
 
@@ -204,59 +234,54 @@ local function sentence(chart, front, count)
     first.variant.label, first.x, first.y, last.variant.label, last.x, last.y)
 end
 
-local function write_page(asset, verdict, charts, tables)
-  page.write(args.out .. "/index.html", {
+local function write_page(folder, verdict, charts, tables)
+  page.write(folder .. "/index.html", {
     command = "pareto", title = "Cost against error of every way to simplify "
       .. command.base_name(args.asset),
     verdict = verdict, view = s.view(asset), charts = charts, tables = tables,
-    line = command.line(), provenance = page.provenance(asset, {
+    line = command.line(args), provenance = page.provenance(asset, {
       {"asset", ("%s (hash %s)"):format(args.asset, s.hash{file = args.asset})},
       {"scenario", ("%s (hash %s)"):format(args.scenario, s.hash{file = args.scenario})}}),
   })
 end
 
-local function report(study, asset, variants, left_out)
-  pareto_tables.save(args.out, variants, left_out, study)
+-- Draws the charts and prints the fronts. Returns sentences, charts and tables for the page.
+local function draw_charts(folder, variants, note)
   local x_label = ("wall-clock cost of a simulated second, base = 1 (base: %.3g s)"):format(
-    study.times:base_cost())
+    current.cost:base_cost())
   local verdict, drawn, tables = {}, {}, {}
-  for _, chart in ipairs(charts_of(study)) do
+  for _, chart in ipairs(charts_of(note)) do
     if wanted[chart.name] then
       chart.x_label = x_label
       local front
-      front, drawn[#drawn + 1] = pareto_charts.draw(args.out, variants, chart)
-      tables[#tables + 1] = pareto_tables.show_front(args.out, chart, front)
+      front, drawn[#drawn + 1] = pareto_charts.draw(folder, variants, chart)
+      tables[#tables + 1] = pareto_tables.show_front(folder, chart, front)
       if #front > 0 then verdict[#verdict + 1] = sentence(chart, front, #variants) end
       if chart.name == "surface" then
-        pareto_charts.draw_over_time(args.out, front, study.surfaces.floor, chart.title)
+        pareto_charts.draw_over_time(folder, front, current.surface.floor, chart.title)
       end
     end
   end
+  return verdict, drawn, tables
+end
+
+local function report(results, folder)
+  local left_out = {}
+  local measures = measures_of(results, left_out)
+  local variants = measure_all(results, measures, left_out)
+  pareto_tables.save(folder, variants, left_out, current)
+  local verdict, drawn, tables = draw_charts(folder, variants, results:note())
   print([[
 A front has the variants than which no other is both cheaper and more accurate. cost / base: time
 for a simulated second over that of the base, by the clock. In parentheses: 95 % intervals.]])
-  write_page(asset, verdict, drawn, tables)
+  s.save_text(folder .. "/command.txt", command.line(args) .. "\n")
+  write_page(folder, verdict, drawn, tables)
   if #left_out > 0 then
     print(("failed levels and measurements: %d (see left-out.csv)"):format(#left_out))
   end
 end
 
-local function pareto()
-  local scene, asset = command.load_table(args.scenario), s.load(args.asset)
-  -- Before the store is opened, because either may be invalid.
-  local settings, scenario = settings_of(asset), s.scenario(scene)
-  local study = {
-    base = asset[0], size = asset[0].bounds.diagonal, scene = scene, scenario = scenario,
-    settings = settings, folder = args.out,
-    store = run_store.open(args.out .. "/runs", store_settings(settings, scene)),
-  }
-  s.save_text(args.out .. "/command.txt", command.line() .. "\n")
-  run_estimate.announce("all of it", pareto_estimate(study, axes, wanted, conversion.fit_time),
-    (args.quick and "" or "--quick, ") .. "fewer --errors, --starts and variants shorten it")
-  local measures, left_out = measures_of(study), {}
-  report(study, asset, measure_all(study, measures, left_out), left_out)
-end
-
-local ok, reason = command.try_in(args.out, pareto, true)
-if not ok then command.fail("pareto of %s: %s", args.asset, reason) end
-s.say("wrote " .. args.out)
+return study.run(args, {
+  describe = describe, report = report, keep = true, failure = "pareto of " .. args.asset,
+  hint = (args.quick and "" or "--quick, ") .. "fewer --errors, --starts and variants shorten it",
+})

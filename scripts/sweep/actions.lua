@@ -1,13 +1,25 @@
 -- What springlod sweep does: one function for each action, called with its arguments.
 
 local s = require "springlod"
+local command = require "lib.command"
+local merge = require "sweep.merge"
 local show = require "lib.show"
+local study = require "lib.study"
 local update_rate = require "sweep.update_rate"
 
 local actions = {}
 
+-- The path of a script that is named as a file or, for a study, as a command.
+local function script_of(name)
+  for _, one in ipairs(study.names) do
+    if name == one then return command.path_of(one) end
+  end
+  return name
+end
+
 -- The sweep that the script at `path` returns, called with `arguments`.
 local function load_sweep(path, arguments)
+  study.planning = true
   local folder = path:match("^(.*)/") or "."
   package.path = folder .. "/?.lua;" .. package.path
   rawset(_G, "arg", {[0] = path, table.unpack(arguments)})
@@ -27,12 +39,14 @@ end
 local function time_of(seconds) return show.measured(seconds, "time") end
 
 function actions.plan(args)
-  local sweep = load_sweep(args.target, args.arguments)
+  local script = script_of(args.target)
+  local sweep = load_sweep(script, args.arguments)
   local estimated = false
   for _, stage in ipairs(sweep.stages) do estimated = estimated or stage.estimated end
   local plan = s.plan_sweep(sweep, args.out, {
-    script = args.target, arguments = args.arguments,
-    seconds_per_cost = estimated and 1 / update_rate() or args.seconds or 1, pilot = estimated,
+    script = script, arguments = args.arguments,
+    seconds_per_cost = estimated and 1 / update_rate() or args.seconds or 1,
+    pilot = estimated and script == args.target, -- studies estimate times
   })
   print(tostring(sweep))
   print(("%s of about %s each, %s of one core in all"):format(count_of(plan.tasks, "task"),
@@ -99,63 +113,10 @@ end
 -- What s.run_sweep starts.
 function actions.work(args) s.work_on_sweep(named_sweep(args), args.target, args.log) end
 
--- Axes and columns of a stage, in the order of its tables.
-local function columns_of(stage, after)
-  local columns = {"unit"}
-  for _, list in ipairs{stage.axes, after} do
-    table.move(list, 1, #list, #columns + 1, columns)
-  end
-  return columns
-end
-
--- The rows of a stage, by unit, with an empty one for each unit that has none; `missing` says why.
-local function with_gaps(stage, results)
-  local all, next_gap = {}, 1
-  local function add_gaps(before)
-    local gap = results.gaps[next_gap]
-    while gap and gap.unit < before do
-      local row = {unit = gap.unit, missing = ("%s: %s"):format(gap.state, gap.message)}
-      for _, axis in ipairs(stage.axes) do row[axis] = gap[axis] end
-      all[#all + 1] = row
-      next_gap = next_gap + 1
-      gap = results.gaps[next_gap]
-    end
-  end
-  for _, row in ipairs(results.rows) do
-    add_gaps(row.unit)
-    all[#all + 1] = row
-  end
-  add_gaps(math.huge)
-  return all
-end
-
-local function write_stage(folder, stage, results, name)
-  local columns = columns_of(stage, stage.columns)
-  columns[#columns + 1] = "missing"
-  s.csv(("%s/%s.csv"):format(folder, name), with_gaps(stage, results), {columns = columns})
-  return columns_of(stage, {"state", "message", "host", "signal", "log"})
-end
-
 -- What s.merge_sweep starts.
 function actions.gather(args)
-  local folder = args.target
-  local sweep = named_sweep(args)
-  local last
-  for number, stage in ipairs(sweep.stages) do
-    local results = s.sweep_results(sweep, folder, {stage = number})
-    local suffix = #sweep.stages > 1 and "-" .. stage.name:gsub("%W+", "-") or ""
-    local columns = write_stage(folder, stage, results, "results" .. suffix)
-    s.csv(("%s/gaps%s.csv"):format(folder, suffix), results.gaps, {columns = columns})
-    s.csv(("%s/runs%s.csv"):format(folder, suffix), results.runs,
-      {columns = {"unit", "seconds", "memory", "host", "target", "springlod"}})
-    if #results.gaps > 0 then
-      s.say(("%s without a result, see gaps%s.csv; the first is unit %d: %s"):format(
-        count_of(#results.gaps, "unit"), suffix, results.gaps[1].unit, results.gaps[1].message))
-    end
-    last = results
-  end
-  if sweep.report then sweep.report(last, folder) end
-  s.say("wrote " .. folder)
+  merge(named_sweep(args), args.target)
+  s.say("wrote " .. args.target)
 end
 
 return actions

@@ -17,8 +17,8 @@ local lines = {
 }
 
 -- Writes PATH.svg and PATH.png. mean_of(level, method, measure) returns the mean, or nil if it was
--- not measured.
-function trade_off.chart(path, mean_of)
+-- not measured. `note`: after the title.
+function trade_off.chart(path, mean_of, note)
   local series = {}
   for i, line in ipairs(lines) do
     local points = {}
@@ -34,7 +34,7 @@ function trade_off.chart(path, mean_of)
   end
   for _, ending in ipairs{".svg", ".png"} do
     s.chart(path .. ending, series, {
-      title = "What smaller levels cost in accuracy",
+      title = "What smaller levels cost in accuracy" .. note,
       x_label = "base cost / cost of a simulated second (springs over stable step)",
       y_label = "error [%]",
       log_x = true,

@@ -22,13 +22,14 @@ paper_tables.columns = {
 }
 
 -- Node and end counts of a level, means over the seeds.
-local function counts(one, variant, level, settings)
+local function counts(one, variant, level, settings, results)
   local function mean_of(field)
     return math.floor(mean(paper_runs.by_seed(settings, function(seed)
-      return paper_runs.chain(one.base, variant, seed)[level][field]
+      local rows = results:rows("levels", paper_runs.chain_name(one, variant, seed))
+      return rows and rows[level][field]
     end)) + 0.5)
   end
-  return mean_of("node_count"), mean_of("end_count")
+  return mean_of("nodes"), mean_of("ends")
 end
 
 local function base_row(one)
@@ -41,7 +42,7 @@ local function base_row(one)
   }
 end
 
-local function level_row(one, variant, level, floor, settings)
+local function level_row(one, variant, level, floor, settings, results)
   local label = paper_variants.label(variant.name, level)
   local seeds = one.levels[label]
   local c = s.compare_samples(one.base_distances, by_start(seeds),
@@ -51,7 +52,7 @@ local function level_row(one, variant, level, floor, settings)
   for _, distances in ipairs(seeds) do
     if floor:judge(one.base_distances, distances).inside then inside = inside + 1 end
   end
-  local nodes, ends = counts(one, variant, level, settings)
+  local nodes, ends = counts(one, variant, level, settings, results)
   return {
     case = one.name, model = label, nodes = nodes, ends = ends,
     distance = m.mean, distance_low = m.mean_low, distance_high = m.mean_high,
@@ -87,12 +88,15 @@ local function with_paper_values(row, one)
   return row
 end
 
--- The rows of one case: the base, then the levels of every variant.
-function paper_tables.rows(one, settings)
+-- The rows of one case: the base, then the levels of every variant that has results.
+function paper_tables.rows(one, settings, results)
   local floor = s.noise_floor(one.noise, {size = #one.base_distances})
   local rows = {with_paper_values(base_row(one), one)}
-  paper_runs.each_level(one, function(_, variant, level)
-    rows[#rows + 1] = with_paper_values(level_row(one, variant, level, floor, settings), one)
+  paper_runs.each_level(one, function(label, variant, level)
+    if one.levels[label] then
+      rows[#rows + 1] = with_paper_values(
+        level_row(one, variant, level, floor, settings, results), one)
+    end
   end)
   return rows
 end
@@ -130,16 +134,19 @@ function paper_tables.over_speeds(cases, all)
   }
   paper_runs.each_level(cases[1], function(label)
     local ours, spreads, theirs = {}, {}, {}
-    for i, one in ipairs(cases) do
+    for _, one in ipairs(cases) do
+      if not one.levels[label] then goto continue end
       local seeds = {}
       for _, distances in ipairs(one.levels[label]) do seeds[#seeds + 1] = mean(distances) end
-      ours[i] = math.abs(mean(seeds) - mean(one.base_distances))
-      spreads[i] = ours[i] / spread[one.name]
+      ours[#ours + 1] = math.abs(mean(seeds) - mean(one.base_distances))
+      spreads[#spreads + 1] = ours[#ours] / spread[one.name]
       local paper = paper_numbers.at(label, one.speed)
       if paper then
         theirs[#theirs + 1] = math.abs(paper[1] - paper_numbers.at("base", one.speed)[1])
       end
+      ::continue::
     end
+    if #ours == 0 then return end
     local inside, seed_count, pooled = inside_floor(label, all)
     rows[#rows + 1] = {
       model = label, mean_difference = mean(ours), mean_over_spread = mean(spreads),

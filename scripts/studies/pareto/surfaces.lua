@@ -4,11 +4,9 @@
 local s = require "springlod"
 local by_start = require "lib.by_start"
 local cut_scene = require "lib.cut_scene"
+local pareto_chains = require "studies.pareto.chains"
 
 local pareto_surfaces = {}
-
-local Surfaces = {}
-Surfaces.__index = Surfaces
 
 -- Comparison ends this long after the first contact [s], as in s.compare: bouncing is chaotic, so
 -- later deviations of single runs mean nothing.
@@ -50,90 +48,132 @@ local function comparable_time_of_start(study, start)
   return last
 end
 
--- The shortest comparable time of all starts [s].
-local function comparable_time(study)
-  local rows = study.store:rows("chaos", {"start", "time"}, function()
-    local found = {}
-    for start = 1, study.settings.starts do
-      found[start] = {start = start, time = comparable_time_of_start(study, start)}
-    end
-    return found
-  end)
+local function start_name(start) return "start-" .. start end
+
+-- The stage that finds the comparable time of each start. `study`: base, size [m], scene, scenario,
+-- settings (starts, jitter, seed, surface_time) and seconds(variant), the time of one run.
+function pareto_surfaces.times_stage(study, base_variant)
+  local units = {}
+  for start = 1, study.settings.starts do
+    units[start] = {
+      name = start_name(start),
+      seconds = function() return 3 * study.seconds(base_variant) end,
+      make = function()
+        local time = comparable_time_of_start(study, start)
+        if time < 1 / frame_rate then
+          error("surfaces cannot be compared: halving the time step changes the first frame of "
+            .. "the base by more than 1 % of its size; check the scene, or remove surface from "
+            .. "--errors", 0)
+        end
+        return {time = time}
+      end,
+    }
+  end
+  return {name = "surface-times", columns = {"time"}, units = units, waits = false}
+end
+
+-- The shortest comparable time of all starts [s]. need(stage, unit): see lib/study.lua.
+local function comparable_time(study, need)
   local first = math.huge
-  for _, row in ipairs(rows) do first = math.min(first, row.time) end
-  if first < 1 / frame_rate then
-    error("surfaces cannot be compared: halving the time step changes the first frame of the "
-      .. "base by more than 1 % of its size; check the scene, or remove surface from --errors", 0)
+  for start = 1, study.settings.starts do
+    first = math.min(first, need("surface-times", start_name(start))[1].time)
   end
   return first
 end
 
--- `study`: base, size [m], scene, scenario, settings (starts, jitter, seed, surface_time) and
--- store. The field `floor` is the error of the base at half the step, in the form of error_of.
-function pareto_surfaces.new(study)
-  local surfaces = setmetatable({study = study, time = comparable_time(study)}, Surfaces)
-  surfaces.floor = surfaces:summary{surfaces:rows("half-step", study.base, half_step)}
+-- The run of the base from a start; neighbouring units use the same.
+local reference = {}
+local function reference_of(study, start, time)
+  if reference.start ~= start then
+    reference = {start = start, run = run(study.base, scene_of_start(study, start, time))}
+  end
+  return reference.run
+end
+
+local function column(seed) return "seed_" .. seed end
+
+local function unit_name(start, variant)
+  return ("%s/%s"):format(start_name(start), variant.name)
+end
+
+-- One row per frame: the time and, for each seed, the distance in percent of the size of the base.
+local function frames_of(study, start, variant, folder, earlier)
+  local time, frames = comparable_time(study, earlier), {}
+  for seed = 1, pareto_chains.count(study, variant.making) do
+    local level = run(pareto_chains.level(study, folder, variant, seed, earlier),
+      scene_of_start(study, start, time), variant.step_options)
+    for i, d in ipairs(s.deviation(level, reference_of(study, start, time))) do
+      frames[i] = frames[i] or {time = d.time}
+      frames[i][column(seed)] = percent * d.surface / study.size
+    end
+  end
+  return frames
+end
+
+-- The base at half the step, whose error is the floor.
+local half_step_variant = {name = "half-step", making = {}, level = 0, step_options = half_step}
+
+-- The stage of all comparisons: a unit is a variant from a start.
+function pareto_surfaces.stage(study, variants)
+  local units = {}
+  local function add(start, variant, seconds)
+    units[#units + 1] = {
+      name = unit_name(start, variant), seconds = seconds,
+      make = function(folder, earlier)
+        return frames_of(study, start, variant, folder, earlier)
+      end,
+    }
+  end
+  local part = 0.5 -- of the scene's duration, in which surfaces are compared, about
+  for start = 1, study.settings.starts do
+    add(start, half_step_variant, function() return study.seconds(variants[1]) end)
+    for _, variant in ipairs(variants) do
+      add(start, variant, function()
+        return part * pareto_chains.count(study, variant.making) * study.seconds(variant)
+      end)
+    end
+  end
+  local columns = {"time"}
+  for seed = 1, study.settings.seeds do columns[seed + 1] = column(seed) end
+  return {name = "surface", columns = columns, units = units}
+end
+
+local Surfaces = {}
+Surfaces.__index = Surfaces
+
+-- `time`: up to which surfaces are compared [s]; `floor`: the error of the base at half the step,
+-- in the form of error_of. nil and the reason if one is missing.
+function pareto_surfaces.read(study, results)
+  local surfaces = setmetatable({study = study, results = results}, Surfaces)
+  local reason
+  surfaces.floor, reason = surfaces:error_of(half_step_variant)
+  if not surfaces.floor then return nil, reason end
+  surfaces.time = comparable_time(study, function(...) return results:need(...) end)
   return surfaces
 end
 
--- The runs of the base, one per start.
-function Surfaces:references()
-  if not self.base_runs then
-    self.base_runs = {}
-    for start = 1, self.study.settings.starts do
-      self.base_runs[start] = run(self.study.base,
-        scene_of_start(self.study, start, self.time))
-    end
-  end
-  return self.base_runs
-end
-
-local function column(start) return "start_" .. start end
-
--- One row per frame: the time and, for each start, the distance in percent of the size of the base.
-function Surfaces:rows(name, model, options)
-  local columns = {"time"}
-  for start = 1, self.study.settings.starts do columns[start + 1] = column(start) end
-  return self.study.store:rows("surface/" .. name, columns, function()
-    local frames = {}
-    for start, reference in ipairs(self:references()) do
-      local level = run(model, scene_of_start(self.study, start, self.time), options)
-      for i, d in ipairs(s.deviation(level, reference)) do
-        frames[i] = frames[i] or {d.time}
-        frames[i][start + 1] = percent * d.surface / self.study.size
-      end
-    end
-    return frames
-  end)
-end
-
--- `seeds`: one list of rows per seed. Returns the mean over the frames with its interval over
--- starts and seeds, and the mean over starts and seeds as a function of time (`curve`).
-function Surfaces:summary(seeds)
-  local starts, means, curve = self.study.settings.starts, {}, {}
-  for i, row in ipairs(seeds[1]) do curve[i] = {row.time, 0} end
-  for seed, rows in ipairs(seeds) do
-    means[seed] = {}
-    for start = 1, starts do
+-- The mean over the frames with its interval over starts and seeds, and the mean over starts and
+-- seeds as a function of time (`curve`); nil and the reason if a result is missing.
+function Surfaces:error_of(variant)
+  local starts, seeds = self.study.settings.starts, pareto_chains.count(self.study, variant.making)
+  local means, curve = {}, {}
+  for seed = 1, seeds do means[seed] = {} end
+  for start = 1, starts do
+    local rows, reason = self.results:rows("surface", unit_name(start, variant))
+    if not rows then return nil, reason end
+    for seed = 1, seeds do
       local sum = 0
       for i, row in ipairs(rows) do
-        sum = sum + row[column(start)]
-        curve[i][2] = curve[i][2] + row[column(start)] / (starts * #seeds)
+        local value = row[column(seed)]
+        sum = sum + value
+        curve[i] = curve[i] or {row.time, 0}
+        curve[i][2] = curve[i][2] + value / (starts * seeds)
       end
       means[seed][start] = sum / #rows
     end
   end
   local m = s.statistics(by_start(means))
   return {value = m.mean, low = m.mean_low, high = m.mean_high, curve = curve}
-end
-
-function Surfaces:error_of(variant, chains)
-  local seeds = {}
-  for i, chain in ipairs(chains) do
-    seeds[i] = self:rows(("%s-seed-%d"):format(variant.name, i), chain[variant.level],
-      variant.step_options)
-  end
-  return self:summary(seeds)
 end
 
 return pareto_surfaces

@@ -33,8 +33,8 @@ local function save_points(path, variants, study)
                  v.making.calibration or "", v.level, v.nodes, v.springs, v.stepping.integrator,
                  v.stepping.precision, v.stepping.contact}
     for _, entry in ipairs(error_units) do add_interval(row, v.measured[entry[1]]) end
-    row[#row + 1] = study.surfaces and study.surfaces.floor.value or ""
-    row[#row + 1] = study.ensembles and study.ensembles.floor.level or ""
+    row[#row + 1] = study.surface and study.surface.floor.value or ""
+    row[#row + 1] = study.ensemble and study.ensemble.floor.level or ""
     row[#row + 1] = v.measured.ensemble and v.measured.ensemble.inside or ""
     rows[i] = row
   end

@@ -1,0 +1,76 @@
+-- Writes the results of a sweep as tables into its folder, and what its script makes of them.
+
+local s = require "springlod"
+
+-- Axes and columns of a stage, in the order of its tables.
+local function columns_of(stage, after)
+  local columns = {"unit"}
+  for _, list in ipairs{stage.axes, after} do
+    table.move(list, 1, #list, #columns + 1, columns)
+  end
+  return columns
+end
+
+-- The rows of a stage, by unit, with an empty one for each unit that has none; `missing` says why.
+local function with_gaps(stage, results)
+  local all, next_gap = {}, 1
+  local function add_gaps(before)
+    local gap = results.gaps[next_gap]
+    while gap and gap.unit < before do
+      local row = {unit = gap.unit, missing = ("%s: %s"):format(gap.state, gap.message)}
+      for _, axis in ipairs(stage.axes) do row[axis] = gap[axis] end
+      all[#all + 1] = row
+      next_gap = next_gap + 1
+      gap = results.gaps[next_gap]
+    end
+  end
+  for _, row in ipairs(results.rows) do
+    add_gaps(row.unit)
+    all[#all + 1] = row
+  end
+  add_gaps(math.huge)
+  return all
+end
+
+-- Columns that are the same whenever the unit runs, and those that are measured times.
+local function split_columns(stage)
+  local timed, same = {}, {}
+  for _, name in ipairs(stage.timings) do timed[name] = true end
+  for _, name in ipairs(stage.columns) do
+    if not timed[name] then same[#same + 1] = name end
+  end
+  return same, stage.timings
+end
+
+-- `suffix`: of the names of the files.
+local function write_stage(folder, stage, results, suffix)
+  local function write(name, rows, columns)
+    s.csv(("%s/%s%s.csv"):format(folder, name, suffix), rows, {columns = columns})
+  end
+  local same, timings = split_columns(stage)
+  local columns = columns_of(stage, same)
+  columns[#columns + 1] = "missing"
+  write("results", with_gaps(stage, results), columns)
+  if #timings > 0 then write("timings", results.rows, columns_of(stage, timings)) end
+  write("gaps", results.gaps, columns_of(stage, {"state", "message", "host", "signal", "log"}))
+  write("runs", results.runs, {"unit", "seconds", "memory", "host", "target", "springlod"})
+end
+
+local function say_gaps(gaps, suffix)
+  if #gaps == 0 then return end
+  s.say(("%d %s without a result, see gaps%s.csv; the first is unit %d: %s"):format(#gaps,
+    #gaps == 1 and "unit" or "units", suffix, gaps[1].unit, gaps[1].message))
+end
+
+return function(sweep, folder)
+  local last, by_name = nil, {}
+  for number, stage in ipairs(sweep.stages) do
+    last = s.sweep_results(sweep, folder, {stage = number})
+    by_name[stage.name] = last
+    local suffix = #sweep.stages > 1 and "-" .. stage.name:gsub("%W+", "-") or ""
+    write_stage(folder, stage, last, suffix)
+    say_gaps(last.gaps, suffix)
+  end
+  last.stages = by_name
+  if sweep.report then sweep.report(last, folder) end
+end
