@@ -53,7 +53,9 @@ std::vector<std::vector<std::string>> commands_of(const fs::path& page) {
     words >> program;
     if (!inside || (program != "springlod" && !program.ends_with("/springlod"))) continue;
     commands.emplace_back();
-    for (std::string word; words >> word && word[0] != '#';) commands.back().push_back(word);
+    // What comes after -- is of a script.
+    for (std::string word; words >> word && word[0] != '#' && word != "--";)
+      commands.back().push_back(word);
   }
   return commands;
 }

@@ -153,6 +153,9 @@ TEST_CASE("the script of the architecture page runs, and so does every function 
     assert(s.submit_sweep(folder .. "/sweep", {dry_run = true}) == "") -- nothing is left
     s.merge_sweep(folder .. "/sweep")
     s.work_on_sweep(sweep, folder .. "/sweep", "logs/none.log") -- nobody asks for units
+    s.remove_sweep(folder .. "/sweep")
+    assert(not pcall(s.sweep_plan, folder .. "/sweep"))
+    assert(#s.join_stability{{level = 0, verdict = "stable"}}:table() == 1)
     for name, value in pairs(s) do
       if type(value) == "function" and not called[name] then print("NEVER CALLED", name) end
     end)",

@@ -80,6 +80,29 @@ TEST_CASE("What is given to Slurm is printed first if asked for") {
                           Contains("--signal=B:TERM@60") && Contains("sweep merge"));
 }
 
+TEST_CASE("Timed units have a machine to themselves") {
+  const TemporaryFolder folder;
+  std::string timed = kSweep;
+  const std::size_t at = timed.find("cost = function");
+  REQUIRE(at != std::string::npos);
+  timed.insert(at, "alone = true, timings = {'value'}, ");
+  spit(folder / "sweep.lua", timed);
+  must(folder, {"plan", "sweep.lua", "--out", "out"});
+  const auto printed = [&](const std::string& engine) {
+    const Ran ran = springlod_run({"sweep", "submit", "out", "--dry-run", "--engine", engine}, "",
+                                  folder.path());
+    CAPTURE(ran.err);
+    REQUIRE(ran.exit_code == 0);
+    return ran.out;
+  };
+  CHECK_THAT(printed("slurm"), Contains("--exclusive"));
+  CHECK_THAT(printed("parallel"), Contains("--jobs 1"));
+  must(folder, {"run", "out"});
+  must(folder, {"merge", "out"});
+  CHECK_THAT(slurp(folder / "out/results-use.csv"), !Contains("value"));
+  CHECK_THAT(slurp(folder / "out/timings-use.csv"), Contains("which,factor,value"));
+}
+
 TEST_CASE("Without Slurm, submit says what to do") {
   if (find_program("sbatch")) return;
   const TemporaryFolder folder;

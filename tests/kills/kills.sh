@@ -66,8 +66,8 @@ LUA
 
 # Results that hold measured times, the mark of the run, which holds the number of the process, and
 # the command, which names the folder.
-times='/command\.txt$|/timings\.csv$|/points\.csv$|/runs/timed\.csv$|/runs/times/|/\.springlod-run$'
-times+='|^\./o/(frequencies|loads|surface|surface-over-time|ensemble)(-front)?\.(csv|svg|png|gp)$'
+times='/timings(-[a-z]+)?\.csv$|/runs(-[a-z-]+)?\.csv$|/plan\.json$|/(results|logs)/|/\.springlod-run$'
+times+='|^\./o/index\.html$|^\./o/(frequencies|loads|surface|surface-over-time|ensemble)(-front)?\.(csv|svg|png|gp)$'
 
 # The hash and name of each file of folder $1 but those with times.
 list() { (cd "$1" && find . -type f | sort | grep -Ev "$times" | xargs -r sha256sum); }
