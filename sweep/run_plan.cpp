@@ -54,7 +54,7 @@ class Queue {
   Queue(const UnitFiles& files, std::uint64_t first, std::uint64_t end) : files_(files) {
     const std::vector<UnitNotes> notes = files.list(first, end);
     for (std::uint64_t unit = first; unit < end; ++unit) {
-      const UnitState state = files.state(unit, notes[unit - first]);
+      const UnitState state = notes[unit - first].state;
       if (needs_run(state)) append(unit);
       if (state == UnitState::running) elsewhere_.push_back(unit);
     }
@@ -81,7 +81,7 @@ class Queue {
   /// Looks again at units that others were running: those that were lost are to be run here.
   void look_at_others() {
     std::erase_if(elsewhere_, [&](std::uint64_t unit) {
-      const UnitState state = files_.state(unit, files_.notes(unit));
+      const UnitState state = files_.notes(unit).state;
       if (needs_run(state)) put_back({unit, unit + 1});
       return state != UnitState::running;
     });

@@ -11,7 +11,7 @@ void for_each_unit(const Plan& plan, const UnitFiles& files, Visit visit) {
   std::uint64_t unit = 0;
   for (const CostRun& run : plan.costs)
     for (const std::uint64_t end = unit + run.units; unit < end; ++unit)
-      visit(unit, files.state(unit, notes[unit]), run.cost);
+      visit(unit, notes[unit].state, run.cost);
 }
 
 }  // namespace

@@ -52,15 +52,15 @@ std::string to_text(const Runner& runner) {
          "\n";
 }
 
+/// Nothing for damaged text: the process is then judged by its signs of life alone.
 std::optional<Runner> runner_from(const std::string& text) {
-  const ordered_json json = ordered_json::parse(text, nullptr, false);
-  if (!json.is_object()) return std::nullopt;
-  return Runner{json.value("host", ""),
-                json.value("process", std::int64_t{0}),
-                json.value("started", std::uint64_t{0}),
-                json.value("job", ""),
-                json.value("log", ""),
-                json.value("signal", 0)};
+  try {
+    const ordered_json json = ordered_json::parse(text);
+    return Runner{json.at("host"), json.at("process"), json.at("started"),
+                  json.at("job"),  json.at("log"),     json.at("signal")};
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
 }
 
 /// Reads "0012345.try-2" and the like; nothing for other names.
@@ -78,14 +78,46 @@ std::optional<NamedFile> parse_name(std::string_view name) {
 
 constexpr std::string_view kResult = ".json", kFailure = ".failed.json", kTry = ".try-";
 
-void note(UnitNotes& notes, std::string_view rest) {
-  if (rest == kResult) notes.done = true;
-  if (rest == kFailure) notes.failed = true;
-  if (rest.starts_with(kTry) && rest.size() == kTry.size() + 1)
-    notes.tries = std::max(notes.tries, rest.back() - '0');
-}
-
 }  // namespace
+
+/// The files of one unit.
+struct UnitFiles::Found {
+  bool result = false;
+  bool failure = false;
+  int tries = 0;  ///< the highest number of a try; 0: none
+
+  void add(std::string_view rest) {
+    if (rest == kResult) result = true;
+    if (rest == kFailure) failure = true;
+    if (rest.starts_with(kTry) && rest.size() == kTry.size() + 1)
+      tries = std::max(tries, rest.back() - '0');
+  }
+};
+
+/// The time of the file system, whose clock need not be that of this host. It is looked up once,
+/// when it is first needed.
+class UnitFiles::Clock {
+ public:
+  explicit Clock(const fs::path& folder) : file_(folder / ".clock") {}
+  fs::file_time_type now() {
+    if (!now_) now_ = look();
+    return *now_;
+  }
+
+ private:
+  fs::file_time_type look() const {
+    try {
+      write_aside(
+          file_, [](const fs::path&) {}, Durability::unsynced);
+      return fs::last_write_time(file_);
+    } catch (const IoError&) {  // who may only read the folder may still ask how far it is
+      return fs::file_time_type::clock::now();
+    }
+  }
+
+  fs::path file_;
+  std::optional<fs::file_time_type> now_;
+};
 
 std::string host_name() {
   std::array<char, 256> name{};
@@ -120,7 +152,7 @@ fs::path UnitFiles::try_path(std::uint64_t unit, int number) const {
 }
 
 std::vector<UnitNotes> UnitFiles::list(std::uint64_t first, std::uint64_t end) const {
-  std::vector<UnitNotes> all(end - first);
+  std::vector<Found> found(end - first);
   for (std::uint64_t unit = first; unit < end; unit += kUnitsOfFolder - unit % kUnitsOfFolder) {
     std::error_code missing;
     for (const fs::directory_entry& entry :
@@ -128,33 +160,46 @@ std::vector<UnitNotes> UnitFiles::list(std::uint64_t first, std::uint64_t end) c
       const std::string name = entry.path().filename().string();
       const auto file = parse_name(name);
       if (file && file->unit >= first && file->unit < end)
-        note(all[file->unit - first], file->rest);
+        found[file->unit - first].add(file->rest);
     }
   }
-  return all;
-}
-
-UnitNotes UnitFiles::notes(std::uint64_t unit) const {
-  std::error_code ignored;
-  UnitNotes notes;
-  notes.done = fs::exists(result_path(unit), ignored);
-  notes.failed = !notes.done && fs::exists(failure_path(unit), ignored);
-  for (int number = 1; number <= kMostTries; ++number)
-    if (fs::exists(try_path(unit, number), ignored)) notes.tries = number;
+  Clock clock(folder_);
+  std::vector<UnitNotes> notes;
+  for (std::uint64_t unit = first; unit < end; ++unit)
+    notes.push_back(notes_of(unit, found[unit - first], clock));
   return notes;
 }
 
-UnitState UnitFiles::state(std::uint64_t unit, const UnitNotes& notes) const {
-  if (notes.done) return UnitState::done;
-  if (notes.failed) return UnitState::failed;
-  if (notes.tries == 0) return UnitState::missing;
-  if (is_alive(unit, notes.tries)) return UnitState::running;
-  return notes.tries < kMostTries ? UnitState::waiting : UnitState::lost;
+std::vector<UnitNotes> UnitFiles::list(const std::vector<std::uint64_t>& units) const {
+  Clock clock(folder_);
+  std::vector<UnitNotes> notes;
+  for (const std::uint64_t unit : units) notes.push_back(notes_of(unit, find(unit), clock));
+  return notes;
+}
+
+UnitFiles::Found UnitFiles::find(std::uint64_t unit) const {
+  std::error_code ignored;
+  Found found{.result = fs::exists(result_path(unit), ignored),
+              .failure = fs::exists(failure_path(unit), ignored)};
+  for (int number = 1; number <= kMostTries; ++number)
+    if (fs::exists(try_path(unit, number), ignored)) found.tries = number;
+  return found;
+}
+
+UnitNotes UnitFiles::notes_of(std::uint64_t unit, const Found& found, Clock& clock) const {
+  const auto state = [&] {
+    if (found.result) return UnitState::done;
+    if (found.failure) return UnitState::failed;
+    if (found.tries == 0) return UnitState::missing;
+    if (is_alive(unit, found.tries, clock)) return UnitState::running;
+    return found.tries < kMostTries ? UnitState::waiting : UnitState::lost;
+  };
+  return {state(), found.tries};
 }
 
 std::optional<int> UnitFiles::begin(std::uint64_t unit, const Runner& runner) const {
   const UnitNotes before = notes(unit);
-  if (!needs_run(state(unit, before))) return std::nullopt;
+  if (!needs_run(before.state)) return std::nullopt;
   const int number = before.tries + 1;
   const fs::path path = try_path(unit, number);
   std::error_code error;
@@ -172,7 +217,7 @@ std::optional<int> UnitFiles::begin(std::uint64_t unit, const Runner& runner) co
     throw IoError(fmt::format("cannot write {}: {}", path.string(), std::strerror(cause)));
   }
   // Another process may have finished the unit between the look above and this try.
-  if (notes(unit).done) {
+  if (find(unit).result) {
     remove_tries(unit);
     return std::nullopt;
   }
@@ -223,7 +268,7 @@ std::optional<Runner> UnitFiles::read_try(std::uint64_t unit, int number) const 
   return runner_from(read_file(path));
 }
 
-bool UnitFiles::is_alive(std::uint64_t unit, int number) const {
+bool UnitFiles::is_alive(std::uint64_t unit, int number, Clock& clock) const {
   const fs::path path = try_path(unit, number);
   std::error_code error;
   const auto beat = fs::last_write_time(path, error);
@@ -234,15 +279,7 @@ bool UnitFiles::is_alive(std::uint64_t unit, int number) const {
     return runner->signal == 0 && runner->started != 0 &&
            start_of_process(runner->process) == runner->started;
   if (runner && runner->signal != 0) return false;
-  return std::chrono::duration<double>(time_of_folder() - beat).count() < kSilence;
-}
-
-// The time of the file system, whose clock need not be that of this host.
-fs::file_time_type UnitFiles::time_of_folder() const {
-  const fs::path path = folder_ / ".clock";
-  write_aside(
-      path, [](const fs::path&) {}, Durability::unsynced);
-  return fs::last_write_time(path);
+  return std::chrono::duration<double>(clock.now() - beat).count() < kSilence;
 }
 
 }  // namespace springlod::sweep

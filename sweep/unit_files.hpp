@@ -39,10 +39,9 @@ constexpr bool needs_run(UnitState state) {
   return state == UnitState::missing || state == UnitState::waiting;
 }
 
-/// The files of one unit, as a listing of its folder tells them.
+/// What the files of one unit tell.
 struct UnitNotes {
-  bool done = false;
-  bool failed = false;
+  UnitState state = UnitState::missing;
   int tries = 0;  ///< the highest number of a try; 0: none
 };
 
@@ -72,9 +71,9 @@ class UnitFiles {
 
   /// Notes of units [first, end), from one listing for each thousand.
   std::vector<UnitNotes> list(std::uint64_t first, std::uint64_t end) const;
-  UnitNotes notes(std::uint64_t unit) const;
-  /// Tells running, lost and waiting from each other by looking into the file of the last try.
-  UnitState state(std::uint64_t unit, const UnitNotes& notes) const;
+  /// Notes of some units.
+  std::vector<UnitNotes> list(const std::vector<std::uint64_t>& units) const;
+  UnitNotes notes(std::uint64_t unit) const { return list({unit}).front(); }
 
   /// Begins to run a unit. Returns the number of the try; nothing if the unit needs no run or
   /// another process is running it. Of several processes only one succeeds.
@@ -93,10 +92,14 @@ class UnitFiles {
   std::optional<Runner> read_try(std::uint64_t unit, int number) const;
 
  private:
+  class Clock;
+  struct Found;
+
   std::filesystem::path stem(std::uint64_t unit) const;
+  Found find(std::uint64_t unit) const;
+  UnitNotes notes_of(std::uint64_t unit, const Found& found, Clock& clock) const;
+  bool is_alive(std::uint64_t unit, int number, Clock& clock) const;
   void remove_tries(std::uint64_t unit) const;
-  bool is_alive(std::uint64_t unit, int number) const;
-  std::filesystem::file_time_type time_of_folder() const;
 
   std::filesystem::path folder_;
 };

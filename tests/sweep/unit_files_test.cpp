@@ -1,12 +1,16 @@
 #include "sweep/unit_files.hpp"
 
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 
 #include <catch2/catch.hpp>
+#include <sys/inotify.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/descriptor.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -18,7 +22,7 @@ namespace fs = std::filesystem;
 using test::TemporaryFolder;
 
 UnitState state_of(const UnitFiles& files, std::uint64_t unit) {
-  return files.state(unit, files.notes(unit));
+  return files.notes(unit).state;
 }
 
 /// Begins a unit in a process that is then killed.
@@ -118,10 +122,53 @@ TEST_CASE("A listing tells the notes of neighbouring units") {
   lose(files, 1000);
   const std::vector<UnitNotes> notes = files.list(998, 1002);
   REQUIRE(notes.size() == 4);
-  CHECK(notes[0].done);
-  CHECK(notes[1].failed);
-  CHECK((notes[2].tries == 1 && !notes[2].done));
-  CHECK(notes[3].done);
+  CHECK(notes[0].state == UnitState::done);
+  CHECK(notes[1].state == UnitState::failed);
+  CHECK(notes[2].state == UnitState::waiting);
+  CHECK(notes[2].tries == 1);
+  CHECK(notes[3].state == UnitState::done);
+}
+
+TEST_CASE("A listing looks up the time of the folder at most once") {
+  const TemporaryFolder folder;
+  const UnitFiles files(folder.path());
+  // Each look renames a file to .clock.
+  const Descriptor watch(inotify_init1(IN_NONBLOCK));
+  REQUIRE(inotify_add_watch(watch.number(), folder.path().c_str(), IN_MOVED_TO) >= 0);
+  const auto looks = [&] {
+    int count = 0;
+    std::array<char, 4096> events{};
+    const ssize_t size = read(watch.number(), events.data(), events.size());
+    for (ssize_t at = 0; at < size; ++count) {
+      inotify_event event{};
+      std::memcpy(&event, events.data() + at, sizeof event);
+      at += static_cast<ssize_t>(sizeof event + event.len);
+    }
+    return count;
+  };
+  REQUIRE(files.begin(7, this_runner("")));
+  files.list(0, 8);
+  CHECK(looks() == 0);  // a process of this machine
+  Runner elsewhere = this_runner("");
+  elsewhere.host = "a-machine-that-does-not-exist";
+  for (const std::uint64_t unit : {0U, 1U, 2U}) REQUIRE(files.begin(unit, elsewhere));
+  CHECK(files.list(0, 8)[2].state == UnitState::running);
+  CHECK(looks() == 1);
+  CHECK(files.list({0, 2})[1].state == UnitState::running);
+  CHECK(looks() == 1);
+}
+
+TEST_CASE("A try whose file is damaged counts as lost when it is silent") {
+  for (const char* text : {"", "{\"host\": 3}", "[1"}) {
+    const TemporaryFolder folder;
+    const UnitFiles files(folder.path());
+    write_text_file(files.try_path(3, 1), text);
+    CHECK(state_of(files, 3) == UnitState::running);
+    CHECK_FALSE(files.read_try(3, 1));
+    const auto old = fs::file_time_type::clock::now() - std::chrono::seconds(3600);
+    fs::last_write_time(files.try_path(3, 1), old);
+    CHECK(state_of(files, 3) == UnitState::waiting);
+  }
 }
 
 TEST_CASE("A folder that cannot be written to is named") {

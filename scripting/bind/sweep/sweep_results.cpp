@@ -63,16 +63,15 @@ struct Gap {
   int signal = 0;
 };
 
-Gap gap_of(const UnitFiles& files, std::uint64_t unit, const sweep::UnitNotes& notes,
-           UnitState state) {
-  if (state == UnitState::failed) {
+Gap gap_of(const UnitFiles& files, std::uint64_t unit, const sweep::UnitNotes& notes) {
+  if (notes.state == UnitState::failed) {
     const sweep::UnitResult failure = files.read_failure(unit);
     return {"failed", failure.failure, failure.host, failure.log, failure.signal};
   }
-  if (state == UnitState::missing) return {"missing", "not run", "", "", 0};
-  if (state == UnitState::running) return {"running", "still running", "", "", 0};
+  if (notes.state == UnitState::missing) return {"missing", "not run", "", "", 0};
+  if (notes.state == UnitState::running) return {"running", "still running", "", "", 0};
   const auto runner = files.read_try(unit, notes.tries).value_or(sweep::Runner{});
-  const std::string word = state == UnitState::lost ? "lost" : "waiting";
+  const std::string word = notes.state == UnitState::lost ? "lost" : "waiting";
   return {word, fmt::format("ended with its process, tries: {}", notes.tries), runner.host,
           runner.log, runner.signal};
 }
@@ -117,11 +116,11 @@ class Merging {
     Task task(progress_, "merging", end - first);
     const std::vector<sweep::UnitNotes> notes = files_.list(first, end);
     for (std::uint64_t unit = first; unit < end; ++unit) {
-      const UnitState state = files_.state(unit, notes[unit - first]);
-      if (state == UnitState::done)
+      const sweep::UnitNotes& note = notes[unit - first];
+      if (note.state == UnitState::done)
         add_result(unit);
       else
-        add_gap(unit, gap_of(files_, unit, notes[unit - first], state));
+        add_gap(unit, gap_of(files_, unit, note));
       task.advance();
     }
   }
@@ -189,7 +188,7 @@ int forget_binding(Call& call) {
   const std::vector<sweep::UnitNotes> notes = files.list(0, plan.unit_count());
   std::uint64_t count = 0;
   for (std::uint64_t unit = 0; unit < notes.size(); ++unit) {
-    const UnitState state = files.state(unit, notes[unit]);
+    const UnitState state = notes[unit].state;
     if (state != UnitState::failed && state != UnitState::lost) continue;
     files.forget(unit);
     ++count;
