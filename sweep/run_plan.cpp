@@ -51,15 +51,7 @@ using Range = Order;
 /// The units of a phase that are to be run, and those that others are running.
 class Queue {
  public:
-  Queue(const UnitFiles& files, std::uint64_t first, std::uint64_t end) : files_(files) {
-    const std::vector<UnitNotes> notes = files.list(first, end);
-    for (std::uint64_t unit = first; unit < end; ++unit) {
-      const UnitState state = notes[unit - first].state;
-      if (needs_run(state)) append(unit);
-      if (state == UnitState::running) elsewhere_.push_back(unit);
-    }
-    for (const Range& range : ranges_) left_ += range.end - range.first;
-  }
+  Queue(const UnitFiles& files, const Range& units) : files_(files), units_(units) { look(); }
 
   bool empty() const { return ranges_.empty(); }
   std::uint64_t left() const { return left_; }
@@ -78,22 +70,36 @@ class Queue {
     ranges_.push_front(range);
     left_ += range.end - range.first;
   }
+  /// Looks at all units of the stage. The queue must be empty.
+  void look() {
+    elsewhere_.clear();
+    const std::vector<UnitNotes> notes = files_.list(units_.first, units_.end);
+    for (std::uint64_t unit = units_.first; unit < units_.end; ++unit) {
+      const UnitState state = notes[unit - units_.first].state;
+      if (needs_run(state)) append(unit);
+      if (state == UnitState::running) elsewhere_.push_back(unit);
+    }
+  }
   /// Looks again at units that others were running: those that were lost are to be run here.
   void look_at_others() {
-    std::erase_if(elsewhere_, [&](std::uint64_t unit) {
-      const UnitState state = files_.notes(unit).state;
-      if (needs_run(state)) put_back({unit, unit + 1});
-      return state != UnitState::running;
-    });
+    const std::vector<UnitNotes> notes = files_.list(elsewhere_);
+    std::vector<std::uint64_t> still;
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+      if (needs_run(notes[i].state)) append(elsewhere_[i]);
+      if (notes[i].state == UnitState::running) still.push_back(elsewhere_[i]);
+    }
+    elsewhere_ = std::move(still);
   }
 
  private:
   void append(std::uint64_t unit) {
     if (ranges_.empty() || ranges_.back().end != unit) ranges_.push_back({unit, unit});
     ranges_.back().end = unit + 1;
+    ++left_;
   }
 
   const UnitFiles& files_;
+  Range units_;
   std::deque<Range> ranges_;
   std::uint64_t left_ = 0;
   std::vector<std::uint64_t> elsewhere_;
@@ -106,18 +112,17 @@ class PhaseRun {
       : plan_(plan),
         files_(files),
         options_(options),
-        queue_(files, units.first, units.end),
+        queue_(files, units),
         counts_(counts),
         seconds_each_(seconds_each(plan, units)) {}
 
   void run() {
     if (queue_.empty() && !queue_.waits_for_others()) return;
     Task task(options_.progress, options_.task ? "units of the task" : "units", queue_.left());
-    while (!queue_.empty() || is_busy() || queue_.waits_for_others()) {
+    while (has_work()) {
       task.advance(0);  // throws if the user stops it
       fill();
       wait(task);
-      if (queue_.empty() && !is_busy()) queue_.look_at_others();
     }
     for (Place& place : places_) place.worker->leave();
     places_.clear();
@@ -146,6 +151,15 @@ class PhaseRun {
   bool is_busy() const {
     return std::any_of(places_.begin(), places_.end(),
                        [](const Place& place) { return !place.ready; });
+  }
+
+  /// Whether a unit is to be run, or somebody runs one: the next stage needs them all.
+  bool has_work() {
+    if (!queue_.empty() || is_busy()) return true;
+    if (queue_.waits_for_others()) queue_.look_at_others();
+    // Others may have begun units that were free at the first look.
+    if (queue_.empty() && !queue_.waits_for_others()) queue_.look();
+    return !queue_.empty() || queue_.waits_for_others();
   }
 
   std::uint64_t order_size() const {

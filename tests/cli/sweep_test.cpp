@@ -72,6 +72,12 @@ class Scratch {
   TemporaryFolder folder_;
 };
 
+bool wait_for(const fs::path& path) {
+  for (int i = 0; i < 2000 && !fs::exists(path); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return fs::exists(path);
+}
+
 std::string with(std::string text, const std::string& what, const std::string& by) {
   const std::size_t at = text.find(what);
   REQUIRE(at != std::string::npos);
@@ -271,11 +277,6 @@ end})");
                                {"-q", "sweep", "run", "out", "--workers", "1"}, {}, scratch.path());
   const fs::path first = scratch / "out/results/0000/0000000.try-1";
   const fs::path second = scratch / "out/results/0000/0000000.try-2";
-  const auto wait_for = [](const fs::path& path) {
-    for (int i = 0; i < 2000 && !fs::exists(path); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return fs::exists(path);
-  };
   REQUIRE(wait_for(scratch / "began-1.txt"));
   const auto runner = nlohmann::json::parse(slurp(first));
   kill(runner.at("process").get<pid_t>(), SIGKILL);
@@ -285,6 +286,42 @@ end})");
   CHECK(springlod::wait_for_program(process).exit_code == 0);
   CHECK_THAT(scratch.must({"status", "out"}), Contains("3 of 3 units done"));
   CHECK_FALSE(fs::exists(second));
+}
+
+TEST_CASE("A stage waits for units that another run has begun") {
+  const Scratch scratch(R"(
+local s = require "springlod"
+return s.sweep{stages = {
+  {name = "make", count = 2, columns = {"n"}, unit = function(point)
+    s.save_text("began-" .. point.index .. ".txt", "x")
+    local begun = os.clock()
+    while not s.is_folder("go-" .. point.index) and os.clock() < begun + 20 do end
+    s.save_text("made-" .. point.index .. ".txt", "x")
+    return {n = point.index}
+  end},
+  {name = "use", count = 2, columns = {"text"}, unit = function(point)
+    local file <close> = assert(io.open("made-" .. point.index .. ".txt"))
+    return {text = file:read("a")}
+  end},
+}})");
+  scratch.plan();
+  const auto start = [&] {
+    return springlod::start_program(springlod::test::build_folder() / "app/springlod",
+                                    {"-q", "sweep", "run", "out", "--workers", "1"}, {},
+                                    scratch.path());
+  };
+  const pid_t first = start();
+  REQUIRE(wait_for(scratch / "began-1.txt"));
+  const pid_t second = start();
+  REQUIRE(wait_for(scratch / "began-2.txt"));
+  fs::create_directory(scratch / "go-1");
+  REQUIRE(wait_for(scratch / "out/results/0000/0000000.json"));
+  // Time for the first run to begin the second stage, if it does not wait for the second unit.
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  fs::create_directory(scratch / "go-2");
+  CHECK(springlod::wait_for_program(first).exit_code == 0);
+  CHECK(springlod::wait_for_program(second).exit_code == 0);
+  CHECK_THAT(scratch.must({"status", "out"}), Contains("4 of 4 units done"));
 }
 
 TEST_CASE("Wrong uses of sweep say what is wrong") {
