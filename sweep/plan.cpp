@@ -130,22 +130,20 @@ void pack_tasks(Plan& plan) {
   constexpr double kAim = (kShortestTask + kLongestTask) / 2;
   plan.tasks.clear();
   std::size_t stage = 0;
-  std::uint64_t unit = 0, end_of_stage = 0;
+  std::uint64_t end_of_stage = 0;
   double seconds = 0;
-  for (const CostRun& run : plan.costs) {
-    const double each = run.cost * plan.seconds_per_cost;
-    for (const std::uint64_t end = unit + run.units; unit < end; ++unit) {
-      const bool new_stage = unit == end_of_stage;
-      // The nearer of two ends to what a task should take.
-      const bool full = seconds > 0 && seconds + each / 2 > kAim;
-      if (new_stage) end_of_stage += plan.stages[stage++].units;
-      if (new_stage || full) {
-        plan.tasks.push_back(unit);
-        seconds = 0;
-      }
-      seconds += each;
+  for_each_unit(plan, [&](std::uint64_t unit, double cost) {
+    const double each = cost * plan.seconds_per_cost;
+    const bool new_stage = unit == end_of_stage;
+    // The nearer of two ends to what a task should take.
+    const bool full = seconds > 0 && seconds + each / 2 > kAim;
+    if (new_stage) end_of_stage += plan.stages[stage++].units;
+    if (new_stage || full) {
+      plan.tasks.push_back(unit);
+      seconds = 0;
     }
-  }
+    seconds += each;
+  });
 }
 
 fs::path plan_path(const fs::path& folder) {

@@ -66,6 +66,14 @@ struct Plan {
   std::uint64_t end_of_task(std::size_t task) const;
 };
 
+/// Calls visit(unit, cost) for all units, in order.
+template <class Visit>
+void for_each_unit(const Plan& plan, Visit visit) {
+  std::uint64_t unit = 0;
+  for (const CostRun& run : plan.costs)
+    for (const std::uint64_t end = unit + run.units; unit < end; ++unit) visit(unit, run.cost);
+}
+
 /// Times between which a task should take [s]: long compared with what a cluster needs to start it,
 /// and short enough to fill gaps between other jobs and to lose little when a machine fails.
 inline constexpr double kShortestTask = 30;

@@ -138,13 +138,9 @@ class PhaseRun {
 
   static double seconds_each(const Plan& plan, Range units) {
     double sum = 0;
-    std::uint64_t first = 0;
-    for (const CostRun& run : plan.costs) {
-      const std::uint64_t from = std::max(first, units.first);
-      const std::uint64_t to = std::min(first + run.units, units.end);
-      if (from < to) sum += static_cast<double>(to - from) * run.cost;
-      first += run.units;
-    }
+    for_each_unit(plan, [&](std::uint64_t unit, double cost) {
+      if (unit >= units.first && unit < units.end) sum += cost;
+    });
     return sum * plan.seconds_per_cost / static_cast<double>(units.end - units.first);
   }
 

@@ -25,17 +25,15 @@ constexpr int kNotice = 60;
 
 double longest_task(const Plan& plan) {
   double longest = 0, seconds = 0;
-  std::uint64_t unit = 0;
   std::size_t task = 0;
-  for (const CostRun& run : plan.costs)
-    for (const std::uint64_t end = unit + run.units; unit < end; ++unit) {
-      if (unit == plan.end_of_task(task)) {
-        ++task;
-        seconds = 0;
-      }
-      seconds += run.cost * plan.seconds_per_cost;
-      longest = std::max(longest, seconds);
+  for_each_unit(plan, [&](std::uint64_t unit, double cost) {
+    if (unit == plan.end_of_task(task)) {
+      ++task;
+      seconds = 0;
     }
+    seconds += cost * plan.seconds_per_cost;
+    longest = std::max(longest, seconds);
+  });
   return longest;
 }
 
