@@ -38,12 +38,18 @@ end
 
 local function time_of(seconds) return show.measured(seconds, "time") end
 
+-- What to type for an action on a folder.
+local function command_of(action, folder)
+  return command.shell_line{"springlod", "sweep", action, folder}
+end
+
 function actions.plan(args)
+  local folder = args.out or "out/sweep"
   local script = script_of(args.target)
   local sweep = load_sweep(script, args.arguments)
   local estimated = false
   for _, stage in ipairs(sweep.stages) do estimated = estimated or stage.estimated end
-  local plan = s.plan_sweep(sweep, args.out, {
+  local plan = s.plan_sweep(sweep, folder, {
     script = script, arguments = args.arguments,
     seconds_per_cost = estimated and 1 / update_rate() or args.seconds or 1,
     pilot = estimated and script == args.target, -- studies estimate times
@@ -51,7 +57,7 @@ function actions.plan(args)
   print(tostring(sweep))
   print(("%s of about %s each, %s of one core in all"):format(count_of(plan.tasks, "task"),
     time_of(plan.seconds / plan.tasks), time_of(plan.seconds)))
-  print(("next: springlod sweep run %s"):format(args.out))
+  print("next: " .. command_of("run", folder))
 end
 
 local function print_status(folder)
@@ -71,7 +77,7 @@ function actions.run(args)
   s.run_sweep(args.target, {task = args.task, workers = args.workers})
   local status = print_status(args.target)
   if status.failed + status.lost > 0 then
-    print(("springlod sweep merge %s lists failed and lost units"):format(args.target))
+    print(command_of("merge", args.target) .. " lists failed and lost units")
   end
 end
 
@@ -80,15 +86,16 @@ function actions.submit(args)
   local engine = args.engine or "slurm"
   local result = s.submit_sweep(args.target, {
     engine = engine, hosts = args.hosts, at_once = args.at_once, time = args.time,
-    memory = args.memory, options = args.sbatch, dry_run = args.dry_run or false,
+    memory = args.memory, options = #args.sbatch > 0 and args.sbatch or nil,
+    dry_run = args.dry_run or false,
   })
   if args.dry_run then
     io.write(result)
   elseif result == "" then
     print_status(args.target)
   elseif engine == "slurm" then
-    print(("jobs of Slurm: %s (springlod sweep status %s tells how far they are)"):format(result,
-      args.target))
+    print(("jobs of Slurm: %s (%s tells how far they are)"):format(result,
+      command_of("status", args.target)))
   else
     print_status(args.target)
   end

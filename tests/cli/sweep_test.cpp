@@ -328,13 +328,37 @@ TEST_CASE("Wrong uses of sweep say what is wrong") {
   const Scratch scratch;
   CHECK_THAT(scratch.run({"fly", "out"}).err, Contains("'fly' must be plan, run"));
   CHECK_THAT(scratch.run({"run", "nowhere"}).err, Contains("nowhere holds no plan"));
-  CHECK_THAT(scratch.run({"status", "out", "--task", "1"}).err,
-             Contains("--task does not belong to status"));
   scratch.plan();
   CHECK_THAT(scratch.run({"run", "out", "--task", "1"}).err, Contains("task"));
   spit(scratch / "walk.lua", "return 1");
   CHECK_THAT(scratch.run({"plan", "walk.lua", "--out", "other"}).err,
              Contains("must return s.sweep"));
+}
+
+TEST_CASE("An option that an action does not use is refused, with the actions that use it") {
+  const Scratch scratch;
+  const std::pair<std::vector<std::string>, const char*> kCases[] = {
+      {{"status", "out", "--task", "1"}, "--task is for run, not for status"},
+      {{"run", "out", "--out", "other"}, "--out is for plan, not for run"},
+      {{"run", "out", "--hosts", "h"}, "--hosts is for submit and resume, not for run"},
+      {{"merge", "out", "other"}, "merge takes one folder"},
+      // Of several the same one is named always, whatever their order.
+      {{"status", "out", "--again", "--task", "1"}, "--task is for run"},
+      {{"status", "out", "--task", "1", "--again"}, "--task is for run"},
+      {{"resume", "out", "--time", "10min"}, "--time needs --engine"},
+      {{"resume", "out", "--engine", "slurm", "--workers", "2"}, "--workers is for this machine"},
+  };
+  for (const auto& [arguments, message] : kCases) {
+    const Ran ran = scratch.run(arguments);
+    CAPTURE(arguments, ran.err);
+    CHECK(ran.exit_code == 2);
+    CHECK_THAT(ran.err, Contains(message));
+  }
+  CHECK_THAT(scratch.run({"submit", "out", "--hosts", "h"}).err,
+             Contains("--hosts is for --engine parallel; this is --engine slurm"));
+  CHECK_THAT(
+      scratch.run({"submit", "out", "--engine", "parallel", "--sbatch=--partition=long"}).err,
+      Contains("--sbatch is for --engine slurm"));
 }
 
 TEST_CASE("Sweeps that make no sense are refused") {

@@ -2,12 +2,14 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/choice.hpp"
+#include "base/error.hpp"
 #include "scripting/bind/sweep/sweep_program.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/call.hpp"
@@ -28,12 +30,27 @@ constexpr Choice<Engine> kEngines[] = {
     {Engine::parallel, "parallel",
      "GNU parallel, on machines that ssh leads to; waits for its end"},
 };
-constexpr ChoiceTable<Choice<Engine>> kEngineChoices{"engine", kEngines};
+constexpr ChoiceTable<Choice<Engine>> choices(Engine) {
+  return {"engine", kEngines};
+}
 
 sweep::Plan checked_plan(const fs::path& folder) {
   sweep::Plan plan = sweep::read_plan(folder);
   sweep::require_unchanged(plan, version(), program_hash());
   return plan;
+}
+
+/// Throws InputError for an option of the other engine, which would do nothing.
+void check_options(TableReader& options, Engine engine) {
+  constexpr std::pair<const char*, Engine> kOptions[] = {{"hosts", Engine::parallel},
+                                                         {"at_once", Engine::slurm},
+                                                         {"time", Engine::slurm},
+                                                         {"memory", Engine::slurm},
+                                                         {"options", Engine::slurm}};
+  for (const auto& [name, user] : kOptions)
+    if (user != engine && options.has(name))
+      throw InputError(fmt::format("{}: {} is for engine = \"{}\"; this is engine = \"{}\"",
+                                   options.owner(), name, to_string(user), to_string(engine)));
 }
 
 int submit_binding(Call& call) {
@@ -44,7 +61,8 @@ int submit_binding(Call& call) {
   std::string hosts;
   bool dry_run = false;
   TableReader options = call.options(2);
-  options.choose("engine", engine, kEngineChoices);
+  options.read("engine", engine);
+  check_options(options, engine);
   options.read("at_once", slurm.at_once);
   options.read("time", slurm.seconds);
   options.read("memory", slurm.memory);
@@ -79,7 +97,7 @@ void describe_sweep_submit(Api& api) {
                    .type = "one of",
                    .fallback = "\"slurm\"",
                    .help = "what runs the tasks",
-                   .choices = words_of(kEngineChoices)},
+                   .choices = words_of<Engine>()},
                   {.name = "hosts",
                    .type = "string",
                    .fallback = "this machine",
@@ -87,21 +105,21 @@ void describe_sweep_submit(Api& api) {
                   {.name = "at_once",
                    .type = "integer",
                    .fallback = "any",
-                   .help = "largest number of tasks at a time"},
+                   .help = "slurm: largest number of tasks at a time"},
                   {.name = "time",
                    .type = "quantity",
                    .dimension = Dimension::time,
                    .fallback = "4 times the estimate, at least 10 minutes",
-                   .help = "limit of a task"},
+                   .help = "slurm: limit of a task"},
                   {.name = "memory",
                    .type = "integer",
                    .range = Range{1e6, 1e13},
                    .fallback = "2 GB",
-                   .help = "of a task [bytes]"},
+                   .help = "slurm: of a task [bytes]"},
                   {.name = "options",
                    .type = "list of strings",
                    .fallback = "none",
-                   .help = "further options of sbatch, such as --partition=short"},
+                   .help = "slurm: further options of sbatch, such as --partition=short"},
                   {.name = "dry_run",
                    .type = "boolean",
                    .fallback = "false",
@@ -109,7 +127,8 @@ void describe_sweep_submit(Api& api) {
       .returns = "string: slurm: numbers of the jobs; parallel: number of tasks that failed; the "
                  "script of a dry run; empty if nothing is left to run",
       .errors = "There is no plan, or it does not fit the program any more; there is no Slurm "
-                "or no GNU parallel; Slurm refuses the jobs (a partition that does not exist).",
+                "or no GNU parallel; Slurm refuses the jobs (a partition that does not exist); an "
+                "option of the other engine.",
       .example = "print(s.submit_sweep(\"out/drops\", {dry_run = true}))",
       .call = submit_binding});
 }
