@@ -76,6 +76,21 @@ std::optional<NamedFile> parse_name(std::string_view name) {
   return file;
 }
 
+InputError damaged(const fs::path& path) {
+  return InputError(fmt::format("{} is damaged: remove it and resume the sweep", path.string()));
+}
+
+UnitResult read(std::uint64_t unit, const fs::path& path) {
+  const std::string text = read_file(path);
+  try {
+    UnitResult result = result_from_text(text);
+    if (result.unit == unit) return result;
+  } catch (const InputError&) {
+    // named below
+  }
+  throw damaged(path);
+}
+
 constexpr std::string_view kResult = ".json", kFailure = ".failed.json", kTry = ".try-";
 
 }  // namespace
@@ -253,12 +268,20 @@ void UnitFiles::remove_tries(std::uint64_t unit) const {
   for (int number = 1; number <= kMostTries; ++number) fs::remove(try_path(unit, number), ignored);
 }
 
-UnitResult UnitFiles::read_result(std::uint64_t unit) const {
-  return result_from_text(read_file(result_path(unit)));
+UnitResult UnitFiles::read_result(std::uint64_t unit, std::size_t columns) const {
+  const fs::path path = result_path(unit);
+  UnitResult result = read(unit, path);
+  const auto fits = [&](const Row& row) { return row.size() == columns; };
+  if (!result.failure.empty() || !std::all_of(result.rows.begin(), result.rows.end(), fits))
+    throw damaged(path);
+  return result;
 }
 
 UnitResult UnitFiles::read_failure(std::uint64_t unit) const {
-  return result_from_text(read_file(failure_path(unit)));
+  const fs::path path = failure_path(unit);
+  UnitResult result = read(unit, path);
+  if (result.failure.empty()) throw damaged(path);
+  return result;
 }
 
 std::optional<Runner> UnitFiles::read_try(std::uint64_t unit, int number) const {

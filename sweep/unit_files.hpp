@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -87,7 +88,8 @@ class UnitFiles {
   /// Forgets the failure and the tries of a unit, so that it is run again.
   void forget(std::uint64_t unit) const;
 
-  UnitResult read_result(std::uint64_t unit) const;
+  /// `columns`: of its rows. Throw InputError, with what to do, for a damaged file.
+  UnitResult read_result(std::uint64_t unit, std::size_t columns) const;
   UnitResult read_failure(std::uint64_t unit) const;
   std::optional<Runner> read_try(std::uint64_t unit, int number) const;
 

@@ -14,12 +14,22 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// JSON has no infinite numbers: they are written as {"number": "inf"}.
-constexpr const char* kSpecial = "number";
+// JSON has no infinite numbers and no text that is not UTF-8: {"number": "inf"}, {"bytes": [255]}.
+constexpr const char *kSpecial = "number", *kBytes = "bytes";
 
 ordered_json json_of(double value) {
   if (std::isfinite(value)) return value;
   return {{kSpecial, std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf"}};
+}
+
+ordered_json json_of(const std::string& text) {
+  ordered_json json = text;
+  try {
+    json.dump();
+    return json;
+  } catch (const nlohmann::json::type_error&) {
+    return {{kBytes, std::vector<std::uint8_t>(text.begin(), text.end())}};
+  }
 }
 
 ordered_json json_of(const Cell& cell) {
@@ -28,7 +38,7 @@ ordered_json json_of(const Cell& cell) {
         using Value = std::decay_t<decltype(value)>;
         if constexpr (std::is_same_v<Value, std::monostate>)
           return nullptr;
-        else if constexpr (std::is_same_v<Value, double>)
+        else if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, std::string>)
           return json_of(value);
         else
           return value;
@@ -47,6 +57,10 @@ Cell cell_of(const ordered_json& json) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_number_integer()) return json.get<std::int64_t>();
   if (json.is_number()) return json.get<double>();
+  if (json.contains(kBytes)) {
+    const auto bytes = json.at(kBytes).get<std::vector<std::uint8_t>>();
+    return std::string(bytes.begin(), bytes.end());
+  }
   if (json.is_object()) return special_number(json.at(kSpecial));
   return json.get<std::string>();
 }

@@ -173,6 +173,27 @@ end})");
   CHECK(rows[60].at("n") == "20");
 }
 
+TEST_CASE("Damaged results are gaps that say what to do") {
+  const Scratch scratch;
+  scratch.plan();
+  scratch.must({"run", "out"});
+  const std::string before = scratch.merged();
+  const fs::path results = scratch / "out/results/0000";
+  fs::resize_file(results / "0000003.json", 0);
+  fs::resize_file(results / "0000007.json", 20);
+  CHECK_THAT(scratch.must({"merge", "out"}),
+             Contains("2 units without a result") && Contains("remove it and resume"));
+  const auto gaps = rows_of(slurp(scratch / "out/gaps.csv"));
+  REQUIRE(gaps.size() == 2);
+  CHECK(gaps[0].at("unit") == "4");
+  CHECK(gaps[0].at("state") == "damaged");
+  CHECK_THAT(gaps[1].at("message"), Contains("0000007.json"));
+  fs::remove(results / "0000003.json");
+  fs::remove(results / "0000007.json");
+  scratch.must({"resume", "out"});
+  CHECK(scratch.merged() == before);
+}
+
 TEST_CASE("Wrong rows of a unit are failures that name the column") {
   const Scratch scratch(with(kWalk, "{place = place,", "{plaice = place,").c_str());
   scratch.plan();

@@ -44,7 +44,7 @@ TEST_CASE("A unit is missing, running, done") {
   CHECK(state_of(files, 1234) == UnitState::running);
   files.finish({.unit = 1234, .rows = {{1.5}}});
   CHECK(state_of(files, 1234) == UnitState::done);
-  CHECK(files.read_result(1234).rows == std::vector<Row>{{1.5}});
+  CHECK(files.read_result(1234, 1).rows == std::vector<Row>{{1.5}});
   CHECK_FALSE(fs::exists(files.try_path(1234, 1)));
   CHECK(files.result_path(1234) == folder / "results/0001/0001234.json");
 }
@@ -169,6 +169,24 @@ TEST_CASE("A try whose file is damaged counts as lost when it is silent") {
     fs::last_write_time(files.try_path(3, 1), old);
     CHECK(state_of(files, 3) == UnitState::waiting);
   }
+}
+
+TEST_CASE("A damaged result is named, with what to do") {
+  const TemporaryFolder folder;
+  const UnitFiles files(folder.path());
+  const std::string good = to_text(UnitResult{.unit = 7, .rows = {{1.5}}});
+  const std::string failure = to_text(UnitResult{.unit = 7, .failure = "no"});
+  write_text_file(files.result_path(7), good);
+  REQUIRE_NOTHROW(files.read_result(7, 1));
+  const auto message = Catch::Contains("0000007.json is damaged: remove it");
+  CHECK_THROWS_WITH(files.read_result(7, 2), message);
+  const std::string other = to_text(UnitResult{.unit = 8, .rows = {{1.5}}});
+  for (const std::string& text : {std::string(), good.substr(0, 20), other, failure}) {
+    write_text_file(files.result_path(7), text);
+    CHECK_THROWS_WITH(files.read_result(7, 1), message);
+  }
+  write_text_file(files.failure_path(7), good);
+  CHECK_THROWS_WITH(files.read_failure(7), Catch::Contains("0000007.failed.json is damaged"));
 }
 
 TEST_CASE("A folder that cannot be written to is named") {

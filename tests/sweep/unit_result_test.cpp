@@ -15,6 +15,7 @@ TEST_CASE("Cells are read as they were written, to the last bit") {
   const UnitResult result{.unit = 7,
                           .rows = {{0.1, -0.0, 1e-310, 12.0},
                                    {std::int64_t{12}, true, std::string("a,\"b\n"), {}},
+                                   {std::string("\xff\0x", 3), std::string("\u00fc"), true, {}},
                                    {kInfinity, -kInfinity, std::int64_t{-1}, false}},
                           .target = "AVX2",
                           .host = "node1",

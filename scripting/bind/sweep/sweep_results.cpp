@@ -117,10 +117,14 @@ class Merging {
     const std::vector<sweep::UnitNotes> notes = files_.list(first, end);
     for (std::uint64_t unit = first; unit < end; ++unit) {
       const sweep::UnitNotes& note = notes[unit - first];
-      if (note.state == UnitState::done)
-        add_result(unit);
-      else
-        add_gap(unit, gap_of(files_, unit, note));
+      try {
+        if (note.state == UnitState::done)
+          add_result(unit);
+        else
+          add_gap(unit, gap_of(files_, unit, note));
+      } catch (const InputError& damage) {  // after the loss of power or a fault of the disk
+        add_gap(unit, {"damaged", damage.what(), "", "", 0});
+      }
       task.advance();
     }
   }
@@ -134,12 +138,9 @@ class Merging {
 
  private:
   void add_result(std::uint64_t unit) {
-    const sweep::UnitResult result = files_.read_result(unit);
     const std::vector<std::string>& columns = place_of(value_, unit).stage.columns;
+    const sweep::UnitResult result = files_.read_result(unit, columns.size());
     for (const sweep::Row& row : result.rows) {
-      if (row.size() != columns.size())
-        throw InputError(
-            fmt::format("{} is damaged: remove it and resume", files_.result_path(unit).string()));
       begin_table(lua_);
       set_point(lua_, value_, unit);
       set_cells(lua_, columns, row);
@@ -239,7 +240,7 @@ void describe_sweep_results(Api& api) {
       .returns = "table: rows (unit, the axes and the columns), gaps (unit, the axes, state, "
                  "message, host, signal and log of units without a result) and runs (unit, "
                  "seconds, memory, host, target and springlod of the others)",
-      .errors = "There is no plan; a result is damaged.",
+      .errors = "There is no plan, or it is damaged.",
       .example = "local results = s.sweep_results(sweep, \"out/drops\")",
       .call = results_binding});
   api.add(FunctionEntry{.name = "forget_failures",

@@ -63,9 +63,12 @@ Cell pop_cell(lua_State* L, const std::string& column) {
       else
         cell = lua_tonumber(L, -1);
       break;
-    case LUA_TSTRING:
-      cell = std::string(lua_tostring(L, -1));
+    case LUA_TSTRING: {
+      std::size_t size = 0;
+      const char* text = lua_tolstring(L, -1, &size);
+      cell = std::string(text, size);
       break;
+    }
     default:
       throw InputError(
           fmt::format("unit: column '{}' is {}; a number, a text or a boolean can be "
@@ -86,7 +89,7 @@ void check_columns(lua_State* L, const std::vector<std::string>& columns) {
         std::find(columns.begin(), columns.end(), lua_tostring(L, -1)) != columns.end();
     if (known) continue;
     lua_pushvalue(L, -1);
-    throw InputError(fmt::format("unit: its row has '{}', which is none of the columns {}",
+    throw InputError(fmt::format("unit: its row has '{}', which is none of the columns ({})",
                                  luaL_tolstring(L, -1, nullptr), fmt::join(columns, ", ")));
   }
 }
