@@ -45,6 +45,13 @@ std::string last_line_of(const fs::path& log) {
   return last.starts_with(kPrefix) ? last.substr(kPrefix.size()) : last;
 }
 
+/// Why a process could not go on, as far as it has said.
+std::string error_of(const Worker& worker) {
+  if (!worker.error().empty()) return worker.error();
+  const std::string last = last_line_of(worker.log());
+  return last.empty() ? "it has printed nothing; the disk may be full" : last;
+}
+
 /// Neighbouring units that are to be run.
 using Range = Order;
 
@@ -236,7 +243,7 @@ class PhaseRun {
     if (end.signal == 0) {
       if (options_.progress != nullptr) options_.progress->advance(0);  // it was stopped as well
       throw IoError(fmt::format("a process of the sweep cannot work: {} (see {})",
-                                last_line_of(place.worker->log()), place.worker->log().string()));
+                                error_of(*place.worker), place.worker->log().string()));
     }
     if (!place.in_work && ++idle_ends_ >= kMostIdleEnds)
       throw IoError(

@@ -152,7 +152,10 @@ std::vector<std::string> submit_to_slurm(const std::vector<SlurmJob>& jobs) {
     if (result.exit_code != 0) {
       if (const auto cancel = find_program("scancel"); cancel && !all.empty())
         run_program(*cancel, all);
-      throw IoError(fmt::format("Slurm refuses the jobs: {}", first_line(result.errors)));
+      throw IoError(
+          fmt::format("Slurm refuses the jobs: {}; none was submitted: submit again with "
+                      "other options",
+                      first_line(result.errors)));
     }
     // "1234" or "1234;cluster"
     all.push_back(result.output.substr(0, result.output.find_first_of(";\n")));
@@ -169,7 +172,8 @@ std::uint64_t largest_slurm_array(bool guess) {
       control ? run_program(*control, {"show", "config"}) : ProgramResult{1, {}, {}};
   if (result.exit_code != 0 && guess) return kUsual;
   if (result.exit_code != 0)
-    throw IoError(fmt::format("Slurm does not answer: {}", first_line(result.errors)));
+    throw IoError(fmt::format("Slurm does not answer: {}; try again when it does",
+                              first_line(result.errors)));
   const std::size_t at = result.output.find("MaxArraySize");
   const std::size_t digits = result.output.find_first_of("0123456789", at);
   if (at == std::string::npos || digits == std::string::npos)

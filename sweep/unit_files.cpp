@@ -258,8 +258,10 @@ void UnitFiles::note_signal(std::uint64_t unit, int number, int signal) const {
 }
 
 void UnitFiles::forget(std::uint64_t unit) const {
-  std::error_code ignored;
-  fs::remove(failure_path(unit), ignored);
+  const fs::path failure = failure_path(unit);
+  std::error_code error;
+  fs::remove(failure, error);
+  if (error) throw IoError(fmt::format("cannot remove {}: {}", failure.string(), error.message()));
   remove_tries(unit);
 }
 

@@ -85,7 +85,7 @@ class UnitFiles {
   void give_up(std::uint64_t unit, int number) const;
   /// Notes which signal ended the process that ran a unit.
   void note_signal(std::uint64_t unit, int number, int signal) const;
-  /// Forgets the failure and the tries of a unit, so that it is run again.
+  /// Forgets the failure and the tries of a unit, so that it is run again. Throws IoError.
   void forget(std::uint64_t unit) const;
 
   /// `columns`: of its rows. Throw InputError, with what to do, for a damaged file.

@@ -103,10 +103,9 @@ Report::Kind run_unit(const UnitFiles& files, const WorkLabels& labels, const Ru
   }
 }
 
-}  // namespace
-
-void serve_units(const UnitFiles& files, const WorkLabels& labels, const UnitFunction& run,
-                 int socket) {
+/// Runs the units of orders until there are no more.
+void serve_orders(const UnitFiles& files, const WorkLabels& labels, const UnitFunction& run,
+                  int socket) {
   const Runner runner = this_runner(labels.log);
   Lines lines(socket);
   using Kind = Report::Kind;
@@ -126,6 +125,18 @@ void serve_units(const UnitFiles& files, const WorkLabels& labels, const UnitFun
       if (!send_line(socket, line_of(Report{kind, unit, *number}))) return;
     }
     if (!send_line(socket, line_of(Report{Kind::ready}))) return;
+  }
+}
+
+}  // namespace
+
+void serve_units(const UnitFiles& files, const WorkLabels& labels, const UnitFunction& run,
+                 int socket) {
+  try {
+    serve_orders(files, labels, run, socket);
+  } catch (const Error& error) {
+    send_line(socket, line_of_error(error.what()));
+    throw;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "sweep/work_lines.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -10,12 +11,22 @@
 
 namespace springlod::sweep {
 
+namespace {
+constexpr std::string_view kError = "error ";
+}
+
 std::string line_of(const Order& order) {
   return fmt::format("{} {}\n", order.first, order.end);
 }
 
 std::string line_of(const Report& report) {
   return fmt::format("{} {} {}\n", static_cast<char>(report.kind), report.unit, report.number);
+}
+
+std::string line_of_error(const std::string& message) {
+  std::string line = std::string(kError) + message;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line + "\n";
 }
 
 std::optional<Order> order_of(const std::string& line) {
@@ -32,6 +43,11 @@ std::optional<Report> report_of(const std::string& line) {
       std::string_view("rbdf").find(kind) == std::string_view::npos)
     return std::nullopt;
   return Report{static_cast<Report::Kind>(kind), unit, number};
+}
+
+std::optional<std::string> error_of(const std::string& line) {
+  if (!line.starts_with(kError)) return std::nullopt;
+  return line.substr(kError.size());
 }
 
 bool send_line(int socket, const std::string& line) {

@@ -30,9 +30,12 @@ struct Report {
 /// With a line feed.
 std::string line_of(const Order& order);
 std::string line_of(const Report& report);
+/// From a worker that cannot go on: why. A log on a full disk would not tell.
+std::string line_of_error(const std::string& message);
 /// Of a line without its line feed; nothing if it is none.
 std::optional<Order> order_of(const std::string& line);
 std::optional<Report> report_of(const std::string& line);
+std::optional<std::string> error_of(const std::string& line);
 
 /// Sends all of a line. Returns whether the other end is open.
 bool send_line(int socket, const std::string& line);

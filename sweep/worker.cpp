@@ -30,8 +30,11 @@ std::pair<Descriptor, Descriptor> connected_sockets() {
 }
 
 Descriptor open_log(const fs::path& path) {
-  std::error_code ignored;
-  fs::create_directories(path.parent_path(), ignored);
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error)
+    throw IoError(
+        fmt::format("cannot make the folder {}: {}", path.parent_path().string(), error.message()));
   constexpr mode_t kMode = 0666;
   Descriptor log = open_file(path, O_WRONLY | O_CREAT | O_APPEND, kMode);
   if (log.number() < 0)
@@ -79,8 +82,10 @@ void Worker::send(const Order& order) {
 }
 
 std::optional<Report> Worker::take_report() {
-  while (const auto line = lines_.take())
+  while (const auto line = lines_.take()) {
     if (const auto report = report_of(*line)) return report;
+    if (const auto error = error_of(*line)) error_ = *error;
+  }
   return std::nullopt;
 }
 

@@ -30,6 +30,8 @@ class Worker {
   /// Reads what it has reported. Returns false if it has ended.
   bool read_more() { return lines_.read_more(); }
   std::optional<Report> take_report();
+  /// Why it could not go on; empty if it has not said.
+  const std::string& error() const { return error_; }
   /// After its end.
   ProcessEnd wait();
   /// Lets it end by itself, while it waits for an order.
@@ -43,6 +45,7 @@ class Worker {
   std::filesystem::path log_;
   Descriptor socket_;
   Lines lines_;
+  std::string error_;
   pid_t process_ = 0;  // 0: waited for
 };
 

@@ -10,7 +10,7 @@
 
 #include "base/subprocess.hpp"
 #include "tests/cli/csv_rows.hpp"
-#include "tests/support/program.hpp"
+#include "tests/cli/sweep_scratch.hpp"
 
 using Catch::Matchers::Contains;
 using springlod::test::Ran;
@@ -45,31 +45,9 @@ return s.sweep{
 }
 )";
 
-/// A folder with a script in it, in which the program is run.
-class Scratch {
+class Scratch : public springlod::test::SweepScratch {
  public:
-  explicit Scratch(const char* script = kWalk) { spit(folder_ / "walk.lua", script); }
-  Ran run(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "sweep");
-    return springlod_run(arguments, "", folder_.path());
-  }
-  /// Runs and returns what is printed.
-  std::string must(const std::vector<std::string>& arguments) const {
-    const Ran ran = run(arguments);
-    CAPTURE(arguments, ran.err, ran.out);
-    REQUIRE(ran.exit_code == 0);
-    return ran.out + ran.err;
-  }
-  void plan(const std::string& out = "out") const { must({"plan", "walk.lua", "--out", out}); }
-  std::string merged(const std::string& out = "out") const {
-    must({"merge", out});
-    return slurp(folder_ / out / "results.csv");
-  }
-  fs::path operator/(const fs::path& name) const { return folder_ / name; }
-  const fs::path& path() const { return folder_.path(); }
-
- private:
-  TemporaryFolder folder_;
+  explicit Scratch(const std::string& script = kWalk) : SweepScratch(script) {}
 };
 
 bool wait_for(const fs::path& path) {
@@ -105,7 +83,7 @@ TEST_CASE("A sweep is planned, run and merged") {
 }
 
 TEST_CASE("A sweep task by task gives the same bytes as all at once") {
-  const Scratch scratch(with(kWalk, "1000 * point.steps", "1e11").c_str());
+  const Scratch scratch(with(kWalk, "1000 * point.steps", "1e11"));
   scratch.plan("whole");
   scratch.plan("tasks");
   scratch.must({"run", "whole"});
@@ -133,8 +111,7 @@ TEST_CASE("A finished unit is not run again, and resume runs what is missing") {
 
 TEST_CASE("A unit that fails is recorded, named in the tables and not run again") {
   const Scratch scratch(
-      with(kWalk, "local place,", "if point.index == 5 then error('no way') end\n local place,")
-          .c_str());
+      with(kWalk, "local place,", "if point.index == 5 then error('no way') end\n local place,"));
   scratch.plan();
   CHECK_THAT(scratch.must({"run", "out"}), Contains("11 of 12 units done, 1 failed"));
   CHECK_THAT(scratch.must({"merge", "out"}), Contains("unit 5") && Contains("no way"));
@@ -195,7 +172,7 @@ TEST_CASE("Damaged results are gaps that say what to do") {
 }
 
 TEST_CASE("Wrong rows of a unit are failures that name the column") {
-  const Scratch scratch(with(kWalk, "{place = place,", "{plaice = place,").c_str());
+  const Scratch scratch(with(kWalk, "{place = place,", "{plaice = place,"));
   scratch.plan();
   scratch.must({"run", "out"});
   scratch.must({"merge", "out"});
@@ -218,7 +195,7 @@ TEST_CASE("A plan whose script has changed is refused") {
 }
 
 TEST_CASE("A file that the script reads belongs to the plan") {
-  const Scratch scratch(("local table = dofile('values.lua')\n" + std::string(kWalk)).c_str());
+  const Scratch scratch("local table = dofile('values.lua')\n" + std::string(kWalk));
   spit(scratch / "values.lua", "return {1}");
   scratch.plan();
   spit(scratch / "values.lua", "return {2}");
@@ -261,8 +238,7 @@ return s.sweep{count = count, columns = {"n"}, unit = function() return {n = cou
 TEST_CASE("Processes that are killed again and again change no result", "[long]") {
   const Scratch scratch(
       with(kWalk, "local place,",
-           "local begun = os.clock() while os.clock() < begun + 0.1 do end\n local place,")
-          .c_str());
+           "local begun = os.clock() while os.clock() < begun + 0.1 do end\n local place,"));
   scratch.plan("quiet");
   scratch.must({"run", "quiet"});
   scratch.plan("killed");

@@ -226,7 +226,13 @@ int run_binding(Call& call) {
   run.arguments = [&, threads = std::max(1U, cores / run.workers)](const std::string& log) {
     return script_arguments(plan, folder, threads, {"--log=" + log, "work"});
   };
-  const sweep::RunCounts counts = sweep::run_plan(plan, UnitFiles(folder), run);
+  sweep::RunCounts counts;
+  try {
+    counts = sweep::run_plan(plan, UnitFiles(folder), run);
+  } catch (const IoError& error) {
+    throw IoError(fmt::format("{}. Finished units are kept: mend the cause, then {}", error.what(),
+                              shell_line("springlod", {"sweep", "resume", folder.string()})));
+  }
   begin_table(call.lua());
   set_field(call.lua(), "done", counts.done);
   set_field(call.lua(), "failed", counts.failed);
@@ -243,7 +249,9 @@ int merge_binding(Call& call) {
       start_program(this_program(), script_arguments(plan, folder, 0, action),
                     {.output = STDOUT_FILENO, .errors = STDERR_FILENO}, plan.folder));
   if (end.signal != 0 || end.exit_code != 0)
-    throw InputError("the results could not be merged, see above");
+    throw InputError(
+        "the results could not be merged, see above; they are kept: mend the cause and merge "
+        "again");
   return 0;
 }
 
