@@ -1,5 +1,9 @@
 // springlod sweep on a private Slurm cluster and with GNU parallel, where they are installed.
 
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
 #include <catch2/catch.hpp>
 #include <unistd.h>
 
@@ -49,6 +53,49 @@ std::string at_home(const TemporaryFolder& folder) {
   return slurp(folder / "home/results-use.csv");
 }
 
+/// Whether the private cluster can be started.
+bool has_cluster() {
+  const bool has = find_program("slurmctld") && find_program("munged") && ::geteuid() == 0;
+  if (!has) WARN("Slurm is not installed (./dev setup sweep), or this is not root: left out");
+  return has;
+}
+
+/// munged runs as a user of its own, who must get there.
+void let_munge_through(const TemporaryFolder& folder) {
+  fs::permissions(folder.path(), fs::perms::others_exec | fs::perms::others_read,
+                  fs::perm_options::add);
+}
+
+/// The private cluster, for programs that this one starts.
+class Cluster {
+ public:
+  explicit Cluster(const TemporaryFolder& folder) : folder_((folder / "cluster").string()) {
+    let_munge_through(folder);
+    const springlod::ProgramResult started = control({"start", folder_, "17017"});
+    CAPTURE(started.errors);
+    REQUIRE(started.exit_code == 0);
+    ::setenv("SLURM_CONF", (folder_ + "/slurm.conf").c_str(), 1);
+  }
+  ~Cluster() {
+    ::unsetenv("SLURM_CONF");
+    control({"stop", folder_});
+  }
+  Cluster(const Cluster&) = delete;
+  Cluster& operator=(const Cluster&) = delete;
+
+  /// Those that have not ended, a line each.
+  std::string jobs() const {
+    const springlod::ProgramResult queue = run_program(*find_program("squeue"), {"--noheader"});
+    return queue.exit_code == 0 ? queue.output : queue.errors;
+  }
+
+ private:
+  static springlod::ProgramResult control(const std::vector<std::string>& arguments) {
+    return run_program(springlod::test::source_folder() / "tests/sweep/slurm_cluster", arguments);
+  }
+  std::string folder_;
+};
+
 }  // namespace
 
 TEST_CASE("GNU parallel gives the same results as one machine", "[long]") {
@@ -60,6 +107,11 @@ TEST_CASE("GNU parallel gives the same results as one machine", "[long]") {
   const std::string expected = at_home(folder);
   must(folder, {"plan", "sweep.lua", "--out", "parallel"});
   must(folder, {"submit", "parallel", "--engine", "parallel"});
+  must(folder, {"merge", "parallel"});
+  CHECK(slurp(folder / "parallel/results-use.csv") == expected);
+  fs::remove(folder / "parallel/results/0000/0000004.json");
+  spit(folder / "hosts.txt", ":\n");
+  must(folder, {"resume", "parallel", "--engine", "parallel", "--hosts", "hosts.txt"});
   must(folder, {"merge", "parallel"});
   CHECK(slurp(folder / "parallel/results-use.csv") == expected);
 }
@@ -103,25 +155,42 @@ TEST_CASE("Timed units have a machine to themselves") {
   CHECK_THAT(slurp(folder / "out/timings-use.csv"), Contains("which,factor,value"));
 }
 
-TEST_CASE("Without Slurm, submit says what to do") {
-  if (find_program("sbatch")) return;
+TEST_CASE("A wrong partition is named, and nothing is lost", "[long]") {
+  if (!has_cluster()) return;
   const TemporaryFolder folder;
-  spit(folder / "sweep.lua", kSweep);
+  const std::string expected = at_home(folder);
+  const Cluster cluster(folder);
   must(folder, {"plan", "sweep.lua", "--out", "out"});
-  const Ran ran = springlod_run({"sweep", "submit", "out"}, "", folder.path());
-  CHECK(ran.exit_code == 1);
-  CHECK_THAT(ran.err, Contains("sbatch is not installed here") && Contains("--engine parallel"));
+  must(folder, {"run", "out", "--task", "0"});
+  const fs::path result = folder / "out/results/0000/0000002.json";
+  const std::string kept = slurp(result);
+  for (const std::vector<std::string>& action :
+       {std::vector<std::string>{"submit", "out"}, {"resume", "out", "--engine", "slurm"}}) {
+    std::vector<std::string> arguments = action;
+    arguments.insert(arguments.begin(), "sweep");
+    arguments.emplace_back("--sbatch=--partition=nowhere");
+    const Ran ran = springlod_run(arguments, "", folder.path());
+    CAPTURE(ran.err);
+    CHECK(ran.exit_code == 1);
+    CHECK_THAT(ran.err, Contains("invalid partition specified: nowhere") &&
+                            Contains("none was submitted: submit again with other options"));
+  }
+  CHECK(cluster.jobs().empty());
+  CHECK(slurp(result) == kept);
+  must(folder, {"resume", "out", "--engine", "slurm", "--sbatch=--partition=short", "--at-once",
+                "2", "--time", "10min", "--memory", "100000000"});
+  // The last job merges.
+  for (int i = 0; i < 1200 && !cluster.jobs().empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  CHECK(cluster.jobs().empty());
+  CHECK(slurp(folder / "out/results-use.csv") == expected);
+  CHECK(slurp(result) == kept);
 }
 
 TEST_CASE("Killed tasks of Slurm change no result", "[long]") {
-  if (!find_program("slurmctld") || !find_program("munged") || ::geteuid() != 0) {
-    WARN("Slurm is not installed (./dev setup sweep), or this is not root: left out");
-    return;
-  }
+  if (!has_cluster()) return;
   const TemporaryFolder folder;
-  // munged runs as a user of its own, who must get there.
-  fs::permissions(folder.path(), fs::perms::others_exec | fs::perms::others_read,
-                  fs::perm_options::add);
+  let_munge_through(folder);
   const springlod::ProgramResult result =
       run_program(springlod::test::source_folder() / "tests/sweep/kills",
                   {(springlod::test::build_folder() / "app/springlod").string(),
