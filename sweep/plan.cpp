@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/subprocess.hpp"
 
 namespace springlod::sweep {
 
@@ -18,16 +19,26 @@ using nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
 
-ordered_json to_json(const Plan& plan) {
-  ordered_json files = ordered_json::array(), stages = files, costs = files;
+ordered_json files_json(const Plan& plan) {
+  ordered_json files = ordered_json::array();
   for (const SourceFile& file : plan.files)
     files.push_back({{"path", file.path}, {"hash", file.hash}});
+  return files;
+}
+
+ordered_json stages_json(const Plan& plan) {
+  ordered_json stages = ordered_json::array();
   for (const Stage& stage : plan.stages)
     stages.push_back({{"name", stage.name},
                       {"units", stage.units},
                       {"columns", stage.columns},
                       {"waits", stage.waits},
                       {"alone", stage.alone}});
+  return stages;
+}
+
+ordered_json to_json(const Plan& plan) {
+  ordered_json costs = ordered_json::array();
   for (const CostRun& run : plan.costs) costs.push_back({run.units, run.cost});
   return {{"format", kFormat},
           {"springlod", plan.version},
@@ -37,8 +48,8 @@ ordered_json to_json(const Plan& plan) {
           {"folder", plan.folder},
           {"seed", plan.seed},
           {"sandbox", plan.sandbox},
-          {"files", files},
-          {"stages", stages},
+          {"files", files_json(plan)},
+          {"stages", stages_json(plan)},
           {"units", plan.unit_count()},
           {"seconds_per_cost", plan.seconds_per_cost},
           {"costs", costs},
@@ -78,6 +89,40 @@ Plan from_json(const ordered_json& json) {
   plan.seconds_per_cost = json.at("seconds_per_cost");
   read_lists(json, plan);
   return plan;
+}
+
+std::string words_of(const std::vector<std::string>& arguments) {
+  return arguments.empty()
+             ? "none"
+             : shell_line(arguments.front(), {arguments.begin() + 1, arguments.end()});
+}
+
+/// The first file whose content differs, or that only one of the plans was made with; empty: none.
+std::string changed_file(const Plan& kept, const Plan& plan) {
+  for (std::size_t i = 0; i < std::max(kept.files.size(), plan.files.size()); ++i) {
+    if (i >= kept.files.size()) return plan.files[i].path;
+    if (i >= plan.files.size() || kept.files[i].path != plan.files[i].path ||
+        kept.files[i].hash != plan.files[i].hash)
+      return kept.files[i].path;
+  }
+  return "";
+}
+
+/// Of what the results of the plan `kept` are that are no results of `plan`.
+std::string difference(const Plan& kept, const Plan& plan) {
+  if (kept.script != plan.script) return fmt::format("the script {}", kept.script);
+  if (kept.arguments != plan.arguments)
+    return fmt::format("the arguments {}", words_of(kept.arguments));
+  if (kept.seed != plan.seed) return fmt::format("the seed {}", kept.seed);
+  if (kept.version != plan.version || kept.program != plan.program)
+    return "another version of the program or its scripts";
+  if (const std::string file = changed_file(kept, plan); !file.empty())
+    return fmt::format("another content of {}", file);
+  return "other units";
+}
+
+fs::path hash_path(const fs::path& folder) {
+  return folder / "plan.hash";
 }
 
 }  // namespace
@@ -150,7 +195,29 @@ fs::path plan_path(const fs::path& folder) {
   return folder / "plan.json";
 }
 
+std::string results_hash(const Plan& plan) {
+  const ordered_json json{plan.version, plan.program,      plan.script,     plan.arguments,
+                          plan.seed,    stages_json(plan), files_json(plan)};
+  return content_hash(json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+void require_own_results(const fs::path& folder, const Plan& plan) {
+  std::error_code error;
+  if (!fs::exists(folder / "results", error)) return;
+  const fs::path hash = hash_path(folder);
+  if (fs::exists(hash, error) && read_file(hash) == results_hash(plan) + "\n") return;
+  std::string owner = "another plan";
+  try {
+    owner = difference(read_plan(folder), plan);
+  } catch (const Error&) {
+    // It is damaged, or there is none.
+  }
+  throw InputError(fmt::format("{} holds results of {}; choose another folder, or remove this one",
+                               folder.string(), owner));
+}
+
 void write_plan(const fs::path& folder, const Plan& plan) {
+  write_text_file(hash_path(folder), results_hash(plan) + "\n");
   write_text_file(plan_path(folder), to_json(plan).dump(1) + "\n");
 }
 
@@ -160,7 +227,7 @@ Plan read_plan(const fs::path& folder) {
   if (!fs::exists(path, ignored))
     throw IoError(
         fmt::format("{} holds no plan; 'springlod sweep plan FILE.lua --out {}' makes one",
-                    folder.string(), folder.string()));
+                    folder.string(), shell_word(folder.string())));
   try {
     const ordered_json json = ordered_json::parse(read_file(path));
     if (const int format = json.at("format"); format > kFormat)

@@ -88,10 +88,16 @@ void add_cost(std::vector<CostRun>& costs, double cost);
 
 /// The plan of a folder is the file plan.json in it.
 std::filesystem::path plan_path(const std::filesystem::path& folder);
-/// Throws IoError if the file cannot be written.
+/// With the file plan.hash. Throws IoError if it cannot be written.
 void write_plan(const std::filesystem::path& folder, const Plan& plan);
 /// Throws IoError if there is no plan, InputError if it is damaged or of a newer version.
 Plan read_plan(const std::filesystem::path& folder);
+
+/// Hash of what the results of a plan depend on: not of costs and tasks.
+std::string results_hash(const Plan& plan);
+/// Throws InputError if the folder has results of a plan with another hash than the one that it
+/// keeps in plan.hash. That file is there for when the plan itself is damaged.
+void require_own_results(const std::filesystem::path& folder, const Plan& plan);
 
 /// The hashes of files, for Plan::files. Throws IoError if one cannot be read.
 std::vector<SourceFile> hash_files(const std::vector<std::filesystem::path>& paths);

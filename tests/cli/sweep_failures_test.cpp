@@ -260,3 +260,30 @@ TEST_CASE("Without a cluster, submit says what to do and loses nothing") {
     }
   texts.check_end("out", kept);
 }
+
+TEST_CASE("A damaged plan is made again, and nothing is lost") {
+  const Texts texts;
+  texts.plan();
+  texts.must({"run", "out"});
+  fs::remove(texts / "out/results/0000/0000003.json");
+  const auto kept = texts.results("out");
+  fs::resize_file(texts / "out/plan.json", 100);
+  for (const char* action : {"status", "run", "resume", "submit", "merge"}) {
+    const auto ran = texts.run({action, "out"});
+    CAPTURE(action, ran.err);
+    CHECK(ran.exit_code == 1);
+    CHECK_THAT(ran.err, Contains("plan.json is damaged; make the plan again"));
+  }
+  // A plan with other results is refused nevertheless.
+  const auto other = texts.run({"plan", "walk.lua", "--out", "out", "--", "argument"});
+  CHECK(other.exit_code == 1);
+  CHECK_THAT(other.err, Contains("holds results of another plan"));
+  SECTION("truncated") {
+    texts.plan();
+  }
+  SECTION("removed") {
+    fs::remove(texts / "out/plan.json");
+    texts.plan();
+  }
+  texts.check_end("out", kept);
+}

@@ -367,6 +367,8 @@ TEST_CASE("Sweeps that make no sense are refused") {
       {"axes = {{'a', {}}}, unit = print", "'a' has none"},
       {"axes = {{'a', {1}}, {'a', {2}}}, unit = print", "'a'"},
       {"axes = {{'seed', {1}}}, unit = print", "'seed'"},
+      {"axes = {{'host', {1}}}, unit = print", "'host'"},
+      {"axes = {{'', {1}}}, unit = print", "''"},
       {"axes = {{'a', {print}}}, unit = print", "a function"},
       {"count = 2, unit = print, stages = {}", "inside the stages"},
       {"stages = {}", "at least one stage"},

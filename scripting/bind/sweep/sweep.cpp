@@ -21,7 +21,9 @@ namespace {
 constexpr const char* kGroup = "Sweeps";
 /// Units of a sweep: more files than a file system holds with pleasure.
 constexpr std::uint64_t kMostUnits = 10'000'000;
-constexpr const char* kReserved[] = {"index", "seed", "folder", "unit", "missing"};
+constexpr const char* kReserved[] = {"", "index", "seed", "folder", "unit", "missing"};
+/// Columns that follow the axes in gaps.csv.
+constexpr const char* kGapColumns[] = {"state", "message", "host", "signal", "log"};
 
 FunctionReference keep_function(TableReader& reader, const char* name) {
   const int index = reader.raw(name);
@@ -85,8 +87,9 @@ void check_names(TableReader& reader, const SweepStage& stage) {
                                         "twice",
                                         name));
   };
-  for (const SweepAxis& axis : stage.axes) add("axes", axis.name);
   for (const std::string& column : stage.columns) add("columns", column);
+  names.insert(std::begin(kGapColumns), std::end(kGapColumns));
+  for (const SweepAxis& axis : stage.axes) add("axes", axis.name);
 }
 
 void count_units(TableReader& reader, SweepStage& stage) {

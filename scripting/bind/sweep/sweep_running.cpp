@@ -49,37 +49,6 @@ bool are_same(const std::vector<sweep::Stage>& a, const std::vector<sweep::Stage
                     });
 }
 
-std::string words_of(const std::vector<std::string>& arguments) {
-  return arguments.empty()
-             ? "none"
-             : shell_line(arguments.front(), {arguments.begin() + 1, arguments.end()});
-}
-
-/// The first file whose content differs, or that only one of the plans was made with; empty: none.
-std::string changed_file(const Plan& kept, const Plan& plan) {
-  for (std::size_t i = 0; i < std::max(kept.files.size(), plan.files.size()); ++i) {
-    if (i >= kept.files.size()) return plan.files[i].path;
-    if (i >= plan.files.size() || kept.files[i].path != plan.files[i].path ||
-        kept.files[i].hash != plan.files[i].hash)
-      return kept.files[i].path;
-  }
-  return "";
-}
-
-/// Of what the results of the plan `kept` are that are no results of `plan`; empty if they are.
-/// What units cost does not matter.
-std::string difference(const Plan& kept, const Plan& plan) {
-  if (kept.script != plan.script) return fmt::format("the script {}", kept.script);
-  if (kept.arguments != plan.arguments)
-    return fmt::format("the arguments {}", words_of(kept.arguments));
-  if (kept.seed != plan.seed) return fmt::format("the seed {}", kept.seed);
-  if (kept.version != plan.version || kept.program != plan.program)
-    return "another version of the program or its scripts";
-  if (const std::string file = changed_file(kept, plan); !file.empty())
-    return fmt::format("another content of {}", file);
-  return are_same(kept.stages, plan.stages) ? "" : "other units";
-}
-
 /// The regular files that the script has read, but for those of the program.
 std::vector<fs::path> files_read(Session& session, const fs::path& folder) {
   std::vector<fs::path> paths;
@@ -141,19 +110,6 @@ void adjust_time(Call& call, const SweepValue& value, const std::string& folder,
   if (seconds > 0 && estimated > 0) plan.seconds_per_cost *= seconds / estimated;
 }
 
-void require_no_others(const fs::path& folder, const Plan& plan) {
-  std::error_code error;
-  if (!fs::exists(folder / "results", error)) return;
-  if (!fs::exists(sweep::plan_path(folder), error))
-    throw InputError(
-        fmt::format("{} holds results without the plan that they belong to; choose another folder",
-                    folder.string()));
-  const std::string why = difference(sweep::read_plan(folder), plan);
-  if (!why.empty())
-    throw InputError(fmt::format(
-        "{} holds results of {}; choose another folder, or remove this one", folder.string(), why));
-}
-
 int plan_binding(Call& call) {
   const auto value = call.value<SweepValue>(1);
   const fs::path folder = call.writable(2);
@@ -177,7 +133,7 @@ int plan_binding(Call& call) {
   if (pilot) adjust_time(call, *value, of_points, plan);
   plan.files = sweep::hash_files(files_read(call.session(), folder));
   sweep::pack_tasks(plan);
-  require_no_others(folder, plan);
+  sweep::require_own_results(folder, plan);
   sweep::write_plan(folder, plan);
   begin_table(call.lua());
   set_field(call.lua(), "units", plan.unit_count());
