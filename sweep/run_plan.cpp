@@ -240,35 +240,38 @@ class PhaseRun {
 
   void handle_end(Place& place, Task& task) {
     const ProcessEnd end = place.worker->wait();
-    if (end.signal == 0) {
-      if (options_.progress != nullptr) options_.progress->advance(0);  // it was stopped as well
+    if (end.signal == 0) task.advance(0);  // throws if the user stops it: the worker was as well
+    const bool exits_in_unit = place.in_work && place.worker->error().empty();
+    if (end.signal == 0 && !exits_in_unit)
       throw IoError(fmt::format("a process of the sweep cannot work: {} (see {})",
                                 error_of(*place.worker), place.worker->log().string()));
-    }
     if (!place.in_work && ++idle_ends_ >= kMostIdleEnds)
       throw IoError(
           fmt::format("processes of the sweep end by signal {} before they run a unit "
                       "(see {})",
                       end.signal, place.worker->log().string()));
-    if (place.in_work) handle_lost_unit(place, end.signal, task);
+    if (place.in_work) handle_lost_unit(place, end, task);
     queue_.put_back(place.order);
   }
 
-  void handle_lost_unit(Place& place, int signal, Task& task) {
+  void handle_lost_unit(Place& place, const ProcessEnd& end, Task& task) {
     const Report in_work = *place.in_work;
-    if (is_crash(signal)) {
-      UnitResult failure{.unit = in_work.unit,
-                         .failure = fmt::format("crashed by signal {}", signal),
-                         .version = plan_.version,
-                         .host = host_name(),
-                         .log = fs::relative(place.worker->log(), files_.folder()).string(),
-                         .signal = signal};
+    const bool exits = end.signal == 0;  // os.exit in the script
+    if (exits || is_crash(end.signal)) {
+      UnitResult failure{
+          .unit = in_work.unit,
+          .failure = exits ? fmt::format("ended its process with exit code {}", end.exit_code)
+                           : fmt::format("crashed by signal {}", end.signal),
+          .version = plan_.version,
+          .host = host_name(),
+          .log = fs::relative(place.worker->log(), files_.folder()).string(),
+          .signal = end.signal};
       files_.finish(failure);
       ++counts_.failed;
       finish_unit(place, task);
       return;
     }
-    files_.note_signal(in_work.unit, in_work.number, signal);
+    files_.note_signal(in_work.unit, in_work.number, end.signal);
     if (in_work.number < kMostTries) return;
     ++counts_.lost;
     finish_unit(place, task);

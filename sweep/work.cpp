@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "base/error.hpp"
+#include "base/message.hpp"
 #include "sweep/work_lines.hpp"
 
 namespace springlod::sweep {
@@ -81,7 +82,7 @@ UnitResult result_of(std::uint64_t unit, const WorkLabels& labels, const Runner&
   } catch (const InterruptedError&) {
     throw;
   } catch (const std::exception& error) {
-    result.failure = error.what();
+    result.failure = printable(error.what());
     if (result.failure.empty()) result.failure = "unknown";
   }
   result.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
@@ -134,7 +135,7 @@ void serve_units(const UnitFiles& files, const WorkLabels& labels, const UnitFun
                  int socket) {
   try {
     serve_orders(files, labels, run, socket);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {
     send_line(socket, line_of_error(error.what()));
     throw;
   }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/subprocess.hpp"
+#include "tests/cli/csv_rows.hpp"
 #include "tests/cli/sweep_scratch.hpp"
 
 using Catch::Matchers::Contains;
@@ -286,4 +287,22 @@ TEST_CASE("A damaged plan is made again, and nothing is lost") {
     texts.plan();
   }
   texts.check_end("out", kept);
+}
+
+TEST_CASE("A unit that ends its process, or fails without a message, stops no other") {
+  const springlod::test::SweepScratch scratch(R"(
+return require("springlod").sweep{count = 4, columns = {"n"}, unit = function(point)
+  if point.index == 1 then os.exit(3) end
+  if point.index == 2 then error({}) end
+  if point.index == 3 then error(("x"):rep(1000000)) end
+  return {n = point.index}
+end})");
+  scratch.plan();
+  CHECK_THAT(scratch.must({"run", "out"}), Contains("1 of 4 units done, 3 failed"));
+  scratch.merged();
+  const auto gaps = springlod::test::rows_of(slurp(scratch / "out/gaps.csv"));
+  REQUIRE(gaps.size() == 3);
+  CHECK(gaps[0].at("message") == "ended its process with exit code 3");
+  CHECK(gaps[1].at("message") == "error with a table, not with a message");
+  CHECK(gaps[2].at("message").size() < 3000);
 }

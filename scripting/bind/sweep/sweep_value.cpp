@@ -19,14 +19,22 @@ namespace {
 using sweep::Cell;
 using sweep::Row;
 
+/// The message of the error on top. An address, as of a table, would differ from run to run.
+std::string message_at_top(lua_State* L) {
+  const bool has_text = lua_isstring(L, -1) != 0 || luaL_callmeta(L, -1, "__tostring") != 0;
+  if (has_text) return luaL_tolstring(L, -1, nullptr);
+  return fmt::format("error with {}, not with a message", describe_type_at(L, lua_gettop(L)));
+}
+
 /// Calls the function below its `arguments`; its result is then on the stack.
 void call(lua_State* L, int arguments) {
+  const int bottom = lua_gettop(L) - arguments - 1;
   if (lua_pcall(L, arguments, 1, 0) == LUA_OK) return;
   const auto error = std::static_pointer_cast<const ErrorValue>(
       boxed_at(L, lua_gettop(L), &kValueName<ErrorValue>));
   const bool interrupted = error && error->kind == "interrupted";
-  const std::string message = luaL_tolstring(L, -1, nullptr);
-  lua_pop(L, 2);
+  const std::string message = message_at_top(L);
+  lua_settop(L, bottom);
   if (interrupted) throw InterruptedError();
   throw InputError(message);
 }
