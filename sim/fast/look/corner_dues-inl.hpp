@@ -14,6 +14,7 @@
 
 #include <hwy/highway.h>
 
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/look/corner_look.hpp"
 #include "sim/fast/look/corner_margin.hpp"
 
@@ -31,7 +32,9 @@ HWY_INLINE void for_each_lane(D d, hn::Mask<D> mask, const Take& take) {
     take(static_cast<std::uint32_t>(std::countr_zero(rest)));
 }
 
-/// The least margin of a group of corners, lane by lane.
+/// The least margin of a group of corners, lane by lane of kMarginLanes. Vectors may have fewer
+/// lanes: their number must not decide when a corner is due.
+inline constexpr std::uint32_t kMarginLanes = 8;
 template <class D>
 class LeastMargin {
  public:
@@ -40,30 +43,37 @@ class LeastMargin {
 
   /// `farthest`: largest coordinate of a node [m].
   HWY_INLINE explicit LeastMargin(double farthest)
-      : rounding_(hn::Set(D(), kMarginRounding<Real> * static_cast<Real>(farthest))),
-        room_(hn::Set(D(), std::numeric_limits<Real>::max())),
-        growth_(hn::Set(D(), Real(1))) {}
+      : rounding_(hn::Set(D(), kMarginRounding<Real> * static_cast<Real>(farthest))) {
+    for (std::size_t part = 0; part < kParts; ++part) {
+      room_[part] = hn::Set(D(), std::numeric_limits<Real>::max());
+      growth_[part] = hn::Set(D(), Real(1));
+    }
+  }
 
-  /// Adds a corner in each lane: its volume, the sum of the squares of its edges, and its terms.
-  /// Returns its room, less a bound on the error of rounding [m]: below 0 or not a number if the
-  /// corner has no margin.
-  HWY_INLINE V add(V volume, V squares, V scale, V offset) {
+  /// Adds a corner in each lane from `lane`: its volume, the sum of the squares of its edges, and
+  /// its terms. Returns its room, less a bound on the error of rounding [m]: below 0 or not a
+  /// number if the corner has no margin.
+  HWY_INLINE V add(std::size_t lane, V volume, V squares, V scale, V offset) {
+    const std::size_t part = lane / hn::Lanes(D());
     const V growth = hn::Mul(hn::Abs(scale), squares);
-    const V room = hn::NegMulAdd(rounding_, growth, hn::MulAdd(volume, scale, offset));
-    room_ = hn::Min(room_, room);
-    growth_ = hn::Max(growth_, growth);
+    const V room = subtract_product(rounding_, growth, add_product(volume, scale, offset));
+    room_[part] = hn::Min(room_[part], room);
+    growth_[part] = hn::Max(growth_[part], growth);
     return room;
   }
   /// A lower bound on the margin of all corners, if all have one [m].
   HWY_INLINE double least() const {
-    return kMarginPart *
-           static_cast<double>(hn::GetLane(hn::MinOfLanes(D(), hn::Div(room_, growth_))));
+    V least = hn::Div(room_[0], growth_[0]);
+    for (std::size_t part = 1; part < kParts; ++part)
+      least = hn::Min(least, hn::Div(room_[part], growth_[part]));
+    return kMarginPart * static_cast<double>(hn::GetLane(hn::MinOfLanes(D(), least)));
   }
 
  private:
-  V rounding_;  // of the room of a corner that has not grown [m]
-  V room_;      // least
-  V growth_;    // largest
+  static constexpr std::size_t kParts = kMarginLanes / hn::MaxLanes(D());
+  V rounding_;        // of the room of a corner that has not grown [m]
+  V room_[kParts];    // least
+  V growth_[kParts];  // largest
 };
 
 /// Lists the groups to look at in `dues.now`. Returns the least due travel of the others [m].

@@ -15,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "sim/correction/corner_watch.hpp"
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/look/corner_dues-inl.hpp"
 #include "sim/fast/look/corner_margin.hpp"
 #include "sim/fast/look/stretch-inl.hpp"
@@ -58,9 +59,9 @@ Vec3 departure(const QuadLayout<Real>& layout, std::uint32_t number, double drif
     for (std::uint32_t i = 0; i < layout.blocks[number].own; ++i) {
       const NodeRecord<Real>& node = records[i];
       auto apart = hn::Sub(hn::Load(d, node.v + lane), common);
-      apart = hn::NegMulAdd(by_x, hn::Set(d, node.x[0]), apart);
-      apart = hn::NegMulAdd(by_y, hn::Set(d, node.x[1]), apart);
-      apart = hn::NegMulAdd(by_z, hn::Set(d, node.x[2]), apart);
+      apart = subtract_product(by_x, hn::Set(d, node.x[0]), apart);
+      apart = subtract_product(by_y, hn::Set(d, node.x[1]), apart);
+      apart = subtract_product(by_z, hn::Set(d, node.x[2]), apart);
       of_lanes = hn::Max(of_lanes, hn::Abs(hn::Mul(apart, hn::Set(d, counts[i]))));
     }
     hn::Store(of_lanes, d, most.at + lane);
@@ -91,9 +92,9 @@ HWY_INLINE void measure_corners(const CornerEight<Real>& eight, const NodeRecord
     const auto p = transpose(load(1) - own);
     const auto q = transpose(load(2) - own);
     const auto r = transpose(load(3) - own);
-    const decltype(p) face{hn::NegMulAdd(q.z, r.y, hn::Mul(q.y, r.z)),
-                           hn::NegMulAdd(q.x, r.z, hn::Mul(q.z, r.x)),
-                           hn::NegMulAdd(q.y, r.x, hn::Mul(q.x, r.y))};
+    const decltype(p) face{subtract_product(q.z, r.y, hn::Mul(q.y, r.z)),
+                           subtract_product(q.x, r.z, hn::Mul(q.z, r.x)),
+                           subtract_product(q.y, r.x, hn::Mul(q.x, r.y))};
     take(first, dot(p, face), hn::Add(dot(p, p), hn::Add(dot(q, q), dot(r, r))));
   }
 }
@@ -122,15 +123,14 @@ void measure_corners(const CornerEight<Real>& eight, const NodeRecord<Real>* rec
   Real squares[2 * kQuad];
   for (std::size_t c = 0; c < 2 * kQuad; ++c) {
     Real e[3][3];
-    squares[c] = 0;
     for (std::size_t n = 0; n < 3; ++n)
-      for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i)
         e[n][i] = records[eight.node[n + 1][c]].x[i] - records[eight.node[0][c]].x[i];
-        squares[c] += e[n][i] * e[n][i];
-      }
-    volumes[c] = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-                 e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                 e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    const Real face[3] = {e[1][1] * e[2][2] - e[1][2] * e[2][1],
+                          e[1][2] * e[2][0] - e[1][0] * e[2][2],
+                          e[1][0] * e[2][1] - e[1][1] * e[2][0]};
+    volumes[c] = dot(e[0], face);
+    squares[c] = dot(e[0], e[0]) + (dot(e[1], e[1]) + dot(e[2], e[2]));
   }
   const CornerLanes<Real> d;
   for (std::size_t lane = 0; lane < 2 * kQuad; lane += hn::Lanes(d))
@@ -142,8 +142,8 @@ void measure_squares(const QuadPair<Real>& pair, const NodeRecord<Real>* records
   for (std::size_t s = 0; s < 2 * kQuad; ++s) {
     const NodeRecord<Real>& p = record_at(records, pair.own[s / kQuad]);
     const NodeRecord<Real>& q = record_at(records, pair.other[s]);
-    squares[s] = 0;
-    for (int i = 0; i < 3; ++i) squares[s] += (q.x[i] - p.x[i]) * (q.x[i] - p.x[i]);
+    const Real along[3] = {q.x[0] - p.x[0], q.x[1] - p.x[1], q.x[2] - p.x[2]};
+    squares[s] = dot(along, along);
   }
 }
 
@@ -164,11 +164,12 @@ HWY_INLINE double look_at_eight(const QuadBlock<Real>& block, std::size_t number
                                 const NodeRecord<Real>* records, const CornerLook& look,
                                 std::vector<std::uint32_t>& found) {
   const CornerEight<Real>& eight = block.corners[number];
+  static_assert(2 * kQuad == kMarginLanes);
   const CornerLanes<Real> d;
   LeastMargin<CornerLanes<Real>> margin(look.farthest);
   bool any = false;
   measure_corners(eight, records, [&](std::size_t lane, auto volumes, auto squares) {
-    const auto room = margin.add(volumes, squares, hn::LoadU(d, eight.scale + lane),
+    const auto room = margin.add(lane, volumes, squares, hn::LoadU(d, eight.scale + lane),
                                  hn::LoadU(d, eight.offset + lane));
     const auto has_room = hn::Ge(room, hn::Zero(d));
     if (HWY_LIKELY(hn::AllTrue(d, has_room))) return;

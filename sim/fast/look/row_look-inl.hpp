@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "sim/correction/corner_watch.hpp"
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/look/corner_dues-inl.hpp"
 #include "sim/fast/look/corner_margin.hpp"
 #include "sim/fast/look/stretch-inl.hpp"
@@ -92,6 +93,7 @@ HWY_INLINE double look_at_star(const RowCorners<Real>& corners, std::size_t numb
   using D = Lanes<Real>;
   const D d;
   const CornerStar& star = corners.stars[number];
+  static_assert(kRowLanes == kMarginLanes);
   const StarProperties<Real>& terms = corners.properties[star.properties];
   LeastMargin<D> margin(look.farthest);
   bool any = false;
@@ -99,7 +101,7 @@ HWY_INLINE double look_at_star(const RowCorners<Real>& corners, std::size_t numb
     hn::Vec<D> room[kOctants];
     auto has_room = hn::Eq(hn::Zero(d), hn::Zero(d));
     for_each_octant(star, lane, all_x, [&](std::uint32_t octant, auto volume, auto squares) {
-      room[octant] = margin.add(volume, squares, hn::LoadU(d, terms.scale[octant] + lane),
+      room[octant] = margin.add(lane, volume, squares, hn::LoadU(d, terms.scale[octant] + lane),
                                 hn::LoadU(d, terms.offset[octant] + lane));
       has_room = hn::And(has_room, hn::Ge(room[octant], hn::Zero(d)));
     });
@@ -144,8 +146,8 @@ double largest_strain(const RowLayout<Real>& layout, std::uint32_t number, RowSt
       const SpringRow& row = layout.rows[r];
       const RowLengths<Real>& lengths = layout.lengths[row.properties];
       const Vector3<D> along = load(d, x, p + row.ahead) - own_x;
-      stretch.add(hn::MulAdd(dot<D>(along, along), hn::LoadU(d, lengths.inverse_square + lane),
-                             hn::LoadU(d, lengths.missing + lane)));
+      stretch.add(add_product(dot<D>(along, along), hn::LoadU(d, lengths.inverse_square + lane),
+                              hn::LoadU(d, lengths.missing + lane)));
     }
   }
   return stretch.largest_strain();

@@ -13,6 +13,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/inverse_root-inl.hpp"
 #include "sim/fast/quads/quad_copies-inl.hpp"
 #include "sim/fast/quads/quad_state.hpp"
@@ -116,8 +117,9 @@ HWY_INLINE void scatter(const std::uint16_t* other, std::uint16_t own, const Rea
     hn::Store(hn::Sub(hn::Load(d, at), force), d, at);
     return force;
   };
-  const V4<Real> first = hn::Add(take(0), take(1));
-  const V4<Real> second = hn::Add(take(2), take(3));
+  const Four<V4<Real>> force{take(0), take(1), take(2), take(3)};  // braces keep the order
+  const V4<Real> first = hn::Add(force.first, force.second);
+  const V4<Real> second = hn::Add(force.third, force.fourth);
   Real* at = force_at(forces, own);
   hn::Store(hn::Add(hn::Load(d, at), hn::Add(first, second)), d, at);
 }
@@ -130,12 +132,13 @@ void measure(const QuadPair<Real>& pair, const NodeRecord<Real>* records, Real* 
   for (std::size_t s = 0; s < 2 * kQuad; ++s) {
     const NodeRecord<Real>& p = record_at(records, pair.own[s / kQuad]);
     const NodeRecord<Real>& q = record_at(records, pair.other[s]);
-    square[s] = 0;
-    x_dot_v[s] = 0;
+    Real x[3], v[3];
     for (int i = 0; i < 3; ++i) {
-      square[s] += (q.x[i] - p.x[i]) * (q.x[i] - p.x[i]);
-      x_dot_v[s] += (q.x[i] - p.x[i]) * (q.v[i] - p.v[i]);
+      x[i] = q.x[i] - p.x[i];
+      v[i] = q.v[i] - p.v[i];
     }
+    square[s] = dot(x, x);
+    x_dot_v[s] = dot(x, v);
   }
 }
 
@@ -143,13 +146,13 @@ template <class Real>
 void scatter(const std::uint16_t* other, std::uint16_t own, const Real* over_length,
              const NodeRecord<Real>* records, NodeVector<Real>* forces) {
   const NodeRecord<Real>& p = record_at(records, own);
-  for (std::size_t s = 0; s < kQuad; ++s) {
-    const NodeRecord<Real>& q = record_at(records, other[s]);
-    for (int i = 0; i < 3; ++i) {
-      const Real force = over_length[s] * (q.x[i] - p.x[i]);
-      force_at(forces, own)[i] += force;
-      force_at(forces, other[s])[i] -= force;
+  for (int i = 0; i < 3; ++i) {
+    Real force[kQuad];
+    for (std::size_t s = 0; s < kQuad; ++s) {
+      force[s] = over_length[s] * (record_at(records, other[s]).x[i] - p.x[i]);
+      force_at(forces, other[s])[i] -= force[s];
     }
+    force_at(forces, own)[i] += (force[0] + force[1]) + (force[2] + force[3]);
   }
 }
 
@@ -175,7 +178,7 @@ HWY_INLINE void pull(const Stream<Real>& stream, std::size_t n, InFlight<Real>& 
     const auto inverse = inverse_root(d, hn::Load(d, springs.square[slot] + lane));
     const auto stiffness = hn::LoadU(d, stream.pairs[n].stiffness + lane);
     const auto rest_force = hn::LoadU(d, stream.pairs[n].rest_force + lane);
-    const auto elastic = hn::NegMulAdd(rest_force, inverse, stiffness);
+    const auto elastic = subtract_product(rest_force, inverse, stiffness);
     const auto rate = hn::Mul(hn::Load(d, springs.x_dot_v[slot] + lane), hn::Mul(inverse, inverse));
     const auto c = stream.damping == nullptr ? hn::Mul(beta, stiffness)
                                              : hn::LoadU(d, stream.damping[n].data() + lane);

@@ -10,6 +10,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/look/quad_look-inl.hpp"
 #include "sim/fast/move-inl.hpp"
 #include "sim/fast/quads/quad_copies-inl.hpp"
@@ -80,7 +81,7 @@ void move(const QuadBlock<Real>& block, Real kick_time, Real drift_time,
       auto v = hn::Load(d, record.v + lane);
       if constexpr (kicks) {
         const auto factor = hn::Set(d, kick_time * block.inverse_mass[i]);
-        v = hn::MulAdd(factor, hn::Load(d, own.forces[i].at + lane), v);
+        v = add_product(factor, hn::Load(d, own.forces[i].at + lane), v);
         hn::Store(v, d, record.v + lane);
       }
       if constexpr (drifts) {

@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/dilatation-inl.hpp"
 #include "sim/fast/quads/quad_forces-inl.hpp"
 #include "sim/fast/quads/quad_state.hpp"
@@ -31,9 +32,9 @@ HWY_INLINE void find_gradients(const QuadTerms<float>::Entry* entries, std::size
   V8 first = hn::Zero(d), second = hn::Zero(d), third = hn::Zero(d);
   for (std::size_t e = 1; e < number; ++e) {
     const V8 apart = hn::Sub(hn::Load(d, record_at(records, entries[e].index).x), origin);
-    first = hn::MulAdd(apart, hn::Set(d, entries[e].gradient[0]), first);
-    second = hn::MulAdd(apart, hn::Set(d, entries[e].gradient[1]), second);
-    third = hn::MulAdd(apart, hn::Set(d, entries[e].gradient[2]), third);
+    first = add_product(apart, hn::Set(d, entries[e].gradient[0]), first);
+    second = add_product(apart, hn::Set(d, entries[e].gradient[1]), second);
+    third = add_product(apart, hn::Set(d, entries[e].gradient[2]), third);
   }
   const auto split = [&](V8 sum, int column) {
     hn::Store(hn::LowerHalf(half, sum), half, f.column[column]);
@@ -65,12 +66,12 @@ HWY_INLINE void find_gradients(const typename QuadTerms<Real>::Entry* entries, s
       const auto b0 = hn::Set(d, entries[e].gradient[0]);
       const auto b1 = hn::Set(d, entries[e].gradient[1]);
       const auto b2 = hn::Set(d, entries[e].gradient[2]);
-      f0 = hn::MulAdd(x, b0, f0);
-      f1 = hn::MulAdd(x, b1, f1);
-      f2 = hn::MulAdd(x, b2, f2);
-      r0 = hn::MulAdd(v, b0, r0);
-      r1 = hn::MulAdd(v, b1, r1);
-      r2 = hn::MulAdd(v, b2, r2);
+      f0 = add_product(x, b0, f0);
+      f1 = add_product(x, b1, f1);
+      f2 = add_product(x, b2, f2);
+      r0 = add_product(v, b0, r0);
+      r1 = add_product(v, b1, r1);
+      r2 = add_product(v, b2, r2);
     }
     hn::Store(f0, d, f.column[0] + lane);
     hn::Store(f1, d, f.column[1] + lane);
@@ -93,9 +94,9 @@ HWY_INLINE void add_stress(const typename QuadTerms<Real>::Entry* entries, std::
     for (std::size_t e = 0; e < number; ++e) {
       Real* at = force_at(forces, entries[e].index) + lane;
       auto force = hn::Load(d, at);
-      force = hn::MulAdd(s0, hn::Set(d, entries[e].gradient[0]), force);
-      force = hn::MulAdd(s1, hn::Set(d, entries[e].gradient[1]), force);
-      force = hn::MulAdd(s2, hn::Set(d, entries[e].gradient[2]), force);
+      force = add_product(s0, hn::Set(d, entries[e].gradient[0]), force);
+      force = add_product(s1, hn::Set(d, entries[e].gradient[1]), force);
+      force = add_product(s2, hn::Set(d, entries[e].gradient[2]), force);
       hn::Store(force, d, at);
     }
   }

@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/quads/quad_state.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -65,7 +66,7 @@ HWY_INLINE Side<V4<double>> transpose(V4<double> a, V4<double> b, V4<double> c, 
 }
 template <class V>
 HWY_INLINE V dot(const Side<V>& p, const Side<V>& q) {
-  return hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::Mul(p.z, q.z)));
+  return add_product(p.x, q.x, add_product(p.y, q.y, hn::Mul(p.z, q.z)));
 }
 
 /// Vectors to four nodes (double) or eight (float): those of the first four in the lower halves.
@@ -96,6 +97,14 @@ template <class Record>
 HWY_INLINE Four<V4<double>> positions(double, const Record& record) {
   const auto load = [&](std::size_t i) { return hn::Load(D4<double>(), record(i).x); };
   return {load(0), load(1), load(2), load(3)};
+}
+
+#else
+
+/// Sums in the order of dot() of vectors.
+template <class Real>
+HWY_INLINE Real dot(const Real (&p)[3], const Real (&q)[3]) {
+  return p[0] * q[0] + (p[1] * q[1] + p[2] * q[2]);
 }
 
 #endif

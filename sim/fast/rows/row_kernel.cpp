@@ -8,6 +8,7 @@
 // After foreach_target.h, which includes this file again for every target.
 #include <hwy/highway.h>
 
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/inverse_root-inl.hpp"
 #include "sim/fast/look/row_look-inl.hpp"
 #include "sim/fast/move-inl.hpp"
@@ -40,35 +41,47 @@ void find_forces(const RowLayout<Real>& layout, std::uint32_t number, RowState<R
   const SpringRow* const rows = layout.rows.data();
   const std::uint32_t* const first_row = layout.first_row.data() + block.first / kRowLanes;
   const RowProperties<Real>* const all_properties = layout.properties.data();
-  for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
-    const std::uint32_t lane = p % kRowLanes;
+  constexpr std::uint32_t kParts = kRowParts<Real>;
+  const auto each_part = [&](const auto& act) {
+    for (std::uint32_t part = 0; part < kParts; ++part) act(part, part * lane_count<Real>());
+  };
+  for (std::uint32_t p = 0; p < block.places(); p += kRowLanes) {
     const SpringRow* const end = rows + first_row[p / kRowLanes + 1];
-    const Vector3<D> own_x = load(d, x, p);
-    const Vector3<D> own_v = load(d, v, p);
-    Vector3<D> own_force = none;
-    Vector3<D> own_damping = none;
+    Vector3<D> own_x[kParts], own_v[kParts], own_force[kParts], own_damping[kParts];
+    each_part([&](std::uint32_t part, std::uint32_t lane) {
+      own_x[part] = load(d, x, p + lane);
+      own_v[part] = load(d, v, p + lane);
+      own_force[part] = own_damping[part] = none;
+    });
     for (const SpringRow* row = rows + first_row[p / kRowLanes]; row != end; ++row) {
-      const std::uint32_t other = p + row->ahead;
       const RowProperties<Real>& properties = all_properties[row->properties];
-      const Vector3<D> along = load(d, x, other) - own_x;
-      const Vector3<D> apart = load(d, v, other) - own_v;
-      const hn::Vec<D> inverse = inverse_root(d, dot<D>(along, along));
-      const hn::Vec<D> rate = hn::Mul(dot<D>(along, apart), hn::Mul(inverse, inverse));
-      // Force / length.
-      const hn::Vec<D> elastic = hn::NegMulAdd(hn::LoadU(d, properties.rest_force + lane), inverse,
-                                               hn::LoadU(d, properties.stiffness + lane));
-      const hn::Vec<D> damping = hn::Mul(hn::LoadU(d, properties.damping + lane), rate);
-      const hn::Vec<D> both = hn::Add(elastic, damping);
-      own_force = add_scaled<D>(own_force, both, along);
-      store(d, subtract_scaled<D>(load(d, force, other), both, along), force, other);
-      if constexpr (with_damping) {
-        own_damping = add_scaled<D>(own_damping, damping, along);
-        store(d, subtract_scaled<D>(load(d, damping_force, other), damping, along), damping_force,
-              other);
-      }
+      each_part([&](std::uint32_t part, std::uint32_t lane) {
+        const std::uint32_t other = p + lane + row->ahead;
+        const Vector3<D> along = load(d, x, other) - own_x[part];
+        const Vector3<D> apart = load(d, v, other) - own_v[part];
+        const hn::Vec<D> inverse = inverse_root(d, dot<D>(along, along));
+        const hn::Vec<D> rate = hn::Mul(dot<D>(along, apart), hn::Mul(inverse, inverse));
+        // Force / length.
+        const hn::Vec<D> elastic =
+            subtract_product(hn::LoadU(d, properties.rest_force + lane), inverse,
+                             hn::LoadU(d, properties.stiffness + lane));
+        const hn::Vec<D> damping = hn::Mul(hn::LoadU(d, properties.damping + lane), rate);
+        const hn::Vec<D> both = hn::Add(elastic, damping);
+        own_force[part] = add_scaled<D>(own_force[part], both, along);
+        store(d, subtract_scaled<D>(load(d, force, other), both, along), force, other);
+        if constexpr (with_damping) {
+          own_damping[part] = add_scaled<D>(own_damping[part], damping, along);
+          store(d, subtract_scaled<D>(load(d, damping_force, other), damping, along), damping_force,
+                other);
+        }
+      });
     }
-    store(d, load(d, force, p) + own_force, force, p);
-    if constexpr (with_damping) store(d, load(d, damping_force, p) + own_damping, damping_force, p);
+    each_part([&](std::uint32_t part, std::uint32_t lane) {
+      const std::uint32_t own = p + lane;
+      store(d, load(d, force, own) + own_force[part], force, own);
+      if constexpr (with_damping)
+        store(d, load(d, damping_force, own) + own_damping[part], damping_force, own);
+    });
   }
 }
 
@@ -100,9 +113,15 @@ double damping_power(const RowLayout<Real>& layout, std::uint32_t number,
   const Starts<Real> force = starts_of<Real>(state.damping_force[number]);
   const Starts<Real> v = starts_of<Real>(state.v, block.first);
   double power = 0;
-  for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>())
-    power += static_cast<double>(
-        hn::GetLane(hn::SumOfLanes(d, dot<D>(load(d, force, p), load(d, v, p)))));
+  for (std::uint32_t p = 0; p < block.places(); p += kRowLanes) {
+    alignas(64) Real of[kRowLanes];
+    for (std::uint32_t lane = 0; lane < kRowLanes; lane += lane_count<Real>())
+      hn::Store(dot<D>(load(d, force, p + lane), load(d, v, p + lane)), d, of + lane);
+    const auto sum = [&](std::size_t i) {
+      return static_cast<double>(of[i]) + static_cast<double>(of[i + 1]);
+    };
+    power += (sum(0) + sum(2)) + (sum(4) + sum(6));
+  }
   return power;
 }
 
@@ -122,7 +141,7 @@ void move_axis(const RowLayout<Real>& layout, std::uint32_t number, Real kick_ti
     auto v = hn::LoadU(d, all_v + p);
     if constexpr (kicks) {
       const auto factor = hn::Mul(hn::Set(d, kick_time), hn::LoadU(d, inverse_mass + p));
-      v = hn::MulAdd(factor, hn::LoadU(d, force + p), v);
+      v = add_product(factor, hn::LoadU(d, force + p), v);
       hn::StoreU(v, d, all_v + p);
     }
     if constexpr (drifts) {

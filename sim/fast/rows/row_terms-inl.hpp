@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/rows/row_state.hpp"
 #include "sim/fast/rows/row_vectors-inl.hpp"
 
@@ -39,26 +40,31 @@ HWY_INLINE Columns<D> gradient_of(D d, const Starts<Real>& of, std::uint32_t pla
   return sum;
 }
 
-/// Adds the columns times b of each node to its force, scaled.
-template <class D, class Real>
-HWY_INLINE void add_stress(D d, const Columns<D>& columns, hn::Vec<D> scale, std::uint32_t place,
-                           const TermRow& row, const TermShape<Real>& shape,
-                           const Starts<Real>& force) {
-  const auto scaled = [&](const Vector3<D>& v) {
+template <class D>
+HWY_INLINE Columns<D> scaled(hn::Vec<D> scale, const Columns<D>& columns) {
+  const auto times = [&](const Vector3<D>& v) {
     return Vector3<D>{hn::Mul(scale, v.x), hn::Mul(scale, v.y), hn::Mul(scale, v.z)};
   };
-  const Columns<D> stress{scaled(columns.first), scaled(columns.second), scaled(columns.third)};
+  return {times(columns.first), times(columns.second), times(columns.third)};
+}
+
+/// Adds the stress of each part of the row, times b of each node, to the force of the node.
+template <class D, class Real>
+HWY_INLINE void add_stress(D d, const Columns<D> (&stress)[kRowParts<Real>], std::uint32_t place,
+                           const TermRow& row, const TermShape<Real>& shape,
+                           const Starts<Real>& force) {
   // Neighbouring nodes of a line write to overlapping places: executed one right after another,
   // each would wait for the store of the previous one.
   for (std::uint32_t first = 0; first < 2; ++first)
-    for (std::uint32_t c = first; c < kCellNodes; c += 2) {
-      const std::uint32_t at = place + row.ahead[c];
-      Vector3<D> sum = load(d, force, at);
-      sum = add_scaled<D>(sum, hn::Set(d, shape.gradient[c][0]), stress.first);
-      sum = add_scaled<D>(sum, hn::Set(d, shape.gradient[c][1]), stress.second);
-      sum = add_scaled<D>(sum, hn::Set(d, shape.gradient[c][2]), stress.third);
-      store(d, sum, force, at);
-    }
+    for (std::uint32_t c = first; c < kCellNodes; c += 2)
+      for (std::uint32_t part = 0; part < kRowParts<Real>; ++part) {
+        const std::uint32_t at = place + part * lane_count<Real>() + row.ahead[c];
+        Vector3<D> sum = load(d, force, at);
+        sum = add_scaled<D>(sum, hn::Set(d, shape.gradient[c][0]), stress[part].first);
+        sum = add_scaled<D>(sum, hn::Set(d, shape.gradient[c][1]), stress[part].second);
+        sum = add_scaled<D>(sum, hn::Set(d, shape.gradient[c][2]), stress[part].third);
+        store(d, sum, force, at);
+      }
 }
 
 /// See find_stress of dilatation-inl.hpp.
@@ -76,32 +82,37 @@ void add_terms(const RowLayout<Real>& layout, std::uint32_t number, RowState<Rea
       with_damping ? starts_of<Real>(state.damping_force[number]) : force;
   const std::uint32_t* const first_row = terms.first_row.data() + block.first / kRowLanes;
   const auto one = hn::Set(d, Real(1));
-  for (std::uint32_t p = 0; p < block.places(); p += lane_count<Real>()) {
-    const std::uint32_t lane = p % kRowLanes;
+  for (std::uint32_t p = 0; p < block.places(); p += kRowLanes) {
     for (std::uint32_t r = first_row[p / kRowLanes]; r < first_row[p / kRowLanes + 1]; ++r) {
       const TermRow& row = terms.rows[r];
       const TermShape<Real>& shape = terms.shapes[row.shape];
-      const auto modulus = hn::LoadU(d, terms.properties[row.properties].modulus + lane);
-      const auto damping = hn::LoadU(d, terms.properties[row.properties].damping + lane);
-      const Columns<D> f = gradient_of(d, x, p, row, shape);
-      const Columns<D> rate = gradient_of(d, v, p, row, shape);
-      const Columns<D> by_f{cross<D>(f.second, f.third), cross<D>(f.third, f.first),
-                            cross<D>(f.first, f.second)};
-      const auto change = hn::Sub(dot<D>(f.first, by_f.first), one);
-      const auto volume_rate =
-          hn::Add(hn::Add(dot<D>(rate.first, by_f.first), dot<D>(rate.second, by_f.second)),
-                  dot<D>(rate.third, by_f.third));
-      auto bounded = one;
-      const auto negative = hn::Lt(modulus, hn::Zero(d));
-      if (!hn::AllFalse(d, negative))
-        bounded =
-            hn::IfThenElse(negative, hn::Div(one, hn::Sqrt(hn::MulAdd(change, change, one))), one);
-      const auto slope = hn::Mul(bounded, hn::Mul(bounded, bounded));
-      const auto damped = hn::Mul(damping, hn::Mul(slope, volume_rate));
-      const auto strained = hn::MulAdd(modulus, hn::Mul(change, bounded), damped);
-      add_stress(d, by_f, hn::Neg(hn::Mul(slope, strained)), p, row, shape, force);
-      if constexpr (with_damping)
-        add_stress(d, by_f, hn::Neg(hn::Mul(slope, damped)), p, row, shape, damping_force);
+      Columns<D> both[kRowParts<Real>], by_damping[kRowParts<Real>];
+      for (std::uint32_t part = 0; part < kRowParts<Real>; ++part) {
+        const std::uint32_t lane = part * lane_count<Real>();
+        const auto modulus = hn::LoadU(d, terms.properties[row.properties].modulus + lane);
+        const auto damping = hn::LoadU(d, terms.properties[row.properties].damping + lane);
+        const Columns<D> f = gradient_of(d, x, p + lane, row, shape);
+        const Columns<D> rate = gradient_of(d, v, p + lane, row, shape);
+        const Columns<D> by_f{cross<D>(f.second, f.third), cross<D>(f.third, f.first),
+                              cross<D>(f.first, f.second)};
+        const auto change = hn::Sub(dot<D>(f.first, by_f.first), one);
+        const auto volume_rate =
+            hn::Add(hn::Add(dot<D>(rate.first, by_f.first), dot<D>(rate.second, by_f.second)),
+                    dot<D>(rate.third, by_f.third));
+        auto bounded = one;
+        const auto negative = hn::Lt(modulus, hn::Zero(d));
+        if (!hn::AllFalse(d, negative))
+          bounded = hn::IfThenElse(negative,
+                                   hn::Div(one, hn::Sqrt(add_product(change, change, one))), one);
+        const auto slope = hn::Mul(bounded, hn::Mul(bounded, bounded));
+        const auto damped = hn::Mul(damping, hn::Mul(slope, volume_rate));
+        const auto strained = add_product(modulus, hn::Mul(change, bounded), damped);
+        both[part] = scaled<D>(hn::Neg(hn::Mul(slope, strained)), by_f);
+        if constexpr (with_damping)
+          by_damping[part] = scaled<D>(hn::Neg(hn::Mul(slope, damped)), by_f);
+      }
+      add_stress(d, both, p, row, shape, force);
+      if constexpr (with_damping) add_stress(d, by_damping, p, row, shape, damping_force);
     }
   }
 }

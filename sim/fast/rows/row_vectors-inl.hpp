@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include "sim/fast/add_product-inl.hpp"
 #include "sim/fast/rows/row_state.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,6 +21,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 template <class Real>
 using Lanes = hn::CappedTag<Real, kRowLanes>;
+
+/// Vectors in the kRowLanes places of a row. Whatever their number, kernels add the forces on a
+/// place in the same order, row by row.
+template <class Real>
+inline constexpr std::uint32_t kRowParts = kRowLanes /
+                                           static_cast<std::uint32_t>(hn::MaxLanes(Lanes<Real>()));
 
 template <class D>
 struct Vector3 {
@@ -62,23 +69,25 @@ HWY_INLINE Vector3<D> operator+(const Vector3<D>& p, const Vector3<D>& q) {
 /// p + factor q
 template <class D>
 HWY_INLINE Vector3<D> add_scaled(const Vector3<D>& p, hn::Vec<D> factor, const Vector3<D>& q) {
-  return {hn::MulAdd(factor, q.x, p.x), hn::MulAdd(factor, q.y, p.y), hn::MulAdd(factor, q.z, p.z)};
+  return {add_product(factor, q.x, p.x), add_product(factor, q.y, p.y),
+          add_product(factor, q.z, p.z)};
 }
 /// p - factor q
 template <class D>
 HWY_INLINE Vector3<D> subtract_scaled(const Vector3<D>& p, hn::Vec<D> factor, const Vector3<D>& q) {
-  return {hn::NegMulAdd(factor, q.x, p.x), hn::NegMulAdd(factor, q.y, p.y),
-          hn::NegMulAdd(factor, q.z, p.z)};
+  return {subtract_product(factor, q.x, p.x), subtract_product(factor, q.y, p.y),
+          subtract_product(factor, q.z, p.z)};
 }
 template <class D>
 HWY_INLINE hn::Vec<D> dot(const Vector3<D>& p, const Vector3<D>& q) {
-  return hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::Mul(p.z, q.z)));
+  return add_product(p.x, q.x, add_product(p.y, q.y, hn::Mul(p.z, q.z)));
 }
 
 template <class D>
 HWY_INLINE Vector3<D> cross(const Vector3<D>& p, const Vector3<D>& q) {
-  return {hn::NegMulAdd(p.z, q.y, hn::Mul(p.y, q.z)), hn::NegMulAdd(p.x, q.z, hn::Mul(p.z, q.x)),
-          hn::NegMulAdd(p.y, q.x, hn::Mul(p.x, q.y))};
+  return {subtract_product(p.z, q.y, hn::Mul(p.y, q.z)),
+          subtract_product(p.x, q.z, hn::Mul(p.z, q.x)),
+          subtract_product(p.y, q.x, hn::Mul(p.x, q.y))};
 }
 
 template <class Real>

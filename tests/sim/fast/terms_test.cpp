@@ -4,13 +4,13 @@
 #include <memory>
 
 #include <catch2/catch.hpp>
-#include <hwy/targets.h>
 
 #include "lod/build.hpp"
 #include "sim/fast/fast_leapfrog.hpp"
 #include "sim/fast/rows/row_layout.hpp"
 #include "sim/integrators/leapfrog.hpp"
 #include "tests/sim/side_by_side.hpp"
+#include "tests/sim/vector_targets.hpp"
 
 using namespace springlod;
 using namespace springlod::sim;
@@ -57,15 +57,10 @@ TEST_CASE("Fast steps with terms are those of the plain kernel on every kind of 
   const Outcome plain = after<Leapfrog>(model, scene, kFew, {}, 1);
   const double size = bounds(model.rest).sizes().norm();
   const double near = precision == Precision::double_precision ? 1e-11 : 1e-6;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    INFO(hwy::TargetName(target));
-    hwy::DisableTargets(target - 1);  // newer instruction sets have lower bits
-    const std::string used = vector_target();
+  on_each_target([&] {
     const Outcome fast = after<FastLeapfrog>(model, scene, kFew, {.precision = precision}, 1000);
-    hwy::DisableTargets(0);
-    CHECK(used == hwy::TargetName(target));
     CHECK(largest_difference(plain.state.x, fast.state.x) < near * size);
-  }
+  });
 }
 
 TEST_CASE("Bodies of many blocks with terms move as in the plain kernel, on any number of threads",
