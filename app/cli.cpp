@@ -24,9 +24,9 @@ namespace {
 constexpr int kWrongUse = 2;
 
 // Long flags that suggestions may name.
-const std::vector<std::string> kFlags{"--help",         "--version", "--seed",   "--threads",
-                                      "--quiet",        "--verbose", "--unsafe", "--time-limit",
-                                      "--memory-limit", "-e",        "-i"};
+const std::vector<std::string> kFlags{"--help",       "--version",      "--seed",   "--threads",
+                                      "--quiet",      "--verbose",      "--unsafe", "--portable",
+                                      "--time-limit", "--memory-limit", "-e",       "-i"};
 
 // Words by which other programs, or the functions of scripts, name what a command does.
 constexpr std::pair<std::string_view, const char*> kOtherNames[] = {
@@ -40,6 +40,7 @@ struct Switches {
   bool quiet = false;
   bool verbose = false;
   bool unsafe = false;
+  bool portable = false;
   std::string seed;
   std::string threads;
   std::string time_limit;
@@ -53,14 +54,16 @@ constexpr std::pair<std::string_view, std::string_view> kValues[] = {
 };
 
 // CLI11 would take "-q=3" for -q and an unknown flag -=3.
-constexpr std::string_view kSwitches[] = {"-q", "--quiet",   "-v", "--verbose", "--unsafe",
-                                          "-i", "--version", "-h", "--help"};
+constexpr std::string_view kSwitches[] = {"-q",       "--quiet",    "-v", "--verbose",
+                                          "--unsafe", "--portable", "-i", "--version",
+                                          "-h",       "--help"};
 
 void add_settings(CLI::App& app, Switches& switches) {
   app.add_option("--seed", switches.seed, "seed of all random numbers (default: 1)");
   app.add_option("--threads", switches.threads, "maximum number of threads; 0: all cores");
   app.add_flag("-q,--quiet", switches.quiet, "print only errors to stderr");
   app.add_flag("--unsafe", switches.unsafe, "let scripts use all files and start programs");
+  app.add_flag("--portable", switches.portable, "the same results on every processor");
   app.add_option("--time-limit", switches.time_limit, "stop the script after this time");
   app.add_option("--memory-limit", switches.memory_limit, "memory of the script's values");
   app.add_flag("-v,--verbose", switches.verbose,
@@ -101,6 +104,7 @@ void settle(const Switches& switches, scripting::Settings& settings) {
   if (switches.quiet) settings.verbosity = scripting::Verbosity::quiet;
   if (switches.verbose) settings.verbosity = scripting::Verbosity::verbose;
   if (switches.unsafe) settings.sandbox = false;
+  if (switches.portable) settings.portable = true;
   read_integer("--seed", switches.seed, settings.seed);
   read_integer("--threads", switches.threads, settings.threads);
   read_size("--memory-limit", switches.memory_limit, settings.script_memory);
@@ -143,6 +147,7 @@ std::string usage_text(const std::vector<scripting::StockCommand>& commands) {
          "  -v, --verbose  print more, such as each step of a calibration; tracebacks\n"
          "  --time-limit T    stop the script after T, such as 10min (default: none)\n"
          "  --memory-limit N  memory of the script's own values (default: 4GB)\n"
+         "  --portable     the same results on every processor; slower fits (docs/files.md)\n"
          "  --unsafe       let scripts use all files and start programs (docs/security.md)\n"
          "  --version      print the version\n"
          "  -h, --help     print this help\n";
@@ -282,7 +287,7 @@ Leave run_help() {
       "use the files that they name and those below the current folder (docs/security.md).\n\n"
       "flags:\n"
       "  -i             open a prompt afterwards\n"
-      "  --seed N, --threads N, -q, -v, --time-limit T, --memory-limit N, --unsafe\n"
+      "  --seed N, --threads N, -q, -v, --time-limit T, --memory-limit N, --portable, --unsafe\n"
       "                 as for every command: springlod --help\n\n"
       "A script begins with: local s = require \"springlod\". springlod help lists the\n"
       "functions of s, springlod help simplify explains one of them.\n"};

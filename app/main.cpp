@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "app/cli.hpp"
+#include "app/portable.hpp"
 #include "scripting/bind/topics.hpp"
 #include "scripting/engine/interrupt.hpp"
 #include "scripting/engine/paths.hpp"
@@ -53,7 +54,7 @@ void allow_arguments(scripting::FileAccess& files, const std::vector<std::string
   }
 }
 
-int run(const std::vector<std::string>& arguments) {
+int run(char** argv, const std::vector<std::string>& arguments) {
   const springlod::app::Parsed parsed = springlod::app::parse_command_line(
       arguments, scripting::stock_commands(), isatty(STDIN_FILENO) != 0);
   if (parsed.leave) {
@@ -61,6 +62,8 @@ int run(const std::vector<std::string>& arguments) {
     return parsed.leave->exit_code;
   }
   const CommandLine& line = parsed.line;
+  if (line.settings.portable) springlod::app::make_portable(argv);
+  springlod::app::fix_block_sizes();
   const scripting::InterruptHandler interrupts(line.settings.time_limit);
   ScriptState state(line.settings, scripting::make_api());
   allow_arguments(state.session().files(), line.arguments);
@@ -88,7 +91,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files: writing fails, with a message
   int exit_code = kFailed;
   try {
-    exit_code = run({argv + 1, argv + argc});
+    exit_code = run(argv, {argv + 1, argv + argc});
   } catch (const std::exception& error) {
     fmt::print(stderr, "springlod: {}\n", error.what());
   }

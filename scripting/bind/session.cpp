@@ -232,6 +232,12 @@ void describe_constants(Api& api) {
   api.add(ConstantEntry{
       {.name = "threads", .type = "integer", .help = "--threads of the command line; 0: all cores"},
       [](lua_State* L) { push(L, session_of(L).settings().threads); }});
+  api.add(
+      ConstantEntry{{.name = "portable",
+                     .type = "boolean",
+                     .help = "whether results have the same bits on every processor: --portable "
+                             "of the command line"},
+                    [](lua_State* L) { push(L, session_of(L).settings().portable); }});
   api.add(ConstantEntry{
       {.name = "choices",
        .type = "table",

@@ -22,6 +22,7 @@ struct Settings {
   std::uint32_t threads = 0;  ///< 0: all cores
   Verbosity verbosity = Verbosity::normal;
   bool sandbox = true;                                   ///< FileAccess and close_sandbox
+  bool portable = false;                                 ///< the same results on every processor
   double time_limit = 0;                                 ///< InterruptHandler [s]; 0: none
   std::uint64_t script_memory = std::uint64_t{4} << 30;  ///< ScriptMemory [bytes]
 };

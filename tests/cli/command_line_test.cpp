@@ -56,7 +56,8 @@ TEST_CASE("wrong use exits 2 with a reason and similar names on stderr") {
   wrong({"--time-limit"}, "springlod: --time-limit needs a value: --time-limit T\n");
   wrong({"-e"}, "springlod: -e needs a value: -e CODE\n");
   wrong({"--seed", "1", "--seed", "2", "-e", "x = 1"}, "springlod: give --seed once\n");
-  for (const char* flag : {"-q", "--quiet", "-v", "--unsafe", "-i", "--version", "-h"})
+  for (const char* flag :
+       {"-q", "--quiet", "-v", "--unsafe", "--portable", "-i", "--version", "-h"})
     wrong({flag + std::string("=3"), "-e", "x = 1"}, flag + std::string(" takes no value\n"));
   wrong({"--seed", "1", "-q=3", "-e", "x = 1"}, "springlod: -q takes no value\n");
   wrong({"info", "a.glb", "-q=3"}, "springlod: -q takes no value\n");
@@ -171,16 +172,19 @@ TEST_CASE("code comes from -e, a script, or a pipe") {
 }
 
 TEST_CASE("global flags stand before the command or after it") {
-  const std::string code = "s = require 'springlod' print(s.seed, s.threads, s.verbosity)";
-  CHECK(springlod_run({"-e", code}).out == "1\t0\t0\n");
-  CHECK(springlod_run({"--seed", "7", "--threads", "2", "-v", "-e", code}).out == "7\t2\t1\n");
-  CHECK(springlod_run({"-q", "-e", code}).out == "1\t0\t-1\n");
+  const std::string code =
+      "s = require 'springlod' print(s.seed, s.threads, s.verbosity, s.portable)";
+  CHECK(springlod_run({"-e", code}).out == "1\t0\t0\tfalse\n");
+  CHECK(springlod_run({"--seed", "7", "--threads", "2", "-v", "-e", code}).out ==
+        "7\t2\t1\tfalse\n");
+  CHECK(springlod_run({"-q", "--portable", "-e", code}).out == "1\t0\t-1\ttrue\n");
 
   const TemporaryFolder scratch;
   spit(scratch / "seed.lua", code);
   const std::string script = (scratch / "seed.lua").string();
-  CHECK(springlod_run({"run", script, "--seed", "9", "-q"}).out == "9\t0\t-1\n");
-  CHECK(springlod_run({"--seed", "8", "run", script}).out == "8\t0\t0\n");
+  CHECK(springlod_run({"run", script, "--seed", "9", "-q"}).out == "9\t0\t-1\tfalse\n");
+  CHECK(springlod_run({"run", script, "--portable"}).out == "1\t0\t0\ttrue\n");
+  CHECK(springlod_run({"--seed", "8", "run", script}).out == "8\t0\t0\tfalse\n");
 }
 
 TEST_CASE("a failing script exits 1 with its line, and with a traceback under -v") {

@@ -1,0 +1,58 @@
+#include "app/portable.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.hpp"
+
+namespace springlod::app {
+
+namespace {
+
+// OpenBLAS's kernels for SSE4.2. Unlike those of older processors, they take no block size from the
+// cache of the machine.
+constexpr const char* kBlasKernels = "Nehalem";
+// The C library rounds differently with fused multiply-add. Since glibc 2.33 the name is FMA.
+constexpr const char* kNoFusing = "glibc.cpu.hwcaps=-FMA,-FMA4,-FMA_Usable,-FMA4_Usable";
+
+std::string value_of(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+bool has_sse42() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("sse4.2") != 0;
+#else
+  return false;
+#endif
+}
+
+}  // namespace
+
+void fix_block_sizes() {
+  constexpr std::ptrdiff_t kFirst = 32 << 10, kSecond = 256 << 10, kThird = 2 << 20;  // [bytes]
+  Eigen::setCpuCacheSizes(kFirst, kSecond, kThird);
+}
+
+void make_portable(char** argv) {
+  if (!has_sse42())
+    throw InputError("--portable needs an x86-64 processor with SSE4.2, which this one has not");
+  const std::string tunables = value_of("GLIBC_TUNABLES");
+  const bool fuses = !tunables.ends_with(kNoFusing);
+  if (!fuses && value_of("OPENBLAS_CORETYPE") == kBlasKernels) return;
+  setenv("OPENBLAS_CORETYPE", kBlasKernels, 1);
+  if (fuses)  // the last of several settings counts
+    setenv("GLIBC_TUNABLES", (tunables.empty() ? kNoFusing : tunables + ":" + kNoFusing).c_str(),
+           1);
+  execv("/proc/self/exe", argv);
+  throw IoError(fmt::format("--portable cannot start the program again: {}", std::strerror(errno)));
+}
+
+}  // namespace springlod::app
