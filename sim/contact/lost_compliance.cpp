@@ -5,9 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include <Eigen/Core>
+#include <Eigen/Cholesky>
 
-#include "elastic/solver/dense_kernels.hpp"
 #include "elastic/stable_step.hpp"
 #include "model/spring_rows.hpp"
 #include "model/terms_of_nodes.hpp"
@@ -88,17 +87,19 @@ void HeldRegion::take(const std::vector<std::uint32_t>& nodes) {
     });
     add_terms(node);
   }
-  [[maybe_unused]] const bool positive = elastic::factorise_lower(factor_);
-  assert(positive);  // by the ties
+  // Without BLAS, whose kernels round differently on other processors: steps have the same bits on
+  // all of them.
+  [[maybe_unused]] const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factorised(factor_);
+  assert(factorised.info() == Eigen::Success);  // by the ties
 }
 
 Mat3 HeldRegion::compliance(const Binding& points, std::uint32_t point) const {
-  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(3, factor_.rows());
+  Eigen::MatrixX3d forces = Eigen::MatrixX3d::Zero(factor_.rows(), 3);
   for (std::uint32_t e = points.start[point]; e < points.start[point + 1]; ++e)
     if (place_[points.node[e]] != kOutside)
-      forces.middleCols<3>(place_[points.node[e]]) += points.weight[e] * Mat3::Identity();
-  elastic::solve_right_transposed(factor_, forces);
-  return forces * forces.transpose();
+      forces.middleRows<3>(place_[points.node[e]]) += points.weight[e] * Mat3::Identity();
+  factor_.triangularView<Eigen::Lower>().solveInPlace(forces);
+  return forces.transpose() * forces;
 }
 
 /// The nodes of each group of a level.

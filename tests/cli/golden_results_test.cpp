@@ -122,3 +122,29 @@ TEST_CASE("The main job has the results whose hashes are kept") {
   CHECK(hash_of_levels(usual / "merged.glb") == hash_of_levels(scratch / "merged.glb"));
   CHECK(slurp(usual / "merged.csv") == slurp(scratch / "merged.csv"));
 }
+
+TEST_CASE("Runs of levels have the same bits whichever kernels OpenBLAS uses") {
+  const char* const kCode = R"(
+local s = require "springlod"
+local chain = s.simplify(s.lattice(s.grid{cell = 0.02, size = {8, 8, 12},
+  fill = function() return "rubber" end,
+  materials = {rubber = {young = "0.5 MPa", density = 1100, damping_ratio = 0.02}}}),
+  {levels = 1, keep = {0.2}, contact = "surface"})
+local run = s.run(chain[1], {duration = 0.02, throw = {velocity = {2, 0, -1}, spin = {3, 1, 2}},
+  obstacles = {{plane = {0, 0, 1, 0}, friction = 0.5}}}, {quiet = true})
+assert(run.first_contact)
+print(s.json(run.final.x)))";
+  const auto printed = [&] {
+    const Ran ran = springlod_run({"-e", kCode});
+    CAPTURE(ran.err);
+    REQUIRE(ran.exit_code == 0);
+    return ran.out;
+  };
+  const std::string usual = printed();
+  for (const char* kernels : {"Nehalem", "Prescott"}) {
+    setenv("OPENBLAS_CORETYPE", kernels, 1);
+    const std::string other = printed();
+    unsetenv("OPENBLAS_CORETYPE");
+    CHECK((usual == other));
+  }
+}
