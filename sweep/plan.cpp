@@ -48,6 +48,7 @@ ordered_json to_json(const Plan& plan) {
           {"folder", plan.folder},
           {"seed", plan.seed},
           {"sandbox", plan.sandbox},
+          {"portable", plan.portable},
           {"files", files_json(plan)},
           {"stages", stages_json(plan)},
           {"units", plan.unit_count()},
@@ -86,6 +87,7 @@ Plan from_json(const ordered_json& json) {
   plan.folder = json.at("folder");
   plan.seed = json.at("seed");
   plan.sandbox = json.at("sandbox");
+  plan.portable = json.value("portable", false);
   plan.seconds_per_cost = json.at("seconds_per_cost");
   read_lists(json, plan);
   return plan;
@@ -113,6 +115,8 @@ std::string difference(const Plan& kept, const Plan& plan) {
   if (kept.script != plan.script) return fmt::format("the script {}", kept.script);
   if (kept.arguments != plan.arguments)
     return fmt::format("the arguments {}", words_of(kept.arguments));
+  if (kept.portable != plan.portable)
+    return fmt::format("a plan {} --portable", kept.portable ? "with" : "without");
   if (kept.seed != plan.seed) return fmt::format("the seed {}", kept.seed);
   if (kept.version != plan.version || kept.program != plan.program)
     return "another version of the program or its scripts";
@@ -196,8 +200,8 @@ fs::path plan_path(const fs::path& folder) {
 }
 
 std::string results_hash(const Plan& plan) {
-  const ordered_json json{plan.version, plan.program,      plan.script,     plan.arguments,
-                          plan.seed,    stages_json(plan), files_json(plan)};
+  const ordered_json json{plan.version, plan.program,  plan.script,       plan.arguments,
+                          plan.seed,    plan.portable, stages_json(plan), files_json(plan)};
   return content_hash(json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 

@@ -47,7 +47,8 @@ struct Plan {
   std::vector<std::string> arguments{};  ///< of the script
   std::string folder{};                  ///< in which the script is run; absolute
   std::uint64_t seed = 1;
-  bool sandbox = true;  ///< whether the script was planned without --unsafe
+  bool sandbox = true;    ///< whether the script was planned without --unsafe
+  bool portable = false;  ///< whether it was planned with --portable
   std::vector<SourceFile> files{};
   std::vector<Stage> stages{};
   std::vector<CostRun> costs{};  ///< in order, of all units

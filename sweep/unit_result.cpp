@@ -81,8 +81,9 @@ std::string to_text(const UnitResult& result) {
     json["failure"] = result.failure;
   if (result.signal != 0) json["signal"] = result.signal;
   json["run"] = {{"springlod", result.version}, {"target", result.target},
-                 {"host", result.host},         {"log", result.log},
-                 {"seconds", result.seconds},   {"memory", result.memory}};
+                 {"blas", result.blas},         {"host", result.host},
+                 {"log", result.log},           {"seconds", result.seconds},
+                 {"memory", result.memory}};
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -101,6 +102,7 @@ UnitResult result_from_text(const std::string& text) {
     const ordered_json& run = json.at("run");
     run.at("springlod").get_to(result.version);
     run.at("target").get_to(result.target);
+    result.blas = run.value("blas", "");
     run.at("host").get_to(result.host);
     run.at("log").get_to(result.log);
     run.at("seconds").get_to(result.seconds);

@@ -19,6 +19,7 @@ struct UnitResult {
   std::string failure{};  ///< message; empty: the rows are the result
   std::string version{};  ///< of springlod
   std::string target{};   ///< instruction set of the fast kernels, "AVX2"
+  std::string blas{};     ///< kernels of BLAS, "Haswell"
   std::string host{};
   std::string log{};         ///< path of what the unit printed, below the folder of the plan
   int signal = 0;            ///< that ended the process [signal number]; 0: none

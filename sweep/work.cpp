@@ -73,6 +73,7 @@ UnitResult result_of(std::uint64_t unit, const WorkLabels& labels, const Runner&
   UnitResult result{.unit = unit,
                     .version = labels.version,
                     .target = labels.target,
+                    .blas = labels.blas,
                     .host = runner.host,
                     .log = labels.log};
   forget_largest_memory();

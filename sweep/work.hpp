@@ -18,6 +18,7 @@ using UnitFunction = std::function<std::vector<Row>(std::uint64_t unit)>;
 struct WorkLabels {
   std::string version{};  ///< of springlod
   std::string target{};   ///< instruction set
+  std::string blas{};     ///< kernels of BLAS
   std::string log{};      ///< of this process, below the folder of the plan
 };
 

@@ -42,6 +42,10 @@ int stride(const ConstDenseRef& m) {
 
 }  // namespace
 
+const char* blas_kernels() {
+  return openblas_get_corename();
+}
+
 bool factorise_lower(DenseRef a) {
   assert(a.rows() == a.cols());
   if (a.cols() <= kSmall) return Eigen::LLT<DenseRef>(a).info() == Eigen::Success;

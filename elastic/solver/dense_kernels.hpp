@@ -10,6 +10,9 @@ namespace springlod::elastic {
 using DenseRef = Eigen::Ref<Eigen::MatrixXd>;
 using ConstDenseRef = Eigen::Ref<const Eigen::MatrixXd>;
 
+/// Which kernels BLAS has chosen by the processor, "Haswell". Others round differently.
+const char* blas_kernels();
+
 /// Factorises A = L L^T in the lower triangle of a; the upper triangle is unchanged. Returns false
 /// if a pivot is not positive.
 bool factorise_lower(DenseRef a);

@@ -53,7 +53,20 @@ local function write_stage(folder, stage, results, suffix)
   write("results", with_gaps(stage, results), columns)
   if #timings > 0 then write("timings", results.rows, columns_of(stage, timings)) end
   write("gaps", results.gaps, columns_of(stage, {"state", "message", "host", "signal", "log"}))
-  write("runs", results.runs, {"unit", "seconds", "memory", "host", "target", "springlod"})
+  write("runs", results.runs,
+    {"unit", "seconds", "memory", "host", "target", "blas", "springlod"})
+end
+
+-- Says if units ran with different kernels of BLAS, which the processor chooses: `counts` has their
+-- number by kernels.
+local function say_mixture(counts)
+  local kinds = {}
+  for blas, count in pairs(counts) do kinds[#kinds + 1] = ("%s: %d"):format(blas, count) end
+  if #kinds < 2 or s.portable then return end
+  table.sort(kinds)
+  s.say(("units ran on different processors, for which OpenBLAS chose different kernels (%s): "
+    .. "fits and modes differ in their last digits; plan with --portable to avoid this"):format(
+    table.concat(kinds, ", ")))
 end
 
 local function say_gaps(gaps, suffix)
@@ -63,14 +76,16 @@ local function say_gaps(gaps, suffix)
 end
 
 return function(sweep, folder)
-  local last, by_name = nil, {}
+  local last, by_name, kernels = nil, {}, {}
   for number, stage in ipairs(sweep.stages) do
     last = s.sweep_results(sweep, folder, {stage = number})
     by_name[stage.name] = last
     local suffix = #sweep.stages > 1 and "-" .. stage.name:gsub("%W+", "-") or ""
     write_stage(folder, stage, last, suffix)
     say_gaps(last.gaps, suffix)
+    for _, run in ipairs(last.runs) do kernels[run.blas] = (kernels[run.blas] or 0) + 1 end
   end
+  say_mixture(kernels)
   last.stages = by_name
   if sweep.report then sweep.report(last, folder) end
 end

@@ -111,11 +111,13 @@ TEST_CASE("A plan is read as it was written") {
   plan.files = {{"/a", "1"}};
   plan.seed = 12345678901234567890U;
   plan.sandbox = false;
+  plan.portable = true;
   write_plan(folder.path(), plan);
   const Plan read = read_plan(folder.path());
   CHECK(read.arguments == plan.arguments);
   CHECK(read.seed == plan.seed);
   CHECK(read.sandbox == plan.sandbox);
+  CHECK(read.portable == plan.portable);
   CHECK(read.tasks == plan.tasks);
   CHECK(read.total_cost() == plan.total_cost());
   CHECK(read.stages.at(0).columns == plan.stages[0].columns);

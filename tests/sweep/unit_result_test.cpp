@@ -18,6 +18,7 @@ TEST_CASE("Cells are read as they were written, to the last bit") {
                                    {std::string("\xff\0x", 3), std::string("\u00fc"), true, {}},
                                    {kInfinity, -kInfinity, std::int64_t{-1}, false}},
                           .target = "AVX2",
+                          .blas = "Haswell",
                           .host = "node1",
                           .seconds = 0.25,
                           .memory = 1U << 20};
@@ -25,6 +26,8 @@ TEST_CASE("Cells are read as they were written, to the last bit") {
   CHECK(read.unit == 7);
   CHECK(read.rows == result.rows);
   CHECK(std::signbit(std::get<double>(read.rows[0][1])));
+  CHECK(read.target == "AVX2");
+  CHECK(read.blas == "Haswell");
   CHECK(read.host == "node1");
   CHECK(read.memory == result.memory);
   CHECK(read.failure.empty());

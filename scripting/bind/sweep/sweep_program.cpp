@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/file.hpp"
 #include "scripting/engine/paths.hpp"
+#include "scripting/engine/session.hpp"
 
 namespace springlod::scripting {
 
@@ -24,6 +26,16 @@ std::string program_hash() {
     hashes +=
         script.lexically_relative(stock_script_folder()).string() + content_hash(read_file(script));
   return content_hash(hashes);
+}
+
+sweep::Plan checked_plan(const Session& session, const fs::path& folder) {
+  sweep::Plan plan = sweep::read_plan(folder);
+  sweep::require_unchanged(plan, version(), program_hash());
+  if (session.settings().portable && !plan.portable)
+    throw InputError(
+        "the plan was made without --portable, and its units run without it: make a new plan with "
+        "--portable in another folder");
+  return plan;
 }
 
 Parameter sweep_argument() {

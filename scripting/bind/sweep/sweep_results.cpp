@@ -35,6 +35,7 @@ int plan_of_binding(Call& call) {
   set_field(L, "arguments", plan.arguments);
   set_field(L, "folder", plan.folder);
   set_field(L, "seed", plan.seed);
+  set_field(L, "portable", plan.portable);
   set_field(L, "units", plan.unit_count());
   set_field(L, "tasks", plan.tasks.size());
   set_field(L, "seconds", plan.total_cost() * plan.seconds_per_cost);
@@ -94,6 +95,7 @@ void set_run(lua_State* L, const sweep::UnitResult& result) {
   set_field(L, "memory", result.memory);
   set_field(L, "host", result.host);
   set_field(L, "target", result.target);
+  set_field(L, "blas", result.blas);
   set_field(L, "springlod", result.version);
 }
 
@@ -213,8 +215,8 @@ void describe_sweep_results(Api& api) {
       .group = kGroup,
       .summary = "What the plan in a folder says.",
       .arguments = {sweep_folder_argument()},
-      .returns = "table: script, arguments, folder (in which the script ran), seed, units, tasks, "
-                 "seconds",
+      .returns = "table: script, arguments, folder (in which the script ran), seed, portable, "
+                 "units, tasks, seconds",
       .errors = "There is no plan, or it is damaged.",
       .example = "print(s.sweep_plan(\"out/drops\").units)",
       .call = plan_of_binding});
@@ -239,7 +241,7 @@ void describe_sweep_results(Api& api) {
                    .help = "number of the stage, from 1"}},
       .returns = "table: rows (unit, the axes and the columns), gaps (unit, the axes, state, "
                  "message, host, signal and log of units without a result) and runs (unit, "
-                 "seconds, memory, host, target and springlod of the others)",
+                 "seconds, memory, host, target, blas and springlod of the others)",
       .errors = "There is no plan, or it is damaged.",
       .example = "local results = s.sweep_results(sweep, \"out/drops\")",
       .call = results_binding});

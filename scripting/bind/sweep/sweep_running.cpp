@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "base/progress.hpp"
 #include "base/subprocess.hpp"
+#include "elastic/solver/dense_kernels.hpp"
 #include "scripting/bind/sweep/sweep_program.hpp"
 #include "scripting/bind/sweep/sweep_value.hpp"
 #include "scripting/bind/topics.hpp"
@@ -127,6 +128,7 @@ int plan_binding(Call& call) {
   plan.folder = fs::current_path().string();
   plan.seed = call.session().settings().seed;
   plan.sandbox = call.session().settings().sandbox;
+  plan.portable = call.session().settings().portable;
   plan.stages = stages_of(*value);
   const std::string of_points = fs::absolute(folder).string();
   estimate_costs(call, *value, of_points, plan);
@@ -154,6 +156,7 @@ std::vector<std::string> script_arguments(const Plan& plan, const fs::path& fold
                                           const std::vector<std::string>& action) {
   std::vector<std::string> arguments;
   if (!plan.sandbox) arguments.emplace_back("--unsafe");
+  if (plan.portable) arguments.emplace_back("--portable");
   arguments.insert(arguments.end(), {"--seed", std::to_string(plan.seed), "--threads",
                                      std::to_string(threads), "sweep"});
   arguments.insert(arguments.end(), action.begin(), action.end());
@@ -164,7 +167,7 @@ std::vector<std::string> script_arguments(const Plan& plan, const fs::path& fold
 
 int run_binding(Call& call) {
   const fs::path folder = call.writable(1);
-  const Plan plan = sweep::read_plan(folder);
+  const Plan plan = checked_plan(call.session(), folder);
   sweep::RunOptions run{.program = this_program(), .progress = call.progress()};
   std::optional<std::uint64_t> task;
   std::optional<std::uint32_t> workers;
@@ -175,7 +178,6 @@ int run_binding(Call& call) {
   if (task && *task >= plan.tasks.size())
     options.refuse("task", fmt::format("0 to {}", plan.tasks.size() - 1));
   if (task) run.task = *task;
-  sweep::require_unchanged(plan, version(), program_hash());
   const std::uint32_t given = call.session().settings().threads;
   const std::uint32_t cores = given == 0 ? core_count() : given;
   run.workers = std::max(1U, workers.value_or(task ? 1 : cores));
@@ -214,8 +216,7 @@ int merge_binding(Call& call) {
 int work_binding(Call& call) {
   const auto value = call.value<SweepValue>(1);
   const fs::path folder = call.writable(2);
-  const Plan plan = sweep::read_plan(folder);
-  sweep::require_unchanged(plan, version(), program_hash());
+  const Plan plan = checked_plan(call.session(), folder);
   if (!are_same(plan.stages, stages_of(*value)))
     throw InputError(
         "the script describes other units than when the plan was made: a sweep must "
@@ -223,7 +224,10 @@ int work_binding(Call& call) {
   const std::string of_points = fs::absolute(folder).string();
   sweep::serve_units(
       UnitFiles(folder),
-      {.version = version(), .target = sim::vector_target(), .log = call.text(3)},
+      {.version = version(),
+       .target = sim::vector_target(),
+       .blas = elastic::blas_kernels(),
+       .log = call.text(3)},
       [&](std::uint64_t unit) {
         return run_unit(call.lua(), {*value, unit, of_points});
       },

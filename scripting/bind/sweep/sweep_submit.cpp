@@ -34,12 +34,6 @@ constexpr ChoiceTable<Choice<Engine>> choices(Engine) {
   return {"engine", kEngines};
 }
 
-sweep::Plan checked_plan(const fs::path& folder) {
-  sweep::Plan plan = sweep::read_plan(folder);
-  sweep::require_unchanged(plan, version(), program_hash());
-  return plan;
-}
-
 /// Throws InputError for an option of the other engine, which would do nothing.
 void check_options(TableReader& options, Engine engine) {
   constexpr std::pair<const char*, Engine> kOptions[] = {{"hosts", Engine::parallel},
@@ -71,7 +65,7 @@ int submit_binding(Call& call) {
   options.read("dry_run", dry_run);
   options.finish();
   parallel.hosts = hosts;
-  const sweep::Plan plan = checked_plan(folder);
+  const sweep::Plan plan = checked_plan(call.session(), folder);
   const std::vector<std::size_t> tasks = sweep::unfinished_tasks(plan, sweep::UnitFiles(folder));
   if (tasks.empty()) return call.give("");
   if (engine == Engine::parallel) {
