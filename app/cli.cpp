@@ -147,7 +147,7 @@ std::string usage_text(const std::vector<scripting::StockCommand>& commands) {
          "  -v, --verbose  print more, such as each step of a calibration; tracebacks\n"
          "  --time-limit T    stop the script after T, such as 10min (default: none)\n"
          "  --memory-limit N  memory of the script's own values (default: 4GB)\n"
-         "  --portable     the same results on every processor; slower fits (docs/files.md)\n"
+         "  --portable     the same results on every processor, slower (docs/files.md)\n"
          "  --unsafe       let scripts use all files and start programs (docs/security.md)\n"
          "  --version      print the version\n"
          "  -h, --help     print this help\n";

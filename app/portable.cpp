@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "sim/fast/vector_target.hpp"
 
 namespace springlod::app {
 
@@ -44,6 +45,7 @@ void fix_block_sizes() {
 void make_portable(char** argv) {
   if (!has_sse42())
     throw InputError("--portable needs an x86-64 processor with SSE4.2, which this one has not");
+  sim::use_portable_kernels();
   const std::string tunables = value_of("GLIBC_TUNABLES");
   const bool fuses = !tunables.ends_with(kNoFusing);
   if (!fuses && value_of("OPENBLAS_CORETYPE") == kBlasKernels) return;

@@ -6,9 +6,10 @@ namespace springlod::app {
 /// caches. Merging and steps then have the same bits on all of them.
 void fix_block_sizes();
 
-/// Starts the program again if its libraries would choose instructions by the processor: OpenBLAS
-/// in fits and modes, the C library in functions such as sin and exp. Afterwards all results have
-/// the same bits on every x86-64 processor with SSE4.2. Returns in the program that was started.
+/// Limits the kernels of steps to SSE4, and starts the program again if its libraries would choose
+/// instructions by the processor: OpenBLAS in fits and modes, the C library in functions such as
+/// sin and exp. Afterwards all results have the same bits on every x86-64 processor with SSE4.2.
+/// Returns in the program that was started.
 /// Throws InputError if the processor has no SSE4.2, IoError if the program cannot be started.
 void make_portable(char** argv);
 

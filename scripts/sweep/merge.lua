@@ -57,16 +57,29 @@ local function write_stage(folder, stage, results, suffix)
     {"unit", "seconds", "memory", "host", "target", "blas", "springlod"})
 end
 
--- Says if units ran with different kernels of BLAS, which the processor chooses: `counts` has their
--- number by kernels.
-local function say_mixture(counts)
-  local kinds = {}
-  for blas, count in pairs(counts) do kinds[#kinds + 1] = ("%s: %d"):format(blas, count) end
-  if #kinds < 2 or s.portable then return end
-  table.sort(kinds)
-  s.say(("units ran on different processors, for which OpenBLAS chose different kernels (%s): "
-    .. "fits and modes differ in their last digits; plan with --portable to avoid this"):format(
-    table.concat(kinds, ", ")))
+-- What results depend on that the processor chooses: what a run has of it, and what differs then.
+local mixtures = {
+  {of = function(run) return run.blas end,
+   text = "for which OpenBLAS chose different kernels (%s): fits and modes differ"},
+  {of = function(run) return run.target:find("^AVX") and "AVX2 or newer" or "older" end,
+   text = "with vector instructions that round differently (%s): all runs differ"},
+}
+
+-- Says if units ran on processors whose results differ. `runs`: of all stages.
+local function say_mixtures(runs)
+  for _, mixture in ipairs(mixtures) do
+    local counts, kinds = {}, {}
+    for _, run in ipairs(runs) do
+      local kind = mixture.of(run)
+      counts[kind] = (counts[kind] or 0) + 1
+    end
+    for kind, count in pairs(counts) do kinds[#kinds + 1] = ("%s: %d"):format(kind, count) end
+    table.sort(kinds)
+    if #kinds > 1 then
+      s.say(("units ran on different processors, " .. mixture.text .. " in their last digits; plan "
+        .. "with --portable to avoid this"):format(table.concat(kinds, ", ")))
+    end
+  end
 end
 
 local function say_gaps(gaps, suffix)
@@ -76,16 +89,16 @@ local function say_gaps(gaps, suffix)
 end
 
 return function(sweep, folder)
-  local last, by_name, kernels = nil, {}, {}
+  local last, by_name, runs = nil, {}, {}
   for number, stage in ipairs(sweep.stages) do
     last = s.sweep_results(sweep, folder, {stage = number})
     by_name[stage.name] = last
     local suffix = #sweep.stages > 1 and "-" .. stage.name:gsub("%W+", "-") or ""
     write_stage(folder, stage, last, suffix)
     say_gaps(last.gaps, suffix)
-    for _, run in ipairs(last.runs) do kernels[run.blas] = (kernels[run.blas] or 0) + 1 end
+    table.move(last.runs, 1, #last.runs, #runs + 1, runs)
   end
-  say_mixture(kernels)
+  if not s.portable then say_mixtures(runs) end
   last.stages = by_name
   if sweep.report then sweep.report(last, folder) end
 end

@@ -235,44 +235,6 @@ return s.sweep{count = count, columns = {"n"}, unit = function() return {n = cou
   CHECK(rows_of(scratch.merged()).at(3).at("n") == "4");
 }
 
-TEST_CASE("Units of a plan made with --portable run with it") {
-  const Scratch scratch(R"(
-local s = require "springlod"
-return s.sweep{count = 3, columns = {"portable"},
-  unit = function() return {portable = s.portable} end})");
-  scratch.must({"plan", "walk.lua", "--out", "out", "--portable"});
-  scratch.must({"run", "out"});
-  for (const auto& row : rows_of(scratch.merged())) CHECK(row.at("portable") == "true");
-  for (const auto& row : rows_of(slurp(scratch / "out/runs.csv")))
-    CHECK(row.at("blas") == "Nehalem");
-  CHECK_THAT(scratch.run({"plan", "walk.lua", "--out", "out"}).err,
-             Contains("holds results of another plan") && Contains("--portable"));
-  scratch.plan("usual");
-  CHECK_THAT(scratch.run({"run", "usual", "--portable"}).err,
-             Contains("the plan was made without --portable"));
-  scratch.must({"run", "usual"});
-  CHECK(rows_of(scratch.merged("usual")).at(0).at("portable") == "false");
-}
-
-TEST_CASE("Merging names units that ran with different kernels of OpenBLAS") {
-  const Scratch scratch(with(kWalk, "1000 * point.steps", "1e11").c_str());
-  scratch.plan();
-  const auto with_kernels = [&](const char* kernels, const std::vector<std::string>& arguments) {
-    setenv("OPENBLAS_CORETYPE", kernels, 1);
-    const std::string said = scratch.must(arguments);
-    unsetenv("OPENBLAS_CORETYPE");
-    return said;
-  };
-  with_kernels("Nehalem", {"run", "out", "--task", "0"});
-  CHECK_THAT(scratch.must({"merge", "out"}), !Contains("OpenBLAS chose"));
-  with_kernels("Prescott", {"run", "out"});
-  const auto runs = rows_of(slurp(scratch / "out/runs.csv"));
-  REQUIRE(!runs.empty());
-  CHECK_THAT(scratch.must({"merge", "out"}),
-             Contains(fmt::format("(Nehalem: {}, Prescott: {})", runs.size(), 12 - runs.size())) &&
-                 Contains("plan with --portable"));
-}
-
 TEST_CASE("Processes that are killed again and again change no result", "[long]") {
   const Scratch scratch(
       with(kWalk, "local place,",

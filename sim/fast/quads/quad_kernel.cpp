@@ -141,9 +141,6 @@ QuadKernels<float> quad_kernels_float() {
 QuadKernels<double> quad_kernels_double() {
   return kernels<double>();
 }
-const char* target_name() {
-  return hwy::TargetName(HWY_TARGET);
-}
 
 }  // namespace springlod::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -153,7 +150,6 @@ namespace springlod::sim {
 
 HWY_EXPORT(quad_kernels_float);
 HWY_EXPORT(quad_kernels_double);
-HWY_EXPORT(target_name);
 
 template <>
 QuadKernels<float> quad_kernels() {
@@ -162,10 +158,6 @@ QuadKernels<float> quad_kernels() {
 template <>
 QuadKernels<double> quad_kernels() {
   return HWY_DYNAMIC_DISPATCH(quad_kernels_double)();
-}
-
-const char* vector_target() {
-  return HWY_DYNAMIC_DISPATCH(target_name)();
 }
 
 }  // namespace springlod::sim

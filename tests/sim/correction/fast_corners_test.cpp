@@ -105,7 +105,7 @@ TEST_CASE("Corners give the same bits on every kind of vectors") {
   };
   const Outcome best = thrown();
   REQUIRE(best.ledger.lost_corners > 0);
-  on_each_target([&] { check_same_bits(best, thrown()); });
+  hold_targets_together(thrown, check_same_bits);
 }
 
 TEST_CASE("Corners give the same bits on any number of threads", "[threaded]") {

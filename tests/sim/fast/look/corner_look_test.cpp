@@ -159,7 +159,7 @@ TEST_CASE("Corners and strains are looked at on every kind of vectors") {
     const Subject& subject = subjects().at(name);
     const MassSpringModel& model = subject.model;
     const std::vector<Vec3> x = displaced(model, 0.2, random);
-    std::vector<double> first;
+    std::map<bool, std::vector<double>> first;  // by whether products are fused
     CAPTURE(name, precision);
     on_each_target([&] {
       const Posed posed(subject, precision, x);
@@ -176,8 +176,7 @@ TEST_CASE("Corners and strains are looked at on every kind of vectors") {
       const Vec3 departure = posed.body->largest_departure(0);
       const std::vector<double> all{found.due,     later.due,     strain,  departure.x(),
                                     departure.y(), departure.z(), rest_due};
-      if (first.empty()) first = all;
-      CHECK(first == all);  // the same bits
+      CHECK(first.try_emplace(sim::fuses_products(), all).first->second == all);  // the same bits
       REQUIRE(!found.corners.empty());
       check_found(model, x, found.corners, rounding(model, precision));
       check_found(model, mirrored(x), later.corners, rounding(model, precision));
