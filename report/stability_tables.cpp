@@ -52,8 +52,7 @@ Table stability_bodies_table(const sim::StabilityMap& map) {
   for (const sim::StabilityBody& body : map.bodies)
     table.rows.push_back({whole(body.level), body.ratio, whole(body.nodes), whole(body.springs),
                           body.limit, to_string(body.limited_by), body.period, body.duration,
-                          body.frequency_error, body.reference_error,
-                          whole(body.loose_nodes)});
+                          body.frequency_error, body.reference_error, whole(body.loose_nodes)});
   return table;
 }
 
