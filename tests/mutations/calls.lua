@@ -159,9 +159,11 @@ function valid(parameter, owner)
   end
   if type:find("^one of") then return one_of(words) end
   if type:find('^list of "') then return {one_of(words)} end
-  if name == "folder" and owner:lower():find("sweep") or owner == "forget_failures" then
-    return "units"
+  if name == "folder" and owner == "remove_sweep" then
+    s.plan_sweep(values.Sweep, "removed", short.plan_sweep)
+    return "removed"
   end
+  if name == "folder" and owner:find("sweep") or owner == "forget_failures" then return "units" end
   if type:find("^string") then return texts[owner .. "." .. name] or "word" end
   if type:find("^list of strings") then return {"word"} end
   if type:find("^list of tables") then return {{a = 1, b = "x"}, {a = 2, b = "y"}} end
