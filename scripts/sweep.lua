@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local study = require "lib.study"
 local sweep_actions = require "sweep.actions"
 
 local parser = command.parser("sweep", "Run a sweep: many independent runs, its units, described "
@@ -13,8 +14,9 @@ local parser = command.parser("sweep", "Run a sweep: many independent runs, its 
   .. "plan --portable makes results the same on machines of different kinds.",
   {options = "--sbatch"})
 parser:argument("action", "plan, run, submit, status, resume or merge")
-parser:argument("target", "plan: the script that returns the sweep; otherwise: the folder of the "
-  .. "plan")
+parser:argument("target", "plan: the script that returns the sweep, or "
+  .. table.concat(study.names, ", ", 1, #study.names - 1) .. " or " .. study.names[#study.names]
+  .. "; otherwise: the folder of the plan")
 parser:argument("arguments", "plan: arguments of the script, after --"):args("*")
 command.one_line(parser:option("-o --out", "plan: folder to write to (default: out/sweep)")
   :argname("<folder>"))

@@ -81,7 +81,8 @@ inline constexpr double kShortestTask = 30;
 inline constexpr double kLongestTask = 60;
 
 /// Sets `tasks`: neighbouring units whose estimated times add up to about the mean of the two times
-/// above. A unit that takes longer is a task of its own.
+/// above, such that the number of tasks of a stage can be divided by 12 if there are as many. A
+/// unit that takes longer is a task of its own.
 void pack_tasks(Plan& plan);
 
 /// Adds one unit to the list of costs.

@@ -57,6 +57,21 @@ TEST_CASE("Tasks of short units take 30 to 60 s") {
   }
 }
 
+TEST_CASE("Tasks can be shared evenly by few processors") {
+  for (const std::size_t units : {1000, 1070, 5000}) {
+    const std::vector<double> seconds(units, 1.0);
+    const Plan plan = plan_of(seconds);
+    CAPTURE(units);
+    CHECK(plan.tasks.size() % 12 == 0);
+    const std::vector<double> sums = task_seconds(plan, seconds);
+    for (std::size_t task = 0; task + 1 < sums.size(); ++task) {
+      CHECK(sums[task] >= kShortestTask);
+      CHECK(sums[task] <= kLongestTask);
+    }
+  }
+  CHECK(plan_of(std::vector<double>(100, 1.0)).tasks.size() == 2);
+}
+
 TEST_CASE("A unit longer than a task is a task of its own") {
   const Plan plan = plan_of({500, 1, 1, 500, 500});
   CHECK(plan.tasks == std::vector<std::uint64_t>{0, 1, 3, 4});
