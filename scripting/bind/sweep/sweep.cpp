@@ -217,8 +217,9 @@ std::string description(const SweepValue& sweep) {
     std::vector<std::string> axes;
     for (const SweepAxis& axis : stage.axes)
       axes.push_back(fmt::format("{} {}", axis.values.size(), axis.name));
-    parts.push_back(fmt::format("{} {}{}", stage.units, stage.name,
-                                axes.empty() ? "" : fmt::format(" ({})", fmt::join(axes, " x "))));
+    parts.push_back(
+        fmt::format("{} {}{}", stage.units, stage.name,
+                    axes.size() < 2 ? "" : fmt::format(" ({})", fmt::join(axes, " x "))));
   }
   return fmt::format("Sweep: {}", fmt::join(parts, ", then "));
 }
