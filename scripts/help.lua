@@ -94,13 +94,9 @@ local function explain_command(name)
     print("springlod run SCRIPT.lua [-- ARGUMENTS...]  runs a Lua script (springlod run --help).")
     return true
   end
-  for _, one in ipairs(command.list()) do
-    if one.name == name then
-      print(command.parser_of(one.path):get_help())
-      return true
-    end
-  end
-  return false
+  local path = command.path_of(name)
+  if path then print(command.parser_of(path):get_help()) end
+  return path ~= nil
 end
 
 -- Words that the API calls otherwise.

@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local lists = require "lib.lists"
 local show = require "lib.show"
 local stability_estimate = require "lib.stability_estimate"
 local study = require "lib.study"
@@ -98,7 +99,7 @@ local function describe()
     levels = {}
     for level = 0, asset.coarsest do levels[#levels + 1] = level end
   end
-  local seconds, units, columns = seconds_of(asset), {}, {}
+  local seconds, units = seconds_of(asset), {}
   for _, level in ipairs(levels) do
     for _, ratio in ipairs(ratios) do
       units[#units + 1] = {
@@ -108,7 +109,7 @@ local function describe()
       }
     end
   end
-  for i, field in ipairs(s.options_of("StabilityRow")) do columns[i] = field.name end
+  local columns = lists.names_of(s.options_of("StabilityRow"))
   return {{name = "map", columns = columns, timings = {"wall_seconds"}, units = units}}
 end
 
@@ -166,13 +167,9 @@ local function cheapest_rows(rows, bodies)
   return cells
 end
 
--- The map of all results, and how many parts of it are missing.
+-- The map of all results.
 local function map_of(results)
-  local rows = {}
-  for i, row in ipairs(results:all("map")) do
-    rows[i] = {}
-    for _, column in ipairs(results:columns("map")) do rows[i][column] = row[column] end
-  end
+  local rows = lists.with_fields(results:all("map"), results:columns("map"))
   if #rows == 0 then
     local _, reason = next(results.gaps.map)
     error(reason, 0)

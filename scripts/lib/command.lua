@@ -310,16 +310,26 @@ function command.shell_line(words)
   return table.concat(quoted, " ")
 end
 
+-- The words of a command line without the options named, each with its value, and without the
+-- words that dropped(word) accepts. A short name, "-o", may have its value joined to it.
+function command.without(words, names, dropped)
+  local kept, skipped = {}, false
+  for _, word in ipairs(words) do
+    local is_named, is_joined = false, false
+    for _, name in ipairs(names) do
+      local joint = name:find("^%-%-") and name .. "=" or name
+      is_named = is_named or word == name
+      is_joined = is_joined or word ~= name and word:sub(1, #joint) == joint
+    end
+    if not (skipped or is_named or is_joined or dropped(word)) then kept[#kept + 1] = word end
+    skipped = is_named
+  end
+  return kept
+end
+
 -- The words of the command line without the folder to write to; `args`: what they were read as.
 function command.words_without_out(args)
-  local words, skipped = {}, false
-  for _, word in ipairs(arg) do
-    local drops_next = word == "-o" or word == "--out"
-    local is_out = drops_next or word:find("^%-o.") or word:find("^%-%-out=") or word == args.folder
-    if not (skipped or is_out) then words[#words + 1] = word end
-    skipped = drops_next
-  end
-  return words
+  return command.without(arg, {"-o", "--out"}, function(word) return word == args.folder end)
 end
 
 -- The command line of this run, to copy; with `args`, without the folder to write to.

@@ -3,6 +3,7 @@
 
 local s = require "springlod"
 local command = require "lib.command"
+local lists = require "lib.lists"
 local show = require "lib.show"
 
 local conversion = {}
@@ -159,16 +160,11 @@ end
 -- The arguments of a command without those that do not change the asset: its path and the folder of
 -- the fit. In a batch, `path` is the only mesh that is kept.
 function conversion.command_line(arguments, args, path)
-  local words, is_mesh, skipped = {"springlod", "convert", path}, {}, false
+  local is_mesh = {}
   for _, mesh in ipairs(args.mesh) do is_mesh[mesh] = true end
-  for _, word in ipairs(arguments) do
-    local drops_next = word == "-o" or word == "--out" or word == "--resume"
-    if not (skipped or drops_next or is_mesh[word] or word:find("^%-o.") or
-            word:find("^%-%-out=") or word:find("^%-%-resume=")) then
-      words[#words + 1] = word
-    end
-    skipped = drops_next
-  end
+  local words = lists.joined({"springlod", "convert", path},
+    command.without(arguments, {"-o", "--out", "--resume"},
+      function(word) return is_mesh[word] end))
   if s.seed ~= 1 then table.move({"--seed", tostring(s.seed)}, 1, 2, #words + 1, words) end
   return command.shell_line(words)
 end

@@ -16,4 +16,14 @@ function lists.joined(...)
   return all
 end
 
+-- The records with the fields named only.
+function lists.with_fields(records, names)
+  local all = {}
+  for i, record in ipairs(records) do
+    all[i] = {}
+    for _, name in ipairs(names) do all[i][name] = record[name] end
+  end
+  return all
+end
+
 return lists

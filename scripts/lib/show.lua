@@ -58,4 +58,9 @@ function show.percent(fraction)
   return (size < 1 and "%.2f %%" or size < 10 and "%.1f %%" or "%.0f %%"):format(value)
 end
 
+-- "1 unit", "3 units". `plural`: where it is not the singular with an s.
+function show.count(number, singular, plural)
+  return ("%d %s"):format(number, number == 1 and singular or plural or singular .. "s")
+end
+
 return show

@@ -147,11 +147,10 @@ local function certified_levels(body, method, seed, folder)
 end
 
 -- Speedup over the base in wall-clock time per simulated second, each at its own stable step, timed
--- alternately on a free-floating body.
-local function speedup(base, model, layout)
-  local turns, least_seconds = 3, 0.02
-  local seconds = least_seconds / timed_run.once(base, {duration = 0.1})
-  local scene, how = {duration = seconds}, {layout = layout}
+-- alternately on a free-floating body. `scene`: lasts about least_seconds with the base.
+local least_seconds = 0.02
+local function speedup(base, model, scene, layout)
+  local turns, how = 3, {layout = layout}
   local ratios = {}
   for turn = 1, turns do
     ratios[turn] = timed_run.long(base, scene, how, least_seconds)
@@ -163,11 +162,12 @@ end
 local function timed_levels(name, folder, levels)
   local found = {}
   local chain = s.load(model_path(folder, name))
+  local scene = {duration = least_seconds / timed_run.once(chain[0], {duration = 0.1})}
   for i, level in ipairs(levels) do
     found[i] = {level = level.level}
     for _, measure in ipairs(measures) do
       if measure.layout then
-        found[i][measure[1]] = speedup(chain[0], chain[level.level], measure.layout)
+        found[i][measure[1]] = speedup(chain[0], chain[level.level], scene, measure.layout)
       end
     end
   end

@@ -32,10 +32,6 @@ local function load_sweep(path, arguments)
   return sweep
 end
 
-local function count_of(number, singular, plural)
-  return ("%d %s"):format(number, number == 1 and singular or plural or singular .. "s")
-end
-
 local function time_of(seconds) return show.measured(seconds, "time") end
 
 -- What to type for an action on a folder.
@@ -55,14 +51,14 @@ function actions.plan(args)
     pilot = estimated and script == args.target, -- studies estimate times
   })
   print(tostring(sweep))
-  print(("%s of about %s each, %s of one core in all"):format(count_of(plan.tasks, "task"),
+  print(("%s of about %s each, %s of one core in all"):format(show.count(plan.tasks, "task"),
     time_of(plan.seconds / plan.tasks), time_of(plan.seconds)))
   print("next: " .. command_of("run", folder))
 end
 
 local function print_status(folder)
   local status = s.sweep_status(folder)
-  local parts = {("%d of %s done"):format(status.done, count_of(status.units, "unit"))}
+  local parts = {("%d of %s done"):format(status.done, show.count(status.units, "unit"))}
   for _, name in ipairs{"running", "failed", "lost", "missing"} do
     if status[name] > 0 then parts[#parts + 1] = ("%d %s"):format(status[name], name) end
   end
@@ -94,7 +90,7 @@ function actions.submit(args)
   elseif result == "" then
     print_status(args.target)
   elseif engine == "slurm" then
-    print(("jobs of Slurm: %s (%s tells how far they are)"):format(result,
+    print(("jobs of Slurm: %s (%s shows how far they are)"):format(result,
       command_of("status", args.target)))
   else
     print_status(args.target)
@@ -105,7 +101,7 @@ function actions.status(args) print_status(args.target) end
 
 function actions.resume(args)
   if args.again then
-    s.say(("%s to be tried again"):format(count_of(s.forget_failures(args.target), "unit")))
+    s.say(("%s to be tried again"):format(show.count(s.forget_failures(args.target), "unit")))
   end
   return (args.engine and actions.submit or actions.run)(args)
 end

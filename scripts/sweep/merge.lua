@@ -1,6 +1,7 @@
 -- Writes the results of a sweep as tables into its folder, and what its script makes of them.
 
 local s = require "springlod"
+local show = require "lib.show"
 
 -- Axes and columns of a stage, in the order of its tables.
 local function columns_of(stage, after)
@@ -32,14 +33,14 @@ local function with_gaps(stage, results)
   return all
 end
 
--- Columns that are the same whenever the unit runs, and those that are measured times.
-local function split_columns(stage)
+-- The columns that are no measured times: they are the same whenever the unit runs.
+local function same_columns(stage)
   local timed, same = {}, {}
   for _, name in ipairs(stage.timings) do timed[name] = true end
   for _, name in ipairs(stage.columns) do
     if not timed[name] then same[#same + 1] = name end
   end
-  return same, stage.timings
+  return same
 end
 
 -- `suffix`: of the names of the files.
@@ -47,11 +48,12 @@ local function write_stage(folder, stage, results, suffix)
   local function write(name, rows, columns)
     s.csv(("%s/%s%s.csv"):format(folder, name, suffix), rows, {columns = columns})
   end
-  local same, timings = split_columns(stage)
-  local columns = columns_of(stage, same)
+  local columns = columns_of(stage, same_columns(stage))
   columns[#columns + 1] = "missing"
   write("results", with_gaps(stage, results), columns)
-  if #timings > 0 then write("timings", results.rows, columns_of(stage, timings)) end
+  if #stage.timings > 0 then
+    write("timings", results.rows, columns_of(stage, stage.timings))
+  end
   write("gaps", results.gaps, columns_of(stage, {"state", "message", "host", "signal", "log"}))
   write("runs", results.runs,
     {"unit", "seconds", "memory", "host", "target", "blas", "springlod"})
@@ -84,8 +86,8 @@ end
 
 local function say_gaps(gaps, suffix)
   if #gaps == 0 then return end
-  s.say(("%d %s without a result, see gaps%s.csv; the first is unit %d: %s"):format(#gaps,
-    #gaps == 1 and "unit" or "units", suffix, gaps[1].unit, gaps[1].message))
+  s.say(("%s without a result, see gaps%s.csv; the first is unit %d: %s"):format(
+    show.count(#gaps, "unit"), suffix, gaps[1].unit, gaps[1].message))
 end
 
 return function(sweep, folder)

@@ -2,6 +2,7 @@
 
 local s = require "springlod"
 local conversion = require "lib.conversion"
+local lists = require "lib.lists"
 local noise_samples = require "lib.noise_samples"
 local paper_scenes = require "studies.paper.scenes"
 local paper_variants = require "studies.paper.variants"
@@ -156,12 +157,8 @@ function paper_runs.stage(cases, settings)
           return sample.options.starts * paper_runs.seconds(one, sample.level)
         end,
         make = function(folder)
-          local rows = {}
-          for i, run in ipairs(s.ensemble(sample.model(folder), one.scene, sample.options)) do
-            rows[i] = {}
-            for _, column in ipairs(columns) do rows[i][column] = run[column] end
-          end
-          return rows
+          local throws = s.ensemble(sample.model(folder), one.scene, sample.options)
+          return lists.with_fields(throws, columns)
         end,
       }
     end

@@ -3,6 +3,7 @@
 
 local s = require "springlod"
 local intervals = require "lib.intervals"
+local lists = require "lib.lists"
 local noise_samples = require "lib.noise_samples"
 local pareto_chains = require "studies.pareto.chains"
 
@@ -16,12 +17,7 @@ local function rows_of(study, model, more)
   local options = {jitter = study.settings.jitter, seed = study.settings.seed,
                    starts = study.settings.starts}
   for key, value in pairs(more) do options[key] = value end
-  local rows = {}
-  for i, run in ipairs(s.ensemble(model, study.scenario, options)) do
-    rows[i] = {}
-    for _, column in ipairs(columns) do rows[i][column] = run[column] end
-  end
-  return rows
+  return lists.with_fields(s.ensemble(model, study.scenario, options), columns)
 end
 
 -- The stage of all ensembles. `study`: base, scenario, settings (starts, jitter, seed) and
