@@ -75,16 +75,6 @@ void for_each_unit(const Plan& plan, Visit visit) {
     for (const std::uint64_t end = unit + run.units; unit < end; ++unit) visit(unit, run.cost);
 }
 
-/// Times between which a task should take [s]: long compared with what a cluster needs to start it,
-/// and short enough to fill gaps between other jobs and to lose little when a machine fails.
-inline constexpr double kShortestTask = 30;
-inline constexpr double kLongestTask = 60;
-
-/// Sets `tasks`: neighbouring units whose estimated times add up to about the mean of the two times
-/// above, such that the number of tasks of a stage can be divided by 12 if there are as many. A
-/// unit that takes longer is a task of its own.
-void pack_tasks(Plan& plan);
-
 /// Adds one unit to the list of costs.
 void add_cost(std::vector<CostRun>& costs, double cost);
 
@@ -94,6 +84,10 @@ std::filesystem::path plan_path(const std::filesystem::path& folder);
 void write_plan(const std::filesystem::path& folder, const Plan& plan);
 /// Throws IoError if there is no plan, InputError if it is damaged or of a newer version.
 Plan read_plan(const std::filesystem::path& folder);
+
+/// Removes the plan of a folder with the results of its units, its logs and lists of tasks. Throws
+/// as read_plan.
+void remove_plan(const std::filesystem::path& folder);
 
 /// Hash of what the results of a plan depend on: not of costs and tasks.
 std::string results_hash(const Plan& plan);

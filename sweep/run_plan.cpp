@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "sweep/pack_tasks.hpp"
 #include "sweep/worker.hpp"
 
 namespace springlod::sweep {

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/random.hpp"
+#include "sweep/pack_tasks.hpp"
 #include "sweep/task_list.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -200,10 +200,7 @@ int forget_binding(Call& call) {
 }
 
 int remove_binding(Call& call) {
-  const fs::path folder = call.writable(1);
-  sweep::read_plan(folder);  // so that no other folder loses anything
-  for (const char* name : {"results", "logs", "jobs", "plan.hash"}) fs::remove_all(folder / name);
-  fs::remove(sweep::plan_path(folder));
+  sweep::remove_plan(call.writable(1));
   return 0;
 }
 

@@ -21,6 +21,7 @@
 #include "scripting/engine/call.hpp"
 #include "scripting/engine/paths.hpp"
 #include "sim/fast/vector_target.hpp"
+#include "sweep/pack_tasks.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/run_plan.hpp"
 #include "sweep/work.hpp"
