@@ -62,7 +62,10 @@ int run(char** argv, const std::vector<std::string>& arguments) {
     return parsed.leave->exit_code;
   }
   const CommandLine& line = parsed.line;
-  if (line.settings.portable) springlod::app::make_portable(argv);
+  if (line.settings.portable)
+    springlod::app::make_portable(argv);
+  else
+    springlod::app::fix_blas_kernels(argv);
   springlod::app::fix_block_sizes();
   const scripting::InterruptHandler interrupts(line.settings.time_limit);
   ScriptState state(line.settings, scripting::make_api());

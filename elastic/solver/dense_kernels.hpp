@@ -4,13 +4,13 @@
 
 namespace springlod::elastic {
 
-/// Dense kernels (BLAS), which take most of the time of factorising and solving. They use the
-/// widest vectors of the machine. Matrices are stored by columns. One thread; the same bits every
-/// time on processors of one kind.
+/// Dense kernels (BLAS), which take most of the time of factorising and solving. They use
+/// vectors. Matrices are stored by columns. One thread; the same bits every time that the program
+/// runs with the same kernels.
 using DenseRef = Eigen::Ref<Eigen::MatrixXd>;
 using ConstDenseRef = Eigen::Ref<const Eigen::MatrixXd>;
 
-/// Which kernels BLAS has chosen by the processor, "Haswell". Others round differently.
+/// Which kernels BLAS uses, "Haswell". Others round differently.
 const char* blas_kernels();
 
 /// Factorises A = L L^T in the lower triangle of a; the upper triangle is unchanged. Returns false

@@ -35,6 +35,10 @@ return s.sweep{count = 3, columns = {"portable"},
              Contains("the plan was made without --portable"));
   scratch.must({"run", "usual"});
   CHECK(rows_of(scratch.merged("usual")).at(0).at("portable") == "false");
+  for (const auto& row : rows_of(slurp(scratch / "usual/runs.csv"))) {
+    CAPTURE(row.at("target"), row.at("blas"));
+    CHECK((row.at("target").substr(0, 3) != "AVX" || row.at("blas") == "Haswell"));
+  }
 }
 
 TEST_CASE("Merging names units that ran on different processors") {
