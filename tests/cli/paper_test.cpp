@@ -18,11 +18,23 @@ using springlod::test::TemporaryFolder;
 
 namespace {
 
-std::vector<std::string> paper(const std::filesystem::path& folder, const std::string& starts,
-                               const std::string& threads) {
-  return {
-      "paper",        "--out",     folder.string(), "--starts",          starts, "--speeds", "30",
-      "--no-figures", "--threads", threads,         "--simplifications", "1"};
+using Words = std::vector<std::string>;
+
+Words joined(Words a, const Words& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Arguments of short studies.
+Words few_runs(const Words& variants, const std::string& starts = "5") {
+  return joined({"--starts", starts, "--speeds", "30", "--no-figures", "--simplifications", "1",
+                 "--variants"},
+                variants);
+}
+
+Words paper(const std::filesystem::path& folder, const Words& arguments,
+            const std::string& threads = "2") {
+  return joined({"paper", "--out", folder.string(), "--threads", threads}, arguments);
 }
 
 }  // namespace
@@ -30,15 +42,16 @@ std::vector<std::string> paper(const std::filesystem::path& folder, const std::s
 TEST_CASE("paper goes on where a sweep of it ended, with the same tables for any number of threads",
           "[long]") {
   const TemporaryFolder scratch;
-  const Ran whole = springlod_run(paper(scratch / "whole", "5", "2"));
+  const Words arguments = few_runs({"LOD-b", "LOD-hb"});
+  const Ran whole = springlod_run(paper(scratch / "whole", arguments));
+  CAPTURE(whole.err);
   REQUIRE(whole.exit_code == 0);
   for (const char* part : {"Table 1", "LOD-hb-2", "Table 2", "base at half the step", "die"})
     CHECK_THAT(whole.out, Contains(part));
 
   const std::string parts = (scratch / "parts").string();
   const Ran planned =
-      springlod_run({"sweep", "plan", "paper", "--out", parts, "--", "--starts", "5", "--speeds",
-                     "30", "--no-figures", "--simplifications", "1"});
+      springlod_run(joined({"sweep", "plan", "paper", "--out", parts, "--"}, arguments));
   CAPTURE(planned.err);
   REQUIRE(planned.exit_code == 0);
   REQUIRE(springlod_run({"sweep", "run", parts, "--task", "0"}).exit_code == 0);
@@ -46,7 +59,7 @@ TEST_CASE("paper goes on where a sweep of it ended, with the same tables for any
   const std::string before = slurp(first);  // with the time that it took
   REQUIRE_FALSE(before.empty());
   CHECK_FALSE(std::filesystem::exists(scratch / "parts/table-1.csv"));
-  const Ran resumed = springlod_run(paper(parts, "5", "1"));
+  const Ran resumed = springlod_run(paper(parts, arguments, "1"));
   CAPTURE(resumed.err);
   REQUIRE(resumed.exit_code == 0);
   CHECK(slurp(first) == before);
@@ -61,33 +74,28 @@ TEST_CASE("paper goes on where a sweep of it ended, with the same tables for any
                  !Contains("mean_over_spread") && Contains("models in the order of the table") &&
                  !Contains("A quick run"));
 
-  const Ran mixed = springlod_run(paper(parts, "6", "2"));
+  const std::string table = slurp(scratch / "whole/table-1.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 6);  // columns, base, two levels of each
+  CHECK_THAT(table, Contains("LOD-b-2") && Contains("LOD-hb-1"));
+
+  const Ran mixed = springlod_run(paper(parts, few_runs({"LOD-b", "LOD-hb"}, "6")));
   CHECK(mixed.exit_code == 1);
   CHECK_THAT(mixed.err, Contains("holds results of the arguments --starts 5") &&
                             Contains("choose another folder"));
-}
-
-TEST_CASE("paper runs some of its variants", "[long]") {
-  const TemporaryFolder scratch;
-  std::vector<std::string> one_way = paper(scratch / "out", "5", "2");
-  one_way.insert(one_way.end(), {"--variants", "LOD-b"});
-  const Ran ran = springlod_run(one_way);
-  CAPTURE(ran.err);
-  REQUIRE(ran.exit_code == 0);
-  const std::string table = slurp(scratch / "out/table-1.csv");
-  CHECK(std::count(table.begin(), table.end(), '\n') == 4);  // columns, base, two levels
-  CHECK_THAT(table, Contains("LOD-b-2"));
-  one_way.back() = "LOD-x";
-  CHECK(springlod_run(one_way).exit_code == 2);
+  CHECK(springlod_run(paper(scratch / "unknown", few_runs({"LOD-x"}))).exit_code == 2);
 }
 
 TEST_CASE("paper --volumes: the soft ball has corners, and none is inverted at the end", "[long]") {
   const TemporaryFolder scratch;
-  std::vector<std::string> arguments = paper(scratch / "out", "5", "2");
-  arguments.insert(arguments.end(), {"--volumes", "--variants", "LOD-b"});
-  const Ran ran = springlod_run(arguments);
-  CAPTURE(ran.err);
-  REQUIRE(ran.exit_code == 0);
+  const std::string folder = (scratch / "out").string();
+  const auto must = [](const Words& words) {
+    const Ran ran = springlod_run(words);
+    CAPTURE(words, ran.err);
+    REQUIRE(ran.exit_code == 0);
+  };
+  must(joined({"sweep", "plan", "paper", "--out", folder, "--", "--volumes"}, few_runs({"LOD-b"})));
+  for (const char* task : {"0", "1"}) must({"sweep", "run", folder, "--task", task});  // throws
+  must({"sweep", "merge", folder});
   int starts = 0;
   for (const Row& row : rows_of(slurp(scratch / "out/results-throws.csv"))) {
     if (row.at("name") != "ball/base") continue;
