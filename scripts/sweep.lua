@@ -11,7 +11,7 @@ local parser = command.parser("sweep", "Run a sweep: many independent runs, its 
   .. "units; resume runs what is missing, here or on a cluster; merge writes results.csv, gaps.csv "
   .. "(units without a result, and why) and runs.csv (where and how long), and what the script "
   .. "makes of them. Each result is a file of its own: an interrupted sweep goes on where it was. "
-  .. "plan --portable makes results the same on machines of different kinds.",
+  .. "plan --portable makes results the same on processors without AVX2, too.",
   {options = "--sbatch"})
 parser:argument("action", "plan, run, submit, status, resume or merge")
 parser:argument("target", "plan: the script that returns the sweep, or "

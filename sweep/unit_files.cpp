@@ -45,9 +45,10 @@ std::uint64_t start_of_process(std::int64_t process) {
 }
 
 std::string to_text(const Runner& runner) {
-  return ordered_json{{"host", runner.host},       {"process", runner.process},
-                      {"started", runner.started}, {"job", runner.job},
-                      {"log", runner.log},         {"signal", runner.signal}}
+  return ordered_json{{"host", runner.host},       {"system", runner.system},
+                      {"process", runner.process}, {"started", runner.started},
+                      {"job", runner.job},         {"log", runner.log},
+                      {"signal", runner.signal}}
              .dump() +
          "\n";
 }
@@ -56,8 +57,8 @@ std::string to_text(const Runner& runner) {
 std::optional<Runner> runner_from(const std::string& text) {
   try {
     const ordered_json json = ordered_json::parse(text);
-    return Runner{json.at("host"), json.at("process"), json.at("started"),
-                  json.at("job"),  json.at("log"),     json.at("signal")};
+    return Runner{json.at("host"), json.at("system"), json.at("process"), json.at("started"),
+                  json.at("job"),  json.at("log"),    json.at("signal")};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
@@ -139,10 +140,19 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
+std::string this_system() {
+  std::ifstream file("/proc/sys/kernel/random/boot_id");
+  std::string start;
+  file >> start;
+  std::error_code error;
+  return start + " " + fs::read_symlink("/proc/self/ns/pid", error).string();
+}
+
 Runner this_runner(std::string log) {
   const char* job = std::getenv("SLURM_JOB_ID");
   const auto process = static_cast<std::int64_t>(::getpid());
   return {.host = host_name(),
+          .system = this_system(),
           .process = process,
           .started = start_of_process(process),
           .job = job == nullptr ? "" : job,
@@ -299,8 +309,8 @@ bool UnitFiles::is_alive(std::uint64_t unit, int number, Clock& clock) const {
   const auto beat = fs::last_write_time(path, error);
   if (error) return false;
   const std::optional<Runner> runner = read_try(unit, number);
-  static const std::string here = host_name();
-  if (runner && runner->host == here)
+  static const std::string here = this_system();
+  if (runner && runner->system == here)
     return runner->signal == 0 && runner->started != 0 &&
            start_of_process(runner->process) == runner->started;
   if (runner && runner->signal != 0) return false;

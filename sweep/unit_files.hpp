@@ -49,7 +49,8 @@ struct UnitNotes {
 /// A process that runs a unit, as its file tells.
 struct Runner {
   std::string host{};
-  std::int64_t process = 0;   ///< number of the process
+  std::string system{};       ///< see this_system
+  std::int64_t process = 0;   ///< number of the process in that system
   std::uint64_t started = 0;  ///< when that process was started, in ticks since the host was
   std::string job{};          ///< number of the job of a cluster; may be empty
   std::string log{};          ///< below the folder of the plan
@@ -57,6 +58,10 @@ struct Runner {
 };
 
 std::string host_name();
+
+/// What gives processes their numbers: a start of a machine, and a container of it. Names of hosts
+/// need not differ.
+std::string this_system();
 
 /// This process. `log`: path below the folder of the plan.
 Runner this_runner(std::string log);

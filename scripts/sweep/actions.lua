@@ -14,6 +14,10 @@ local function script_of(name)
   for _, one in ipairs(study.names) do
     if name == one then return command.path_of(one) end
   end
+  local file <close> = io.open(name)
+  if not file and name:find("^[%w_-]+$") then
+    error(("'%s' is neither a file nor one of %s"):format(name, table.concat(study.names, ", ")), 0)
+  end
   return name
 end
 

@@ -12,24 +12,41 @@ local function columns_of(stage, after)
   return columns
 end
 
--- The rows of a stage, by unit, with an empty one for each unit that has none; `missing` says why.
-local function with_gaps(stage, results)
-  local all, next_gap = {}, 1
-  local function add_gaps(before)
-    local gap = results.gaps[next_gap]
-    while gap and gap.unit < before do
-      local row = {unit = gap.unit, missing = ("%s: %s"):format(gap.state, gap.message)}
-      for _, axis in ipairs(stage.axes) do row[axis] = gap[axis] end
-      all[#all + 1] = row
-      next_gap = next_gap + 1
-      gap = results.gaps[next_gap]
+-- Rows for the units that have none, with their axes; `missing` says why there is no result. Units
+-- that have returned no row have one without values.
+local function rows_of_others(sweep, stage, results)
+  local has_rows, others = {}, {}
+  for _, row in ipairs(results.rows) do has_rows[row.unit] = true end
+  for _, run in ipairs(results.runs) do
+    if not has_rows[run.unit] then
+      local row, point = {unit = run.unit}, sweep:point(run.unit)
+      for _, axis in ipairs(stage.axes) do row[axis] = point[axis] end
+      others[#others + 1] = row
+    end
+  end
+  for _, gap in ipairs(results.gaps) do
+    local row = {unit = gap.unit, missing = ("%s: %s"):format(gap.state, gap.message)}
+    for _, axis in ipairs(stage.axes) do row[axis] = gap[axis] end
+    others[#others + 1] = row
+  end
+  table.sort(others, function(a, b) return a.unit < b.unit end)
+  return others
+end
+
+-- The rows of a stage by unit: each unit has at least one.
+local function with_others(sweep, stage, results)
+  local all, others, next_other = {}, rows_of_others(sweep, stage, results), 1
+  local function add_others(before)
+    while others[next_other] and others[next_other].unit < before do
+      all[#all + 1] = others[next_other]
+      next_other = next_other + 1
     end
   end
   for _, row in ipairs(results.rows) do
-    add_gaps(row.unit)
+    add_others(row.unit)
     all[#all + 1] = row
   end
-  add_gaps(math.huge)
+  add_others(math.huge)
   return all
 end
 
@@ -44,13 +61,13 @@ local function same_columns(stage)
 end
 
 -- `suffix`: of the names of the files.
-local function write_stage(folder, stage, results, suffix)
+local function write_stage(folder, sweep, stage, results, suffix)
   local function write(name, rows, columns)
     s.csv(("%s/%s%s.csv"):format(folder, name, suffix), rows, {columns = columns})
   end
   local columns = columns_of(stage, same_columns(stage))
   columns[#columns + 1] = "missing"
-  write("results", with_gaps(stage, results), columns)
+  write("results", with_others(sweep, stage, results), columns)
   if #stage.timings > 0 then
     write("timings", results.rows, columns_of(stage, stage.timings))
   end
@@ -96,7 +113,7 @@ return function(sweep, folder)
     last = s.sweep_results(sweep, folder, {stage = number})
     by_name[stage.name] = last
     local suffix = #sweep.stages > 1 and "-" .. stage.name:gsub("%W+", "-") or ""
-    write_stage(folder, stage, last, suffix)
+    write_stage(folder, sweep, stage, last, suffix)
     say_gaps(last.gaps, suffix)
     table.move(last.runs, 1, #last.runs, #runs + 1, runs)
   end

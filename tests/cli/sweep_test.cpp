@@ -150,6 +150,26 @@ end})");
   CHECK(rows[60].at("n") == "20");
 }
 
+TEST_CASE("A unit without rows has a line in the table") {
+  const Scratch scratch(R"(
+local s = require "springlod"
+return s.sweep{axes = {{"height", {0.1, 0.2, 0.3, 0.4}}}, columns = {"time"},
+  unit = function(point)
+    if point.height == 0.3 then error("no floor", 0) end
+    return {time = point.height > 0.1 and 10 * point.height or nil}
+  end})");
+  scratch.plan();
+  scratch.must({"run", "out"});
+  const auto rows = rows_of(scratch.merged());
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[0].at("height") == "0.1");
+  CHECK(rows[0].at("time").empty());
+  CHECK(rows[0].at("missing").empty());
+  CHECK(rows[1].at("time") == "2");
+  CHECK(rows[2].at("missing") == "failed: no floor");
+  CHECK(rows[3].at("unit") == "4");
+}
+
 TEST_CASE("Damaged results are gaps that say what to do") {
   const Scratch scratch;
   scratch.plan();
@@ -325,6 +345,8 @@ TEST_CASE("Wrong uses of sweep say what is wrong") {
   const Scratch scratch;
   CHECK_THAT(scratch.run({"fly", "out"}).err, Contains("'fly' must be plan, run"));
   CHECK_THAT(scratch.run({"run", "nowhere"}).err, Contains("nowhere holds no plan"));
+  CHECK_THAT(scratch.run({"plan", "papers"}).err,
+             Contains("'papers' is neither a file nor one of accuracy, paper"));
   scratch.plan();
   CHECK_THAT(scratch.run({"run", "out", "--task", "1"}).err, Contains("task"));
   spit(scratch / "walk.lua", "return 1");

@@ -97,7 +97,7 @@ TEST_CASE("A process of another machine counts as lost when it is silent") {
   const TemporaryFolder folder;
   const UnitFiles files(folder.path());
   Runner elsewhere = this_runner("");
-  elsewhere.host = "a-machine-that-does-not-exist";
+  elsewhere.system = "another machine, or a container, of the same name";
   REQUIRE(files.begin(3, elsewhere));
   CHECK(state_of(files, 3) == UnitState::running);
   const auto old = fs::file_time_type::clock::now() - std::chrono::seconds(3600);
@@ -150,7 +150,7 @@ TEST_CASE("A listing looks up the time of the folder at most once") {
   files.list(0, 8);
   CHECK(looks() == 0);  // a process of this machine
   Runner elsewhere = this_runner("");
-  elsewhere.host = "a-machine-that-does-not-exist";
+  elsewhere.system = "another machine, or a container, of the same name";
   for (const std::uint64_t unit : {0U, 1U, 2U}) REQUIRE(files.begin(unit, elsewhere));
   CHECK(files.list(0, 8)[2].state == UnitState::running);
   CHECK(looks() == 1);
