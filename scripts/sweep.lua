@@ -84,4 +84,6 @@ if args.action == "resume" then
 end
 
 local ok, reason = command.try(sweep_actions[args.action], args)
-if not ok then command.fail("sweep %s: %s", args.action, reason) end
+if not ok then
+  command.fail("sweep %s: %s", args.action == "gather" and "merge" or args.action, reason)
+end

@@ -1,9 +1,13 @@
 #include "scripting/engine/state.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <new>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <lua.hpp>
 
 #include "base/error.hpp"
@@ -40,6 +44,27 @@ int keep_traceback(lua_State* L) {
   return 1;
 }
 
+bool are_equal_but_for_case(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char one, unsigned char other) {
+                      return std::tolower(one) == std::tolower(other);
+                    });
+}
+
+/// Of a name that is the one of a type, "mesh": which functions return one; else empty.
+std::string makers_hint(const Api& api, std::string_view name) {
+  std::string type;
+  std::vector<std::string> makers;
+  for (const FunctionEntry& entry : api.functions()) {
+    const std::string returned = entry.returns.substr(0, entry.returns.find_first_of(" :"));
+    if (!are_equal_but_for_case(returned, name)) continue;
+    type = returned;
+    makers.push_back("s." + entry.name);
+  }
+  if (makers.empty()) return "";
+  return fmt::format("; a {} comes from {}", type, fmt::join(makers, ", "));
+}
+
 // Reports an unknown name when it is read, instead of "attempt to call a nil value" later.
 int refuse_name(lua_State* L) {
   return protect(L, [L]() -> int {
@@ -48,8 +73,9 @@ int refuse_name(lua_State* L) {
     std::vector<std::string> names;
     for (const FunctionEntry& entry : session_of(L).api().functions()) names.push_back(entry.name);
     const std::string question = did_you_mean(name, names);
-    throw InputError(fmt::format("springlod has no '{}'{} help() lists all names", name,
-                                 question.empty() ? ";" : question));
+    const std::string hint = question.empty() ? makers_hint(session_of(L).api(), name) : question;
+    throw InputError(fmt::format("springlod has no '{}'{}{} help() lists all names", name, hint,
+                                 question.empty() ? ";" : ""));
   });
 }
 

@@ -1,6 +1,7 @@
 -- Writes the results of a sweep as tables into its folder, and what its script makes of them.
 
 local s = require "springlod"
+local command = require "lib.command"
 local show = require "lib.show"
 
 -- Axes and columns of a stage, in the order of its tables.
@@ -119,5 +120,7 @@ return function(sweep, folder)
   end
   if not s.portable then say_mixtures(runs) end
   last.stages = by_name
-  if sweep.report then sweep.report(last, folder) end
+  if not sweep.report then return end
+  local ok, reason = command.try(sweep.report, last, folder)
+  if not ok then error(("report fails: %s; the tables are written"):format(reason), 0) end
 end

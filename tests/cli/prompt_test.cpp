@@ -51,6 +51,8 @@ TEST_CASE("the prompt continues after an error") {
   REQUIRE(terminal.shows("> "));
   terminal.type("s.simplfy()\n");
   CHECK(terminal.shows("springlod has no 'simplfy'; did you mean 'simplify'?"));
+  terminal.type("s.mesh('ball.obj')\n");
+  CHECK(terminal.shows("springlod has no 'mesh'; a Mesh comes from s.import;"));
   terminal.type("help('simplfy')\n");
   CHECK(terminal.shows("did you mean 'simplify'?"));
   terminal.type("'still ' .. 'here'\n");

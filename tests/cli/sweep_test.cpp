@@ -170,6 +170,20 @@ return s.sweep{axes = {{"height", {0.1, 0.2, 0.3, 0.4}}}, columns = {"time"},
   CHECK(rows[3].at("unit") == "4");
 }
 
+TEST_CASE("A report that fails leaves the tables") {
+  const Scratch scratch(R"(
+local s = require "springlod"
+return s.sweep{count = 2, columns = {"n"}, unit = function(point) return {n = point.index} end,
+  report = function() error("nothing to draw", 0) end})");
+  scratch.plan();
+  scratch.must({"run", "out"});
+  const Ran ran = scratch.run({"merge", "out"});
+  CHECK(ran.exit_code == 1);
+  CHECK_THAT(ran.err, Contains("sweep merge: report fails: nothing to draw; the tables are") &&
+                          Contains("mend the cause and merge again"));
+  CHECK(rows_of(slurp(scratch / "out/results.csv")).size() == 2);
+}
+
 TEST_CASE("Damaged results are gaps that say what to do") {
   const Scratch scratch;
   scratch.plan();

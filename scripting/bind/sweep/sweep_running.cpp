@@ -209,8 +209,7 @@ int merge_binding(Call& call) {
                     {.output = STDOUT_FILENO, .errors = STDERR_FILENO}, plan.folder));
   if (end.signal != 0 || end.exit_code != 0)
     throw InputError(
-        "the results could not be merged, see above; they are kept: mend the cause and merge "
-        "again");
+        "it ended with an error, see above; all results are kept: mend the cause and merge again");
   return 0;
 }
 
