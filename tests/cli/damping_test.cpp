@@ -18,7 +18,7 @@ Ran with_bar(const std::string& script, const std::string& argument = "") {
       return s.lattice(s.grid{cell = cell or "10 cm", size = {4, 4, 8},
         materials = {bar = material}, fill = function() return "bar" end})
     end
-    local still = {gravity = {0, 0, 0}, duration = 1}
+    local still = {gravity = {0, 0, 0}, duration = 0.5}
   )" + script,
                         argument});
 }

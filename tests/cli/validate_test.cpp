@@ -40,7 +40,7 @@ double error_at(const std::vector<Row>& table, const std::string& problem,
 
 }  // namespace
 
-TEST_CASE("validate --quick: the base converges to known answers with order 2") {
+TEST_CASE("validate --quick: the base converges to known answers with order 2", "[long]") {
   const TemporaryFolder out;
   const Ran ran = springlod_run({"-q", "validate", "--quick", "-o", out.path().string()});
   CAPTURE(ran.err);

@@ -115,7 +115,7 @@ TEST_CASE("Corners give the same bits on any number of threads", "[threaded]") {
   for (double& damping : model.damping) damping = 0;  // longer steps
   REQUIRE(model.node_count() > 32'768);               // worth four threads
   const Scenario scene = press_scene(model, 20);
-  constexpr std::uint64_t kFew = 20;
+  constexpr std::uint64_t kFew = 8;
   for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
     CAPTURE(merged, to_string(precision));
     const std::shared_ptr<const FastModel> layout = make_fast_model(model, precision);

@@ -85,7 +85,7 @@ TEST_CASE("A body on a damped spring moves as its equation says, under every int
 TEST_CASE("The ledger of a body that springs pull closes, and its anchors' work is in it") {
   const MassSpringModel model = soft_block(5, 3, 3, 0.25);
   Scenario scene;
-  scene.duration = 0.06;
+  scene.duration = 0.03;
   const std::vector<Anchor> anchors = hold_and_pull(model, 2e4);
   for (const Integrator integrator : all_choices<Integrator>()) {
     CAPTURE(to_string(integrator));

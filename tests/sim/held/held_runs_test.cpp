@@ -58,7 +58,7 @@ Vec3 momentum(const MassSpringModel& model, const State& state) {
 TEST_CASE("Under every integrator, held nodes are where their anchors are, and the ledger closes") {
   const MassSpringModel model = soft_block(5, 3, 3, 0.25);
   Scenario scene;
-  scene.duration = 0.06;
+  scene.duration = 0.04;
   const std::vector<Anchor> anchors = stay_and_twist(model);
   HeldNodes held(model, anchors, model.rest);
   for (const Integrator integrator : all_choices<Integrator>()) {
