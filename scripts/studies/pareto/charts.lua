@@ -29,8 +29,10 @@ end
 -- Errors below this fraction of the noise floor are indistinguishable: their points are drawn on
 -- the lower end of the axis.
 local below_floor = 0.1
+-- And those of the base whose errors are below this fraction of the least one of a level.
+local below_levels = 0.01
 local below_least = 0.5 -- start of the axis, as a fraction of the least distinguishable error
-local early = 1e-3 -- start of the axis over time, as a fraction of the floor
+local early = 1e-3 -- start of the axis over time, as a fraction of floor or least error
 local colour_count = 7 -- size of the default palette; further lines are dashed
 
 -- The points of one error axis: x, y, the variant, and cost and error with their intervals.
@@ -62,13 +64,22 @@ local function staircase(front, y_from)
   return line
 end
 
+-- The least error above `limit` of the points that counts(point) is true of; nil if there is none.
+local function least_error(points, limit, counts)
+  local least
+  for _, point in ipairs(points) do
+    if point.y > limit and counts(point) then least = math.min(least or point.y, point.y) end
+  end
+  return least
+end
+
 -- The lower end of the error axis.
 local function axis_from(points, floor)
-  local limit, least = below_floor * (floor or 0), math.huge
-  for _, point in ipairs(points) do
-    if point.y > limit then least = math.min(least, point.y) end
-  end
-  return least < math.huge and math.max(limit, below_least * least) or limit
+  local function is_level(point) return point.variant.level > 0 end
+  local limit = below_floor * (floor or 0)
+  limit = math.max(limit, below_levels * (least_error(points, limit, is_level) or 0))
+  local least = least_error(points, limit, function() return true end)
+  return math.max(limit, below_least * (least or 0))
 end
 
 local function floor_line(points, floor)
@@ -164,9 +175,9 @@ end
 
 -- Draws surface error over time for the variants on a front, and for the noise floor.
 function pareto_charts.draw_over_time(folder, front, floor, title)
-  local series, y_from = {}, below_floor * floor.value
+  local series, least = {}, axis_from(front, floor.value)
   for _, point in ipairs(front) do
-    if point.y > y_from then
+    if point.y > least then
       series[#series + 1] = {name = point.variant.label, points = point.error.curve,
                              symbol = "none", dashed = #series >= colour_count}
     end
@@ -176,7 +187,7 @@ function pareto_charts.draw_over_time(folder, front, floor, title)
   command.chart(folder .. "/surface-over-time", series, {
     title = title, x_label = "time [s]",
     y_label = "distance of surfaces, rms [% of the base's size]", log_y = true,
-    y_from = early * floor.value, width = 1000,
+    y_from = early * math.max(floor.value, least), width = 1000,
   })
 end
 
