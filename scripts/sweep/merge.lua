@@ -17,18 +17,17 @@ end
 -- that have returned no row have one without values.
 local function rows_of_others(sweep, stage, results)
   local has_rows, others = {}, {}
+  local function add(unit, point, missing)
+    local row = {unit = unit, missing = missing}
+    for _, axis in ipairs(stage.axes) do row[axis] = point[axis] end
+    others[#others + 1] = row
+  end
   for _, row in ipairs(results.rows) do has_rows[row.unit] = true end
   for _, run in ipairs(results.runs) do
-    if not has_rows[run.unit] then
-      local row, point = {unit = run.unit}, sweep:point(run.unit)
-      for _, axis in ipairs(stage.axes) do row[axis] = point[axis] end
-      others[#others + 1] = row
-    end
+    if not has_rows[run.unit] then add(run.unit, sweep:point(run.unit)) end
   end
   for _, gap in ipairs(results.gaps) do
-    local row = {unit = gap.unit, missing = ("%s: %s"):format(gap.state, gap.message)}
-    for _, axis in ipairs(stage.axes) do row[axis] = gap[axis] end
-    others[#others + 1] = row
+    add(gap.unit, gap, ("%s: %s"):format(gap.state, gap.message))
   end
   table.sort(others, function(a, b) return a.unit < b.unit end)
   return others
